@@ -1,0 +1,1 @@
+"""Minecraft banners as pictures of real cloth."""

@@ -1,0 +1,1 @@
+"""Every written form of a banner, one file a form."""

@@ -1,0 +1,1 @@
+"""The simulation core. Knows nothing of Minecraft, textures or pixels."""

@@ -1,0 +1,1 @@
+"""The methods that step a cloth, one file each."""

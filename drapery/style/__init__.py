@@ -1,0 +1,1 @@
+"""From moving cloth to what is drawn."""

@@ -1,0 +1,64 @@
+"""Where a picture is taken from. Right-handed, y up; the camera looks along its own -z."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = tuple[float, float, float]
+Matrix = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A camera.
+
+    position, target: where it stands and what it looks at [m].
+    up: the direction that is up in the picture.
+    fov: vertical field of view [degrees]; used where `height` is None.
+    height: vertical extent of an orthographic picture [m]; None for perspective.
+    near, far: the clipping planes' distances [m].
+    """
+
+    position: Vector
+    target: Vector
+    up: Vector = (0.0, 1.0, 0.0)
+    fov: float = 40.0
+    height: float | None = None
+    near: float = 0.05
+    far: float = 200.0
+
+
+def view_matrix(camera: Camera) -> Matrix:
+    """World to eye space, shape [4, 4]."""
+    back = np.subtract(camera.position, camera.target).astype(np.float64)
+    back /= np.linalg.norm(back)
+    right = np.cross(camera.up, back)
+    right /= np.linalg.norm(right)
+    rows = np.stack([right, np.cross(back, right), back])
+    matrix = np.eye(4)
+    matrix[:3, :3] = rows
+    matrix[:3, 3] = -rows @ np.asarray(camera.position, np.float64)
+    return matrix
+
+
+def projection_matrix(camera: Camera, aspect: float) -> Matrix:
+    """Eye space to OpenGL clip space (z in -w..w), shape [4, 4]; aspect is width / height."""
+    near, far = camera.near, camera.far
+    matrix = np.zeros((4, 4))
+    if camera.height is None:
+        scale = 1.0 / np.tan(np.radians(camera.fov) / 2.0)
+        matrix[2, 2], matrix[2, 3], matrix[3, 2] = (
+            (far + near) / (near - far),
+            2.0 * far * near / (near - far),
+            -1.0,
+        )
+    else:
+        scale = 2.0 / camera.height
+        matrix[2, 2], matrix[2, 3], matrix[3, 3] = (
+            2.0 / (near - far),
+            (far + near) / (near - far),
+            1.0,
+        )
+    matrix[0, 0], matrix[1, 1] = scale / aspect, scale
+    return matrix

@@ -1,0 +1,68 @@
+"""What is drawn: meshes wearing looks, seen by a camera under a light."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.mesh import Mesh
+from drapery.render.camera import Camera
+from drapery.render.light import GAME_LIGHT, Light
+
+Texels = NDArray[np.uint8]
+"""A texture: sRGB with straight alpha, shape [H, W, 4], top row first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Coat:
+    """One texture laid over a surface, multiplied by a tint.
+
+    A texel becomes round(texel * tint / 255) per channel and is laid over what is below by its
+    8-bit alpha a: round((a * src + (255 - a) * dst) / 255).
+    """
+
+    texels: Texels
+    tint: tuple[int, int, int] = (255, 255, 255)
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """Coats on one surface, lowest first; they share the mesh's UVs, whatever their sizes.
+
+    alpha: what the lowest coat's alpha means. `opaque` ignores it (the game's solid layer),
+    `cutout` leaves out pixels under one half, `blend` lays it over what is behind.
+    """
+
+    coats: tuple[Coat, ...]
+    alpha: Literal["opaque", "cutout", "blend"] = "opaque"
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """A mesh, or a batch of B meshes, and what each wears.
+
+    mesh: positions [V, 3] or [B, V, 3].
+    looks: the looks in use.
+    look_index: for each member of the batch its place in `looks`, shape [B]; None means the
+        first look for all.
+    """
+
+    mesh: Mesh
+    looks: tuple[Look, ...]
+    look_index: NDArray[np.int32] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Everything one picture needs.
+
+    size: width and height in pixels.
+    background: straight-alpha sRGB colour; (0, 0, 0, 0) is transparent.
+    """
+
+    models: tuple[Model, ...]
+    camera: Camera
+    size: tuple[int, int] = (512, 512)
+    light: Light = field(default=GAME_LIGHT)
+    background: tuple[int, int, int, int] = (0, 0, 0, 0)
