@@ -1,0 +1,95 @@
+"""Thickness: a sheet becomes a closed shell of two sheets and a rim.
+
+Every vertex moves half the thickness forwards and backwards along the average of its faces'
+normals, so the two sheets keep the sheet's UVs and never open a gap; the boundary is closed by a
+rim of quads.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.mesh import Array, Mesh, Triangles
+from drapery.style.skin import PLAIN_SKIN, Skin
+
+
+def boundary_edges(triangles: Triangles) -> NDArray[np.int32]:
+    """Edges that only one triangle has, shape [E, 2], each running as its triangle runs."""
+    edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True,
+                                return_counts=True)
+    return edges[np.sort(first[count == 1])]
+
+
+@dataclass(frozen=True, eq=False)
+class Shell:
+    """The constant part of a thick cloth: how its vertices follow those of the thin one.
+
+    The vertices are the front sheet, the back sheet, then four for each edge of the rim.
+    count: vertices of the thin sheet.
+    sheet: triangles of the thin sheet, shape [T, 3].
+    rim: boundary edges of the thin sheet, shape [E, 2].
+    uvs: texture coordinates of all vertices, shape [2 N + 4 E, 2].
+    """
+
+    count: int
+    sheet: Triangles
+    rim: NDArray[np.int32]
+    uvs: Array
+
+    @cached_property
+    def triangles(self) -> Triangles:
+        """Triangles of the closed shell, seen from outside counter-clockwise."""
+        first = 2 * self.count + 4 * np.arange(len(self.rim), dtype=np.int32)[:, None]
+        # Corners of a rim quad: start and end on the front sheet, then on the back sheet.
+        quads = first + np.array([[0, 2, 3], [0, 3, 1]], np.int32).reshape(1, 6)
+        parts = [self.sheet, self.sheet[:, ::-1] + self.count, quads.reshape(-1, 3)]
+        return np.ascontiguousarray(np.concatenate(parts), np.int32)
+
+    def cover(self, positions: Array, normals: Array, thickness: float) -> Mesh:
+        """The shell around thin sheets.
+
+        positions, normals: [m] and unit, shape [..., N, 3].
+        thickness: distance between the two sheets [m].
+        """
+        half = positions.dtype.type(thickness / 2.0)
+        front, back = positions + half * normals, positions - half * normals
+        start, end = self.rim[:, 0], self.rim[:, 1]
+        corners = [front[..., start, :], front[..., end, :], back[..., start, :], back[..., end, :]]
+        outward = _unit(np.cross(positions[..., end, :] - positions[..., start, :],
+                                 normals[..., start, :] + normals[..., end, :]))
+        return Mesh(
+            np.concatenate([front, back, _interleave(corners)], axis=-2),
+            np.concatenate([normals, -normals, _interleave([outward] * 4)], axis=-2),
+            self.triangles,
+            self.uvs,
+        )
+
+
+def make_shell(triangles: Triangles, uvs: Array, skin: Skin = PLAIN_SKIN) -> Shell:
+    """The shell of a sheet with these triangles [T, 3] and UVs [N, 2], painted by a skin."""
+    rim = boundary_edges(triangles)
+    sheets = [skin.front(uvs), skin.back(uvs)]
+    return Shell(len(uvs), triangles, rim, np.concatenate([*sheets, skin.rim(uvs, rim)]))
+
+
+def extrude(mesh: Mesh, thickness: float, skin: Skin = PLAIN_SKIN) -> Mesh:
+    """Give a thin mesh a thickness [m]: front and back sheets and a closed rim.
+
+    The mesh's normals say where forwards is; give averaged ones (`vertex_normals`).
+    """
+    shell = make_shell(mesh.triangles, mesh.uvs, skin)
+    return shell.cover(mesh.positions, mesh.normals, thickness)
+
+
+def _interleave(corners: list[Array]) -> Array:
+    """[..., E, 3] for each of four corners -> [..., 4 E, 3], an edge's corners together."""
+    stacked = np.stack(corners, axis=-2)
+    return stacked.reshape(*stacked.shape[:-3], -1, 3)
+
+
+def _unit(vectors: Array) -> Array:
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return vectors / np.maximum(lengths, np.finfo(vectors.dtype).tiny)

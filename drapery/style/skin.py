@@ -1,0 +1,111 @@
+"""Where the sides of a thick cloth lie on its texture."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.mesh import Array
+
+Rect = tuple[float, float, float, float]
+"""Left, top, right, bottom; as fractions of the sheet."""
+
+
+class Skin(Protocol):
+    """Maps a thin cloth's UVs (0..1 over its face) to those of its thick shell."""
+
+    def front(self, uvs: Array) -> Array:
+        """UVs of the front sheet, shape [N, 2]."""
+
+    def back(self, uvs: Array) -> Array:
+        """UVs of the back sheet, shape [N, 2]."""
+
+    def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
+        """UVs of the rim, shape [4 E, 2]: front start, front end, back start, back end."""
+
+
+class PlainSkin:
+    """The same picture on both sides; the rim repeats the texels at the border."""
+
+    def front(self, uvs: Array) -> Array:
+        return uvs
+
+    def back(self, uvs: Array) -> Array:
+        return uvs
+
+    def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
+        return uvs[np.tile(edges, 2).reshape(-1)]
+
+
+PLAIN_SKIN = PlainSkin()
+
+
+@dataclass(frozen=True)
+class BoxSkin:
+    """The unfolded box of the game's models: a rectangle for each of the six sides.
+
+    The left edge's strip has the front at its right border, the right edge's at its left, the
+    top and bottom edges' at their lower border: so the picture runs on around the corner.
+    """
+
+    front_rect: Rect
+    back_rect: Rect
+    left: Rect
+    right: Rect
+    top: Rect
+    bottom: Rect
+
+    def front(self, uvs: Array) -> Array:
+        return _place(uvs, self.front_rect)
+
+    def back(self, uvs: Array) -> Array:
+        # Seen from behind, the cloth's right is on the left.
+        return _place(np.stack([1 - uvs[:, 0], uvs[:, 1]], axis=-1), self.back_rect)
+
+    def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
+        start, end = uvs[edges[:, 0]], uvs[edges[:, 1]]
+        middle = (start + end) / 2
+        depth = np.abs(np.stack([middle[:, 0], 1 - middle[:, 0], middle[:, 1], 1 - middle[:, 1]]))
+        side = np.argmin(depth, axis=0)  # left, right, top, bottom
+        # Along the edge and across it, from the strip's left or upper border.
+        front_at = np.choose(side, [1.0, 0.0, 1.0, 1.0])
+        corners = [_strip(uv, side, across) for across in (front_at, 1 - front_at)
+                   for uv in (start, end)]
+        rects = np.array([self.left, self.right, self.top, self.bottom])[side]
+        return np.stack([_place_each(c, rects) for c in corners], axis=1).reshape(-1, 2)
+
+
+def _strip(uv: Array, side: NDArray[np.intp], across: Array) -> Array:
+    """A boundary point's place in its edge's strip, 0..1 in both directions."""
+    upright = (side < 2)[:, None]
+    return np.where(upright, np.stack([across, uv[:, 1]], -1), np.stack([uv[:, 0], across], -1))
+
+
+def _place(uvs: Array, rect: Rect) -> Array:
+    return _place_each(uvs, np.array(rect)[None])
+
+
+def _place_each(uvs: Array, rects: Array) -> Array:
+    return rects[:, :2] + uvs * (rects[:, 2:] - rects[:, :2])
+
+
+def box_skin(offset: tuple[float, float], size: tuple[float, float, float], sheet: float) -> BoxSkin:
+    """The skin of a box of the game's models, all in texels of a square sheet.
+
+    offset: upper left corner of its unfolding; size: width, height and depth of the box.
+    """
+    x, y = offset
+    width, height, depth = size
+
+    def rect(left: float, top: float, w: float, h: float) -> Rect:
+        return left / sheet, top / sheet, (left + w) / sheet, (top + h) / sheet
+
+    return BoxSkin(
+        front_rect=rect(x + depth, y + depth, width, height),
+        back_rect=rect(x + 2 * depth + width, y + depth, width, height),
+        left=rect(x, y + depth, depth, height),
+        right=rect(x + depth + width, y + depth, depth, height),
+        top=rect(x + depth, y, width, depth),
+        bottom=rect(x + depth + width, y, width, depth),
+    )
