@@ -39,10 +39,11 @@ def vertex_normals(positions: Array, triangles: Triangles) -> Array:
     A vertex without area around it gets (0, 0, 1), never NaN.
     """
     faces = face_normals(positions, triangles)
-    sums = np.zeros_like(positions)
+    by_vertex = np.zeros((positions.shape[-2], *positions.shape[:-2], 3), positions.dtype)
     for corner in range(3):
         # np.add.at adds in index order, so the same input gives the same bits.
-        np.add.at(sums, (..., triangles[:, corner], slice(None)), faces)
+        np.add.at(by_vertex, triangles[:, corner], np.moveaxis(faces, -2, 0))
+    sums = np.moveaxis(by_vertex, 0, -2)
     lengths = np.linalg.norm(sums, axis=-1, keepdims=True)
     flat = lengths < np.finfo(positions.dtype).tiny ** 0.5
     return np.where(flat, np.array([0, 0, 1], positions.dtype), sums / np.where(flat, 1, lengths))

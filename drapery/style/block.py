@@ -52,8 +52,9 @@ _FLAG_MIDDLE = -1.5
 
 
 def to_world(points: Array) -> Array:
-    """Model units -> metres in the block's own space, whose floor is 0..1 x 0..1; shape [..., 3]."""
-    return points * np.array([SCALE, -SCALE, -SCALE]) + np.array([0.5, 0.0, 0.5])
+    """Model units [..., 3] -> metres in the block's own space, whose floor is 0..1 x 0..1."""
+    placed: Array = points * np.array([SCALE, -SCALE, -SCALE]) + np.array([0.5, 0.0, 0.5])
+    return placed
 
 
 def turn(mesh: Mesh, degrees: float) -> Mesh:
@@ -64,8 +65,9 @@ def turn(mesh: Mesh, degrees: float) -> Mesh:
     centre = np.array([0.5, 0.0, 0.5])
     # einsum adds in a fixed order; BLAS may not.
     positions = np.einsum("ij,...j->...i", matrix, mesh.positions - centre) + centre
-    return Mesh(positions, np.einsum("ij,...j->...i", matrix, mesh.normals), mesh.triangles,
-                mesh.uvs)
+    return Mesh(
+        positions, np.einsum("ij,...j->...i", matrix, mesh.normals), mesh.triangles, mesh.uvs
+    )
 
 
 def flag_origin(placement: Placement) -> Array:
@@ -129,8 +131,13 @@ def _box_mesh(box: _Box) -> Mesh:
     )
 
 
-_Side = tuple[tuple[float, float, float], tuple[int, int, int], tuple[int, int, int],
-              tuple[float, float, float], tuple[float, float, float, float]]
+_Side = tuple[
+    tuple[float, float, float],
+    tuple[int, int, int],
+    tuple[int, int, int],
+    tuple[float, float, float],
+    tuple[float, float, float, float],
+]
 
 
 def _sides(skin: BoxSkin) -> list[_Side]:

@@ -5,6 +5,7 @@ normals, so the two sheets keep the sheet's UVs and never open a gap; the bounda
 rim of quads.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,9 +19,11 @@ from drapery.style.skin import PLAIN_SKIN, Skin
 def boundary_edges(triangles: Triangles) -> NDArray[np.int32]:
     """Edges that only one triangle has, shape [E, 2], each running as its triangle runs."""
     edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True,
-                                return_counts=True)
-    return edges[np.sort(first[count == 1])]
+    _, first, count = np.unique(
+        np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True
+    )
+    open_edges: NDArray[np.int32] = edges[np.sort(first[count == 1])]
+    return open_edges
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +61,12 @@ class Shell:
         front, back = positions + half * normals, positions - half * normals
         start, end = self.rim[:, 0], self.rim[:, 1]
         corners = [front[..., start, :], front[..., end, :], back[..., start, :], back[..., end, :]]
-        outward = _unit(np.cross(positions[..., end, :] - positions[..., start, :],
-                                 normals[..., start, :] + normals[..., end, :]))
+        outward = _unit(
+            np.cross(
+                positions[..., end, :] - positions[..., start, :],
+                normals[..., start, :] + normals[..., end, :],
+            )
+        )
         return Mesh(
             np.concatenate([front, back, _interleave(corners)], axis=-2),
             np.concatenate([normals, -normals, _interleave([outward] * 4)], axis=-2),
@@ -84,7 +91,7 @@ def extrude(mesh: Mesh, thickness: float, skin: Skin = PLAIN_SKIN) -> Mesh:
     return shell.cover(mesh.positions, mesh.normals, thickness)
 
 
-def _interleave(corners: list[Array]) -> Array:
+def _interleave(corners: Sequence[Array]) -> Array:
     """[..., E, 3] for each of four corners -> [..., 4 E, 3], an edge's corners together."""
     stacked = np.stack(corners, axis=-2)
     return stacked.reshape(*stacked.shape[:-3], -1, 3)
@@ -92,4 +99,5 @@ def _interleave(corners: list[Array]) -> Array:
 
 def _unit(vectors: Array) -> Array:
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return vectors / np.maximum(lengths, np.finfo(vectors.dtype).tiny)
+    unit: Array = vectors / np.maximum(lengths, np.finfo(vectors.dtype).tiny)
+    return unit

@@ -70,8 +70,9 @@ class BoxSkin:
         side = np.argmin(depth, axis=0)  # left, right, top, bottom
         # Along the edge and across it, from the strip's left or upper border.
         front_at = np.choose(side, [1.0, 0.0, 1.0, 1.0])
-        corners = [_strip(uv, side, across) for across in (front_at, 1 - front_at)
-                   for uv in (start, end)]
+        corners = [
+            _strip(uv, side, across) for across in (front_at, 1 - front_at) for uv in (start, end)
+        ]
         rects = np.array([self.left, self.right, self.top, self.bottom])[side]
         return np.stack([_place_each(c, rects) for c in corners], axis=1).reshape(-1, 2)
 
@@ -90,7 +91,9 @@ def _place_each(uvs: Array, rects: Array) -> Array:
     return rects[:, :2] + uvs * (rects[:, 2:] - rects[:, :2])
 
 
-def box_skin(offset: tuple[float, float], size: tuple[float, float, float], sheet: float) -> BoxSkin:
+def box_skin(
+    offset: tuple[float, float], size: tuple[float, float, float], sheet: float
+) -> BoxSkin:
     """The skin of a box of the game's models, all in texels of a square sheet.
 
     offset: upper left corner of its unfolding; size: width, height and depth of the box.
