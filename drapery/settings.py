@@ -1,0 +1,124 @@
+"""What one may ask of a picture: the options of the commands and of `draw`, by the same names."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, TypedDict, get_args
+
+from drapery.errors import OptionError
+
+Pose = Literal["cloth", "vanilla"]
+Placement = Literal["standing", "wall"]
+LayerMode = Literal["stacked", "flat"]
+
+MAX_SIDE = 8192
+"""The widest and tallest picture [pixels]."""
+MAX_GRID = 129
+"""The most particles along one side of a flag."""
+MAX_FRAMES = 3600
+
+
+class Options(TypedDict, total=False):
+    """Keyword options of `draw` and `animate`; see `Settings` for what each means."""
+
+    packs: tuple[str | Path, ...] | list[str | Path]
+    pose: Pose
+    placement: Placement
+    view: str
+    size: tuple[int, int]
+    grid: tuple[int, int]
+    wind: float
+    time: float
+    seed: int
+    layers: LayerMode
+    thickness: float
+    background: str
+    backend: str
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Checked options. Raises OptionError, naming the option and what it may be.
+
+    packs: resource packs (folder, zip or jar) laid over our own art; later ones win.
+    pose: `cloth` is simulated; `vanilla` is the game's own stiff board.
+    placement: `standing` on a pole or hung on a `wall`.
+    view: a named view of `drapery.render.views`: front, back, iso, gui, hero.
+    size: width and height of the picture [pixels].
+    grid: particles across and down the cloth.
+    wind: mean wind speed [m/s].
+    time: how long the cloth has hung in the wind when the picture is taken [s].
+    seed: which gusts blow.
+    layers: `stacked` quads, as in the game, or one `flat` composite.
+    thickness: of the cloth, in texels of the flag (1/24 m); 0 is a bare sheet.
+    background: `transparent` or `#rrggbb`.
+    backend: `auto`, `soft`, `pyrender`, or one that an installed package adds.
+    """
+
+    packs: tuple[str | Path, ...] = ()
+    pose: Pose = "cloth"
+    placement: Placement = "standing"
+    view: str = "front"
+    size: tuple[int, int] = (512, 512)
+    grid: tuple[int, int] = (5, 9)
+    wind: float = 4.0
+    time: float = 3.0
+    seed: int = 0
+    layers: LayerMode = "stacked"
+    thickness: float = 1.0
+    background: str = "transparent"
+    backend: str = "auto"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "packs", tuple(self.packs))
+        one_of("pose", self.pose, get_args(Pose))
+        one_of("placement", self.placement, get_args(Placement))
+        one_of("layers", self.layers, get_args(LayerMode))
+        for side, pixels in zip(("width", "height"), self.size, strict=True):
+            within(f"size ({side})", pixels, 1, MAX_SIDE, "pixels")
+        for side, count in zip(("columns", "rows"), self.grid, strict=True):
+            within(f"grid ({side})", count, 2, MAX_GRID, "particles")
+        within("wind", self.wind, 0, 40, "m/s")
+        within("time", self.time, 0, 3600, "s")
+        within("seed", self.seed, 0, 2**32 - 1)
+        within("thickness", self.thickness, 0, 8, "texels")
+        background_colour(self.background)
+
+
+def one_of(option: str, value: str, allowed: tuple[str, ...]) -> None:
+    """Raise OptionError unless the value is one of those allowed."""
+    if value not in allowed:
+        raise OptionError(f"{option} {value!r} is not known; use one of: {', '.join(allowed)}")
+
+
+def within(option: str, value: float, least: float, most: float, unit: str = "") -> None:
+    """Raise OptionError unless the value is a finite number between two bounds."""
+    if not (math.isfinite(value) and least <= value <= most):
+        limits = f"{least:g} to {most:g} {unit}".strip()
+        raise OptionError(f"{option} {value:g} is out of range; use {limits}")
+
+
+def background_colour(text: str) -> tuple[int, int, int, int]:
+    """`transparent` or `#rrggbb` as straight-alpha sRGB. Raises OptionError."""
+    if text == "transparent":
+        return 0, 0, 0, 0
+    digits = text.removeprefix("#")
+    if len(digits) != 6 or not all(c in "0123456789abcdefABCDEF" for c in digits):
+        raise OptionError(f"background {text!r} is not a colour; use transparent or #rrggbb")
+    red, green, blue = bytes.fromhex(digits)
+    return red, green, blue, 255
+
+
+def pair(option: str, text: str) -> tuple[int, int]:
+    """Two whole numbers written `512x512`. Raises OptionError."""
+    first, cross, second = text.lower().partition("x")
+    if not (
+        cross
+        and first.isascii()
+        and first.isdigit()
+        and second.isascii()
+        and second.isdigit()
+        and len(text) < 16
+    ):
+        raise OptionError(f"{option} {text!r} is not two whole numbers; write it like 512x512")
+    return int(first), int(second)
