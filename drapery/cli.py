@@ -1,1 +1,42 @@
-"""The command line."""
+"""The command line: which commands there are, and how a fault ends."""
+
+import sys
+
+import click
+import typer
+
+from drapery.commands import animate, doctor, flat, render, show
+from drapery.commands.notices import adopt_warnings, say
+from drapery.errors import DraperyError
+
+app = typer.Typer(
+    help="Minecraft banners as pictures of real cloth.",
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+)
+for name, command in {
+    "render": render,
+    "animate": animate,
+    "flat": flat,
+    "show": show,
+    "doctor": doctor,
+}.items():
+    app.command(name)(command.run)
+
+
+def main() -> None:
+    """Run a command. A fault of the input is one line on standard error and exit code 2."""
+    adopt_warnings()
+    try:
+        code = app(standalone_mode=False)
+    except DraperyError as error:
+        say(str(error))
+        code = 2
+    except click.ClickException as error:
+        say(f"{error.format_message()} (see `drapery --help`)")
+        code = error.exit_code
+    except (KeyboardInterrupt, click.Abort):
+        say("stopped")
+        code = 130
+    sys.exit(code if isinstance(code, int) else 0)

@@ -1,0 +1,1 @@
+"""The commands, one file each; what they draw with is imported when they run."""

@@ -1,0 +1,54 @@
+"""`drapery animate`: a banner waving in the wind, as a seamless loop."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice, progress
+
+OutOption = Annotated[
+    Path,
+    typer.Option(
+        "-o",
+        "--out",
+        metavar="TARGET",
+        help="out.gif, out.apng, out.webp, out.mp4, or a folder for numbered frames.",
+    ),
+]
+
+
+def run(
+    ctx: typer.Context,
+    design: o.DesignArgument,
+    out: OutOption,
+    seconds: Annotated[float, typer.Option(help="Length of the loop.")] = 4.0,
+    fps: Annotated[float, typer.Option(help="Frames per second.")] = 20.0,
+    pack: o.PackOption = None,
+    pose: o.PoseOption = "cloth",
+    placement: o.PlacementOption = "standing",
+    view: o.ViewOption = "front",
+    size: o.SizeOption = "512x512",
+    grid: o.GridOption = "5x9",
+    wind: o.WindOption = 4.0,
+    time: o.TimeOption = 3.0,
+    seed: o.SeedOption = 0,
+    layers: o.LayersOption = "stacked",
+    thickness: o.ThicknessOption = 1.0,
+    background: o.BackgroundOption = "transparent",
+    backend: o.BackendOption = "auto",
+) -> None:
+    """Draw a banner waving in the wind, as a seamless loop."""
+    from drapery.banner.formats import read_design
+    from drapery.pictures import frame_count, frames
+    from drapery.render.encode import check_animation_target, save_animation
+    from drapery.settings import Settings
+
+    settings = Settings(**o.options_of(ctx.params))
+    check_animation_target(out)
+    with compile_notice():
+        drawn = frames(read_design(design), seconds, fps, settings)
+        total = frame_count(seconds, fps)
+        with progress("frames", total) as tick:
+            save_animation(drawn, fps, out, total=total, progress=tick)

@@ -1,0 +1,29 @@
+"""`drapery flat`: the plain face of a banner, as banner sites show it."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from drapery.commands import options as o
+
+MAX_SCALE = 256
+
+
+def run(
+    design: o.DesignArgument,
+    out: Annotated[Path, typer.Option("-o", "--out", metavar="FILE", help="The picture to write.")],
+    scale: Annotated[int, typer.Option(help="Pixels per texel of a 64 x 64 pack.")] = 8,
+    back: Annotated[bool, typer.Option("--back", help="The other side.")] = False,
+    pack: o.PackOption = None,
+) -> None:
+    """Write the plain 20 x 40 face of a banner, enlarged."""
+    from drapery.banner.formats import read_design
+    from drapery.pictures import draw_face
+    from drapery.render.encode import check_frame_target
+    from drapery.settings import within
+
+    within("scale", scale, 1, MAX_SCALE, "pixels")
+    check_frame_target(out)
+    side = "back" if back else "front"
+    draw_face(read_design(design), packs=tuple(pack or ()), scale=scale, side=side).save(out)

@@ -1,0 +1,80 @@
+"""What a command says on the side, on standard error: notes, warnings, progress."""
+
+import sys
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, TextIO
+
+
+def say(line: str) -> None:
+    """One line to the user, beside the result."""
+    print(f"drapery: {line}", file=sys.stderr, flush=True)
+
+
+def show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """`warnings.showwarning` for the command line: our own words, without the place in the code."""
+    say(str(message))
+
+
+def adopt_warnings() -> None:
+    """Show what the library warns of as plain lines, each once."""
+    warnings.showwarning = show_warning
+    warnings.simplefilter("once", UserWarning)
+
+
+@contextmanager
+def compile_notice() -> Iterator[None]:
+    """Say so when kernels are being compiled: it happens once, and takes some seconds."""
+    from numba.core import event
+
+    listener = _FirstCompile()
+    event.register("numba:compile", listener)
+    try:
+        yield
+    finally:
+        event.unregister("numba:compile", listener)
+
+
+@contextmanager
+def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
+    """A bar with count, rate and time left; the callable takes how many are done."""
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=total)
+        yield lambda done: bar.update(task, completed=done)
+
+
+class _FirstCompile:
+    """A listener of numba's events that speaks once."""
+
+    def __init__(self) -> None:
+        self.spoken = False
+
+    def on_start(self, event: Any) -> None:
+        if not self.spoken:
+            say("compiling kernels, which happens once ...")
+        self.spoken = True
+
+    def on_end(self, event: Any) -> None:
+        """Numba wants the other half too."""
+
+    def notify(self, event: Any) -> None:
+        if event.is_start:
+            self.on_start(event)

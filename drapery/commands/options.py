@@ -1,0 +1,44 @@
+"""The options that several commands share."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, cast
+
+import typer
+
+from drapery.settings import Options, pair
+
+DesignArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="DESIGN",
+        help="A banner: a /give command, an item, JSON, a URL, 'white creeper:lime', a file, or -.",
+        show_default=False,
+    ),
+]
+PackOption = Annotated[
+    list[Path] | None,
+    typer.Option("--pack", metavar="PATH", help="Resource pack (folder, zip, jar); later wins."),
+]
+PoseOption = Annotated[
+    str, typer.Option(help="cloth (simulated) or vanilla (the game's stiff sway).")
+]
+PlacementOption = Annotated[str, typer.Option(help="standing or wall.")]
+ViewOption = Annotated[str, typer.Option(help="front, back, iso, gui or hero.")]
+SizeOption = Annotated[str, typer.Option(help="Width and height in pixels.")]
+GridOption = Annotated[str, typer.Option(help="Particles across and down the cloth.")]
+WindOption = Annotated[float, typer.Option(help="Mean wind speed in m/s.")]
+TimeOption = Annotated[float, typer.Option(help="Seconds the cloth has hung in the wind.")]
+SeedOption = Annotated[int, typer.Option(help="Which gusts blow.")]
+LayersOption = Annotated[str, typer.Option(help="stacked (as in the game) or flat (composited).")]
+ThicknessOption = Annotated[float, typer.Option(help="Thickness of the cloth in texels.")]
+BackgroundOption = Annotated[str, typer.Option(help="transparent or #rrggbb.")]
+BackendOption = Annotated[str, typer.Option(help="auto, soft or pyrender.")]
+
+
+def options_of(words: Mapping[str, Any]) -> Options:
+    """The picture options among a command's words, as `draw` takes them. Raises OptionError."""
+    names = Options.__optional_keys__ - {"packs"}
+    chosen = {name: value for name, value in words.items() if name in names}
+    chosen |= {name: pair(name, words[name]) for name in ("size", "grid")}
+    return cast(Options, chosen | {"packs": tuple(words["pack"] or ())})

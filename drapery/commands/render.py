@@ -1,0 +1,42 @@
+"""`drapery render`: one picture of a banner."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice
+
+OutOption = Annotated[
+    Path, typer.Option("-o", "--out", metavar="FILE", help="The picture to write.")
+]
+
+
+def run(
+    ctx: typer.Context,
+    design: o.DesignArgument,
+    out: OutOption,
+    pack: o.PackOption = None,
+    pose: o.PoseOption = "cloth",
+    placement: o.PlacementOption = "standing",
+    view: o.ViewOption = "front",
+    size: o.SizeOption = "512x512",
+    grid: o.GridOption = "5x9",
+    wind: o.WindOption = 4.0,
+    time: o.TimeOption = 3.0,
+    seed: o.SeedOption = 0,
+    layers: o.LayersOption = "stacked",
+    thickness: o.ThicknessOption = 1.0,
+    background: o.BackgroundOption = "transparent",
+    backend: o.BackendOption = "auto",
+) -> None:
+    """Draw a banner as cloth and write one picture."""
+    from drapery.banner.formats import read_design
+    from drapery.pictures import draw
+    from drapery.render.encode import check_frame_target
+
+    options = o.options_of(ctx.params)
+    check_frame_target(out)
+    with compile_notice():
+        draw(read_design(design), **options).save(out)

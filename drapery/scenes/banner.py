@@ -1,0 +1,132 @@
+"""The banner block with its flag of cloth, or with the game's own stiff board.
+
+A flag is simulated in its own frame, its top edge along x through the origin, and hung on the
+block afterwards. All moments of an animation are simulated first, as one batch of meshes, so the
+camera can frame them together.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.cloth import Cloth, Gravity, SolverDesbrun, Wind, grid, rest_state, simulate
+from drapery.mesh import Array, Mesh, vertex_normals
+from drapery.render.scene import Model, Scene
+from drapery.render.views import frame_view
+from drapery.settings import Settings, background_colour
+from drapery.style.block import (
+    FLAG_SIZE,
+    FLAG_SKIN,
+    SCALE,
+    SWAY_PERIOD,
+    flag_origin,
+    stiff_flag,
+    wood,
+)
+from drapery.style.extrusion import make_shell
+from drapery.style.layers import flag_look, wood_look
+
+STEP = 1.0 / 60.0
+"""The longest time step [s]: the seed's, one for each of its frames."""
+SETTLING = 8.0
+"""A loop is recorded after the flag has hung in the wind at least this long [s]."""
+BREEZE = (0.35, 0.0, 1.0)
+"""Where the wind blows to: out from the pole, and a little along the flag."""
+
+
+def still(banner: Banner, packs: Packs, settings: Settings) -> Scene:
+    """The banner after it has hung in the wind for `settings.time` seconds."""
+    if settings.pose == "vanilla":
+        flags = _stiff(settings, np.array([settings.time / SWAY_PERIOD]))
+    else:
+        flags = _dress(settings, _hang(settings)[None])
+    return next(_scenes(banner, packs, settings, flags))
+
+
+def loop(
+    banner: Banner, packs: Packs, settings: Settings, seconds: float, fps: float
+) -> Iterator[Scene]:
+    """Scenes of a seamless loop: the last is followed by the first.
+
+    The wind repeats after the loop's length; the flag has settled into that period.
+    """
+    count = max(1, round(seconds * fps))
+    if settings.pose == "vanilla":
+        sways = max(1, round(seconds / SWAY_PERIOD))
+        flags = _stiff(settings, sways * np.arange(count) / count)
+    else:
+        flags = _dress(settings, _wave(settings, count, fps))
+    return _scenes(banner, packs, settings, flags)
+
+
+def _scenes(
+    banner: Banner, packs: Packs, settings: Settings, flags: Mesh
+) -> Iterator[Scene]:
+    """One scene for each moment of the flag, positions [F, V, 3], all framed alike."""
+    frame = Model(wood(settings.placement), (wood_look(packs),))
+    look = flag_look(banner, packs, settings.layers)
+    everything = np.concatenate([frame.mesh.positions, flags.positions.reshape(-1, 3)])
+    width, height = settings.size
+    camera = frame_view(settings.view, (everything.min(0), everything.max(0)), width / height)
+    for positions, normals in zip(flags.positions, flags.normals, strict=True):
+        flag = replace(flags, positions=positions, normals=normals)
+        yield Scene(
+            (frame, Model(flag, (look,))),
+            camera,
+            settings.size,
+            background=background_colour(settings.background),
+        )
+
+
+def _stiff(settings: Settings, phases: Array) -> Mesh:
+    boards = [stiff_flag(settings.placement, phase, settings.thickness) for phase in phases]
+    return replace(
+        boards[0],
+        positions=np.stack([board.positions for board in boards]),
+        normals=np.stack([board.normals for board in boards]),
+    )
+
+
+def _dress(settings: Settings, positions: Array) -> Mesh:
+    """Thin flags [F, N, 3] in their own frame -> thick textured flags on the block."""
+    cloth = _cloth(settings)
+    hung = positions + flag_origin(settings.placement)
+    normals = vertex_normals(hung, cloth.triangles)
+    shell = make_shell(cloth.triangles, cloth.uvs, FLAG_SKIN)
+    return shell.cover(hung, normals, settings.thickness * SCALE)
+
+
+def _cloth(settings: Settings) -> Cloth:
+    columns, rows = settings.grid
+    return grid(columns, rows, *FLAG_SIZE)
+
+
+def _wind(settings: Settings, period: float | None = None) -> Wind:
+    direction = np.array(BREEZE) / np.linalg.norm(BREEZE)
+    return Wind(tuple(settings.wind * direction), seed=settings.seed, period=period)
+
+
+def _hang(settings: Settings) -> Array:
+    """The flag after `time` seconds, shape [N, 3]."""
+    raise NotImplementedError
+
+
+def _wave(settings: Settings, count: int, fps: float) -> Array:
+    """One period of the flag's motion in a periodic wind, shape [count, N, 3]."""
+    raise NotImplementedError
+
+
+def close_loop(motion: Array) -> Array:
+    """Make a recorded motion [F + 1, ...] end where it began; returns its first F moments.
+
+    What is left of the difference between the last moment and the first is taken back evenly
+    over the loop, so no step between two moments differs from its neighbours by more than
+    1/F of it.
+    """
+    count = len(motion) - 1
+    share = np.arange(count).reshape(-1, *[1] * (motion.ndim - 1)) / count
+    closed: Array = motion[:-1] + share * (motion[0] - motion[-1])
+    return closed
