@@ -1,0 +1,101 @@
+"""Miners Need Cool Shoes and its kin: `needcoolshoes.com/banner?=ealleNhEehppai`.
+
+ncrs.skin, needcoolershoes.com and skinmc.net write the same code: pairs of characters, the
+first pair for the base. With the places (e, a) of a pair in the alphabet, the dye is
+`e & 15` and the pattern `(e >> 4) << 6 | a`.
+"""
+
+from drapery.banner.design import MAX_LAYERS, Banner, Layer
+from drapery.banner.formats.urls import (
+    COLOURS,
+    Address,
+    is_bare_code,
+    letter,
+    refuse,
+    refuse_pattern,
+    site_address,
+)
+from drapery.banner.patterns import BY_CODE, PATTERNS
+
+NAME = "needcoolshoes"
+SITE = "NeedCoolShoes"
+HOSTS = ("needcoolshoes.com", "needcoolershoes.com", "ncrs.skin", "skinmc.net")
+ALPHABET = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+/"
+_ORDER = """
+b bl bo br bri bs bt bts cbo cr cre cs dls drs flo gra hh ld ls mc moj mr ms rd rs sc sku ss
+tl tr ts tt tts vh lud rud gru hhb vhr glb pig flow guster
+"""
+PATTERN_ORDER = [code if code in PATTERNS else BY_CODE[code].name for code in _ORDER.split()]
+REMEDY = "open the banner in the site's editor and copy the address there, …/banner?=ealleN…"
+
+
+def recognises(text: str) -> bool:
+    """Whether the text is an address of one of the sites, be it of an editor or a gallery."""
+    return site_address(text, *HOSTS) is not None
+
+
+def parse(text: str) -> Banner:
+    """Read an address of the editors, or its code alone.
+
+    Raises DesignError for gallery pages, which hold no code, and for codes that are not whole.
+    """
+    text = text.strip()
+    code = _code(text)
+    if len(code) % 2:
+        refuse(SITE, text, f"the code has {len(code)} characters, not an even number", REMEDY)
+    if len(code) > 2 + 2 * MAX_LAYERS:
+        refuse(SITE, text, f"the code has {len(code) // 2 - 1} layers, over {MAX_LAYERS}", REMEDY)
+    layers = tuple(_layer(text, code, place) for place in range(2, len(code), 2))
+    _index(text, code, 1)
+    return Banner(_dye(text, code, 0), layers)
+
+
+def write(banner: Banner) -> str:
+    """The address that opens the banner in the editor.
+
+    Raises DesignError for the patterns of data packs, for which the editor has no code.
+    """
+    code = ALPHABET[COLOURS.index(banner.base)] + ALPHABET[0]
+    for number, layer in enumerate(banner.layers, 1):
+        if layer.pattern not in PATTERN_ORDER:
+            refuse_pattern(SITE, number, layer.pattern)
+        code += ALPHABET[COLOURS.index(layer.dye)]
+        code += ALPHABET[PATTERN_ORDER.index(layer.pattern)]
+    return f"https://www.{HOSTS[0]}/banner?={code}"
+
+
+def _code(text: str) -> str:
+    if is_bare_code(text, ALPHABET):
+        return text
+    address = site_address(text, *HOSTS)
+    if address is None:
+        refuse(SITE, text, "neither an address of the sites nor a code", REMEDY)
+    code = _query_code(address)
+    if not code:
+        refuse(SITE, text, "the page carries no code (no ?=)", REMEDY)
+    return code
+
+
+def _query_code(address: Address) -> str:
+    """The value of the parameter without a name; some pages call it `b` or `banner`."""
+    named = dict(reversed(address.pairs()))
+    return named.get("") or named.get("b") or named.get("banner") or ""
+
+
+def _layer(text: str, code: str, place: int) -> Layer:
+    high, low = _index(text, code, place), _index(text, code, place + 1)
+    index = high >> 4 << 6 | low
+    if index >= len(PATTERN_ORDER):
+        refuse(SITE, text, f"{letter(code, place + 1)} is the code of no pattern", REMEDY)
+    return Layer(PATTERN_ORDER[index], _dye(text, code, place))
+
+
+def _dye(text: str, code: str, place: int) -> str:
+    return COLOURS[_index(text, code, place) & 15]
+
+
+def _index(text: str, code: str, place: int) -> int:
+    index = ALPHABET.find(code[place])
+    if index < 0:
+        refuse(SITE, text, f"{letter(code, place)} is not of the site's alphabet", REMEDY)
+    return index
