@@ -1,0 +1,58 @@
+"""Filters in packs: regular expressions that take files or sprites away."""
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from drapery.errors import PackError
+
+MAX_REPEATS = 3
+"""The cost of a search grows by the length of an id with each repetition; ids have 128 letters."""
+
+MAX_OPTIONS = 6
+
+_MAX_LENGTH = 200
+
+
+@dataclass(frozen=True)
+class Filter:
+    """Takes away the ids whose namespace and path both match; None matches all."""
+
+    namespace: re.Pattern[str] | None
+    path: re.Pattern[str] | None
+
+    def matches(self, namespace: str, path: str) -> bool:
+        """Whether it takes this id away. A match anywhere counts, as in the game."""
+        pairs = ((self.namespace, namespace), (self.path, path))
+        return all(pattern is None or pattern.search(text) for pattern, text in pairs)
+
+
+def parse_filter(entry: Any, name: str) -> Filter:
+    """Read `{"namespace": regex, "path": regex}`. Raises PackError, calling the file by name."""
+    if not isinstance(entry, dict):
+        raise PackError(f"{name}: a filter must be an object with namespace and path")
+    return Filter(
+        *(_regex(entry.get(key), f"{name}: filter {key}") for key in ("namespace", "path"))
+    )
+
+
+def _regex(text: Any, name: str) -> re.Pattern[str] | None:
+    if text is None:
+        return None
+    if not isinstance(text, str) or len(text) > _MAX_LENGTH:
+        raise PackError(f"{name} must be a regular expression of up to {_MAX_LENGTH} letters")
+    if not _is_cheap(text):
+        raise PackError(f"{name} {text!r} could search for hours: repeat no group, * and + up to 3")
+    try:
+        return re.compile(text)
+    except (re.error, RecursionError, OverflowError) as error:
+        raise PackError(f"{name} {text!r} is no regular expression: {error}") from None
+
+
+def _is_cheap(text: str) -> bool:
+    """No repeated group and few repetitions, so that no search is worse than cubic."""
+    bare = re.sub(r"\\.", "x", text)
+    bare = re.sub(r"\[\^?\]?[^\]]*\]", "x", bare)
+    repeats = len(re.findall(r"[*+{]", bare))
+    few = repeats <= MAX_REPEATS and bare.count("?") <= MAX_OPTIONS
+    return few and not re.search(r"\)[*+{]", bare) and "(?" not in bare

@@ -1,0 +1,192 @@
+"""`pack.mcmeta`: which versions of the game a pack is for, and its overlays and filters.
+
+Format numbers count resource-pack formats (1.21.4 is 46) and gained a minor part with 65.0.
+"""
+
+import json
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from drapery.banner.pack_filters import Filter, parse_filter
+from drapery.errors import PackError
+
+Format = tuple[float, float]
+"""Major and minor format number."""
+
+NEWEST_FORMAT = 84
+"""The newest resource format known here; packs that promise more are taken at this one."""
+
+MAX_JSON = 1 << 20
+"""Largest JSON file that is read [bytes]."""
+
+_MAX_OVERLAYS = 256
+_ANY_MINOR = float("inf")
+
+
+@dataclass(frozen=True)
+class FormatRange:
+    """Formats from lowest to highest, both included."""
+
+    lowest: Format
+    highest: Format
+
+    def __contains__(self, wanted: float) -> bool:
+        # A major number alone means all its minors.
+        return self.lowest[0] <= wanted <= self.highest[0]
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """A folder that is laid over the pack in the formats it is for."""
+
+    directory: str
+    formats: FormatRange
+
+
+@dataclass(frozen=True)
+class PackMeta:
+    """What `pack.mcmeta` says; a pack without one has the defaults.
+
+    format: the declared format, or None. formats: all that it claims to support, or None.
+    overlays: lowest first. filters: what they match is hidden in the packs below.
+    """
+
+    format: int | None = None
+    formats: FormatRange | None = None
+    overlays: tuple[Overlay, ...] = ()
+    filters: tuple[Filter, ...] = ()
+    description: str = ""
+
+    def newest(self) -> int | None:
+        """The newest known format that the pack claims to support."""
+        if self.formats is None:
+            return self.format
+        return int(min(max(self.formats.highest[0], self.format or 0), NEWEST_FORMAT))
+
+    def directories(self, wanted: int | None) -> tuple[str, ...]:
+        """The folders of the overlays for a format, topmost first; None is the pack's newest."""
+        target = self.newest() if wanted is None else wanted
+        if target is None:
+            return ()
+        chosen = [o.directory for o in self.overlays if target in o.formats]
+        return tuple(reversed(chosen))
+
+
+def read_json(data: bytes, name: str) -> Any:
+    """Parse a JSON file of a pack, calling it by name. Raises PackError with line and column."""
+    try:
+        return json.loads(data.decode("utf-8-sig"), strict=False)
+    except UnicodeDecodeError as error:
+        raise PackError(f"{name}: byte {error.start} is not UTF-8: save it as UTF-8") from None
+    except json.JSONDecodeError as error:
+        place = f"line {error.lineno}, column {error.colno}"
+        raise PackError(f"{name}, {place}: {error.msg}: mend the JSON") from None
+    except (RecursionError, ValueError):
+        raise PackError(f"{name} is nested too deep or holds too long a number") from None
+
+
+def parse_meta(data: bytes, name: str) -> PackMeta:
+    """Read `pack.mcmeta`, calling it by name in errors. Raises PackError."""
+    root = read_json(data, name)
+    pack = _object(root, "pack", name)
+    declared = pack.get("pack_format")
+    formats = _formats(pack, "supported_formats", f"{name}: pack")
+    if isinstance(declared, list | float) and not isinstance(declared, bool):
+        declared = int(_edge(declared, 0, f"{name}: pack_format")[0])
+    if declared is not None and not _is_count(declared):
+        raise PackError(f"{name}: pack_format must be a number, not {declared!r}")
+    if declared is None and formats is not None:
+        declared = int(min(formats.lowest[0], NEWEST_FORMAT))
+    description = pack.get("description", "")
+    return PackMeta(
+        declared,
+        formats,
+        _overlays(root, name),
+        _filters(root, name),
+        description if isinstance(description, str) else json.dumps(description),
+    )
+
+
+def parse_version(data: bytes, name: str) -> PackMeta:
+    """Read the `version.json` of a client jar. Raises PackError."""
+    root = read_json(data, name)
+    version = root.get("pack_version") if isinstance(root, dict) else None
+    if isinstance(version, dict):
+        version = version.get("resource_major", version.get("resource"))
+    title = root.get("name") if isinstance(root, dict) else None
+    text = f"Minecraft {title}" if isinstance(title, str) else ""
+    return PackMeta(version if _is_count(version) else None, description=text)
+
+
+def _overlays(root: dict[str, Any], name: str) -> tuple[Overlay, ...]:
+    entries = _list(root, "overlays", "entries", name)
+    if len(entries) > _MAX_OVERLAYS:
+        raise PackError(f"{name} has {len(entries)} overlays; up to {_MAX_OVERLAYS} are read")
+    return tuple(_overlay(entry, f"{name}: overlay {n}") for n, entry in enumerate(entries))
+
+
+def _overlay(entry: Any, name: str) -> Overlay:
+    if not isinstance(entry, dict):
+        raise PackError(f"{name} must be an object with directory and formats")
+    directory = entry.get("directory")
+    if not isinstance(directory, str) or not re.fullmatch(r"[\w-][\w.-]{0,127}", directory, re.A):
+        raise PackError(f"{name}: directory {directory!r} must be a name of a-z, 0-9, _ and -")
+    formats = _formats(entry, "formats", name)
+    if formats is None:
+        raise PackError(f"{name} must say its formats: give min_format and max_format")
+    return Overlay(directory, formats)
+
+
+def _filters(root: dict[str, Any], name: str) -> tuple[Filter, ...]:
+    entries = _list(root, "filter", "block", name)
+    if len(entries) > _MAX_OVERLAYS:
+        raise PackError(f"{name} has {len(entries)} filters; up to {_MAX_OVERLAYS} are read")
+    return tuple(parse_filter(entry, name) for entry in entries)
+
+
+def _formats(entry: dict[str, Any], old_key: str, name: str) -> FormatRange | None:
+    """The range by min_format and max_format (since 1.21.9), else by the older key."""
+    if "min_format" in entry or "max_format" in entry:
+        lowest = _edge(entry.get("min_format", 0), 0, f"{name} min_format")
+        highest = _edge(entry.get("max_format", lowest[0]), _ANY_MINOR, f"{name} max_format")
+        return FormatRange(lowest, highest)
+    value = entry.get(old_key)
+    if value is None:
+        return None
+    if isinstance(value, dict):
+        value = [value.get("min_inclusive"), value.get("max_inclusive")]
+    ends = value if isinstance(value, list) else [value, value]
+    if len(ends) != 2 or not all(_is_count(end) for end in ends):
+        raise PackError(f"{name} {old_key}: {value!r} must be a number or two: [lowest, highest]")
+    return FormatRange((ends[0], 0), (ends[1], _ANY_MINOR))
+
+
+def _edge(value: Any, minor: float, name: str) -> Format:
+    """A format as `75`, `[75]` or `[75, 1]`."""
+    parts = value if isinstance(value, list) else [int(value) if _is_number(value) else value]
+    if not 1 <= len(parts) <= 2 or not all(_is_count(part) for part in parts):
+        raise PackError(f"{name}: {value!r} must be a number or [major, minor]")
+    return parts[0], parts[1] if len(parts) == 2 else minor
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, float) and 0 <= value < 1 << 31
+
+
+def _is_count(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 1 << 31
+
+
+def _object(root: Any, key: str, name: str) -> dict[str, Any]:
+    entry = root.get(key, {}) if isinstance(root, dict) else None
+    if not isinstance(entry, dict):
+        raise PackError(f"{name}: {key!r} must be an object in braces")
+    return entry
+
+
+def _list(root: dict[str, Any], key: str, inner: str, name: str) -> list[Any]:
+    entries = _object(root, key, name).get(inner, [])
+    if not isinstance(entries, list):
+        raise PackError(f"{name}: {key}.{inner} must be a list")
+    return entries

@@ -1,0 +1,76 @@
+"""PNG files as texels: whatever the mode, sRGB with straight alpha; checked before decoding."""
+
+import struct
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import PackError
+
+if TYPE_CHECKING:
+    from PIL.PngImagePlugin import PngImageFile
+
+Texels = NDArray[np.uint8]
+"""A texture: sRGB with straight alpha, shape [H, W, 4], top row first."""
+
+MAX_SIDE = 8192
+MAX_PIXELS = 4096 * 4096
+
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+
+
+def png_size(data: bytes, name: str) -> tuple[int, int]:
+    """Width and height [px] as the header states them; nothing is decoded.
+
+    name: the file, as errors call it. Raises PackError.
+    """
+    if data[:8] != _SIGNATURE or data[12:16] != b"IHDR" or len(data) < 33:
+        raise PackError(f"{name} is not a PNG file: save it as one")
+    width, height = struct.unpack_from(">II", data, 16)
+    if not (0 < width <= MAX_SIDE and 0 < height <= MAX_SIDE and width * height <= MAX_PIXELS):
+        raise PackError(
+            f"{name} is {width} x {height} px; at most {MAX_SIDE} px a side and"
+            f" {MAX_PIXELS >> 20} million in all are read: shrink it"
+        )
+    return width, height
+
+
+def read_png(data: bytes, name: str) -> Texels:
+    """The texels of a PNG file of any mode, shape [H, W, 4].
+
+    Of 16 bits a channel the upper eight are kept, as the game does.
+    name: the file, as errors call it. Raises PackError.
+    """
+    png_size(data, name)
+    # The plug-in alone: PIL.Image.open would load those of every common format first.
+    from PIL.PngImagePlugin import PngImageFile
+
+    try:
+        with PngImageFile(BytesIO(data)) as image:
+            image.load()
+            texels = _rgba(image, depth=data[24])
+    except (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error) as error:
+        raise PackError(f"{name} is a broken PNG file ({error}): save it anew") from None
+    texels.setflags(write=False)
+    return texels
+
+
+def _rgba(image: "PngImageFile", depth: int) -> Texels:
+    if image.mode.startswith("I"):
+        return _from_grey16(np.asarray(image), image.info.get("transparency"))
+    clear = image.info.get("transparency")
+    # Pillow widens grey texels of 2 and 4 bits but leaves their transparent value as it stood.
+    if image.mode == "L" and isinstance(clear, int) and depth < 8:
+        image.info["transparency"] = clear * (255 // ((1 << depth) - 1))
+    if image.mode == "RGB" and isinstance(clear, tuple) and depth == 16:
+        image.info["transparency"] = tuple(value >> 8 for value in clear)
+    return np.array(image.convert("RGBA"), np.uint8)
+
+
+def _from_grey16(grey: NDArray[np.integer], clear: int | None) -> Texels:
+    texels = np.empty((*grey.shape, 4), np.uint8)
+    texels[..., :3] = (grey >> 8).astype(np.uint8)[..., None]
+    texels[..., 3] = 255 if clear is None else np.where(grey == clear, 0, 255)
+    return texels
