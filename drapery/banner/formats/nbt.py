@@ -1,0 +1,319 @@
+"""Binary NBT, of Java (big endian) and Bedrock (little endian), read within limits.
+
+A file's tree comes as plain Python: compounds are `dict`, lists `list`, numbers `int` and
+`float`, strings `str`. Byte arrays are `bytes`; int and long arrays and lists of numbers are
+numpy views of the file, but `list` if they are short. nbtlib reads past a file's end as zeros
+and recurses as deep as a file tells it to, so foreign files come through here.
+"""
+
+import struct
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.banner.formats.inflate import inflate
+from drapery.banner.formats.tree import Tree
+from drapery.errors import DesignError
+
+MAX_DEPTH = 512
+"""Compounds and lists inside each other: the game's own limit."""
+
+MAX_TAGS = 750_000
+"""Tags in one file; an array is one tag, and schematics keep their blocks in arrays."""
+
+MAX_NAMES = 4096
+"""Names to share between compounds; a file has some hundreds."""
+
+SHORT_LIST = 4
+"""Lists of up to so many numbers (positions, rotations) are `list`; longer ones are views."""
+
+Order: TypeAlias = Literal["big", "little"]
+Reader: TypeAlias = Callable[[bytes, int], tuple[Any, int]]
+"""Reads a payload at a place: its value, and the place after it."""
+Length: TypeAlias = Callable[[bytes, int], tuple[Any, ...]]
+
+_COST = [1] * 11 + [2, 2]
+"""Tags that a tag of each kind counts for: a numpy view is as heavy as two."""
+
+_END, _COMPOUND, _LAST = 0, 10, 12
+_NUMBERS = {1: "i1", 2: "i2", 3: "i4", 4: "i8", 5: "f4", 6: "f8"}
+_STRUCT_LETTERS = {1: "b", 2: "h", 3: "i", 4: "q", 5: "f", 6: "d"}
+
+
+class Codec(NamedTuple):
+    """How one byte order reads lengths and payloads; compounds and lists have no reader."""
+
+    short: Length
+    int_: Length
+    readers: list[Reader | None]
+    dtypes: dict[int, str]
+
+
+class _BytesError(Exception):
+    """A fault in the bytes, before it is known of which file they are."""
+
+
+class _List(NamedTuple):
+    """A list whose children are compounds or lists, and not all read yet."""
+
+    items: list[Tree]
+    kind: int
+    length: int
+
+
+Container: TypeAlias = dict[str, Tree] | _List
+
+
+@dataclass
+class _Cursor:
+    """Where the reading is: the place in the bytes, the tags still allowed, the names seen."""
+
+    data: bytes
+    at: int
+    codec: Codec
+    tags_left: int = MAX_TAGS
+    names: dict[bytes, str] = field(default_factory=dict)
+
+    def spend(self, tags: int) -> None:
+        self.tags_left -= tags
+        if self.tags_left < 0:
+            raise _BytesError(
+                f"over {MAX_TAGS} tags by byte {self.at}; cut a smaller piece out of it"
+            )
+
+
+def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, Tree]:
+    """The root compound of an NBT file: gzip, zlib or raw, in either byte order.
+
+    where: the file's name, for errors. order: None finds it out. Bedrock's `.dat` header of
+    eight bytes is passed over.
+
+    Raises DesignError, naming the file and the byte, for files that are no NBT, end too early,
+    or go over MAX_BYTES, MAX_DEPTH or MAX_TAGS.
+    """
+    data = inflate(data, where)
+    start = 8 if _has_bedrock_header(data) else 0
+    guess: Order = "little" if start else _guess_order(data)
+    try:
+        return _read_root(_Cursor(data, start, _CODECS[order or guess]))
+    except (IndexError, struct.error):
+        fault = f"cut off: it ends at byte {len(data)} within a tag; save or download it anew"
+    except _BytesError as found:
+        fault = str(found)
+    raise DesignError(f"{where}: {fault}")
+
+
+def is_nbt(data: bytes) -> bool:
+    """Whether the unwrapped bytes open as an NBT file does: with a compound."""
+    return _has_bedrock_header(data) or (len(data) > 3 and data[0] == _COMPOUND)
+
+
+def _has_bedrock_header(data: bytes) -> bool:
+    """Bedrock's level.dat opens with a version and the length of what follows."""
+    return data[8:9] == b"\n" and int.from_bytes(data[4:8], "little") == len(data) - 8
+
+
+def _guess_order(data: bytes) -> Order:
+    """The order in which the first name that has a length is the shorter one.
+
+    Names are far shorter than 256 bytes; read in the wrong order, such a length is at least
+    256. The root's name may be empty: then its first child's tells.
+    """
+    for at in (1, 4):
+        big, little = (int.from_bytes(data[at : at + 2], order) for order in ("big", "little"))
+        if big or little:
+            return "little" if little < big else "big"
+    return "big"
+
+
+def _read_root(cursor: _Cursor) -> dict[str, Tree]:
+    kind = cursor.data[cursor.at]
+    if kind != _COMPOUND:
+        raise _BytesError(f"not NBT: byte {cursor.at} is {kind}, not 10; give an NBT file")
+    cursor.at = cursor.at + 3 + cursor.codec.short(cursor.data, cursor.at + 1)[0]
+    root: dict[str, Tree] = {}
+    _grow(cursor, root)
+    return root
+
+
+def _grow(cursor: _Cursor, root: dict[str, Tree]) -> None:
+    """Fill the containers from the innermost open one, without recursion."""
+    stack: list[Container] = [root]
+    while stack:
+        child = _fill(cursor, stack[-1])
+        if child is None:
+            stack.pop()
+        elif len(stack) < MAX_DEPTH:
+            stack.append(child)
+        else:
+            raise _BytesError(f"nested over {MAX_DEPTH} deep at byte {cursor.at}; flatten it")
+
+
+def _fill(cursor: _Cursor, container: Container) -> Container | None:
+    """Fill a container until its end (None) or until a child that must be filled before it."""
+    if isinstance(container, _List):
+        return _fill_list(cursor, container)
+    return _fill_compound(cursor, container)
+
+
+def _fill_compound(cursor: _Cursor, node: dict[str, Tree]) -> Container | None:
+    data, names = cursor.data, cursor.names
+    length_of, readers = cursor.codec.short, cursor.codec.readers
+    while kind := data[cursor.at]:
+        start = cursor.at + 3
+        stop = start + length_of(data, cursor.at + 1)[0]
+        name = names.get(data[start:stop]) or _new_name(names, data[start:stop])
+        if kind > _LAST:
+            raise _BytesError(f"{kind} at byte {cursor.at} is no kind of tag; save the file anew")
+        cursor.spend(_COST[kind])
+        reader = readers[kind]
+        if reader:
+            node[name], cursor.at = reader(data, stop)
+            continue
+        cursor.at = stop
+        node[name], child = _open(cursor, kind)
+        if child is not None:
+            return child
+    cursor.at += 1
+    return None
+
+
+def _fill_list(cursor: _Cursor, unfinished: _List) -> Container | None:
+    items, kind, length = unfinished
+    while len(items) < length:
+        value, child = _open(cursor, kind)
+        items.append(value)
+        if child is not None:
+            return child
+    return None
+
+
+def _open(cursor: _Cursor, kind: int) -> tuple[Tree, Container | None]:
+    """The value of a compound or list that begins here, and what of it is still to be filled."""
+    if kind == _COMPOUND:
+        node: dict[str, Tree] = {}
+        return node, node
+    kind, length = _list_head(cursor)
+    if kind in _NUMBERS:
+        return _numbers(cursor, kind, length), None
+    reader = cursor.codec.readers[kind]
+    if reader:
+        return _values(cursor, reader, length), None
+    items: list[Tree] = []
+    return items, _List(items, kind, length)
+
+
+def _list_head(cursor: _Cursor) -> tuple[int, int]:
+    """The kind of a list's entries and their number, which the rest of the file must hold."""
+    at = cursor.at
+    kind, length = cursor.data[at], max(0, cursor.codec.int_(cursor.data, at + 1)[0])
+    cursor.at = at + 5
+    if kind > _LAST or (kind == _END and length):
+        raise _BytesError(f"a list of {length} of kind {kind} at byte {at}; save the file anew")
+    if length > len(cursor.data) - cursor.at:
+        raise _BytesError(
+            f"a list of {length} at byte {at} is longer than the rest; save or download it anew"
+        )
+    cursor.spend(1 if kind in _NUMBERS else length * _COST[kind])
+    return kind, length
+
+
+def _numbers(cursor: _Cursor, kind: int, length: int) -> Tree:
+    array, cursor.at = _view(cursor.data, cursor.at, cursor.codec.dtypes[kind], length)
+    return _short(array)
+
+
+def _short(array: NDArray[Any]) -> Any:
+    return array.tolist() if len(array) <= SHORT_LIST else array
+
+
+def _values(cursor: _Cursor, reader: Reader, length: int) -> list[Tree]:
+    """A list of strings or arrays."""
+    items = []
+    for _ in range(length):
+        value, cursor.at = reader(cursor.data, cursor.at)
+        items.append(value)
+    return items
+
+
+def _new_name(names: dict[bytes, str], raw: bytes) -> str:
+    name = _text(raw)
+    if len(names) < MAX_NAMES:
+        names[raw] = name
+    return name
+
+
+def _text(raw: bytes) -> str:
+    """Text as Java writes it: UTF-8, but NUL in two bytes, and rare characters as surrogates."""
+    try:
+        return raw.decode()
+    except UnicodeDecodeError:
+        pass
+    try:
+        halves = raw.replace(b"\xc0\x80", b"\0").decode("utf-8", "surrogatepass")
+    except UnicodeDecodeError:
+        return raw.decode("utf-8", "replace")
+    return halves.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
+
+
+def _view(data: bytes, at: int, dtype: str, length: int) -> tuple[NDArray[Any], int]:
+    """An array's numbers, not copied."""
+    stop = at + length * int(dtype[-1])
+    if length < 0 or stop > len(data):
+        raise _BytesError(
+            f"an array of {length} before byte {at} is longer than the rest; save it anew"
+        )
+    return np.frombuffer(data, dtype, length, at), stop
+
+
+def _number_reader(letter: str) -> Reader:
+    unpack, size = struct.Struct(letter).unpack_from, struct.calcsize(letter)
+
+    def read(data: bytes, at: int) -> tuple[Any, int]:
+        return unpack(data, at)[0], at + size
+
+    return read
+
+
+def _string_reader(length_of: Length) -> Reader:
+    def read(data: bytes, at: int) -> tuple[str, int]:
+        stop = at + 2 + length_of(data, at)[0]
+        return _text(data[at + 2 : stop]), stop
+
+    return read
+
+
+def _array_reader(length_of: Length, dtype: str) -> Reader:
+    def read(data: bytes, at: int) -> tuple[Any, int]:
+        array, stop = _view(data, at + 4, dtype, length_of(data, at)[0])
+        return _short(array), stop
+
+    return read
+
+
+def _byte_array_reader(length_of: Length) -> Reader:
+    def read(data: bytes, at: int) -> tuple[bytes, int]:
+        array, stop = _view(data, at + 4, "|i1", length_of(data, at)[0])
+        return array.tobytes(), stop
+
+    return read
+
+
+def _codec(mark: str) -> Codec:
+    """The readers of a byte order, whose struct and numpy mark is `>` or `<`."""
+    short, int_ = struct.Struct(mark + "H").unpack_from, struct.Struct(mark + "i").unpack_from
+    readers: list[Reader | None] = [None] * (_LAST + 1)
+    for kind, letter in _STRUCT_LETTERS.items():
+        readers[kind] = _number_reader(mark + letter)
+    readers[7] = _byte_array_reader(int_)
+    readers[8] = _string_reader(short)
+    readers[11] = _array_reader(int_, mark + "i4")
+    readers[12] = _array_reader(int_, mark + "i8")
+    dtypes = {kind: mark + name for kind, name in _NUMBERS.items()}
+    return Codec(short, int_, readers, dtypes)
+
+
+_CODECS: dict[Order, Codec] = {"big": _codec(">"), "little": _codec("<")}

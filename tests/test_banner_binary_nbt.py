@@ -1,0 +1,212 @@
+"""The reader of binary NBT: it agrees with nbtlib on sound files and refuses the others soon."""
+
+import gzip
+import io
+import struct
+import time
+import tracemalloc
+import zlib
+
+import nbtlib
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from drapery.banner.formats.nbt import MAX_DEPTH, MAX_TAGS, is_nbt, read_nbt
+from drapery.errors import DesignError
+
+ORDERS = ["big", "little"]
+WRAPPINGS = {"raw": bytes, "gzip": gzip.compress, "zlib": zlib.compress}
+HEAD = b"\x0a\0\0"
+
+
+def encode(root: nbtlib.Compound, order: str = "big", name: str = "") -> bytes:
+    out = io.BytesIO()
+    nbtlib.File(root, root_name=name).write(out, byteorder=order)
+    return out.getvalue()
+
+
+def plain(tree):
+    """A tree as nothing but Python, so that ours and nbtlib's compare."""
+    if isinstance(tree, dict):
+        return {str(key): plain(value) for key, value in tree.items()}
+    if isinstance(tree, bytes):
+        return list(np.frombuffer(tree, np.int8))
+    if isinstance(tree, np.ndarray):
+        return [plain(value) for value in tree.tolist()]
+    if isinstance(tree, list):
+        return [plain(value) for value in tree]
+    return tree if isinstance(tree, str) else float(tree) if tree % 1 else int(tree)
+
+
+def integers(bits: int):
+    return st.integers(-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+
+
+def lists(tag, values):
+    return st.lists(values, max_size=9).map(lambda items: nbtlib.List[tag](items))
+
+
+TEXTS = st.text(st.characters(codec="utf-8"), max_size=9)
+SCALARS = [
+    (nbtlib.Byte, integers(8)),
+    (nbtlib.Short, integers(16)),
+    (nbtlib.Int, integers(32)),
+    (nbtlib.Long, integers(64)),
+    (nbtlib.Float, st.floats(width=32, allow_nan=False, allow_infinity=False)),
+    (nbtlib.Double, st.floats(allow_nan=False, allow_infinity=False)),
+    (nbtlib.String, TEXTS),
+]
+ARRAYS = [(nbtlib.ByteArray, 8), (nbtlib.IntArray, 32), (nbtlib.LongArray, 64)]
+LEAVES = st.one_of(
+    *(values.map(tag) for tag, values in SCALARS),
+    *(lists(tag, values.map(tag)) for tag, values in SCALARS),
+    *(st.lists(integers(bits), max_size=9).map(tag) for tag, bits in ARRAYS),
+)
+
+
+def compounds(children):
+    return st.dictionaries(TEXTS, children, max_size=4).map(nbtlib.Compound)
+
+
+TREES = compounds(
+    st.recursive(
+        LEAVES,
+        lambda children: compounds(children) | lists(nbtlib.Compound, compounds(children)),
+        max_leaves=12,
+    )
+)
+
+
+@given(TREES, st.sampled_from(ORDERS), st.sampled_from(sorted(WRAPPINGS)), TEXTS)
+def test_it_reads_what_nbtlib_writes(root, order: str, wrapping: str, name: str):
+    data = WRAPPINGS[wrapping](encode(root, order, name))
+    assert plain(read_nbt(data, "f", order)) == plain(root)
+
+
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("name", ["", "Schematic"])
+def test_the_byte_order_is_found_out(order: str, name: str):
+    root = nbtlib.Compound({"DataVersion": nbtlib.Int(3953)})
+    assert read_nbt(encode(root, order, name), "f") == {"DataVersion": 3953}
+    assert read_nbt(encode(nbtlib.Compound(), order, name), "f") == {}
+
+
+@pytest.mark.parametrize("version", [1, 10, 2560])
+def test_bedrocks_header_is_passed_over(version: int):
+    body = encode(nbtlib.Compound({"LevelName": nbtlib.String("hill")}), "little")
+    data = struct.pack("<II", version, len(body)) + body
+    assert is_nbt(data) and read_nbt(data, "f") == {"LevelName": "hill"}
+
+
+def test_text_is_javas_own_utf8():
+    rare = b"\xed\xa0\xbd\xed\xb8\x80"  # U+1F600 as two surrogates of three bytes
+    payload = b"a\xc0\x80" + rare
+    data = HEAD + b"\x08\0\x01t" + struct.pack(">H", len(payload)) + payload + b"\0"
+    assert read_nbt(data, "f") == {"t": "a\0\U0001f600"}
+    assert read_nbt(data.replace(b"\xed\xa0", b"\xff\xa0"), "f")["t"].startswith("a")
+
+
+def test_every_cut_of_a_file_is_refused_with_its_place():
+    root = nbtlib.Compound(
+        {"a": nbtlib.List[nbtlib.Int](range(9)), "b": nbtlib.Compound({"c": nbtlib.String("xy")})}
+    )
+    data = encode(root)
+    for size in range(len(data)):
+        with pytest.raises(DesignError, match=r"hill\.nbt: .*byte \d+"):
+            read_nbt(data[:size], "hill.nbt")
+    for size in range(len(packed := gzip.compress(data))):
+        with pytest.raises(DesignError, match=r"hill\.nbt: .*byte \d+"):
+            read_nbt(packed[:size], "hill.nbt")
+
+
+def deep(kind: str, depth: int) -> bytes:
+    if kind == "compounds":
+        return HEAD + b"\x0a\0\x01a" * depth + b"\0" * (depth + 1)
+    return HEAD + b"\x09\0\x01a" + b"\x09\0\0\0\x01" * (depth - 1) + b"\0\0\0\0\0" + b"\0"
+
+
+@pytest.mark.parametrize("kind", ["compounds", "lists"])
+def test_the_depth_ends_where_the_games_does(kind: str):
+    read_nbt(deep(kind, MAX_DEPTH - 1), "f")
+    for depth in (MAX_DEPTH, 10_000):
+        with pytest.raises(DesignError, match=f"nested over {MAX_DEPTH} deep at byte"):
+            read_nbt(deep(kind, depth), "f")
+
+
+def list_of(kind: int, length: int, rest: bytes) -> bytes:
+    return HEAD + b"\x09\0\x01a" + struct.pack(">bi", kind, length) + rest + b"\0"
+
+
+BIG = 10**6
+HOSTILE = {
+    "a million empty compounds": (list_of(10, BIG, bytes(BIG)), "tags"),
+    "a million empty lists": (list_of(9, BIG, bytes(5 * BIG)), "tags"),
+    "a million empty strings": (list_of(8, BIG, bytes(2 * BIG)), "tags"),
+    "a million names": (
+        HEAD + b"".join(b"\x01\0\x07%07d\0" % n for n in range(BIG)) + b"\0",
+        "tags",
+    ),
+    "a length without a body": (list_of(10, 2**31 - 1, b""), "longer than the rest"),
+    "numbers without a body": (list_of(4, 2**28, bytes(2**28 // 64)), "longer than the rest"),
+    "an array without a body": (HEAD + b"\x0c\0\x01a\x7f\xff\xff\xff\0", "longer than the rest"),
+    "an array of negative length": (HEAD + b"\x07\0\x01a\xff\xff\xff\xff\0", "longer than"),
+    "ends in a list": (list_of(0, 3, b""), "kind 0"),
+    "an unknown tag": (HEAD + b"\x63\0\x01a\0", "99 at byte 3"),
+    "an unknown kind of entry": (list_of(99, 3, bytes(99)), "kind 99"),
+    "no compound": (b"\x01\0\0\0", "not NBT"),
+    "nothing": (b"", "cut off"),
+    "a gigabyte in a megabyte": (gzip.compress(bytes(2**30), 1), "over 64 MiB"),
+    "a broken check sum": (gzip.compress(HEAD + b"\0")[:-8] + bytes(8), "broken compressed"),
+    "broken compression": (b"x\x9c" + b"\xff" * 99, "broken compressed"),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_files_are_refused_soon(name: str):
+    data, place = HOSTILE[name]
+    start = time.perf_counter()
+    with pytest.raises(DesignError, match=place) as caught:
+        read_nbt(data, "evil.nbt")
+    assert time.perf_counter() - start < 1
+    assert str(caught.value).startswith("evil.nbt: ") and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", sorted(set(HOSTILE) - {"a million names"}))
+def test_hostile_files_are_refused_small(name: str):
+    tracemalloc.start()
+    with pytest.raises(DesignError):
+        read_nbt(HOSTILE[name][0], "evil.nbt")
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 200 * 2**20
+
+
+def test_the_most_tags_that_are_allowed_are_read():
+    assert len(read_nbt(list_of(10, MAX_TAGS - 1, bytes(MAX_TAGS - 1)), "f")["a"]) == MAX_TAGS - 1
+
+
+SOUND = encode(
+    nbtlib.Compound(
+        {
+            "Patterns": nbtlib.List[nbtlib.Compound](
+                [nbtlib.Compound({"Pattern": nbtlib.String("cr"), "Color": nbtlib.Int(3)})] * 3
+            ),
+            "longs": nbtlib.LongArray(range(9)),
+            "pos": nbtlib.List[nbtlib.Int]([1, 2, 3]),
+        }
+    )
+)
+
+
+@settings(max_examples=300)
+@given(st.lists(st.tuples(st.integers(0, len(SOUND) - 1), st.binary(max_size=3)), max_size=6))
+def test_changed_bytes_are_read_or_refused(changes: list[tuple[int, bytes]]):
+    data = SOUND
+    for place, piece in changes:
+        data = data[:place] + piece + data[place + 1 :]
+    try:
+        assert isinstance(read_nbt(data, "f"), dict)
+    except DesignError as error:
+        assert "\n" not in str(error)
