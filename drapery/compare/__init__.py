@@ -1,0 +1,1 @@
+"""How two pictures differ: figures, panels to look at, and a report."""

@@ -1,0 +1,77 @@
+"""Pictures of a difference: side by side, magnified, as a strip, and flickering."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from drapery.compare.metrics import errors
+from drapery.render.frame import Frame, Pixels
+
+GAP = 8
+LABEL_HEIGHT = 20
+PAPER = (246, 246, 244, 255)
+INK = (40, 40, 44, 255)
+CHECKER = (224, 214)
+
+
+def difference_panel(expected: Pixels, actual: Pixels, gain: int = 8) -> Pixels:
+    """Where two pictures differ: the expected one in faint grey, errors in red times `gain`."""
+    worst = errors(expected, actual).astype(np.int32)
+    luminance = on_checker(expected)[..., :3].astype(np.int32).mean(axis=-1)
+    faint = (210 + luminance * 45 / 255).astype(np.int32)
+    strength = np.where(worst > 0, np.clip(worst * gain, 96, 255), 0)
+    red = np.where(worst > 0, 255 - strength // 8, faint)
+    rest = np.where(worst > 0, 224 - strength * 224 // 255, faint)
+    panel = np.stack([red, rest, rest, np.full_like(red, 255)], axis=-1)
+    return panel.astype(np.uint8)
+
+
+def on_checker(pixels: Pixels, cell: int = 8) -> Pixels:
+    """The picture over a light checker, so that transparency shows."""
+    height, width = pixels.shape[:2]
+    rows, columns = np.ogrid[:height, :width]
+    board = np.where((rows // cell + columns // cell) % 2, *CHECKER)[..., None]
+    alpha = pixels[..., 3:].astype(np.uint16)
+    mixed = (pixels[..., :3] * alpha + board * (255 - alpha) + 127) // 255
+    opaque = np.full((height, width, 1), 255)
+    return np.concatenate([mixed, opaque], axis=-1).astype(np.uint8)
+
+
+def enlarge(pixels: Pixels, scale: int) -> Pixels:
+    """Every pixel as a square of `scale` pixels."""
+    return pixels.repeat(scale, axis=0).repeat(scale, axis=1)
+
+
+def strip(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) -> Frame:
+    """Labelled pictures in rows on paper."""
+    columns = columns or len(pictures)
+    rows = -(-len(pictures) // columns)
+    cell_w = max(_label_width(label, picture) for label, picture in pictures) + GAP
+    cell_h = max(picture.shape[0] for _, picture in pictures) + LABEL_HEIGHT + GAP
+    sheet = Image.new("RGBA", (columns * cell_w + GAP, rows * cell_h + GAP), PAPER)
+    pen = ImageDraw.Draw(sheet)
+    for place, (label, picture) in enumerate(pictures):
+        row, column = divmod(place, columns)
+        x, y = GAP + column * cell_w, GAP + row * cell_h
+        pen.text((x, y), label, fill=INK, font=_font())
+        sheet.paste(Image.fromarray(on_checker(picture)), (x, y + LABEL_HEIGHT))
+    return Frame(np.asarray(sheet))
+
+
+def side_by_side(
+    expected: Pixels, actual: Pixels, labels: tuple[str, str] = ("expected", "actual")
+) -> Frame:
+    """Both pictures and their difference, enlarged where they are small."""
+    scale = max(1, 256 // max(expected.shape[:2]))
+    panels = (expected, actual, difference_panel(expected, actual))
+    named = zip((*labels, "difference"), panels, strict=True)
+    return strip([(label, enlarge(panel, scale)) for label, panel in named])
+
+
+def _font() -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
+    return ImageFont.load_default(size=13)
+
+
+def _label_width(label: str, picture: Pixels) -> int:
+    return max(picture.shape[1], int(_font().getlength(label)) + 1)

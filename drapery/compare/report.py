@@ -1,0 +1,77 @@
+"""A page that holds its pictures inside itself, and the same facts as JSON."""
+
+import base64
+import io
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from PIL import Image
+
+from drapery.render.frame import Frame
+
+_PAGE = """<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>{{ title }}</title>
+<style>
+  body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem;
+         padding: 0 1rem; color: #28282c; background: #fdfdfb; }
+  h2 { margin: 2.5rem 0 .3rem; font-size: 1.1rem; }
+  img { image-rendering: pixelated; max-width: 100%; }
+  table { border-collapse: collapse; } td, th { padding: .15rem .9rem .15rem 0; text-align: left; }
+  .same { color: #23702e; } .different { color: #a3221c; }
+</style>
+<h1>{{ title }}</h1>
+<p>{{ summary }}</p>
+{% for entry in entries %}
+<section>
+<h2 class="{{ 'same' if entry.same else 'different' }}">{{ entry.name }}</h2>
+<p>{{ entry.line }}</p>
+{% if entry.facts %}<table>{% for key, value in entry.facts.items() %}
+<tr><th>{{ key }}</th><td>{{ value }}</td></tr>{% endfor %}</table>{% endif %}
+{% for label, data in entry.pictures %}<figure><img alt="{{ label }}" src="{{ data }}">
+<figcaption>{{ label }}</figcaption></figure>{% endfor %}
+</section>
+{% endfor %}
+</html>
+"""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One part of a report: what was compared, what came of it, pictures as data addresses."""
+
+    name: str
+    same: bool
+    line: str
+    facts: dict[str, object] = field(default_factory=dict)
+    pictures: tuple[tuple[str, str], ...] = ()
+
+
+def data_address(frame: Frame) -> str:
+    """The picture as a `data:` address."""
+    buffer = io.BytesIO()
+    Image.fromarray(frame.pixels).save(buffer, "PNG")
+    return data_of(buffer.getvalue(), "png")
+
+
+def data_of(encoded: bytes, kind: str) -> str:
+    """An encoded picture as a `data:` address; kind is png, gif or webp."""
+    return f"data:image/{kind};base64,{base64.b64encode(encoded).decode('ascii')}"
+
+
+def html_report(title: str, summary: str, entries: list[Entry]) -> str:
+    """The page as text; it needs no other file."""
+    from jinja2 import Environment
+
+    template = Environment(autoescape=True).from_string(_PAGE)
+    return template.render(title=title, summary=summary, entries=entries)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text file whole or not at all. Raises OutputError."""
+    from drapery.render.output import replacing
+
+    with replacing(path) as beside:
+        beside.write_text(text, encoding="utf-8")

@@ -1,0 +1,99 @@
+"""What changed between a golden and a picture, in one line."""
+
+import base64
+import io
+from collections.abc import Iterator
+
+import numpy as np
+from PIL import Image
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.banner.sprites import FRONT, flag_layers
+from drapery.compare.metrics import measure
+from drapery.render.frame import Frame, Pixels
+
+MAX_SHIFT = 4
+"""How far a layer's picture may have moved to be recognised [texels]."""
+
+LayerNote = dict[str, str]
+"""A layer as a golden keeps it: its name and its front face as a PNG."""
+
+
+def layer_notes(banner: Banner, packs: Packs) -> list[LayerNote]:
+    """What a golden remembers of a design: the front face of every layer, untinted."""
+    names = ["the cloth", f"base, {banner.base}"]
+    names += [f"{layer.pattern}, {layer.dye}" for layer in banner.layers]
+    sheets = [texels for texels, _ in flag_layers(banner, packs)]
+    return [
+        {"name": name, "face": _pack(FRONT.crop(sheet))}
+        for name, sheet in zip(names, sheets, strict=True)
+    ]
+
+
+def explain(
+    expected: Frame,
+    actual: Frame,
+    before: list[LayerNote] | None = None,
+    after: list[LayerNote] | None = None,
+) -> str:
+    """One line: which layer changed and how, where the notes tell, and by how much."""
+    if expected.pixels.shape != actual.pixels.shape:
+        return f"the size changed from {_size(expected)} to {_size(actual)}"
+    difference = measure(expected.pixels, actual.pixels)
+    figures = f"{difference.changed} pixels differ, max {difference.max_error}"
+    changes = list(_layer_changes(before, after)) if before and after else []
+    return "; ".join([*changes[:3], figures])
+
+
+def _layer_changes(before: list[LayerNote], after: list[LayerNote]) -> Iterator[str]:
+    if len(before) != len(after):
+        # Cloth and base are no layers.
+        yield f"{len(before) - 2} layers became {len(after) - 2}"
+    for number, (old, new) in enumerate(zip(before, after, strict=False)):
+        place = f"layer {number - 1}" if number > 1 else "below the layers:"
+        if old["name"] != new["name"]:
+            yield f"{place} ({old['name']}) became ({new['name']})"
+        elif old["face"] != new["face"]:
+            change = _face_change(_unpack(old["face"]), _unpack(new["face"]))
+            yield f"{place} ({old['name']}) {change}"
+
+
+def _face_change(old: Pixels, new: Pixels) -> str:
+    if old.shape != new.shape:
+        return f"changed from {old.shape[1]}x{old.shape[0]} to {new.shape[1]}x{new.shape[0]} texels"
+    for distance in range(1, MAX_SHIFT + 1):
+        if any(_moved(old, new, down, right) for down, right in _ring(distance)):
+            return f"moved by {distance} texel{'s' if distance > 1 else ''}"
+    changed = measure(old, new).changed
+    return f"has {changed} changed texel{'s' if changed > 1 else ''}"
+
+
+def _ring(distance: int) -> Iterator[tuple[int, int]]:
+    span = range(-distance, distance + 1)
+    return ((d, r) for d in span for r in span if max(abs(d), abs(r)) == distance)
+
+
+def _moved(old: Pixels, new: Pixels, down: int, right: int) -> bool:
+    """Whether `new` is `old` shifted, judged by shape where both overlap."""
+    shape = old[..., 3] > 0
+    height, width = shape.shape
+    moved = np.roll(shape, (down, right), axis=(0, 1))
+    inside = np.zeros_like(shape)
+    inside[max(0, down) : height + min(0, down), max(0, right) : width + min(0, right)] = True
+    overlap_same = bool(np.array_equal(moved[inside], (new[..., 3] > 0)[inside]))
+    return overlap_same and not np.array_equal(shape, new[..., 3] > 0)
+
+
+def _size(frame: Frame) -> str:
+    return f"{frame.pixels.shape[1]}x{frame.pixels.shape[0]}"
+
+
+def _pack(face: Pixels) -> str:
+    buffer = io.BytesIO()
+    Image.fromarray(face).save(buffer, "PNG")
+    return base64.b64encode(buffer.getvalue()).decode("ascii")
+
+
+def _unpack(face: str) -> Pixels:
+    return np.asarray(Image.open(io.BytesIO(base64.b64decode(face))).convert("RGBA"))

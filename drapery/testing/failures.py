@@ -1,0 +1,74 @@
+"""What is kept of a failed check: expected, actual, magnified difference, and a page of them all.
+
+Workers of pytest-xdist write side by side: every failure has files of its own, and the page is made
+from them at the end by the process that has no workers' part.
+"""
+
+import hashlib
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from drapery.compare.panels import side_by_side
+from drapery.compare.report import Entry, data_of, html_report, write_text
+from drapery.render.frame import Frame
+
+_FACTS = ".failure.json"
+_PICTURES = ("expected", "actual", "difference")
+_PAGE = "index.html"
+
+
+def keep_failure(
+    folder: Path, test: str, label: str, expected: Frame | None, actual: Frame, line: str
+) -> Path:
+    """Write a failure's pictures and facts; returns the picture to look at first."""
+    folder.mkdir(parents=True, exist_ok=True)
+    stem = _stem(test, label)
+    pictures = {"actual": actual}
+    if expected is not None:
+        pictures["expected"] = expected
+        if expected.pixels.shape == actual.pixels.shape:
+            pictures["difference"] = side_by_side(expected.pixels, actual.pixels)
+    for kind, frame in pictures.items():
+        Image.fromarray(np.ascontiguousarray(frame.pixels)).save(folder / f"{stem}.{kind}.png")
+    write_text(folder / (stem + _FACTS), json.dumps({"name": f"{test} [{label}]", "line": line}))
+    return folder / f"{stem}.{'difference' if 'difference' in pictures else 'actual'}.png"
+
+
+def write_report(folder: Path) -> Path | None:
+    """Make the page of all failures kept in a folder; None where there are none."""
+    entries = [_entry(facts) for facts in sorted(folder.glob(f"*{_FACTS}"))]
+    if not entries:
+        return None
+    page = folder / _PAGE
+    plural = "s" if len(entries) > 1 else ""
+    summary = f"{len(entries)} picture{plural} not as expected."
+    write_text(page, html_report("Golden images", summary, entries))
+    return page
+
+
+def clear(folder: Path) -> None:
+    """Remove what earlier runs kept; files that are not ours stay."""
+    for facts in folder.glob(f"*{_FACTS}"):
+        stem = facts.name.removesuffix(_FACTS)
+        for kind in _PICTURES:
+            (folder / f"{stem}.{kind}.png").unlink(missing_ok=True)
+        facts.unlink()
+        (folder / _PAGE).unlink(missing_ok=True)
+
+
+def _entry(facts: Path) -> Entry:
+    known = json.loads(facts.read_text(encoding="utf-8"))
+    stem = facts.name.removesuffix(_FACTS)
+    paths = [(kind, facts.parent / f"{stem}.{kind}.png") for kind in _PICTURES]
+    pictures = [(kind, data_of(path.read_bytes(), "png")) for kind, path in paths if path.exists()]
+    return Entry(known["name"], False, known["line"], pictures=tuple(pictures))
+
+
+def _stem(test: str, label: str) -> str:
+    readable = re.sub(r"[^A-Za-z0-9]+", "-", f"{test} {label}").strip("-")[-80:]
+    digest = hashlib.sha256(f"{test}\0{label}".encode()).hexdigest()
+    return f"{readable}-{digest[:8]}"

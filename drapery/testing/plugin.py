@@ -1,0 +1,101 @@
+"""The pytest plugin: the fixture `golden`, `--drapery-update`, and a report of what failed.
+
+Goldens live in `goldens/<test file>/` beside the test; syrupy keeps their names, finds those that
+no test uses any more, and gathers the results of pytest-xdist's workers.
+"""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from drapery.banner.design import Banner
+
+Golden = Callable[..., None]
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    group = parser.getgroup("drapery", "golden images")
+    group.addoption(
+        "--drapery-update",
+        action="store_true",
+        help="write the pictures of this run as the new goldens",
+    )
+    group.addoption(
+        "--drapery-report",
+        metavar="DIR",
+        default="drapery-report",
+        help="where failed pictures and their report go (default: drapery-report)",
+    )
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    if not _is_worker(session.config):
+        from drapery.testing.failures import clear
+
+        clear(_report_folder(session.config))
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    if _is_worker(config):
+        return
+    from drapery.testing.failures import write_report
+
+    page = write_report(_report_folder(config))
+    if page is not None:
+        terminalreporter.write_line(f"drapery: what the pictures show: {page}")
+
+
+@pytest.fixture
+def golden(request: pytest.FixtureRequest) -> Golden:
+    """Compare a picture with its golden file: `golden(picture, name="creeper")`.
+
+    picture: a Frame, a Pillow image, a uint8 array, or a scene to be drawn by `backend`.
+    name: the golden's name within the test; by default its number.
+    tolerance, pixels: errors of at most `tolerance` (0..255) do not count, and at most `pixels`
+        pixels may be further off; both 0 by default, which is right for the soft backend.
+    hashed: keep only size and SHA-256 instead of the picture.
+    backend: backends other than soft have goldens of their own.
+    banner, packs: the design that was drawn; a failure then says which layer changed.
+    """
+    try:
+        from drapery.testing.check import check_golden
+    except ModuleNotFoundError as missing:
+        pytest.fail(f'golden wants {missing.name}: pip install "drapery[testing]"', pytrace=False)
+
+    def check(
+        picture: Any,
+        name: str | None = None,
+        *,
+        tolerance: int = 0,
+        pixels: int = 0,
+        hashed: bool = False,
+        backend: str = "soft",
+        banner: "Banner | None" = None,
+        packs: Sequence[str | Path] = (),
+    ) -> None:
+        __tracebackhide__ = True
+        fault = check_golden(
+            request,
+            picture,
+            name=name,
+            tolerance=(tolerance, pixels),
+            hashed=hashed,
+            backend=backend,
+            design=None if banner is None else (banner, tuple(packs)),
+            report=_report_folder(request.config),
+        )
+        if fault is not None:
+            pytest.fail(fault, pytrace=False)
+
+    return check
+
+
+def _is_worker(config: pytest.Config) -> bool:
+    return hasattr(config, "workerinput")
+
+
+def _report_folder(config: pytest.Config) -> Path:
+    return config.rootpath / config.getoption("--drapery-report")
