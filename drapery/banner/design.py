@@ -1,8 +1,11 @@
 """What a banner is: a base dye and layers of (pattern, dye), in the order they were loomed."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from drapery.banner.dyes import DYES
+from drapery.banner.names import dye_name, is_custom, pattern_id
+from drapery.banner.patterns import PATTERNS
 from drapery.errors import DesignError
 
 MAX_LAYERS = 16
@@ -17,29 +20,37 @@ class Layer:
 
     pattern: the id without `minecraft:`, or `namespace:path` for a pattern of a data pack.
     dye: one of the sixteen dye names.
+
+    Other names of a pattern or dye are brought to these. Raises DesignError for an unknown one.
     """
 
     pattern: str
     dye: str
 
     def __post_init__(self) -> None:
+        if self.pattern not in PATTERNS and not is_custom(self.pattern):
+            object.__setattr__(self, "pattern", pattern_id(self.pattern))
         if self.dye not in DYES:
-            raise DesignError(f"dye {self.dye!r} is none of the sixteen: {', '.join(DYES)}")
+            object.__setattr__(self, "dye", dye_name(self.dye))
 
 
 @dataclass(frozen=True)
 class Banner:
     """A design: its base dye and up to sixteen layers, lowest first.
 
+    kind: what bears the design, a banner or a shield.
+
     Raises DesignError for an unknown dye or more than sixteen layers.
     """
 
     base: str = "white"
     layers: tuple[Layer, ...] = ()
+    kind: Literal["banner", "shield"] = "banner"
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "layers", tuple(self.layers))
         if self.base not in DYES:
-            raise DesignError(f"base dye {self.base!r} is none of the sixteen: {', '.join(DYES)}")
+            object.__setattr__(self, "base", dye_name(self.base, "base"))
         if len(self.layers) > MAX_LAYERS:
             raise DesignError(
                 f"the banner has {len(self.layers)} layers; the game shows at most {MAX_LAYERS}:"

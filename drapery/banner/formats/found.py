@@ -1,0 +1,111 @@
+"""All banners in a tree: items in containers of any sort, blocks, and what entities hold."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from drapery.banner.design import Banner
+from drapery.banner.formats.tree import (
+    Tree,
+    banner_from_block_entity,
+    banner_from_item,
+    bare,
+    base_of,
+    get,
+    is_banner_id,
+    is_shield_id,
+    under,
+)
+from drapery.errors import DesignError
+
+BlockOf = Callable[[dict[str, Tree]], str | None]
+"""Gives the id of the block that a block entity belongs to, or None where that is not known."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A banner and where it was found: a path in a tree, with a position or a name before it."""
+
+    banner: Banner
+    where: str = ""
+
+
+def find_banners(
+    tree: Tree,
+    where: str = "",
+    *,
+    block_of: BlockOf | None = None,
+    on_error: Callable[[DesignError], None] | None = None,
+) -> Iterator[Found]:
+    """Every banner and patterned shield in the tree, in the order of the text.
+
+    Looks into containers, shulker boxes, bundles, equipment, frames: any mapping or list. Plain
+    shields bear no design and are passed over. Bounded by the tree's size, however deep it is.
+
+    where: what the paths begin with, such as a block's position.
+    block_of: tells a block entity's block, whose id tells the base dye since 1.13.
+    on_error: takes the error of one broken banner, and the search goes on; without it, raised.
+    """
+    stack: list[tuple[str, Tree]] = [(where, tree)]
+    while stack:
+        at, node = stack.pop()
+        read = _reader(node, block_of)
+        if read is None:
+            stack.extend(reversed(_children(at, node)))
+            continue
+        try:
+            yield Found(read(node, at), at)
+        except DesignError as error:
+            if on_error is None:
+                raise
+            on_error(error)
+
+
+def _children(at: str, node: Tree) -> list[tuple[str, Tree]]:
+    pairs = (
+        node.items()
+        if isinstance(node, dict)
+        else enumerate(node)
+        if isinstance(node, list)
+        else ()
+    )
+    return [(under(at, key), child) for key, child in pairs if isinstance(child, (dict, list))]
+
+
+def _reader(node: Tree, block_of: BlockOf | None) -> Callable[[Tree, str], Banner] | None:
+    """What reads this node as a banner, or None if it is none."""
+    if not isinstance(node, dict):
+        return None
+    if _is_block_entity(node):
+        block = block_of(node) if block_of else None
+        return lambda entity, at: banner_from_block_entity(entity, at, block=block)
+    return banner_from_item if _is_item(node) else None
+
+
+def _is_block_entity(node: dict[str, Tree]) -> bool:
+    """A banner's block entity has the id `banner` in every version, an old item has it too."""
+    identifier = node.get("id", node.get("Id"))
+    if not isinstance(identifier, str) or bare(identifier) != "banner":
+        return False
+    return not _ITEM_KEYS.intersection(node)
+
+
+_ITEM_KEYS = frozenset({"count", "Count", "Damage", "components", "tag"})
+
+
+def _is_item(node: dict[str, Tree]) -> bool:
+    identifier = node.get("id")
+    if identifier is None and _ITEM_KEYS.intersection(node):
+        identifier = node.get("Name")  # Bedrock; in Java a block state of a palette has a Name too
+    if is_shield_id(identifier):
+        return _is_patterned_shield(node)
+    return is_banner_id(identifier) and (
+        base_of(identifier) is not None or bool(_ITEM_KEYS.intersection(node))
+    )
+
+
+def _is_patterned_shield(node: dict[str, Tree]) -> bool:
+    components, tag = node.get("components"), node.get("tag")
+    if isinstance(components, dict):
+        return any(get(components, key)[1] is not None for key in ("banner_patterns", "base_color"))
+    entity = get(tag, "BlockEntityTag")[1] if isinstance(tag, dict) else None
+    return isinstance(entity, dict) and ("Base" in entity or bool(entity.get("Patterns")))

@@ -1,0 +1,240 @@
+"""From a plain tree (dict, list, str, numbers: what SNBT, NBT and JSON give) to a banner.
+
+A tree's mappings may be any `dict`, its sequences any `list`; nbtlib's tags are both. Every
+DesignError opens with the path of its place in the tree, as `components.banner_patterns[2].color`.
+"""
+
+from collections.abc import Iterable
+from typing import Any, TypeAlias
+
+from drapery.banner.design import MAX_LAYERS, Banner, Layer
+from drapery.banner.dyes import DYES
+from drapery.banner.names import dye_name, is_custom, pattern_id, shown
+from drapery.errors import DesignError
+
+Tree: TypeAlias = Any
+"""dict[str, Tree] | list[Tree] | str | int | float | None."""
+
+OLD_BANNERS = frozenset({"banner", "standing_banner", "wall_banner"})
+"""Ids that do not tell the dye: Java up to 1.12, and Bedrock."""
+
+OMINOUS = Banner(
+    "white",
+    tuple(
+        Layer(pattern, dye)
+        for pattern, dye in (
+            ("rhombus", "cyan"),
+            ("stripe_bottom", "light_gray"),
+            ("stripe_center", "gray"),
+            ("border", "light_gray"),
+            ("stripe_middle", "black"),
+            ("half_horizontal", "light_gray"),
+            ("circle", "light_gray"),
+            ("border", "black"),
+        )
+    ),
+)
+"""The raiders' banner, which Bedrock keeps as `Type:1` and Java as its eight layers."""
+
+
+def bare(identifier: str) -> str:
+    """`minecraft:red_wall_banner[facing=north]` gives `red_wall_banner`."""
+    return identifier.partition("[")[0].strip().lower().removeprefix("minecraft:")
+
+
+def base_of(identifier: str) -> str | None:
+    """The dye that a banner's item or block id names, or None: `red_wall_banner` gives `red`."""
+    name = bare(identifier)
+    if not name.endswith("_banner"):
+        return None
+    dye = name.removesuffix("_banner").removesuffix("_wall")
+    return "light_gray" if dye == "silver" else dye if dye in DYES else None
+
+
+def is_banner_id(identifier: object) -> bool:
+    """Whether this is the id of a banner, as an item, a block or a block entity of any version."""
+    return isinstance(identifier, str) and (
+        bare(identifier) in OLD_BANNERS or base_of(identifier) is not None
+    )
+
+
+def is_shield_id(identifier: object) -> bool:
+    """Whether this is the shield's id."""
+    return isinstance(identifier, str) and bare(identifier) == "shield"
+
+
+def under(at: str, key: str | int) -> str:
+    """The path of a child: `under("a", "b")` is `a.b`, `under("a", 2)` is `a[2]`."""
+    if isinstance(key, int):
+        return f"{at}[{key}]"
+    return f"{at}.{key}" if at else key
+
+
+def get(tree: dict[str, Tree], *keys: str) -> tuple[str, Tree]:
+    """The first of the keys that the mapping has, with or without `minecraft:`, and its value.
+
+    The value is None, and the key the first asked for, where it has none of them.
+    """
+    for key in keys:
+        for spelt in (key, f"minecraft:{key}"):
+            if spelt in tree:
+                return spelt, tree[spelt]
+    return keys[0], None
+
+
+def read_layers(entries: Tree, at: str, *, inverted: bool = False) -> tuple[Layer, ...]:
+    """Layers from `[{pattern, color}, …]` or `[{Pattern, Color}, …]`; none from None.
+
+    inverted: colour numbers count from black (Java up to 1.12, and Bedrock).
+    """
+    if entries is None:
+        return ()
+    if not isinstance(entries, list):
+        raise DesignError(f"{at}: {shown(entries)} is no list of layers")
+    check_count(len(entries), at)
+    return tuple(_layer(entry, under(at, n), inverted) for n, entry in enumerate(entries))
+
+
+def check_count(count: int, at: str) -> None:
+    """Raise DesignError if these are more layers than a banner can have."""
+    if count > MAX_LAYERS:
+        raise DesignError(
+            f"{at}: {count} layers, but a banner has at most {MAX_LAYERS}: leave some out"
+        )
+
+
+def _layer(entry: Tree, at: str, inverted: bool) -> Layer:
+    if not isinstance(entry, dict):
+        raise DesignError(f"{at}: {shown(entry)} is no layer: write {{pattern:…, color:…}}")
+    pattern = _present(entry, at, "pattern", "Pattern")
+    colour = _present(entry, at, "color", "Color", "colour")
+    return Layer(_pattern(*pattern), dye_name(colour[0], colour[1], inverted=inverted))
+
+
+def _present(entry: dict[str, Tree], at: str, *keys: str) -> tuple[Tree, str]:
+    key, value = get(entry, *keys)
+    if value is None:
+        raise DesignError(f"{at}: the layer has no {keys[0]}: write {{pattern:…, color:…}}")
+    return value, under(at, key)
+
+
+def _pattern(value: Tree, at: str) -> str:
+    """A pattern by name, or defined on the spot: `{asset_id:"ns:x", translation_key:"…"}`."""
+    if not isinstance(value, dict):
+        return pattern_id(value, at)
+    key, asset = get(value, "asset_id")
+    if not isinstance(asset, str):
+        raise DesignError(f"{at}: a pattern defined on the spot needs its asset_id, as 'ns:name'")
+    return asset if is_custom(asset) else pattern_id(asset, under(at, key))
+
+
+def banner_from_item(item: Tree, at: str = "") -> Banner:
+    """A banner or shield from an item object of any version.
+
+    `{id, count, components}` (1.20.5+), `{id, Count, tag}` (1.13), with `Damage` (to 1.12), or
+    Bedrock's `{Name, Damage, Count, tag}`.
+    """
+    if not isinstance(item, dict):
+        raise DesignError(f"{at or 'item'}: {shown(item)} is no item: write {{id:…, …}}")
+    _, identifier = get(item, "id", "Name")
+    if not is_banner_id(identifier) and not is_shield_id(identifier):
+        raise DesignError(
+            f"{under(at, 'id')}: {shown(identifier)} is no banner and no shield;"
+            " give an id as 'minecraft:red_banner'"
+        )
+    key, components = get(item, "components")
+    if components is not None:
+        return banner_from_components(identifier, components, under(at, key))
+    damage = item.get("Damage")
+    return banner_from_tag(identifier, item.get("tag"), under(at, "tag"), data=damage)
+
+
+def banner_from_components(item_id: str, components: Tree, at: str = "") -> Banner:
+    """A banner or shield from the item's id and its component mapping (1.20.5+)."""
+    components = _mapping(components, at)
+    key, entries = get(components, "banner_patterns")
+    layers = read_layers(entries, under(at, key))
+    if is_shield_id(item_id):
+        key, base = get(components, "base_color")
+        return _shield(None if base is None else dye_name(base, under(at, key)), layers, at)
+    return Banner(_known_base(item_id, at), layers)
+
+
+def banner_from_tag(item_id: str, tag: Tree, at: str = "", *, data: Tree = None) -> Banner:
+    """A banner or shield from the item's id and its tag (before 1.20.5, and Bedrock).
+
+    data: the item's damage value, which is the dye (15 - its number) up to 1.12 and on Bedrock.
+    """
+    tag = _mapping(tag, at)
+    key, entity = get(tag, "BlockEntityTag")
+    if entity is None:
+        key, entity = "", tag
+    inner = under(at, key) if key else at
+    entity = _mapping(entity, inner)
+    if is_shield_id(item_id):
+        return _shield_from_tag(entity, inner, inverted=data is not None)
+    if base_of(item_id) is None and "Base" not in entity:
+        # A damage value left out is 0, which is black.
+        entity = entity | {"Base": 0 if data is None else data}
+    return banner_from_block_entity(entity, inner, block=item_id)
+
+
+def _shield_from_tag(entity: dict[str, Tree], at: str, *, inverted: bool) -> Banner:
+    layers = read_layers(entity.get("Patterns"), under(at, "Patterns"), inverted=inverted)
+    base = entity.get("Base")
+    dye = None if base is None else dye_name(base, under(at, "Base"), inverted=inverted)
+    return _shield(dye, layers, at)
+
+
+def _shield(base: str | None, layers: tuple[Layer, ...], at: str) -> Banner:
+    if base is None and not layers:
+        raise DesignError(
+            f"{at or 'shield'}: a plain shield bears no design: give base_color or banner_patterns"
+        )
+    return Banner(base or "white", layers, kind="shield")
+
+
+def banner_from_block_entity(entity: Tree, at: str = "", *, block: str | None = None) -> Banner:
+    """A banner from its block entity: `patterns` (1.20.5+) or `Patterns`, and `Base` if it is old.
+
+    block: the id of the block that it belongs to, which tells the base dye since 1.13. Without
+    one that does, the entity must have `Base`, and its colour numbers count from black (Java up
+    to 1.12, and Bedrock), or be Bedrock's ominous banner (`Type:1`).
+    """
+    entity = _mapping(entity, at)
+    dye = None if block is None else base_of(block)
+    if dye is None and entity.get("Type") == 1:
+        return OMINOUS
+    key, entries = get(entity, "patterns", "Patterns")
+    if dye is not None:
+        return Banner(dye, read_layers(entries, under(at, key)))
+    if "Base" not in entity:
+        raise DesignError(
+            f"{at or 'block entity'}: the base dye is not told here but by the block's id:"
+            " put it before, as minecraft:red_banner{…}"
+        )
+    base = dye_name(entity["Base"], under(at, "Base"), inverted=True)
+    return Banner(base, read_layers(entries, under(at, key), inverted=True))
+
+
+def _known_base(item_id: str, at: str) -> str:
+    dye = base_of(item_id)
+    if dye is None:
+        raise DesignError(
+            f"{at or 'item'}: {shown(item_id)} does not tell the base dye;"
+            " give an id as 'minecraft:red_banner'"
+        )
+    return dye
+
+
+def _mapping(tree: Tree, at: str) -> dict[str, Tree]:
+    if tree is None:
+        return {}
+    if not isinstance(tree, dict):
+        raise DesignError(f"{at or 'the text'}: {shown(tree)} where a compound {{…}} is wanted")
+    return tree
+
+
+def names(layers: Iterable[Layer]) -> list[dict[str, str]]:
+    """Layers as the game's components hold them: `[{"pattern": …, "color": …}, …]`."""
+    return [{"pattern": layer.pattern, "color": layer.dye} for layer in layers]

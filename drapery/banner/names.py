@@ -1,0 +1,147 @@
+"""Names that people give to patterns and dyes, in every tongue of the game, brought to its ids."""
+
+from functools import cache
+
+from drapery.banner.dyes import DYE_NAMES, DYES
+from drapery.banner.patterns import BY_CODE, PATTERNS
+from drapery.errors import DesignError
+
+_BUKKIT = {
+    "stripe_small": "small_stripes",
+    "diagonal_right": "diagonal_up_right",
+    "diagonal_left_mirror": "diagonal_up_left",
+    "diagonal_right_mirror": "diagonal_right",
+    "circle_middle": "circle",
+    "rhombus_middle": "rhombus",
+    "half_vertical_mirror": "half_vertical_right",
+    "half_horizontal_mirror": "half_horizontal_bottom",
+}
+"""The server API's names, where they are not the ids. DIAGONAL_RIGHT is the trap: it is `rd`."""
+
+_BEDROCK = {"flw": "flow", "gus": "guster"}
+
+_ALSO = {
+    "field": "base",
+    "fully": "base",
+    "masoned": "bricks",
+    "brick": "bricks",
+    "saltire": "cross",
+    "chevron_inverted": "triangle_top",
+    "lozenge": "rhombus",
+    "creeper_face": "creeper",
+    "skull_and_crossbones": "skull",
+    "thing": "mojang",
+}
+
+_DYE_ALSO = {"silver": "light_gray", "grey": "gray", "light_grey": "light_gray"}
+
+_PATH_LETTERS = frozenset("abcdefghijklmnopqrstuvwxyz0123456789_-./")
+_LONGEST = 256
+
+
+def shown(value: object, longest: int = 40) -> str:
+    """The value as an error quotes it: on one line and short, whatever was given."""
+    if isinstance(value, dict):
+        return f"a compound of {len(value)}"
+    if isinstance(value, (list, tuple)):
+        return f"a list of {len(value)}"
+    text = value if isinstance(value, str) else str(value)
+    if len(text) > longest:
+        text = text[: longest - 1] + "…"
+    return repr(text) if isinstance(value, str) else text
+
+
+def plain(name: str) -> str:
+    """The name in the spelling of ids: `Per Bend-Sinister` gives `per_bend_sinister`."""
+    words = name.lower().removeprefix("minecraft:").replace("-", " ").replace("_", " ").split()
+    return "_".join(words)
+
+
+@cache
+def _pattern_table() -> dict[str, str]:
+    titles = {plain(p.title): p.name for p in PATTERNS.values()}
+    codes = {code: p.name for code, p in BY_CODE.items()}
+    ids = {name: name for name in PATTERNS}
+    # Later wins: `base` and `cross` are ids before they are the heralds' Base and Cross.
+    return titles | _ALSO | _BUKKIT | _BEDROCK | codes | ids
+
+
+def is_custom(name: str) -> bool:
+    """Whether the name is `namespace:path` of a data pack: not the game's own, and a safe path."""
+    namespace, colon, path = name.partition(":")
+    return (
+        bool(colon and namespace and namespace != "minecraft" and len(name) <= _LONGEST)
+        and "/" not in namespace
+        and _PATH_LETTERS.issuperset(namespace)
+        and _PATH_LETTERS.issuperset(path)
+        and not {"", ".", ".."}.intersection([namespace, *path.split("/")])
+    )
+
+
+def pattern_id(name: object, at: str = "", *, bukkit: bool = False) -> str:
+    """The id of the pattern that is meant: `creeper`, or `namespace:path` of a data pack.
+
+    Takes ids with and without `minecraft:`, codes of versions before 1.20.5, Bedrock's codes,
+    Bukkit's names and English titles in any case. `bukkit` says that the name is surely Bukkit's.
+
+    Raises DesignError, opening with the place `at`.
+    """
+    if not isinstance(name, str):
+        raise DesignError(f"{_place(at)}{shown(name)} is no pattern: give its id, as 'creeper'")
+    if is_custom(name):
+        return name
+    key = plain(name)
+    if key == "diagonal_right" and (bukkit or name.strip() == "DIAGONAL_RIGHT"):
+        return _BUKKIT[key]
+    found = _pattern_table().get(key)
+    if found is None:
+        raise DesignError(f"{_place(at)}unknown pattern {shown(name)}{_pattern_hint(name, key)}")
+    return found
+
+
+def dye_name(value: object, at: str = "", *, inverted: bool = False) -> str:
+    """The dye that is meant by a name or by a number from 0 to 15.
+
+    White is number 0, or 15 where `inverted` (Java up to 1.12, and Bedrock).
+
+    Raises DesignError, opening with the place `at`.
+    """
+    if isinstance(value, int) and not isinstance(value, bool):
+        if not 0 <= value < len(DYE_NAMES):
+            raise DesignError(f"{_place(at)}{shown(value)} is no dye: they are numbered 0 to 15")
+        return DYE_NAMES[15 - value if inverted else value]
+    if not isinstance(value, str):
+        raise DesignError(f"{_place(at)}{shown(value)} is no dye: give its name, as 'lime'")
+    key = plain(value)
+    name = _DYE_ALSO.get(key, key)
+    if name not in DYES:
+        hint = _did_you_mean(key, [*DYES, *_DYE_ALSO])
+        raise DesignError(
+            f"{_place(at)}unknown dye {shown(value)}{hint or ': the sixteen are '}"
+            + ("" if hint else ", ".join(DYES))
+        )
+    return name
+
+
+def is_dye(value: str) -> bool:
+    """Whether the text names a dye."""
+    key = plain(value)
+    return key in DYES or key in _DYE_ALSO
+
+
+def _place(at: str) -> str:
+    return f"{at}: " if at else ""
+
+
+def _pattern_hint(name: str, key: str) -> str:
+    if ":" in name and not name.startswith("minecraft:"):
+        return ": a data pack's pattern is 'namespace:path' in small letters"
+    return _did_you_mean(key, _pattern_table()) or ": give an id, as 'creeper' or 'stripe_top'"
+
+
+def _did_you_mean(key: str, names: "dict[str, str] | list[str]") -> str:
+    import difflib
+
+    # Matching takes time with the square of the length; nobody misspells that much.
+    close = difflib.get_close_matches(key[:40], [n for n in names if len(n) > 1], 1, 0.6)
+    return f"; did you mean '{close[0]}'?" if close else ""
