@@ -1,0 +1,50 @@
+"""What all tests share: strict numerics, a real pack, the command line."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drapery import cli
+
+GIVE = (
+    '/give @p minecraft:white_banner[banner_patterns=[{pattern:"creeper",color:"lime"},'
+    '{pattern:"border",color:"black"}]]'
+)
+"""A banner as a person copies it out of the game."""
+
+
+@pytest.fixture(autouse=True)
+def strict_numerics() -> None:
+    """No test may pass by way of an overflow or an invalid operation."""
+    np.seterr(over="raise", divide="raise", invalid="raise", under="ignore")
+
+
+@pytest.fixture(scope="session")
+def real_pack() -> Path:
+    folder = os.environ.get("DRAPERY_TEST_PACKS")
+    if not folder:
+        pytest.skip("DRAPERY_TEST_PACKS names no folder with real packs")
+    pack = Path(folder) / "pixel-perfection-ce"
+    if not pack.is_dir():
+        pytest.skip(f"no pixel-perfection-ce in {folder}")
+    return pack
+
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def drapery(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    """Run the command line in this process: (exit code, standard output, standard error)."""
+
+    def run(*words: str | Path) -> tuple[int, str, str]:
+        monkeypatch.setattr("sys.argv", ["drapery", *map(str, words)])
+        with pytest.raises(SystemExit) as ended:
+            cli.main()
+        out, err = capsys.readouterr()
+        return int(ended.value.code or 0), out, err
+
+    return run

@@ -1,0 +1,188 @@
+"""The command line does the job, and bad input ends in one clear line and exit code 2."""
+
+import io
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import GIVE, Run
+from PIL import Image
+
+from drapery import Banner, DraperyError, animate, draw
+
+
+def test_render_writes_what_draw_draws(drapery: Run, tmp_path: Path) -> None:
+    target = tmp_path / "out.png"
+    code, _, err = drapery("render", GIVE, "-o", target, "--size", "120x160", "--view", "iso")
+    assert (code, [line for line in err.splitlines() if "kernels" not in line]) == (0, [])
+    frame = draw(Banner.parse(GIVE), size=(120, 160), view="iso")
+    assert np.array_equal(np.asarray(Image.open(target)), frame.pixels)
+
+
+def test_animate_writes_what_animate_draws(drapery: Run, tmp_path: Path) -> None:
+    target = tmp_path / "out.apng"
+    words = ("--size", "60x80", "--seconds", "0.5", "--fps", "10")
+    assert drapery("animate", GIVE, "-o", target, *words)[0] == 0
+    drawn = animate(Banner.parse(GIVE), size=(60, 80), seconds=0.5, fps=10)
+    with Image.open(target) as image:
+        assert image.n_frames == len(drawn) == 5
+        for number, frame in enumerate(drawn):
+            image.seek(number)
+            assert np.array_equal(np.asarray(image.convert("RGBA")), frame.pixels)
+
+
+def test_a_folder_gets_numbered_frames(drapery: Run, tmp_path: Path) -> None:
+    words = ("--size", "20x20", "--seconds", "0.3", "--fps", "10")
+    assert drapery("animate", "red", "-o", f"{tmp_path}/frames/", *words)[0] == 0
+    assert len(list((tmp_path / "frames").glob("*.png"))) == 3
+
+
+def test_the_same_command_gives_the_same_bytes(drapery: Run, tmp_path: Path) -> None:
+    for ending in ("png", "gif", "webp"):
+        targets = [tmp_path / f"{i}.{ending}" for i in range(2)]
+        for target in targets:
+            words = ["render"] if ending == "png" else ["animate", "--seconds", "0.2"]
+            assert drapery(*words, GIVE, "-o", target, "--size", "40x40")[0] == 0
+        assert targets[0].read_bytes() == targets[1].read_bytes()
+
+
+def test_flat_is_the_plain_face(drapery: Run, tmp_path: Path) -> None:
+    target = tmp_path / "face.png"
+    assert drapery("flat", GIVE, "-o", target, "--scale", "3")[0] == 0
+    with Image.open(target) as image:
+        assert image.size == (60, 120)
+        texels = np.asarray(image)
+    assert np.array_equal(texels, texels[::3, ::3].repeat(3, axis=0).repeat(3, axis=1))
+    assert (texels[..., 3] == 255).all()
+
+
+@pytest.mark.parametrize("form", ["json", "give", "give-legacy", "text"])
+def test_show_converts_to_a_form_that_reads_back(drapery: Run, form: str) -> None:
+    code, out, _ = drapery("show", GIVE, "--as", form)
+    assert code == 0
+    assert Banner.parse(out.strip()) == Banner.parse(GIVE)
+
+
+def test_show_names_every_layer(drapery: Run) -> None:
+    _, out, _ = drapery("show", GIVE)
+    for word in ("white", "lime", "creeper", "Creeper Charge", "black", "Bordure"):
+        assert word in out
+
+
+def test_a_design_is_read_from_a_file_and_from_standard_input(
+    drapery: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    design = tmp_path / "banner.txt"
+    design.write_text(GIVE)
+    from_file = drapery("show", design, "--as", "text")
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(GIVE.encode())))
+    assert from_file == drapery("show", "-", "--as", "text") != (0, "", "")
+
+
+def bad_packs(folder: Path) -> dict[str, Path]:
+    """A missing pack, a file that is none, a truncated zip, and a PNG that unfolds too far."""
+    text = folder / "pack.zip"
+    text.write_text("not a zip")
+    short = folder / "short.zip"
+    with zipfile.ZipFile(short, "w") as pack:
+        pack.writestr("pack.mcmeta", "{}" * 999)
+    short.write_bytes(short.read_bytes()[:100])
+    bomb = folder / "bomb"
+    sprite = bomb / "assets/minecraft/textures/entity/banner/creeper.png"
+    sprite.parent.mkdir(parents=True)
+    Image.new("1", (20000, 20000)).save(sprite)
+    return {"missing": folder / "none.zip", "text": text, "short": short, "bomb": bomb}
+
+
+BAD_DESIGNS = {
+    "unknown pattern": ("white creper:lime", "creeper"),
+    "unknown dye": ("white creeper:lme", "lime"),
+    "unclosed command": (GIVE[:-8], ""),
+    "17 layers": ("white " + "creeper:lime " * 17, "16"),
+    "nothing": ("", ""),
+}
+
+
+@pytest.mark.parametrize("case", BAD_DESIGNS)
+def test_a_bad_design_is_one_line(drapery: Run, tmp_path: Path, case: str) -> None:
+    design, hint = BAD_DESIGNS[case]
+    target = tmp_path / "out.png"
+    code, _, err = drapery("render", design, "-o", target)
+    assert code == 2
+    assert len(err.splitlines()) == 1 and err.startswith("drapery: ")
+    assert hint in err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("case", ["missing", "text", "short", "bomb"])
+def test_a_bad_pack_is_one_line_that_names_it(drapery: Run, tmp_path: Path, case: str) -> None:
+    pack = bad_packs(tmp_path)[case]
+    target = tmp_path / "out.png"
+    code, _, err = drapery("render", GIVE, "-o", target, "--pack", pack, "--size", "20x20")
+    lines = [line for line in err.splitlines() if "kernels" not in line]
+    assert (code, len(lines)) == (2, 1)
+    assert pack.name in lines[0]
+    assert not target.exists()
+
+
+BAD_OPTIONS = [
+    ("--size", "0x512"),
+    ("--size", "100000x100000"),
+    ("--size", "big"),
+    ("--grid", "1x9"),
+    ("--grid", "5000x9"),
+    ("--wind", "nan"),
+    ("--time", "-1"),
+    ("--thickness", "99"),
+    ("--background", "#12"),
+    ("--pose", "stiff"),
+    ("--placement", "floor"),
+    ("--view", "below"),
+    ("--layers", "three"),
+    ("--backend", "crayon"),
+    ("--seed", "-4"),
+]
+
+
+@pytest.mark.parametrize("option", BAD_OPTIONS, ids=" ".join)
+def test_a_bad_option_is_one_line_that_names_it(
+    drapery: Run, tmp_path: Path, option: tuple[str, str]
+) -> None:
+    code, _, err = drapery("render", GIVE, "-o", tmp_path / "out.png", *option)
+    lines = [line for line in err.splitlines() if "kernels" not in line]
+    assert (code, len(lines)) == (2, 1)
+    assert option[0].strip("-") in lines[0]
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("target", ["no/such/folder/out.png", "out.doc", "."])
+def test_a_bad_target_is_one_line(drapery: Run, tmp_path: Path, target: str) -> None:
+    code, _, err = drapery("render", GIVE, "-o", tmp_path / target)
+    assert (code, len(err.splitlines())) == (2, 1)
+    assert not list(tmp_path.iterdir())
+
+
+def test_unknown_words_are_one_line(drapery: Run) -> None:
+    for words in (("paint",), ("render", GIVE), ("render", GIVE, "-o", "x.png", "--colour")):
+        code, _, err = drapery(*words)
+        assert (code, len(err.splitlines())) == (2, 1)
+
+
+def test_the_library_raises_what_the_command_line_prints() -> None:
+    with pytest.raises(DraperyError, match="size"):
+        draw(Banner(), size=(0, 10))
+
+
+def test_help_does_not_wait_for_the_kernels() -> None:
+    """`drapery --help` must not import numba; it is what a newcomer types first."""
+    code = (
+        "import sys; sys.argv = ['drapery', '--help']\n"
+        "from drapery.cli import main\n"
+        "try: main()\n"
+        "except SystemExit: pass\n"
+        "assert 'numba' not in sys.modules and 'numpy' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
