@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import reduce
+from typing import TypeAlias
 
 from drapery.banner.design import Banner
 from drapery.banner.formats.tree import (
@@ -19,6 +21,13 @@ from drapery.errors import DesignError
 
 BlockOf = Callable[[dict[str, Tree]], str | None]
 """Gives the id of the block that a block entity belongs to, or None where that is not known."""
+
+_Path: TypeAlias = tuple["_Path | None", str | int]
+"""A place in a tree: its parent's path and its key. Spelt out only where a banner is, since a
+hostile file's paths are long and many."""
+
+_MOST_STEPS = 16
+_LONGEST_STEP = 200
 
 
 @dataclass(frozen=True)
@@ -45,13 +54,17 @@ def find_banners(
     block_of: tells a block entity's block, whose id tells the base dye since 1.13.
     on_error: takes the error of one broken banner, and the search goes on; without it, raised.
     """
-    stack: list[tuple[str, Tree]] = [(where, tree)]
-    while stack:
-        at, node = stack.pop()
+    open_nodes: list[Iterator[tuple[_Path, Tree]]] = [iter([((None, where), tree)])]
+    while open_nodes:
+        path, node = next(open_nodes[-1], (None, None))
+        if path is None:
+            open_nodes.pop()
+            continue
         read = _reader(node, block_of)
         if read is None:
-            stack.extend(reversed(_children(at, node)))
+            open_nodes.append(_children(path, node))
             continue
+        at = _spelt(path)
         try:
             yield Found(read(node, at), at)
         except DesignError as error:
@@ -60,7 +73,7 @@ def find_banners(
             on_error(error)
 
 
-def _children(at: str, node: Tree) -> list[tuple[str, Tree]]:
+def _children(path: _Path, node: Tree) -> Iterator[tuple[_Path, Tree]]:
     pairs = (
         node.items()
         if isinstance(node, dict)
@@ -68,7 +81,25 @@ def _children(at: str, node: Tree) -> list[tuple[str, Tree]]:
         if isinstance(node, list)
         else ()
     )
-    return [(under(at, key), child) for key, child in pairs if isinstance(child, (dict, list))]
+    return (
+        ((path, key), child) for key, child in pairs if child and isinstance(child, (dict, list))
+    )
+
+
+def _spelt(path: _Path) -> str:
+    """A path as a text; of a very long one, the first and the last steps."""
+    keys: list[str | int] = []
+    step: _Path | None = path
+    while step is not None:
+        step, key = step
+        keys.append(key)
+    where = str(keys.pop())
+    keys.reverse()
+    if len(keys) > _MOST_STEPS:
+        keys[_MOST_STEPS // 2 : -_MOST_STEPS // 2] = ["…"]
+    return reduce(
+        under, (key[:_LONGEST_STEP] if isinstance(key, str) else key for key in keys), where
+    )
 
 
 def _reader(node: Tree, block_of: BlockOf | None) -> Callable[[Tree, str], Banner] | None:

@@ -21,7 +21,7 @@ from drapery.errors import DesignError
 MAX_DEPTH = 512
 """Compounds and lists inside each other: the game's own limit."""
 
-MAX_TAGS = 750_000
+MAX_TAGS = 500_000
 """Tags in one file; an array is one tag, and schematics keep their blocks in arrays."""
 
 MAX_NAMES = 4096
