@@ -13,6 +13,8 @@ from drapery.render.light import GAME_LIGHT, Light
 Texels = NDArray[np.uint8]
 """A texture: sRGB with straight alpha, shape [H, W, 4], top row first."""
 
+Alpha = Literal["opaque", "cutout", "blend"]
+
 
 @dataclass(frozen=True, eq=False)
 class Coat:
@@ -31,11 +33,13 @@ class Look:
     """Coats on one surface, lowest first; they share the mesh's UVs, whatever their sizes.
 
     alpha: what the lowest coat's alpha means. `opaque` ignores it (the game's solid layer),
-    `cutout` leaves out pixels under one half, `blend` lays it over what is behind.
+        `cutout` leaves out pixels under one half, `blend` lays it over what is behind.
+    lit: whether the scene's light falls on it; otherwise it shows its plain colours.
     """
 
     coats: tuple[Coat, ...]
-    alpha: Literal["opaque", "cutout", "blend"] = "opaque"
+    alpha: Alpha = "opaque"
+    lit: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +61,12 @@ class Model:
 class Scene:
     """Everything one picture needs.
 
+    The arrays in it must not be changed in place: what is the same from one picture to the next
+    is prepared once and known again by identity.
+
     size: width and height in pixels.
     background: straight-alpha sRGB colour; (0, 0, 0, 0) is transparent.
+    samples: 1, 4 or 16 samples a pixel, on a regular grid; 1 is pixel art's hard edge.
     """
 
     models: tuple[Model, ...]
@@ -66,3 +74,4 @@ class Scene:
     size: tuple[int, int] = (512, 512)
     light: Light = field(default=GAME_LIGHT)
     background: tuple[int, int, int, int] = (0, 0, 0, 0)
+    samples: Literal[1, 4, 16] = 1

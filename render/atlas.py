@@ -1,0 +1,94 @@
+"""Many sprites on one sheet."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import OptionError
+from drapery.render.scene import Texels
+
+PADDING = 1
+"""Texels around each sprite, copies of its border: sampling that is off by less cannot bleed."""
+
+FEW_SIZES = 8
+"""Up to so many different sizes, a block for each size wastes little, and needs no packer."""
+
+MAX_SHEET = 1 << 28
+"""The most texels of an atlas; 1 GiB."""
+
+Rects = NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class Atlas:
+    """A sheet of sprites.
+
+    texels: sRGB with straight alpha, shape [H, W, 4], uint8.
+    rects: where each sprite lies, x, y, width, height in texels, shape [S, 4].
+    """
+
+    texels: Texels
+    rects: Rects
+
+
+def make_atlas(sprites: Sequence[Texels]) -> Atlas:
+    """Lay sprites of any sizes on one sheet. Raises OptionError where they need too much room."""
+    if not sprites:
+        return Atlas(np.zeros((1, 1, 4), np.uint8), np.zeros((0, 4), np.int32))
+    sizes = np.array([sprite.shape[1::-1] for sprite in sprites], np.int64)
+    rects, (width, height) = place(sizes + 2 * PADDING)
+    if width * height > MAX_SHEET:
+        raise OptionError(
+            f"the scene's {len(sprites)} textures need {width} x {height} texels;"
+            f" use smaller ones: all together at most {MAX_SHEET} texels"
+        )
+    sheet = np.zeros((height, width, 4), np.uint8)
+    for sprite, (x, y) in zip(sprites, rects, strict=True):
+        padded = np.pad(sprite, ((PADDING, PADDING), (PADDING, PADDING), (0, 0)), mode="edge")
+        sheet[y : y + padded.shape[0], x : x + padded.shape[1]] = padded
+    return Atlas(sheet, np.concatenate([rects + PADDING, sizes], axis=1).astype(np.int32))
+
+
+def place(sizes: NDArray[np.int64]) -> tuple[NDArray[np.int64], tuple[int, int]]:
+    """Corners [S, 2] for rectangles of these sizes [S, 2], none on another; and the sheet's size.
+
+    Sprites mostly come in few sizes, and those lie in a grid for each size. Many sizes at once
+    go to trimesh's packer, a tree of free rectangles (it takes half a second to import).
+    """
+    kinds = np.unique(sizes, axis=0)
+    return _grids(sizes, kinds) if len(kinds) <= FEW_SIZES else _packed(sizes)
+
+
+def _grids(
+    sizes: NDArray[np.int64], kinds: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], tuple[int, int]]:
+    side = int(np.ceil(np.sqrt(sizes.prod(axis=1).sum())))
+    width = max(side, int(sizes[:, 0].max()))
+    corners = np.zeros_like(sizes)
+    top = right = 0
+    for kind in kinds[::-1]:
+        (members,) = np.nonzero((sizes == kind).all(axis=1))
+        columns = min(int(width // kind[0]), len(members))
+        row, column = np.divmod(np.arange(len(members)), columns)
+        corners[members, 0] = column * kind[0]
+        corners[members, 1] = top + row * kind[1]
+        top += int((row[-1] + 1) * kind[1])
+        right = max(right, columns * int(kind[0]))
+    return corners, (right, top)
+
+
+def _packed(sizes: NDArray[np.int64]) -> tuple[NDArray[np.int64], tuple[int, int]]:
+    from trimesh.path.packing import rectangles_single
+
+    # Largest first packs tightest, and the order is fixed: no shuffling.
+    order = np.lexsort((-sizes[:, 0], -sizes[:, 1]))
+    # What stands between bounds and success differs between versions of trimesh.
+    bounds, *_, packed = rectangles_single(sizes[order].astype(np.float64), rotate=False)
+    assert packed.all(), "without a maximum size the packer grows its sheet until all fit"
+    corners = np.zeros_like(sizes)
+    corners[order] = np.rint(bounds[:, 0]).astype(np.int64)
+    corners -= corners.min(axis=0)
+    width, height = (corners + sizes).max(axis=0)
+    return corners, (int(width), int(height))

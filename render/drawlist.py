@@ -1,0 +1,186 @@
+"""A scene's models merged into one list of triangles with one atlas.
+
+The constant part (triangles, UVs, looks, atlas) is prepared once for all pictures that share it;
+only positions and normals are read anew for each. A batch of meshes becomes one long mesh, so
+thousands of banners cost no more calls than one.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import OptionError
+from drapery.mesh import Array, Triangles
+from drapery.render.light import Light
+from drapery.render.recent import Recent
+from drapery.render.scene import Model
+from drapery.render.wardrobe import Wardrobe, wardrobe
+
+Float32 = NDArray[np.float32]
+
+MAX_TRIANGLES = (1 << 24) - 2
+"""The most triangles of one picture; the rasteriser names one in 24 bits."""
+
+
+@dataclass(frozen=True, eq=False)
+class Topology:
+    """What does not move.
+
+    uvs: fractions of the sprite, shape [V, 2]; (0, 0) is its top left corner.
+    triangles: vertex indices into the merged list, shape [T, 3], int32.
+    triangle_look: a place in the wardrobe, shape [T], int32.
+    vertex_start: where each model's vertices begin, shape [M + 1].
+    wardrobe: what the triangles wear.
+    """
+
+    uvs: Float32
+    triangles: Triangles
+    triangle_look: NDArray[np.int32]
+    vertex_start: NDArray[np.int64]
+    wardrobe: Wardrobe
+
+
+@dataclass(frozen=True, eq=False)
+class DrawList:
+    """Everything to be drawn, in drawing order.
+
+    positions: [m], shape [V, 3], float32.
+    normals: unit vectors, shape [V, 3], float32.
+    topology: triangles, UVs and what they wear.
+    """
+
+    positions: Float32
+    normals: Float32
+    topology: Topology
+
+    def brightness(self, light: Light) -> Array:
+        """The factor by which light multiplies the colour at each vertex, shape [V]."""
+        lit = np.zeros(len(self.positions), np.bool_)
+        for triangles, shines in self._by_light():
+            lit[triangles] = shines
+        return np.where(lit, light.brightness(self.normals), np.float32(1))
+
+    def _by_light(self) -> list[tuple[Triangles, bool]]:
+        shines = self.topology.wardrobe.look_lit[self.topology.triangle_look]
+        return [(self.topology.triangles[shines == lit], lit) for lit in (False, True)]
+
+
+_recent: Recent[Topology] = Recent()
+
+
+def draw_list(models: Sequence[Model]) -> DrawList:
+    """Merge models into one list, reusing the constant part of recent lists.
+
+    Raises OptionError, naming the model, for arrays that do not fit together.
+    """
+    constant = topology(models)
+    return DrawList(
+        _joined([model.mesh.positions for model in models]),
+        _joined([model.mesh.normals for model in models]),
+        constant,
+    )
+
+
+def topology(models: Sequence[Model]) -> Topology:
+    """The constant part of the models' draw list; see `draw_list`."""
+    arrays = tuple(
+        part
+        for model in models
+        for part in (model.mesh.triangles, model.mesh.uvs, model.look_index, *model.looks)
+    )
+    shapes = [(model.mesh.positions.shape, model.mesh.normals.shape) for model in models]
+    return _recent.get(arrays, shapes, lambda: _merge(models))
+
+
+def _merge(models: Sequence[Model]) -> Topology:
+    for number, model in enumerate(models):
+        _check(number, model)
+    vertices = [model.mesh.positions.size // 3 for model in models]
+    starts = np.cumsum([0, *vertices], dtype=np.int64)
+    _check_count(sum(_batch(model) * len(model.mesh.triangles) for model in models))
+    looks = [look for model in models for look in model.looks]
+    first_look = np.cumsum([0, *(len(model.looks) for model in models)])
+    empty = np.zeros((0, 3), np.int32)
+    return Topology(
+        np.concatenate([np.zeros((0, 2), np.float32), *(_uvs(model) for model in models)]),
+        np.concatenate([empty, *(_triangles(m, s) for m, s in zip(models, starts, strict=False))]),
+        np.concatenate(
+            [empty[:, 0], *(_looks(m, f) for m, f in zip(models, first_look, strict=False))]
+        ),
+        starts,
+        wardrobe(looks),
+    )
+
+
+def _batch(model: Model) -> int:
+    """How many copies of the mesh the model has."""
+    return 1 if model.mesh.positions.ndim == 2 else len(model.mesh.positions)
+
+
+def _uvs(model: Model) -> Float32:
+    return np.tile(np.asarray(model.mesh.uvs, np.float32), (_batch(model), 1))
+
+
+def _triangles(model: Model, start: int) -> Triangles:
+    """Vertex indices of all copies, shape [B * T, 3]."""
+    offsets = start + np.arange(_batch(model)) * model.mesh.positions.shape[-2]
+    return (model.mesh.triangles + offsets[:, None, None]).reshape(-1, 3).astype(np.int32)
+
+
+def _looks(model: Model, first: int) -> NDArray[np.int32]:
+    index = model.look_index if model.look_index is not None else np.zeros(_batch(model), np.int32)
+    return np.repeat(index + first, len(model.mesh.triangles)).astype(np.int32)
+
+
+def _joined(parts: list[Array]) -> Float32:
+    """Vertices of all models, shape [V, 3]; one model's own float32 array is not copied."""
+    flat = [np.asarray(part, np.float32).reshape(-1, 3) for part in parts]
+    if len(flat) == 1:
+        return flat[0]
+    return np.concatenate([np.zeros((0, 3), np.float32), *flat])
+
+
+def _check_count(triangles: int) -> None:
+    if triangles > MAX_TRIANGLES:
+        raise OptionError(
+            f"the scene has {triangles} triangles; one picture takes at most {MAX_TRIANGLES}:"
+            " draw fewer models, or coarser ones"
+        )
+
+
+def _check(number: int, model: Model) -> None:
+    """Refuse what would read outside an array."""
+    mesh = model.mesh
+    if mesh.positions.ndim not in (2, 3) or mesh.positions.shape[-1] != 3:
+        _refuse(number, "positions", mesh.positions, "[V, 3] or [B, V, 3]")
+    if mesh.normals.shape != mesh.positions.shape:
+        _refuse(number, "normals", mesh.normals, f"{mesh.positions.shape} as its positions")
+    vertices = mesh.positions.shape[-2]
+    if mesh.uvs.shape != (vertices, 2) or not np.isfinite(mesh.uvs).all():
+        _refuse(number, "uvs", mesh.uvs, f"({vertices}, 2), all finite")
+    if mesh.triangles.ndim != 2 or mesh.triangles.shape[1] != 3:
+        _refuse(number, "triangles", mesh.triangles, "[T, 3]")
+    if not _all_within(mesh.triangles, vertices):
+        raise OptionError(
+            f"model {number}: its triangles name vertices outside 0..{vertices - 1};"
+            " give indices of its own positions"
+        )
+    index = model.look_index
+    if index is not None and index.shape != (_batch(model),):
+        _refuse(number, "look_index", index, f"({_batch(model)},)")
+    if not _all_within(np.zeros(1, np.int32) if index is None else index, len(model.looks)):
+        raise OptionError(
+            f"model {number}: look_index names looks outside its {len(model.looks)};"
+            " give a place in its looks"
+        )
+
+
+def _all_within(index: NDArray[Any], count: int) -> bool:
+    return index.size == 0 or (int(index.min()) >= 0 and int(index.max()) < count)
+
+
+def _refuse(number: int, name: str, array: NDArray[Any], wanted: str) -> None:
+    raise OptionError(f"model {number}: {name} have shape {array.shape}; use {wanted}")
