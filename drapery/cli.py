@@ -5,7 +5,7 @@ import sys
 import click
 import typer
 
-from drapery.commands import animate, doctor, flat, render, show
+from drapery.commands import animate, compare, doctor, flat, render, show
 from drapery.commands.notices import adopt_warnings, say
 from drapery.errors import DraperyError
 
@@ -20,6 +20,7 @@ for name, command in {
     "animate": animate,
     "flat": flat,
     "show": show,
+    "compare": compare,
     "doctor": doctor,
 }.items():
     app.command(name)(command.run)

@@ -19,9 +19,13 @@ def draw(banner: Banner, **options: Unpack[Options]) -> Frame:
 
     Raises OptionError, PackError or BackendError.
     """
+    return draw_with(banner, Settings(**options))
+
+
+def draw_with(banner: Banner, settings: Settings) -> Frame:
+    """`draw` with options that have been checked before."""
     from drapery.scenes.banner import still
 
-    settings = Settings(**options)
     packs = open_packs(settings.packs)
     (frame,) = _drawn([still(banner, packs, settings)], packs, settings)
     return frame

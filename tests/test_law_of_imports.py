@@ -25,7 +25,7 @@ LAW: dict[str, set[str]] = {
     "drapery.style": {"errors", "mesh", "settings", "banner", "render"},
     "drapery.scenes": {"errors", "mesh", "settings", "cloth", "banner", "style", "render"},
     "drapery.pictures": {"errors", "mesh", "settings", "banner", "render", "scenes"},
-    "drapery.compare": {"errors", "render"},
+    "drapery.compare": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
     "drapery.testing": {"errors", "banner", "render", "compare"},
 }
 TOP_FLOOR = {"drapery.cli", "drapery.commands", "drapery.__main__", "drapery"}

@@ -59,6 +59,19 @@ def strip(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) ->
     return Frame(np.asarray(sheet))
 
 
+def stack(frames: Sequence[Frame]) -> Frame:
+    """Pictures under one another on paper, flush left."""
+    width = max(frame.pixels.shape[1] for frame in frames)
+    height = sum(frame.pixels.shape[0] for frame in frames)
+    sheet = np.full((height, width, 4), PAPER, np.uint8)
+    top = 0
+    for frame in frames:
+        rows, columns = frame.pixels.shape[:2]
+        sheet[top : top + rows, :columns] = frame.pixels
+        top += rows
+    return Frame(sheet)
+
+
 def side_by_side(
     expected: Pixels, actual: Pixels, labels: tuple[str, str] = ("expected", "actual")
 ) -> Frame:

@@ -67,14 +67,15 @@ def _scenes(
 ) -> Iterator[Scene]:
     """One scene for each moment of the flag, positions [F, V, 3], all framed alike."""
     frame = Model(wood(settings.placement), (wood_look(packs),))
-    look = flag_look(banner, packs, settings.layers)
+    # One tuple for all moments: the renderer prepares what does not change only once.
+    looks = (flag_look(banner, packs, settings.layers),)
     everything = np.concatenate([frame.mesh.positions, flags.positions.reshape(-1, 3)])
     width, height = settings.size
     camera = frame_view(settings.view, (everything.min(0), everything.max(0)), width / height)
     for positions, normals in zip(flags.positions, flags.normals, strict=True):
         flag = replace(flags, positions=positions, normals=normals)
         yield Scene(
-            (frame, Model(flag, (look,))),
+            (frame, Model(flag, looks)),
             camera,
             settings.size,
             background=background_colour(settings.background),

@@ -1,0 +1,130 @@
+"""`drapery compare`: where designs, packs, layer modes, backends or pictures differ."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice
+
+if TYPE_CHECKING:
+    from drapery.compare.comparison import Pair
+    from drapery.compare.variants import Variant
+    from drapery.render.frame import Frame
+
+
+def run(
+    ctx: typer.Context,
+    subjects: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="A [B]...",
+            help="Designs, packs with one design, or pictures drawn before.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "-o",
+            "--out",
+            metavar="FILE",
+            help="Side by side as .png, flickering as .gif, a report as .html, figures as .json.",
+        ),
+    ] = None,
+    tolerance: Annotated[int, typer.Option(help="Channel errors up to this do not count.")] = 0,
+    pixels: Annotated[int, typer.Option(help="So many pixels may differ more.")] = 0,
+    perceptual: Annotated[
+        bool, typer.Option("--perceptual", help="SSIM and FLIP as well (extra: compare).")
+    ] = False,
+    cost: Annotated[
+        bool, typer.Option("--cost", help="Quads drawn and time for a frame as well.")
+    ] = False,
+    pack: o.PackOption = None,
+    pose: o.PoseOption = "cloth",
+    placement: o.PlacementOption = "standing",
+    view: o.ViewOption = "front",
+    size: o.SizeOption = "512x512",
+    grid: o.GridOption = "5x9",
+    wind: o.WindOption = 4.0,
+    time: o.TimeOption = 3.0,
+    seed: o.SeedOption = 0,
+    layers: Annotated[
+        str, typer.Option(help="One mode, or stacked,flat to compare the two.")
+    ] = "stacked",
+    thickness: o.ThicknessOption = 1.0,
+    background: o.BackgroundOption = "transparent",
+    backend: Annotated[
+        str, typer.Option(help="One backend, or soft,pyrender to compare the two.")
+    ] = "auto",
+) -> None:
+    """Hold pictures against the first; exit code 0 same, 1 different, 2 bad input."""
+    from drapery.compare.comparison import compare_variants
+    from drapery.compare.variants import variants
+    from drapery.settings import Settings, within
+
+    within("tolerance", tolerance, 0, 255)
+    within("pixels", pixels, 0, 2**31)
+    modes, backends = layers.split(","), backend.split(",")
+    words = ctx.params | {"layers": modes[0], "backend": backends[0]}
+    settings = Settings(**o.options_of(words))
+    with compile_notice():
+        chosen = variants(subjects, settings, modes, backends)
+        pairs = compare_variants(chosen, perceptual=perceptual)
+        costs = {v.label: _cost(v) for v in chosen} if cost else {}
+    for pair in pairs:
+        print(pair.line())
+    for label, figures in costs.items():
+        print(f"{label}: {figures['quads']} quads, {figures['ms_per_frame']:.2f} ms a frame")
+    for target in out or []:
+        _write(target, pairs, costs)
+    raise typer.Exit(0 if all(_close(pair, tolerance, pixels) for pair in pairs) else 1)
+
+
+def _cost(variant: "Variant") -> dict[str, float]:
+    from drapery.compare.cost import cost_of
+
+    measured = cost_of(variant)
+    return {"quads": measured.quads, "ms_per_frame": measured.milliseconds}
+
+
+def _close(pair: "Pair", tolerance: int, pixels: int) -> bool:
+    from drapery.compare.metrics import measure
+
+    frames = pair.first.frame.pixels, pair.other.frame.pixels
+    return measure(*frames, slack=tolerance).changed <= pixels
+
+
+def _write(target: Path, pairs: "list[Pair]", costs: dict[str, dict[str, float]]) -> None:
+    from drapery.compare.comparison import pair_entry, pair_sheet
+    from drapery.compare.panels import stack
+    from drapery.compare.report import html_report, write_text
+    from drapery.errors import OptionError
+    from drapery.render.frame import Animation
+
+    ending = target.suffix.lower()
+    if ending == ".png":
+        stack([pair_sheet(pair) for pair in pairs]).save(target)
+    elif ending == ".gif":
+        Animation(_flicker(pairs), 2.0).save(target)
+    elif ending == ".html":
+        entries = [pair_entry(pair) for pair in pairs]
+        summary = " ".join(
+            f"{label}: {c['quads']:.0f} quads, {c['ms_per_frame']:.2f} ms a frame."
+            for label, c in costs.items()
+        )
+        write_text(target, html_report("Comparison", summary, entries))
+    elif ending == ".json":
+        facts = [
+            {"a": p.first.label, "b": p.other.label, "from": p.culprit, **p.difference.as_dict()}
+            for p in pairs
+        ]
+        write_text(target, json.dumps({"pairs": facts, "cost": costs}, indent=2) + "\n")
+    else:
+        raise OptionError(f"{target}: a comparison is written as .png, .gif, .html or .json")
+
+
+def _flicker(pairs: "list[Pair]") -> "tuple[Frame, ...]":
+    return pairs[0].first.frame, *(pair.other.frame for pair in pairs)

@@ -1,0 +1,98 @@
+"""A comparison: every variant against the first, and which layer makes the difference."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from drapery.compare.metrics import Difference, measure
+from drapery.compare.panels import side_by_side, strip
+from drapery.compare.report import Entry, data_address
+from drapery.compare.variants import Variant
+from drapery.errors import OptionError
+from drapery.render.frame import Frame
+
+
+@dataclass(frozen=True)
+class Pair:
+    """One variant held against the first.
+
+    build_up: for each number of layers drawn (0 is the base alone) both pictures and how they
+        differ; empty for finished pictures.
+    """
+
+    first: Variant
+    other: Variant
+    difference: Difference
+    build_up: tuple[tuple[Frame, Frame, Difference], ...]
+
+    @property
+    def culprit(self) -> str | None:
+        """The step of the build-up from which the two differ."""
+        for count, (_, _, difference) in enumerate(self.build_up):
+            if not difference.same:
+                return _step_name(self.other, count)
+        return None
+
+    def line(self) -> str:
+        """What came of it, in one line."""
+        both = f"{self.first.label} and {self.other.label}"
+        if self.difference.same:
+            return f"{both} are the same to the last bit"
+        figures = (
+            f"{self.difference.changed} of {self.difference.pixels} pixels differ,"
+            f" max {self.difference.max_error}, mean {self.difference.mean_error:.3f}"
+        )
+        cause = f"; from {self.culprit} on" if self.culprit else ""
+        return f"{both}: {figures}{cause}"
+
+
+def compare_variants(variants: Sequence[Variant], perceptual: bool = False) -> list[Pair]:
+    """Hold every variant against the first. Raises OptionError where sizes differ."""
+    if len(variants) < 2:
+        raise OptionError("one picture cannot be compared; name at least two")
+    first, *others = variants
+    return [_pair(first, other, perceptual) for other in others]
+
+
+def _pair(first: Variant, other: Variant, perceptual: bool) -> Pair:
+    difference = measure(first.frame.pixels, other.frame.pixels, perceptual=perceptual)
+    steps = []
+    if first.banner is not None and not difference.same:
+        for count in range(max(first.layer_count, other.layer_count) + 1):
+            a, b = first.with_layers(count), other.with_layers(count)
+            steps.append((a, b, measure(a.pixels, b.pixels)))
+    return Pair(first, other, difference, tuple(steps))
+
+
+def pair_sheet(pair: Pair) -> Frame:
+    """Both pictures and their difference side by side."""
+    labels = (pair.first.label[:40], pair.other.label[:40])
+    return side_by_side(pair.first.frame.pixels, pair.other.frame.pixels, labels)
+
+
+def build_up_sheet(pair: Pair) -> Frame | None:
+    """The build-up of both, one column a step; None for finished pictures."""
+    if not pair.build_up:
+        return None
+    names = [_step_name(pair.other, count) for count in range(len(pair.build_up))]
+    firsts = [(name, a.pixels) for name, (a, _, _) in zip(names, pair.build_up, strict=True)]
+    others = [(f"max {difference.max_error}", b.pixels) for _, b, difference in pair.build_up]
+    return strip([*firsts, *others], columns=len(names))
+
+
+def _step_name(variant: Variant, count: int) -> str:
+    if count == 0 or variant.banner is None:
+        return "base"
+    if count > len(variant.banner.layers):
+        return f"layer {count}"
+    layer = variant.banner.layers[count - 1]
+    return f"layer {count} ({layer.pattern}, {layer.dye})"
+
+
+def pair_entry(pair: Pair) -> Entry:
+    """The pair as a part of a report."""
+    pictures = [("side by side", data_address(pair_sheet(pair)))]
+    sheet = build_up_sheet(pair)
+    if sheet is not None:
+        pictures.append(("built up layer by layer", data_address(sheet)))
+    facts = {k: v for k, v in pair.difference.as_dict().items() if v is not None}
+    return Entry(pair.other.label, pair.difference.same, pair.line(), facts, tuple(pictures))

@@ -1,0 +1,43 @@
+"""What a way of drawing costs: textured quads, and time for a frame."""
+
+from dataclasses import dataclass
+from statistics import median
+from time import perf_counter
+
+from drapery.banner.packs import open_packs
+from drapery.compare.variants import Variant
+from drapery.errors import OptionError
+from drapery.render.backends import backend
+from drapery.render.scene import Scene
+from drapery.scenes.banner import still
+
+REPEATS = 9
+
+
+@dataclass(frozen=True)
+class Cost:
+    """quads: textured quads drawn; milliseconds: for one frame, the median of a few."""
+
+    quads: int
+    milliseconds: float
+
+
+def cost_of(variant: Variant) -> Cost:
+    """Measure a variant on this machine. Raises OptionError for a finished picture."""
+    if variant.banner is None or variant.settings is None:
+        raise OptionError(f"{variant.label} is a finished picture; it costs nothing to draw")
+    scene = still(variant.banner, open_packs(variant.settings.packs), variant.settings)
+    draw_scene = backend(variant.settings.backend)
+    draw_scene(scene)
+    times = []
+    for _ in range(REPEATS):
+        start = perf_counter()
+        draw_scene(scene)
+        times.append(perf_counter() - start)
+    return Cost(quads(scene), 1000 * median(times))
+
+
+def quads(scene: Scene) -> int:
+    """Textured quads in a scene: two triangles each, once for every coat."""
+    triangles = sum(len(m.mesh.triangles) * len(m.looks[0].coats) for m in scene.models)
+    return triangles // 2

@@ -1,0 +1,128 @@
+"""What is compared: designs, packs, layer modes, backends, or finished pictures."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import read_design
+from drapery.errors import OptionError
+from drapery.pictures import draw_with
+from drapery.render.frame import Frame
+from drapery.settings import Settings
+
+PICTURE_ENDINGS = (".png", ".gif", ".webp", ".apng")
+MAX_PICTURE_SIDE = 16384
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One of the things compared: its label, and how to draw it with only its first layers.
+
+    frame: the whole picture.
+    banner, settings: None for a finished picture.
+    """
+
+    label: str
+    frame: Frame
+    banner: Banner | None = None
+    settings: Settings | None = None
+
+    def with_layers(self, count: int) -> Frame:
+        """The picture with the first `count` layers; the whole one for a finished picture."""
+        if self.banner is None or self.settings is None:
+            return self.frame
+        return draw_with(replace(self.banner, layers=self.banner.layers[:count]), self.settings)
+
+    @property
+    def layer_count(self) -> int:
+        return 0 if self.banner is None else len(self.banner.layers)
+
+
+def variants(
+    subjects: Sequence[str],
+    settings: Settings,
+    layer_modes: Sequence[str] = (),
+    backends: Sequence[str] = (),
+) -> list[Variant]:
+    """What the words of a comparison name, each drawn.
+
+    subjects: two or more pictures; or one or more designs, and packs to draw them with.
+    Raises OptionError where nothing, or more than one thing, varies.
+    """
+    pictures = [subject for subject in subjects if _is_picture(subject)]
+    if pictures:
+        if len(pictures) < len(subjects) or len(pictures) < 2:
+            raise OptionError(
+                f"{pictures[0]} is a picture; compare it with other pictures, and only with those"
+            )
+        return [Variant(Path(p).name, _load(Path(p))) for p in pictures]
+    packs = [subject for subject in subjects if _is_pack(subject)]
+    designs = [subject for subject in subjects if subject not in packs]
+    return _drawn(designs, packs, settings, layer_modes, backends)
+
+
+def _drawn(
+    designs: list[str],
+    packs: list[str],
+    settings: Settings,
+    layer_modes: Sequence[str],
+    backends: Sequence[str],
+) -> list[Variant]:
+    banners = [(text, read_design(text)) for text in designs]
+    if not banners:
+        raise OptionError(
+            "no design is named; give one beside the packs, like 'white creeper:lime'"
+        )
+    axes = {
+        "designs": [(text, {}) for text in designs] if len(designs) > 1 else [],
+        "packs": [(Path(p).name, {"packs": (*settings.packs, p)}) for p in packs],
+        "layers": [(mode, {"layers": mode}) for mode in layer_modes],
+        "backends": [(name, {"backend": name}) for name in backends],
+    }
+    varied = {name: values for name, values in axes.items() if len(values) > 1}
+    if len(varied) != 1:
+        found = " and ".join(varied) or "nothing"
+        raise OptionError(
+            f"a comparison varies one thing, and here {found} would vary; give two designs, two"
+            " packs, --layers stacked,flat or --backend soft,pyrender"
+        )
+    fixed = {
+        k: v for name, values in axes.items() if len(values) == 1 for k, v in values[0][1].items()
+    }
+    base = replace(settings, **fixed)
+    ((axis, values),) = varied.items()
+    made = []
+    for number, (label, changes) in enumerate(values):
+        banner = banners[number if axis == "designs" else 0][1]
+        changed = replace(base, **changes)
+        made.append(Variant(label, draw_with(banner, changed), banner, changed))
+    return made
+
+
+def _is_picture(subject: str) -> bool:
+    return subject.lower().endswith(PICTURE_ENDINGS) and Path(subject).is_file()
+
+
+def _is_pack(subject: str) -> bool:
+    path = Path(subject) if len(subject) < 1024 else Path()
+    return (
+        (path / "pack.mcmeta").is_file()
+        or (path / "assets").is_dir()
+        or (path.suffix.lower() in (".zip", ".jar") and path.is_file())
+    )
+
+
+def _load(path: Path) -> Frame:
+    try:
+        with Image.open(path) as image:
+            if max(image.size) > MAX_PICTURE_SIDE:
+                raise OptionError(f"{path} is larger than {MAX_PICTURE_SIDE} pixels; use a smaller")
+            return Frame(np.asarray(image.convert("RGBA")))
+    except OptionError:
+        raise
+    except Exception as error:  # Pillow raises many kinds for a broken file
+        raise OptionError(f"{path} is no readable picture ({error}); draw it again") from error
