@@ -1,0 +1,31 @@
+"""Drawings written as text become shades and coverage."""
+
+import numpy as np
+
+from drapery.assets.canvas import Grey
+
+SHADES = {"#": 255, "o": 218}
+"""Brightness of a drawn texel, out of 255."""
+
+
+def rows_of(drawing: str) -> list[str]:
+    """The rows of a drawing, which must be equally long and of known signs only."""
+    rows = drawing.split()
+    if len({len(row) for row in rows}) != 1 or set(drawing) - set(".\n") - set(SHADES):
+        raise ValueError(f"not a drawing: {drawing!r}")
+    return rows
+
+
+def shades(drawing: str) -> Grey:
+    """The drawing's shades, 0 where it is open, shape [rows, columns]."""
+    values = [[SHADES.get(sign, 0) for sign in row] for row in rows_of(drawing)]
+    return np.array(values, np.uint8)
+
+
+def centred(drawing: Grey, width: int, height: int) -> Grey:
+    """The drawing in the middle of a face, open all around, shape [height, width]."""
+    rows, columns = drawing.shape
+    top, left = (height - rows) // 2, (width - columns) // 2
+    face = np.zeros((height, width), np.uint8)
+    face[top : top + rows, left : left + columns] = drawing
+    return face

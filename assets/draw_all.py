@@ -1,0 +1,72 @@
+"""Draws all our art into a folder: `python -m drapery.assets.draw_all [FOLDER]`."""
+
+import json
+import sys
+from pathlib import Path
+
+from drapery.assets.banner import base_sheet, pattern_sheet
+from drapery.assets.canvas import Texels
+from drapery.assets.png import encode
+from drapery.banner.patterns import PATTERN_NAMES
+from drapery.errors import DraperyError, OutputError
+
+TEXTURES = "minecraft/textures"
+
+PACK_FORMAT = 34
+"""The resource packs of Java 1.21."""
+
+
+def banner_sheets() -> dict[str, Texels]:
+    """The banner's sheets by their path within the textures."""
+    sheets = {f"entity/banner/{name}.png": pattern_sheet(name) for name in PATTERN_NAMES}
+    return {"entity/banner_base.png": base_sheet(), **sheets}
+
+
+def all_sheets() -> dict[str, Texels]:
+    """Every texture of ours by its path within the textures."""
+    return banner_sheets()
+
+
+def pack_description() -> str:
+    """The text of `pack.mcmeta`."""
+    pack = {"pack_format": PACK_FORMAT, "description": "Drapery's own banners"}
+    return json.dumps({"pack": pack}, indent=2) + "\n"
+
+
+def all_files() -> dict[str, bytes]:
+    """Every file of the art by its path in the folder, in a fixed order."""
+    pictures = {f"{TEXTURES}/{path}": encode(sheet) for path, sheet in all_sheets().items()}
+    return {"pack.mcmeta": pack_description().encode(), **pictures}
+
+
+def write_art(folder: Path) -> list[Path]:
+    """Write every file of the art under `folder`; returns their paths.
+
+    Raises OutputError where one cannot be written.
+    """
+    written = []
+    for name, content in all_files().items():
+        target = folder / name
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(content)
+        except OSError as fault:
+            raise OutputError(f"{target}: {fault.strerror}; choose a folder to write in") from fault
+        written.append(target)
+    return written
+
+
+def main(arguments: list[str]) -> int:
+    """Draw into the folder named first, else into this package itself."""
+    folder = Path(arguments[0]) if arguments else Path(__file__).parent
+    try:
+        written = write_art(folder)
+    except DraperyError as fault:
+        print(fault, file=sys.stderr)
+        return 2
+    print(f"{len(written)} files drawn in {folder}")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
