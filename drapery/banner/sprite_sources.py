@@ -4,12 +4,13 @@
 source wins over an earlier one, and a filter takes away what came before it.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from drapery.banner.pack_filters import Filter, parse_filter
 from drapery.banner.pack_meta import read_json
+from drapery.banner.texture_ids import full_id, split_id
 from drapery.errors import PackError
 
 _MAX_SOURCES = 4096
@@ -50,33 +51,21 @@ def parse_atlas(data: bytes, name: str) -> tuple[tuple[SpriteSource, ...], tuple
     return known, tuple(source for source in read if isinstance(source, str))
 
 
-def find_texture(
-    sprite: str, sources: Sequence[SpriteSource], exists: Callable[[str], bool]
-) -> str | None:
-    """The id of the texture behind a sprite's id (both `namespace:path`), or None."""
-    namespace, path = sprite.split(":", 1)
+def textures_of(sprite: str, sources: Sequence[SpriteSource]) -> Iterator[str]:
+    """The ids of textures that may stand behind a sprite's id, the first to try first.
+
+    Ids are `namespace:path`; which of the textures exists is for the caller to see.
+    """
+    namespace, path = split_id(sprite)
     for source in reversed(sources):
         if isinstance(source, Filter):
             if source.matches(namespace, path):
-                return None
-            continue
-        texture = _texture(source, sprite, namespace, path)
-        if texture is not None and exists(texture):
-            return texture
-    return None
-
-
-def with_namespace(text: str) -> str:
-    """An id with its namespace, which is `minecraft` where none is written."""
-    return text if ":" in text else f"minecraft:{text}"
-
-
-def _texture(source: Directory | Single, sprite: str, namespace: str, path: str) -> str | None:
-    if isinstance(source, Single):
-        return source.resource if source.sprite == sprite else None
-    if not path.startswith(source.prefix):
-        return None
-    return f"{namespace}:{source.source}/{path.removeprefix(source.prefix)}"
+                return
+        elif isinstance(source, Single):
+            if source.sprite == sprite:
+                yield source.resource
+        elif path.startswith(source.prefix):
+            yield f"{namespace}:{source.source}/{path.removeprefix(source.prefix)}"
 
 
 def _source(entry: dict[str, Any], name: str) -> SpriteSource | str:
@@ -84,9 +73,9 @@ def _source(entry: dict[str, Any], name: str) -> SpriteSource | str:
     if kind == "directory":
         return Directory(_text(entry, "source", name).strip("/"), _text(entry, "prefix", name))
     if kind == "single":
-        resource = with_namespace(_text(entry, "resource", name))
+        resource = full_id(_text(entry, "resource", name), name)
         sprite = _text(entry, "sprite", name) if "sprite" in entry else resource
-        return Single(resource, with_namespace(sprite))
+        return Single(resource, full_id(sprite, name))
     if kind == "filter":
         return parse_filter(entry.get("pattern"), name)
     return kind

@@ -138,10 +138,10 @@ def shield_layers(banner: Banner | None, packs: Packs, time: float = 0.0) -> tup
     time: for animated textures [s]. Raises PackError.
     """
     if banner is None:
-        return ((packs.shield_base(patterned=False, time=time), WHITE),)
+        return ((packs.base("shield_base_nopattern", time), WHITE),)
     dyed = [("base", banner.base), *((layer.pattern, layer.dye) for layer in banner.layers)]
     sheets = [(packs.sheet(pattern, "shield", time), DYES[dye].rgb) for pattern, dye in dyed]
-    return (packs.shield_base(patterned=True, time=time), WHITE), *sheets
+    return (packs.base("shield_base", time), WHITE), *sheets
 
 
 def face(

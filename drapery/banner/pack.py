@@ -1,0 +1,104 @@
+"""One resource or data pack: its files with its overlays over them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from drapery.banner.pack_meta import MAX_JSON, PackMeta, parse_meta, parse_version
+from drapery.banner.pack_sources import Source, open_source
+from drapery.banner.patterns import PATTERN_NAMES
+from drapery.banner.texture_ids import is_id
+
+
+@dataclass(frozen=True, eq=False)
+class Pack:
+    """One opened pack.
+
+    roots: prefixes of its names, topmost overlay first, the pack itself last.
+    format: the resource format it is read as, None where it is unknown.
+    """
+
+    source: Source
+    meta: PackMeta = field(default_factory=PackMeta)
+    roots: tuple[str, ...] = ("",)
+    format: int | None = None
+
+    @property
+    def label(self) -> str:
+        """What messages call it."""
+        return self.source.label
+
+    def read(self, name: str, limit: int) -> bytes | None:
+        """The topmost file of that name, or None. Raises PackError."""
+        for root in self.roots:
+            data = self.source.read(root + name, limit)
+            if data is not None:
+                return data
+        return None
+
+    def hides(self, name: str) -> bool:
+        """Whether its filters hide this file in the packs below."""
+        _, namespace, path = name.split("/", 2)
+        return any(hidden.matches(namespace, path) for hidden in self.meta.filters)
+
+    def files(self, folder: str) -> tuple[str, ...]:
+        """Names of all files under a folder, overlays included, sorted."""
+        found = {
+            name.removeprefix(root)
+            for root in self.roots
+            for name in self.source.files(root + folder)
+        }
+        return tuple(sorted(found))
+
+    def folders(self, folder: str) -> tuple[str, ...]:
+        """Names of the folders right under a folder, overlays included, sorted."""
+        return tuple(sorted({n for root in self.roots for n in self.source.folders(root + folder)}))
+
+
+def open_pack(path: str | Path, format: int | None = None) -> Pack:
+    """One pack by itself.
+
+    format: the resource format of the game to be; None is the newest that the pack supports.
+    Raises PackError naming the path and the remedy.
+    """
+    source = open_source(path)
+    meta = _read_meta(source)
+    # Data packs count formats of their own, so a resource format says nothing about them.
+    wanted = format if source.folders("assets") else None
+    roots = (*(f"{name}/" for name in meta.directories(wanted)), "")
+    return Pack(source, meta, roots, meta.newest() if format is None else format)
+
+
+def added_patterns(pack: Pack) -> tuple[str, ...]:
+    """The patterns beyond the 43 that a pack defines or has a texture for, sorted full ids."""
+    found = {
+        name
+        for namespace in pack.folders("data")
+        for name in _ids(pack, namespace, f"data/{namespace}/banner_pattern", ".json")
+    }
+    for namespace in pack.folders("assets"):
+        folder = f"assets/{namespace}/textures/entity/banner"
+        found |= _without_maps(set(_ids(pack, namespace, folder, ".png")))
+    ours = {f"minecraft:{name}" for name in (*PATTERN_NAMES, "banner_base")}
+    return tuple(sorted(found - ours))
+
+
+def _ids(pack: Pack, namespace: str, folder: str, ending: str) -> Iterator[str]:
+    for name in pack.files(folder):
+        full = f"{namespace}:{name[len(folder) + 1 : -len(ending)]}"
+        if name.endswith(ending) and is_id(full):
+            yield full
+
+
+def _without_maps(names: set[str]) -> set[str]:
+    """Without the LabPBR maps that lie beside other textures."""
+    return {name for name in names if name[-2:] not in ("_n", "_s") or name[:-2] not in names}
+
+
+def _read_meta(source: Source) -> PackMeta:
+    data = source.read("pack.mcmeta", MAX_JSON)
+    if data is not None:
+        return parse_meta(data, f"{source.label}: pack.mcmeta")
+    # A client jar says its format elsewhere.
+    data = source.read("version.json", MAX_JSON)
+    return PackMeta() if data is None else parse_version(data, f"{source.label}: version.json")

@@ -1,0 +1,56 @@
+"""Small resource packs for tests, as folders and zips."""
+
+import json
+import zipfile
+from collections.abc import Mapping
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+BANNER = "assets/minecraft/textures/entity/banner/"
+SHIELD = "assets/minecraft/textures/entity/shield/"
+OLD_BASE = "assets/minecraft/textures/entity/banner_base.png"
+NEW_BASE = BANNER + "banner_base.png"
+
+
+def png(texels: np.ndarray, **options: Any) -> bytes:
+    """A PNG file of an array [H, W], [H, W, 2], [H, W, 3] or [H, W, 4]."""
+    file = BytesIO()
+    Image.fromarray(texels).save(file, "png", **options)
+    return file.getvalue()
+
+
+def plain(*rgba: int, side: int = 64) -> bytes:
+    """A square PNG of one colour."""
+    return png(np.full((side, side, 4), rgba, np.uint8))
+
+
+def noise(seed: int, side: int = 64) -> np.ndarray:
+    """Random texels [side, side, 4], each channel independent."""
+    return np.random.default_rng(seed).integers(0, 256, (side, side, 4), np.uint8)
+
+
+def mcmeta(pack_format: int = 46, **more: Any) -> bytes:
+    """A `pack.mcmeta`; `pack` and other sections may be given."""
+    root = {"pack": {"pack_format": pack_format, "description": "a test"}} | more
+    return json.dumps(root).encode()
+
+
+def folder_pack(path: Path, files: Mapping[str, bytes | str]) -> Path:
+    """Write a pack's files into a folder."""
+    for name, data in files.items():
+        target = path / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(data.encode() if isinstance(data, str) else data)
+    return path
+
+
+def zip_pack(path: Path, files: Mapping[str, bytes | str], top: str = "") -> Path:
+    """Write a pack's files into a zip, under a top folder if one is given."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            archive.writestr(top + name, data)
+    return path
