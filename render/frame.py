@@ -20,7 +20,7 @@ class Frame:
         """Write the picture; the ending chooses the format. Raises OutputError."""
         from drapery.render.encode import save_frame
 
-        save_frame(self, Path(path))
+        save_frame(self, path)
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,4 +40,4 @@ class Animation:
         """Write the animation; the ending, or a folder, chooses the format. Raises OutputError."""
         from drapery.render.encode import save_animation
 
-        save_animation(self.frames, self.fps, Path(path))
+        save_animation(self.frames, self.fps, path)

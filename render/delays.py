@@ -1,0 +1,12 @@
+"""How long each frame is shown, in a format's whole ticks."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import count
+
+
+def delays(fps: float, ticks_per_second: int) -> Iterator[int]:
+    """Each frame's time in ticks; their sum is never more than half a tick from the true time."""
+    step = ticks_per_second / Fraction(fps)
+    for frame in count():
+        yield round(step * (frame + 1)) - round(step * frame)

@@ -1,0 +1,169 @@
+"""Frames to files: the ending, or a folder, chooses the format.
+
+| target                 | what is written                                                      |
+|------------------------|----------------------------------------------------------------------|
+| .png .webp             | a still, lossless                                                    |
+| .apng (.png) .webp     | an animation, lossless, with alpha                                   |
+| .gif                   | up to 255 colours exact, one bit of alpha                            |
+| .mp4 .webm             | a video (extra `video`); a WebM keeps its alpha, an MP4 lies on white |
+| .sheet.png             | all frames in one PNG, and NAME.sheet.json beside it                 |
+| folder/, or no ending  | frame_0000.png and so on                                             |
+
+Every animation loops forever. The same frames give the same bytes. A file is replaced whole or not
+at all.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sized
+from functools import partial
+from itertools import chain
+from pathlib import Path
+from typing import BinaryIO
+
+from drapery.errors import OptionError
+from drapery.render.frame import Frame
+from drapery.render.output import check_writable, replacing
+from drapery.render.palette import Matte
+
+Progress = Callable[[int, int | None], None]
+Writer = Callable[[BinaryIO, Iterable[Frame]], None]
+
+STILL_ENDINGS = (".png", ".apng", ".webp", ".gif")
+ANIMATION_ENDINGS = (".gif", ".apng", ".png", ".webp", ".mp4", ".webm", ".sheet.png")
+MAX_FPS = 1000
+
+
+def save_frame(frame: Frame, path: str | Path, *, matte: Matte | None = None) -> None:
+    """Write one picture as PNG, lossless WebP or GIF.
+
+    matte: in a GIF, the colour behind half-transparent pixels; None keeps those of at least half
+    alpha as they are. Raises OptionError for an unknown ending, OutputError for a bad target.
+    """
+    path = Path(path)
+    ending = check_still_target(path)
+    with replacing(path) as partial_file, partial_file.open("wb") as file:
+        if ending == ".gif":
+            from drapery.render.gif import write_gif
+
+            write_gif(file, [frame], 1, matte)
+        else:
+            file.write(_still_bytes(frame, ending))
+
+
+def save_animation(
+    frames: Iterable[Frame],
+    fps: float,
+    path: str | Path,
+    *,
+    matte: Matte | None = None,
+    total: int | None = None,
+    progress: Progress | None = None,
+) -> None:
+    """Write frames as they come; encoding runs beside the drawing of the next ones.
+
+    fps: frames/s, above 0. matte: as for `save_frame`; in a video the background, else white.
+    progress: called with the number of frames drawn and `total`, which is len(frames) if known.
+    Raises OptionError for an unknown ending, no frame or frames of several sizes, OutputError for
+    a bad target, BackendError where PyAV is missing. Whatever is raised leaves no partial file;
+    KeyboardInterrupt keeps the whole frames of a folder.
+    """
+    kind = check_animation_target(path)
+    check_fps(fps)
+    if total is None and isinstance(frames, Sized):
+        total = len(frames)
+    _write(kind, Path(path), _checked(frames, total, progress), fps, matte)
+
+
+def check_still_target(path: str | Path) -> str:
+    """The ending of a picture's file. Raises OptionError or OutputError if it cannot be written."""
+    path = Path(path)
+    if path.suffix.lower() not in STILL_ENDINGS and not path.is_dir():
+        raise OptionError(f"{path}: the ending of a picture is one of {', '.join(STILL_ENDINGS)}")
+    check_writable(path)
+    return path.suffix.lower()
+
+
+def check_animation_target(path: str | Path) -> str:
+    """The ending of an animation's file, or "/" for a folder of frames.
+
+    Raises OptionError or OutputError if it cannot be written, before anything is drawn.
+    """
+    folder, path = str(path).endswith(("/", "\\")), Path(path)
+    if folder or path.is_dir() or not path.suffix:
+        from drapery.render.sequence import check_folder
+
+        check_folder(path)
+        return "/"
+    for ending in sorted(ANIMATION_ENDINGS, key=len, reverse=True):
+        if path.name.lower().endswith(ending):
+            check_writable(path)
+            return ending
+    raise OptionError(
+        f"{path}: the ending of an animation is one of {', '.join(ANIMATION_ENDINGS)}, "
+        "or / for a folder of frames"
+    )
+
+
+def check_fps(fps: float) -> None:
+    if not (math.isfinite(fps) and 0 < fps <= MAX_FPS):
+        raise OptionError(f"fps {fps}: give a number above 0, up to {MAX_FPS}")
+
+
+def _checked(
+    frames: Iterable[Frame], total: int | None, progress: Progress | None
+) -> Iterator[Frame]:
+    rest = iter(frames)
+    first = next(rest, None)
+    if first is None:
+        raise OptionError("an animation needs at least one frame; ask for more seconds")
+    for number, frame in enumerate(chain([first], rest)):
+        if frame.pixels.shape != first.pixels.shape:
+            (height, width), (high, wide) = frame.pixels.shape[:2], first.pixels.shape[:2]
+            raise OptionError(f"frame {number} is {width}x{height}, the first {wide}x{high}")
+        yield frame
+        if progress is not None:
+            progress(number + 1, total)
+
+
+def _still_bytes(frame: Frame, ending: str) -> bytes:
+    if ending == ".webp":
+        from drapery.render.webp import webp_bytes
+
+        return webp_bytes(frame.pixels)
+    from drapery.render.png import png_bytes
+
+    return png_bytes(frame.pixels)
+
+
+def _write(kind: str, path: Path, frames: Iterator[Frame], fps: float, matte: Matte | None) -> None:
+    if kind == "/":
+        from drapery.render.sequence import write_sequence
+
+        write_sequence(path, frames)
+    elif kind == ".sheet.png":
+        from drapery.render.sheet import write_sheet
+
+        write_sheet(path, list(frames), fps)
+    elif kind in (".mp4", ".webm"):
+        from drapery.render.video import load_av, write_video
+
+        load_av()
+        with replacing(path) as unfinished:
+            write_video(unfinished, kind, frames, fps, matte)
+    else:
+        with replacing(path) as unfinished, unfinished.open("wb") as file:
+            _writer(kind, fps, matte)(file, frames)
+
+
+def _writer(kind: str, fps: float, matte: Matte | None) -> Writer:
+    if kind == ".gif":
+        from drapery.render.gif import write_gif
+
+        return partial(write_gif, fps=fps, matte=matte)
+    if kind == ".webp":
+        from drapery.render.webp import write_webp
+
+        return partial(write_webp, fps=fps)
+    from drapery.render.png import write_apng
+
+    return partial(write_apng, fps=fps)

@@ -1,0 +1,123 @@
+"""GIF: 255 colours, one bit of alpha, whole centiseconds (GIF89a specification, 1990).
+
+Pillow compresses the frames; here they get one palette and are joined. The palette needs every
+frame, so a first pass, beside the rendering, notes each pixel's colour, and a second one writes.
+"""
+
+import struct
+import zlib
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from typing import BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import GifImagePlugin, Image
+
+from drapery.errors import OptionError
+from drapery.render.ahead import encode_ahead
+from drapery.render.changes import Patch, bounding_box, changed_patch, cut, with_previous
+from drapery.render.delays import delays
+from drapery.render.frame import Frame
+from drapery.render.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
+
+MAX_FPS = 50
+KEEP, CLEAR = 1, 2  # what a viewer does with a frame before it shows the next
+LOOP_FOREVER = b"!\xff\x0bNETSCAPE2.0\x03\x01\0\0\0"
+
+
+class Squeezed(NamedTuple):
+    """One frame's colour places, compressed, so that many frames wait in little memory."""
+
+    size: tuple[int, int]
+    colours: int
+    data: bytes
+
+
+class Painted(NamedTuple):
+    """A palette, colour 0 being the transparent one, and indices into it [h, w]."""
+
+    palette: Colours
+    indices: NDArray[np.uint8]
+
+
+def write_gif(
+    file: BinaryIO, frames: Iterable[Frame], fps: float, matte: Matte | None = None
+) -> None:
+    """An animation that loops forever, or a still where there is one frame.
+
+    Up to 255 colours in all, or in each frame, are kept exactly. Raises OptionError above 50
+    frames/s, where players fall back to 10.
+    """
+    if fps > MAX_FPS:
+        raise OptionError(f"fps {fps:g}: a GIF shows at most {MAX_FPS}; use .apng or .webp")
+    table = ColourTable()
+    squeezed = list(encode_ahead(frames, partial(_squeeze, table, matte), workers=1))
+    paint, shared = _painter(table, max(frame.colours for frame in squeezed))
+    clear = bool(table.counts[0])
+    times = delays(fps, 100) if len(squeezed) > 1 else iter([0])
+    pages = zip(_patches(squeezed, clear), times, strict=False)
+    file.write(_header(squeezed[0].size, shared) + (LOOP_FOREVER if len(squeezed) > 1 else b""))
+    for data in encode_ahead(pages, lambda page: _frame_data(*page, paint, shared is None, clear)):
+        file.write(data)
+    file.write(b";")
+
+
+def _squeeze(table: ColourTable, matte: Matte | None, frame: Frame) -> Squeezed:
+    places = table.places(frame.pixels, matte)
+    colours = np.count_nonzero(np.bincount(places.ravel())[1:])
+    return Squeezed(frame.pixels.shape[:2], int(colours), zlib.compress(places.tobytes(), 1))
+
+
+def _painter(
+    table: ColourTable, most_in_frame: int
+) -> tuple[Callable[[Places], Painted], Colours | None]:
+    """How places become indices, and the palette that all frames share, if they do."""
+    colours = table.colours()
+    if len(colours) > 1 + MAX_COLOURS and most_in_frame <= MAX_COLOURS:
+        return partial(_own_palette, colours), None
+    palette, index_of = reduced(colours, table.counts)
+    return lambda places: Painted(palette, index_of[places]), palette
+
+
+def _own_palette(colours: Colours, places: Places) -> Painted:
+    used = np.union1d(0, places)
+    return Painted(colours[used], np.searchsorted(used, places).astype(np.uint8))
+
+
+def _patches(squeezed: Iterable[Squeezed], clear: bool) -> Iterator[Patch]:
+    """What each frame stores: what is seen where the frame before is cleared, else the changes."""
+    frames = (
+        np.frombuffer(zlib.decompress(frame.data), np.int32).reshape(frame.size)
+        for frame in squeezed
+    )
+    if clear:
+        return (cut(places, bounding_box(places != 0)) for places in frames)
+    return (changed_patch(*pair) for pair in with_previous(frames))
+
+
+def _header(size: tuple[int, int], palette: Colours | None) -> bytes:
+    height, width = size
+    if palette is None:
+        return b"GIF89a" + struct.pack("<2H3B", width, height, 0, 0, 0)
+    bits = max(1, (len(palette) - 1).bit_length())
+    entries = palette.tobytes().ljust(3 << bits, b"\0")
+    return b"GIF89a" + struct.pack("<2H3B", width, height, 0xF0 | bits - 1, 0, 0) + entries
+
+
+def _frame_data(
+    patch: Patch, delay: int, paint: Callable[[Places], Painted], own_palette: bool, clear: bool
+) -> bytes:
+    painted = paint(patch.pixels)
+    image = Image.fromarray(painted.indices)
+    image.putpalette(painted.palette.tobytes())
+    options = {"transparency": 0} if clear else {}
+    blocks = GifImagePlugin.getdata(
+        image,
+        (patch.left, patch.top),
+        duration=10 * delay,
+        disposal=CLEAR if clear else KEEP,
+        include_color_table=own_palette,
+        **options,
+    )
+    return b"".join(blocks)

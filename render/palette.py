@@ -1,0 +1,109 @@
+"""At most 255 colours for an animation, exact wherever that is possible."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from drapery.render.frame import Pixels
+
+Places = NDArray[np.int32]
+Colours = NDArray[np.uint8]
+Matte = tuple[int, int, int]
+
+MAX_COLOURS = 255  # one of a GIF's 256 is the transparent one
+MAX_SAMPLES = 1 << 19
+
+
+@dataclass
+class ColourTable:
+    """The colours met so far, in order of appearance; place 0 stands for transparent.
+
+    known: packed 24-bit colours, in order. counts: pixels of each, by place.
+    """
+
+    known: list[NDArray[np.uint32]] = field(default_factory=list)
+    counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(1, np.int64))
+    # A page of this is only taken from the system once a colour falls on it.
+    place_of: Places = field(default_factory=lambda: np.zeros(1 << 24, np.int32))
+
+    def places(self, pixels: Pixels, matte: Matte | None) -> Places:
+        """The place of every pixel's colour, shape [H, W]; 0 where it is transparent."""
+        packed, visible = opaque_colours(pixels, matte)
+        places = np.where(visible, self.place_of[packed], 0)
+        fresh = np.unique(packed[visible & (places == 0)])
+        if fresh.size:
+            self._learn(fresh)
+            places = np.where(visible, self.place_of[packed], 0)
+        self.counts += np.bincount(places.ravel(), minlength=self.counts.size)
+        return places
+
+    def _learn(self, fresh: NDArray[np.uint32]) -> None:
+        self.place_of[fresh] = np.arange(self.counts.size, self.counts.size + fresh.size)
+        self.known.append(fresh)
+        self.counts = np.concatenate([self.counts, np.zeros(fresh.size, np.int64)])
+
+    def colours(self) -> Colours:
+        """Every colour by place, shape [1 + n, 3]; place 0 is black."""
+        packed = np.concatenate([np.zeros(1, np.uint32), *self.known])
+        return np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=-1).astype(np.uint8)
+
+
+def opaque_colours(
+    pixels: Pixels, matte: Matte | None
+) -> tuple[NDArray[np.uint32], NDArray[np.bool_]]:
+    """Packed 24-bit colours and where they are seen, for a format with one bit of alpha.
+
+    Without a matte a pixel is seen from half alpha on and keeps its colour; with one, every pixel
+    that is not wholly transparent is seen, laid over the matte.
+    """
+    rgb, alpha = pixels[..., :3].astype(np.uint32), pixels[..., 3]
+    if matte is not None:
+        rgb = over_matte(pixels, matte).astype(np.uint32)
+    packed = rgb[..., 0] << np.uint32(16) | rgb[..., 1] << np.uint32(8) | rgb[..., 2]
+    return packed, (alpha >= 128 if matte is None else alpha > 0)
+
+
+def over_matte(pixels: Pixels, matte: Matte) -> Colours:
+    """The picture laid over one colour: round((a * src + (255 - a) * matte) / 255), [H, W, 3]."""
+    alpha = pixels[..., 3:].astype(np.uint32)
+    laid = alpha * pixels[..., :3] + (255 - alpha) * np.array(matte, np.uint32)
+    return ((laid + 127) // 255).astype(np.uint8)
+
+
+def reduced(colours: Colours, counts: NDArray[np.int64]) -> tuple[Colours, NDArray[np.uint8]]:
+    """A palette of at most 1 + 255 colours, and for each place of `colours` its place in it.
+
+    A colour that covers at least 1/255 of the pixels would fill an entry alone, so it stays exact;
+    the others share what is left by median cut (Heckbert 1982). Place 0 stays place 0.
+    """
+    if len(colours) <= 1 + MAX_COLOURS:
+        return colours, np.arange(len(colours), dtype=np.uint8)
+    exact = 1 + np.flatnonzero(counts[1:] * MAX_COLOURS >= counts[1:].sum())
+    exact = exact[:MAX_COLOURS]
+    rest = np.setdiff1d(np.arange(1, len(colours)), exact)
+    cut = median_cut(colours[rest], counts[rest], MAX_COLOURS - exact.size)
+    palette = np.concatenate([colours[:1], colours[exact], cut])
+    places = 1 + nearest(colours, palette[1:])
+    places[0] = 0
+    return palette, places.astype(np.uint8)
+
+
+def median_cut(colours: Colours, counts: NDArray[np.int64], size: int) -> Colours:
+    """At most `size` colours that stand for weighted ones, shape [size, 3]."""
+    if size == 0:
+        return np.zeros((0, 3), np.uint8)
+    weights = -(-counts * MAX_SAMPLES // max(int(counts.sum()), MAX_SAMPLES))
+    samples = np.repeat(colours, weights, axis=0)
+    image = Image.fromarray(samples[None])
+    few = image.quantize(size, Image.Quantize.MEDIANCUT, kmeans=1, dither=Image.Dither.NONE)
+    entries = few.getpalette() or []
+    return np.array(entries[: 3 * size], np.uint8).reshape(-1, 3)
+
+
+def nearest(colours: Colours, palette: Colours) -> NDArray[np.intp]:
+    """For each colour the place of the closest palette entry, the first of equals."""
+    parts = np.array_split(colours.astype(np.int32), len(colours) // 2048 + 1)
+    wide = palette.astype(np.int32)
+    return np.concatenate([((p[:, None] - wide) ** 2).sum(-1).argmin(1) for p in parts])

@@ -1,0 +1,73 @@
+"""Numbered PNG frames in a folder.
+
+A run replaces the folder's own frame_NNNN.png files, longer earlier runs' included, and touches
+nothing else in it. The frames gather in a hidden folder beside the target and move in at the end,
+so a failed run changes nothing; one stopped by Ctrl-C moves in the frames that are whole.
+"""
+
+import os
+import re
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+from drapery.errors import OutputError
+from drapery.render.ahead import encode_ahead
+from drapery.render.frame import Frame
+from drapery.render.output import check_writable, explained, partial_path
+from drapery.render.png import FRAME_LEVEL, png_bytes
+
+FRAME_NAME = re.compile(r"frame_\d{4,}\.png")
+
+
+def write_sequence(folder: Path, frames: Iterable[Frame]) -> None:
+    """Write frame_0000.png and so on. Raises OutputError where the folder cannot be written."""
+    check_folder(folder)
+    gathering = partial_path(folder)
+    try:
+        with explained(folder):
+            shutil.rmtree(gathering, ignore_errors=True)
+            gathering.mkdir()
+            try:
+                _gather(gathering, frames)
+            except KeyboardInterrupt:
+                _move_in(gathering, folder)
+                raise
+            _move_in(gathering, folder)
+    finally:
+        shutil.rmtree(gathering, ignore_errors=True)
+
+
+def check_folder(folder: Path) -> None:
+    """Refuse a folder target that cannot work, before anything is drawn."""
+    if not folder.is_dir():
+        if folder.exists():
+            raise OutputError(f"cannot write frames into {folder}: it is a file; choose a folder")
+        check_writable(folder)
+    elif not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputError(f"cannot write frames into {folder}: it may not be written to")
+
+
+def _gather(gathering: Path, frames: Iterable[Frame]) -> None:
+    files = encode_ahead(frames, lambda frame: png_bytes(frame.pixels, FRAME_LEVEL))
+    for number, png in enumerate(files):
+        path = gathering / f"frame_{number:04d}.png"
+        unfinished = path.with_suffix(".part")
+        unfinished.write_bytes(png)
+        unfinished.rename(path)
+
+
+def _move_in(gathering: Path, folder: Path) -> None:
+    fresh = sorted(path.name for path in gathering.glob("*.png"))
+    if not fresh:
+        return
+    if not folder.is_dir():
+        for unfinished in gathering.glob("*.part"):
+            unfinished.unlink()
+        gathering.rename(folder)
+        return
+    for stale in folder.iterdir():
+        if FRAME_NAME.fullmatch(stale.name) and stale.name not in fresh:
+            stale.unlink()
+    for name in fresh:
+        (gathering / name).replace(folder / name)

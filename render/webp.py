@@ -1,0 +1,67 @@
+"""Lossless WebP, still and animated.
+
+Pillow compresses every frame by itself, several at once; here the frames are joined as in
+"WebP Container Specification", Google, section "Extended File Format: Animation".
+"""
+
+import struct
+from collections.abc import Iterable
+from io import BytesIO
+from typing import BinaryIO
+
+from PIL import Image
+
+from drapery.render.ahead import encode_ahead
+from drapery.render.changes import Patch, changed_patch, with_previous
+from drapery.render.delays import delays
+from drapery.render.frame import Frame, Pixels
+
+ANIMATED_WITH_ALPHA = 0x12
+DO_NOT_BLEND = 0x02
+
+
+def webp_bytes(pixels: Pixels, method: int = 4) -> bytes:
+    """A lossless WebP file, exact also where the picture is transparent."""
+    file = BytesIO()
+    Image.fromarray(pixels).save(
+        file, "WEBP", lossless=True, exact=True, method=method, quality=75 if method else 20
+    )
+    return file.getvalue()
+
+
+def write_webp(file: BinaryIO, frames: Iterable[Frame], fps: float) -> None:
+    """An animation that loops forever; each frame replaces its rectangle, without blending."""
+    pairs, times = with_previous(frame.pixels for frame in frames), delays(fps, 1000)
+    for count, (patch, webp) in enumerate(encode_ahead(pairs, _encode_patch)):
+        if count == 0:
+            height, width = patch.pixels.shape[:2]
+            canvas = bytes([ANIMATED_WITH_ALPHA, 0, 0, 0]) + _size(width) + _size(height)
+            file.write(b"RIFF\0\0\0\0WEBP")
+            file.write(_chunk(b"VP8X", canvas) + _chunk(b"ANIM", bytes(6)))
+        file.write(_chunk(b"ANMF", _frame_header(patch, next(times)) + webp[12:]))
+    length = file.tell()
+    file.seek(4)
+    file.write(struct.pack("<I", length - 8))
+
+
+def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[Patch, bytes]:
+    patch = changed_patch(*pair, grid=2)  # the format counts offsets in steps of two pixels
+    return patch, webp_bytes(patch.pixels, method=0)
+
+
+def _frame_header(patch: Patch, milliseconds: int) -> bytes:
+    height, width = patch.pixels.shape[:2]
+    corner = _uint24(patch.left // 2) + _uint24(patch.top // 2)
+    return corner + _size(width) + _size(height) + _uint24(milliseconds) + bytes([DO_NOT_BLEND])
+
+
+def _size(pixels: int) -> bytes:
+    return _uint24(pixels - 1)
+
+
+def _uint24(number: int) -> bytes:
+    return number.to_bytes(3, "little")
+
+
+def _chunk(kind: bytes, data: bytes) -> bytes:
+    return kind + struct.pack("<I", len(data)) + data + bytes(len(data) % 2)
