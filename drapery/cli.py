@@ -2,8 +2,8 @@
 
 import sys
 
-import click
 import typer
+from typer.exceptions import TyperException
 
 from drapery.commands import animate, compare, doctor, flat, render, show
 from drapery.commands.notices import adopt_warnings, say
@@ -34,10 +34,10 @@ def main() -> None:
     except DraperyError as error:
         say(str(error))
         code = 2
-    except click.ClickException as error:
+    except TyperException as error:
         say(f"{error.format_message()} (see `drapery --help`)")
         code = error.exit_code
-    except (KeyboardInterrupt, click.Abort):
+    except (KeyboardInterrupt, typer.Abort):
         say("stopped")
         code = 130
     sys.exit(code if isinstance(code, int) else 0)
