@@ -43,7 +43,9 @@ def fill_polygon(polygon: Array, width: int, height: int) -> Mask:
     x = np.arange(left, right) + 0.5
     y = np.arange(top, bottom)[:, None] + 0.5
     inside = np.zeros((bottom - top, right - left), np.bool_)
-    for (x0, y0), (x1, y1) in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+    for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+        # From the upper end down, so an edge rounds alike whichever polygon it belongs to.
+        (x0, y0), (x1, y1) = (start, end) if start[1] <= end[1] else (end, start)
         # Half-open in y: an edge counts for the rows at its upper end but not at its lower.
         crosses = (y0 <= y) != (y1 <= y)
         if y0 != y1:
