@@ -16,7 +16,15 @@ from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.png import Texels, read_png
 from drapery.banner.sprite_sources import Directory, SpriteSource, parse_atlas, textures_of
 from drapery.banner.texture_ids import full_id, is_id, split_id, texture_file
-from drapery.banner.textures import Texture, animated, check_sheet, checker, from_mask, is_mask
+from drapery.banner.textures import (
+    Texture,
+    animated,
+    check_sheet,
+    checker,
+    from_mask,
+    is_mask,
+    looks_like_mask,
+)
 from drapery.errors import PackError
 
 Kind = Literal["banner", "shield"]
@@ -52,6 +60,7 @@ class Packs:
     # Dictionaries as sets that keep their order.
     _ours: dict[str, None] = field(default_factory=dict, init=False, repr=False)
     _missing: dict[str, None] = field(default_factory=dict, init=False, repr=False)
+    _black: dict[str, None] = field(default_factory=dict, init=False, repr=False)
     _notes: dict[str, None] = field(default_factory=dict, init=False, repr=False)
 
     def sheet(self, pattern: str, kind: Kind = "banner", time: float = 0.0) -> Texels:
@@ -131,6 +140,12 @@ class Packs:
             lines.append(f"missing from the packs, drawn as the game's checker: {names}")
         if self._ours and self._used:
             lines.append(f"not in the packs, taken from our own art: {', '.join(self._ours)}")
+        if self._black:
+            names = ", ".join(self._black)
+            lines.append(
+                f"black covers all below, as the game draws it: {names}"
+                " (masks from before 1.15? pack format 4 would read them so)"
+            )
         if self._textures and len(self.packs) > 1 and not self._used:
             labels = ", ".join(pack.label for pack in self.packs[1:])
             lines.append(f"nothing here comes from {labels}: the textures needed are not in there")
@@ -149,6 +164,8 @@ class Packs:
         pack = self.packs[found.level]
         # Our own art is never of the old kind, whatever the format of the game.
         if found.level == 0 or not is_mask(sheet.frames[0], pack.format):
+            if looks_like_mask(sheet.frames[0]):
+                self._black[name] = None
             return sheet
         base = self.base("banner_base" if kind == "banner" else "shield_base")
         return Texture(tuple(from_mask(frame, base) for frame in sheet.frames), sheet.ticks)

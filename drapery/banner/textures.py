@@ -81,12 +81,20 @@ def is_mask(texels: Texels, pack_format: int | None) -> bool:
     """Whether a sheet is a mask of the kind used before 1.15.
 
     In a pack of that time every sheet is, but for those with half-transparent texels, which
-    meant nothing then. Where no format is known, only a sheet without transparent texels.
+    meant nothing then. Where no format is known, only a black and white one without any
+    transparent texels.
     """
     alpha = texels[..., 3]
     if pack_format is None:
-        return bool((alpha == 255).all())
+        return bool((alpha == 255).all()) and looks_like_mask(texels)
     return pack_format <= LAST_MASK_FORMAT and bool(((alpha == 0) | (alpha == 255)).all())
+
+
+def looks_like_mask(texels: Texels) -> bool:
+    """Whether a sheet of newer days seems a mask left over: opaque black beside opaque grey."""
+    shown = texels[texels[..., 3] > 0]
+    is_grey = bool((shown[:, :3] == shown[:, :1]).all() and (shown[:, 3] == 255).all())
+    return is_grey and len({0, 255} & set(shown[:, 0].tolist())) == 2
 
 
 def from_mask(mask: Texels, base: Texels) -> Texels:
