@@ -93,3 +93,11 @@ def _tell(packs: Packs) -> None:
     """Warn of what a pack lacks, once it has been asked for."""
     for line in packs.warnings():
         warnings.warn(line, UserWarning, stacklevel=4)
+
+
+def draw_exploded(banner: Banner, packs: Packs, settings: Settings) -> Frame:
+    """The banner's layers drawn apart along the normal. Raises PackError or BackendError."""
+    from drapery.scenes.exploded import exploded
+
+    (frame,) = _drawn([exploded(banner, packs, settings)], packs, settings)
+    return frame

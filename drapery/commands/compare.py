@@ -99,9 +99,9 @@ def _close(pair: "Pair", tolerance: int, pixels: int) -> bool:
 
 def _write(target: Path, pairs: "list[Pair]", costs: dict[str, dict[str, float]]) -> None:
     from drapery.compare.comparison import pair_entry, pair_sheet
-    from drapery.compare.panels import stack
     from drapery.compare.report import html_report, write_text
     from drapery.errors import OptionError
+    from drapery.render.contact import stack
     from drapery.render.frame import Animation
 
     ending = target.suffix.lower()

@@ -1,0 +1,75 @@
+"""`drapery layers`: a banner taken apart, and how to make it at the loom."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice
+
+if TYPE_CHECKING:
+    from drapery.banner.design import Banner
+    from drapery.banner.packs import Packs
+
+
+def run(
+    design: o.DesignArgument,
+    out: Annotated[
+        Path | None,
+        typer.Option("-o", "--out", metavar="FILE", help="The layers drawn apart, as a picture."),
+    ] = None,
+    steps: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="The strip of the loom's steps, as a picture."),
+    ] = None,
+    pack: o.PackOption = None,
+    view: o.ViewOption = "iso",
+    size: o.SizeOption = "768x512",
+    background: o.BackgroundOption = "transparent",
+    backend: o.BackendOption = "auto",
+) -> None:
+    """Take a banner apart: its loom steps, hidden layers, and an exploded view."""
+    from drapery.banner.formats import read_design
+    from drapery.banner.packs import open_packs
+    from drapery.pictures import draw_exploded
+    from drapery.settings import Settings, pair
+    from drapery.sheets import steps_sheet
+
+    settings = Settings(
+        packs=tuple(pack or ()),
+        view=view,
+        size=pair("size", size),
+        background=background,
+        backend=backend,
+    )
+    banner, packs = read_design(design), open_packs(settings.packs)
+    _tell_steps(banner)
+    _tell_hidden(banner, packs)
+    with compile_notice():
+        if out is not None:
+            draw_exploded(banner, packs, settings).save(out)
+        if steps is not None:
+            steps_sheet(banner, packs).save(steps)
+
+
+def _tell_steps(banner: "Banner") -> None:
+    from drapery.banner.loom import fits_loom, steps
+
+    print(f"start with a {banner.base.replace('_', ' ')} banner")
+    for number, step in enumerate(steps(banner), 1):
+        item = f" and a {step.item}" if step.item else ""
+        dye = step.layer.dye.replace("_", " ")
+        print(f"{number:2}. {step.layer.pattern} with {dye} dye{item}")
+    if not fits_loom(banner):
+        print("a loom stops at six layers; this design wants a command")
+
+
+def _tell_hidden(banner: "Banner", packs: "Packs") -> None:
+    from drapery.banner.formats import write_banner
+    from drapery.banner.loom import simplified
+
+    fewer = simplified(banner, packs)
+    if fewer != banner:
+        spared = len(banner.layers) - len(fewer.layers)
+        print(f"the same picture with {spared} fewer: {write_banner(fewer, 'text')}")

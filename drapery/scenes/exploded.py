@@ -1,0 +1,41 @@
+"""A banner taken apart: the cloth and every layer as a sheet of its own, along the normal."""
+
+import numpy as np
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.banner.sprites import flag_layers
+from drapery.mesh import Mesh
+from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.views import frame_view
+from drapery.settings import Settings, background_colour
+from drapery.style.block import FLAG_SIZE, FLAG_SKIN
+
+GAP = 0.35
+"""Distance between two layers [m]."""
+
+
+def exploded(banner: Banner, packs: Packs, settings: Settings) -> Scene:
+    """The layers in a row, the lowest at the back. Raises PackError."""
+    cloth, base, *layers = flag_layers(banner, packs)
+    # Cloth and base dye are one sheet: nobody sees the cloth alone.
+    ground = Look(tuple(Coat(texels, tint) for texels, tint in (cloth, base)))
+    looks = [ground, *(Look((Coat(texels, tint),), "blend") for texels, tint in layers)]
+    models = tuple(Model(_sheet(GAP * i), (look,)) for i, look in enumerate(looks))
+    corners = np.concatenate([model.mesh.positions for model in models])
+    width, height = settings.size
+    camera = frame_view(settings.view, (corners.min(0), corners.max(0)), width / height)
+    background = background_colour(settings.background)
+    return Scene(models, camera, settings.size, background=background)
+
+
+def _sheet(depth: float) -> Mesh:
+    width, height = FLAG_SIZE
+    uvs = np.array([[0.0, 0.0], [1, 0], [0, 1], [1, 1]])
+    positions = np.stack(
+        [(uvs[:, 0] - 0.5) * width, (0.5 - uvs[:, 1]) * height, np.full(4, depth)], axis=-1
+    )
+    normals = np.broadcast_to([0.0, 0.0, 1.0], (4, 3)).copy()
+    return Mesh(
+        positions, normals, np.array([[0, 2, 1], [1, 2, 3]], np.int32), FLAG_SKIN.front(uvs)
+    )
