@@ -84,11 +84,15 @@ def _packed(sizes: NDArray[np.int64]) -> tuple[NDArray[np.int64], tuple[int, int
 
     # Largest first packs tightest, and the order is fixed: no shuffling.
     order = np.lexsort((-sizes[:, 0], -sizes[:, 1]))
-    # What stands between bounds and success differs between versions of trimesh.
-    bounds, *_, packed = rectangles_single(sizes[order].astype(np.float64), rotate=False)
-    assert packed.all(), "without a maximum size the packer grows its sheet until all fit"
+    side = max(float(np.sqrt(sizes.prod(axis=1).sum())), float(sizes.max()))
+    packed = np.zeros(1, np.bool_)
+    while not packed.all():
+        # What stands between bounds and success differs between versions of trimesh.
+        bounds, *_, packed = rectangles_single(
+            sizes[order].astype(float), (side, side), rotate=False
+        )
+        side *= 1.05
     corners = np.zeros_like(sizes)
     corners[order] = np.rint(bounds[:, 0]).astype(np.int64)
-    corners -= corners.min(axis=0)
     width, height = (corners + sizes).max(axis=0)
     return corners, (int(width), int(height))

@@ -1,0 +1,70 @@
+"""Vertices from the world to the raster: one loop over all vertices of a model."""
+
+import numpy as np
+from numba import njit
+
+SUBPIXEL_BITS = 8
+"""Corners are snapped to 1/256 pixel, as llvmpipe and most graphics cards do."""
+
+BEHIND, BEYOND, ASIDE, BROKEN = 1, 2, 4, 8
+"""Flags of a vertex: before the near plane, past the far plane, too far aside, not finite."""
+
+GUARD = float(1 << 21)
+"""Corners up to so many pixels aside need no clipping: edge functions stay within 64 bits."""
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def project(
+    first, last, positions, normals, matrix, width, height, lights, ambient, diffuse, raster
+):
+    """Project and light vertices first..last; returns the union of their flags.
+
+    positions, normals: shape [V, 3], float32.
+    matrix: world to clip space, shape [4, 4], float64.
+    width, height: of the picture [pixels].
+    lights: unit vectors towards the lights, shape [L, 3]; ambient and diffuse as in `Light`.
+    raster: the results, see `Raster`.
+    """
+    corners, depth, inv_w, shade, flags = raster
+    union = 0
+    for v in range(first, last):
+        x = np.float64(positions[v, 0])
+        y = np.float64(positions[v, 1])
+        z = np.float64(positions[v, 2])
+        cx = matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z + matrix[0, 3]
+        cy = matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z + matrix[1, 3]
+        cz = matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z + matrix[2, 3]
+        w = matrix[3, 0] * x + matrix[3, 1] * y + matrix[3, 2] * z + matrix[3, 3]
+        factor = np.float64(ambient)
+        for light in range(len(lights)):
+            facing = (
+                normals[v, 0] * lights[light, 0]
+                + normals[v, 1] * lights[light, 1]
+                + normals[v, 2] * lights[light, 2]
+            )
+            factor += diffuse * max(facing, 0.0)
+        shade[v] = min(factor, 1.0)
+
+        flag = 0
+        if not abs(cx) + abs(cy) + abs(cz) + abs(w) + abs(factor) < np.inf:
+            flag = BROKEN
+        else:
+            if cz + w < 0 or w <= 0:
+                flag |= BEHIND
+            if cz > w:
+                flag |= BEYOND
+            across = (cx / w * 0.5 + 0.5) * width
+            up = (cy / w * 0.5 + 0.5) * height
+            if not abs(across) + abs(up) < GUARD:
+                flag |= ASIDE
+        if flag & (BEHIND | ASIDE | BROKEN) == 0:
+            # Snapped as a GL would, whose rows count upwards, then turned over; less half a pixel,
+            # so that the centre of pixel i lies at i * 256.
+            corners[v, 0] = np.int32(np.rint(across * 256.0)) - 128
+            corners[v, 1] = (height - 1) * 256 - (np.int32(np.rint(up * 256.0)) - 128)
+            # 1 at the near plane and 0 at the far: precision stays even over distance.
+            depth[v] = 0.5 - 0.5 * (cz / w)
+            inv_w[v] = 1.0 / w
+        flags[v] = flag
+        union |= flag
+    return union

@@ -1,0 +1,128 @@
+"""Named cameras that frame what is to be seen."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from drapery.errors import OptionError
+from drapery.mesh import Array
+from drapery.render.camera import Camera, Vector
+
+Bounds = tuple[Array, Array]
+"""Least and greatest corner of a box [m], shape [3] each."""
+
+
+@dataclass(frozen=True)
+class View:
+    """From where a named view looks at its subject.
+
+    azimuth: degrees around it; 0 looks at its front (from +z), 90 from +x.
+    elevation: degrees above the horizon.
+    fov: vertical field of view [degrees]; None for a parallel projection.
+    """
+
+    azimuth: float
+    elevation: float
+    fov: float | None
+
+
+VIEWS: dict[str, View] = {
+    "front": View(0, 0, None),
+    "back": View(180, 0, None),
+    # Three equal angles between the axes: elevation atan(1 / sqrt 2).
+    "iso": View(45, 35.26438968, None),
+    # The game's item pose turns a banner by (30, 20, 0) degrees before a parallel camera.
+    "gui": View(-20, 30, None),
+    "hero": View(28, 8, 30),
+}
+
+
+def frame_view(name: str, bounds: Bounds, aspect: float, margin: float = 0.05) -> Camera:
+    """The named view of a box: all of it is seen, with at least `margin` of the picture around.
+
+    aspect: width / height of the picture. For moving cloth give the bounds of all its moments.
+    Raises OptionError for a name that is none.
+    """
+    if name not in VIEWS:
+        raise OptionError(f"view {name!r} is not known; use one of: {', '.join(VIEWS)}")
+    return frame_box(VIEWS[name], bounds, aspect, margin)
+
+
+def turntable(view: View, bounds: Bounds, aspect: float, frames: int) -> list[Camera]:
+    """One camera a frame, once around the box; all of it stays in the picture."""
+    turns = [replace(view, azimuth=view.azimuth + 360 * k / frames) for k in range(frames)]
+    cameras = [frame_box(turn, bounds, aspect) for turn in turns]
+    if view.fov is None:
+        height = max(camera.height or 0.0 for camera in cameras)
+        return [replace(camera, height=height) for camera in cameras]
+    away = max(_length(camera) for camera in cameras)
+    return [_at_distance(camera, away) for camera in cameras]
+
+
+def frame_box(view: View, bounds: Bounds, aspect: float, margin: float = 0.05) -> Camera:
+    """A camera in the view's direction that shows the box as large as the margin allows."""
+    corners = _corners(bounds)
+    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    back, right, up = _axes(view)
+    x, y, z = (np.sum((corners - centre) * axis, axis=1) for axis in (right, up, back))
+    room = 1 - 2 * margin
+    radius = float(np.abs(z).max()) + 1e-3
+    if view.fov is None:
+        height = max(float(np.ptp(y)), float(np.ptp(x)) / aspect, 1e-6) / room
+        return _camera(centre, back, up, 4 * radius + 1, radius, height=height)
+    # Every corner must lie inside the field of view: |y| <= tan (distance - z).
+    tan = np.tan(np.radians(view.fov) / 2) * room
+    needed = max(float((np.abs(y) / tan + z).max()), float((np.abs(x) / (tan * aspect) + z).max()))
+    return _camera(centre, back, up, max(needed, radius * 1.05), radius, fov=view.fov)
+
+
+def _corners(bounds: Bounds) -> Array:
+    picks = (np.arange(8)[:, None] >> np.arange(3)) & 1
+    corners: Array = np.where(picks, bounds[1], bounds[0]).astype(np.float64)
+    if not np.isfinite(corners).all():
+        raise OptionError("the subject's bounds are not finite; there is nothing to frame")
+    return corners
+
+
+def _axes(view: View) -> tuple[Array, Array, Array]:
+    """Unit vectors from the subject to the camera, and to the right and the top of the picture."""
+    azimuth, elevation = np.radians(view.azimuth), np.radians(view.elevation)
+    sin, cos = np.sin(azimuth), np.cos(azimuth)
+    back = np.array([sin * np.cos(elevation), np.sin(elevation), cos * np.cos(elevation)])
+    right = np.array([cos, 0.0, -sin])
+    return back, right, np.cross(back, right)
+
+
+def _camera(
+    centre: Array,
+    back: Array,
+    up: Array,
+    distance: float,
+    radius: float,
+    *,
+    fov: float = 40.0,
+    height: float | None = None,
+) -> Camera:
+    near = max((distance - radius) * 0.5, 1e-3)
+    far = distance + 2 * radius + 1
+    return Camera(
+        _vector(centre + back * distance), _vector(centre), _vector(up), fov, height, near, far
+    )
+
+
+def _vector(values: Array) -> Vector:
+    return float(values[0]), float(values[1]), float(values[2])
+
+
+def _length(camera: Camera) -> float:
+    return float(np.linalg.norm(np.subtract(camera.position, camera.target)))
+
+
+def _at_distance(camera: Camera, away: float) -> Camera:
+    now = _length(camera)
+    offset = np.subtract(camera.position, camera.target) * (away / now)
+    return replace(
+        camera,
+        position=_vector(np.add(camera.target, offset)),
+        far=camera.far + away - now,
+    )
