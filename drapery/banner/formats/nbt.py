@@ -106,14 +106,18 @@ def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, T
     raise DesignError(f"{where}: {fault}")
 
 
-def is_nbt(data: bytes) -> bool:
-    """Whether the unwrapped bytes open as an NBT file does: with a compound."""
-    return _has_bedrock_header(data) or (len(data) > 3 and data[0] == _COMPOUND)
+def is_nbt(head: bytes, size: int | None = None) -> bool:
+    """Whether an unwrapped file opens as NBT does: with a compound whose name is short.
+
+    head: its first bytes. size: of the whole file, if that is more [bytes].
+    """
+    return _has_bedrock_header(head, size) or (head[:1] == b"\n" and 0 in head[1:3])
 
 
-def _has_bedrock_header(data: bytes) -> bool:
+def _has_bedrock_header(head: bytes, size: int | None = None) -> bool:
     """Bedrock's level.dat opens with a version and the length of what follows."""
-    return data[8:9] == b"\n" and int.from_bytes(data[4:8], "little") == len(data) - 8
+    size = len(head) if size is None else size
+    return head[8:9] == b"\n" and int.from_bytes(head[4:8], "little") == size - 8
 
 
 def _guess_order(data: bytes) -> Order:

@@ -1,0 +1,118 @@
+"""What files of placed blocks share: reading their parts, and the banners that blocks bear."""
+
+from collections.abc import Callable, Iterator
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.tree import Tree, banner_from_block_entity, base_of, is_banner_id
+from drapery.banner.names import shown
+from drapery.errors import DesignError
+
+OnError: TypeAlias = Callable[[DesignError], None]
+"""Takes the error of one broken banner or part, after which the search goes on."""
+
+Spot: TypeAlias = tuple[int, int, int]
+"""A block's x, y, z."""
+
+
+def raise_error(error: DesignError) -> None:
+    """The OnError of those who want all banners or none."""
+    raise error
+
+
+def compounds(tree: dict[str, Tree], where: str, *keys: str) -> list[dict[str, Tree]]:
+    """The list of compounds under the first of the keys that is there; empty if none is.
+
+    Raises DesignError if what is there is anything else.
+    """
+    for key in keys:
+        if key in tree:
+            items = tree[key]
+            if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
+                raise DesignError(f"{where}: {key} is no list of compounds; save the file anew")
+            return items
+    return []
+
+
+def compound(tree: dict[str, Tree], where: str, key: str) -> dict[str, Tree]:
+    """The compound under a key; empty if there is none. Raises DesignError for anything else."""
+    value = tree.get(key, {})
+    if not isinstance(value, dict):
+        raise DesignError(f"{where}: {key} is {shown(value)}, no compound; save the file anew")
+    return value
+
+
+def spot(value: Tree, where: str) -> Spot:
+    """A position [blocks] from three numbers, or from a compound with x, y and z.
+
+    Raises DesignError for anything else.
+    """
+    if isinstance(value, dict):
+        value = [value.get(axis) for axis in "xyz"]
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if not isinstance(value, list) or len(value) != 3 or not all(map(_is_finite, value)):
+        raise DesignError(f"{where}: {shown(value)} is no position of three numbers")
+    return int(value[0] // 1), int(value[1] // 1), int(value[2] // 1)
+
+
+def _is_finite(value: Any) -> bool:
+    return isinstance(value, int | float) and abs(value) < 2**63
+
+
+def at_block(where: str, place: Spot) -> str:
+    """`hill.nbt block 48,71,-9`."""
+    return f"{where} block {place[0]},{place[1]},{place[2]}"
+
+
+def state_name(state: Tree) -> str | None:
+    """A block's id from a palette's entry: `{Name: …}`, or `id[key=value]`."""
+    name = state.get("Name") if isinstance(state, dict) else state
+    return name.partition("[")[0] if isinstance(name, str) else None
+
+
+def banners_of_block(
+    entity: dict[str, Tree], block: str | None, where: str, on_error: OnError
+) -> Iterator[Found]:
+    """The banner that a block entity is, or else those it contains.
+
+    block: the block's id, which tells the base dye since 1.13, if the file has it.
+    """
+    if is_banner_id(block) or is_banner_id(entity.get("id", entity.get("Id"))):
+        try:
+            yield Found(banner_from_block_entity(entity, where, block=block), where)
+        except DesignError as error:
+            on_error(error)
+    else:
+        yield from find_banners(entity, where, on_error=on_error)
+
+
+def plain_banners(blocks: dict[Spot, str], where: str) -> Iterator[Found]:
+    """Banners that stand without a block entity: the game makes them plain ones."""
+    for place, block in blocks.items():
+        if base_of(block) is not None:
+            at = at_block(where, place)
+            yield Found(banner_from_block_entity({}, at, block=block), at)
+
+
+def banners_of_entities(
+    entities: list[dict[str, Tree]], where: str, on_error: OnError
+) -> Iterator[Found]:
+    """The banners that mobs wear, frames show and minecarts carry."""
+    for entity in entities:
+        inner = entity.get("nbt", entity.get("Data", entity))
+        inner = inner if isinstance(inner, dict) else entity
+        name = state_name(inner.get("id", entity.get("Id"))) or "entity"
+        position = entity.get("Pos", inner.get("Pos", entity.get("pos")))
+        yield from find_banners(inner, _at_entity(where, name, position), on_error=on_error)
+
+
+def _at_entity(where: str, name: str, position: Tree) -> str:
+    label = f"{where} {name.removeprefix('minecraft:')[:60]}"
+    try:
+        x, y, z = spot(position, where)
+    except DesignError:
+        return label
+    return f"{label} at {x},{y},{z}"

@@ -1,0 +1,88 @@
+"""One chunk of a Java world: its block entities, and the packed sections that tell their blocks.
+
+Since 1.18 the root holds `sections` and `block_entities`; before, `Level` holds `Sections` and
+`TileEntities`. A section is 16 x 16 x 16 blocks, x fastest, then z, then y. Its indices take
+`max(4, bits of the palette)` bits each. To 1.15 an index may span two longs, since 1.16 not:
+the length of the array tells which, and where it does not, both are the same. Before 1.13
+blocks are numeric ids, and a banner's block entity has its base dye.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from drapery.banner.formats.blocks import (
+    OnError,
+    Spot,
+    at_block,
+    banners_of_block,
+    banners_of_entities,
+    compound,
+    compounds,
+    raise_error,
+    spot,
+    state_name,
+)
+from drapery.banner.formats.found import Found
+from drapery.banner.formats.palettes import bits_for, longs_needed, unpack
+from drapery.banner.formats.tree import Tree, is_banner_id
+from drapery.errors import DesignError
+
+SECTION_BLOCKS = 4096
+LEAST_BITS = 4
+
+
+def recognises(tree: dict[str, Tree]) -> bool:
+    """Whether an NBT tree is a chunk: of blocks, or of the entities that have their own files."""
+    return "sections" in tree or isinstance(tree.get("Level"), dict) or "Entities" in tree
+
+
+def find(
+    tree: dict[str, Tree], where: str = "", on_error: OnError = raise_error
+) -> Iterator[Found]:
+    """Every banner of a chunk: blocks, contents of containers, entities.
+
+    tree: of the whole chunk. Raises DesignError where its parts are none of a chunk.
+    """
+    level = compound(tree, where, "Level") or tree
+    sections = _sections(level, where)
+    for entity in compounds(level, where, "block_entities", "TileEntities"):
+        place = spot(entity, where)
+        at = at_block(where, place)
+        block = None
+        if is_banner_id(entity.get("id")):
+            block = _block(sections.get(place[1] >> 4), place, at)
+        yield from banners_of_block(entity, block, at, on_error)
+    yield from banners_of_entities(compounds(level, where, "entities", "Entities"), where, on_error)
+
+
+def _sections(level: dict[str, Tree], where: str) -> dict[int, dict[str, Tree]]:
+    """The sections by their height: section Y begins at block 16 Y."""
+    sections = compounds(level, where, "sections", "Sections")
+    return {y: section for section in sections if isinstance(y := section.get("Y"), int)}
+
+
+def _block(section: dict[str, Tree] | None, place: Spot, where: str) -> str | None:
+    """The id of the block at a place, if the section has ids."""
+    states = (section or {}).get("block_states", section)
+    if not isinstance(states, dict):
+        return None
+    names = [state_name(state) for state in compounds(states, where, "palette", "Palette")]
+    if len(names) < 2:
+        return names[0] if names else None
+    x, y, z = (axis & 15 for axis in place)
+    index = _index(states, len(names), y << 8 | z << 4 | x, where)
+    return names[index] if index < len(names) else None
+
+
+def _index(states: dict[str, Tree], count: int, number: int, where: str) -> int:
+    """The palette index of one of the section's blocks."""
+    longs = np.asarray(states.get("data", states.get("BlockStates", ())))
+    bits = bits_for(count, LEAST_BITS)
+    spanning = len(longs) == longs_needed(SECTION_BLOCKS, bits, spanning=True)
+    if not spanning and len(longs) != longs_needed(SECTION_BLOCKS, bits, spanning=False):
+        raise DesignError(
+            f"{where}: {len(longs)} longs do not hold a section of {count} block states;"
+            " let the game save the chunk anew"
+        )
+    return int(unpack(longs, bits, np.array([number]), spanning)[0])

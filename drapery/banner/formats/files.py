@@ -1,0 +1,146 @@
+"""Files that hold banners: what a file is, by its bytes, and all banners in it or in a world."""
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from drapery.banner.formats import chunk, litematic, mcstructure, region, schem, structure
+from drapery.banner.formats.blocks import OnError, raise_error
+from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.inflate import MAX_BYTES, check_size, is_compressed
+from drapery.banner.formats.nbt import is_nbt, read_nbt
+from drapery.banner.formats.tree import Tree
+from drapery.errors import DesignError
+
+MAX_FILES = 100_000
+"""Files of one world; 100,000 regions are 50,000 km in a square."""
+
+_HEAD = 2 * region.SECTOR
+
+
+class Layout(NamedTuple):
+    """A layout of NBT files: its name, whether a tree has it, and all banners of such a tree."""
+
+    name: str
+    recognises: Callable[[dict[str, Tree]], bool]
+    find: Callable[[dict[str, Tree], str, OnError], Iterator[Found]]
+
+
+def _find_anywhere(tree: dict[str, Tree], where: str, on_error: OnError) -> Iterator[Found]:
+    return find_banners(tree, where, on_error=on_error)
+
+
+LAYOUTS = (
+    Layout(schem.NAME, schem.recognises, schem.find),
+    Layout(litematic.NAME, litematic.recognises, litematic.find),
+    Layout(mcstructure.NAME, mcstructure.recognises, mcstructure.find),
+    Layout(structure.NAME, structure.recognises, structure.find),
+    Layout("chunk", chunk.recognises, chunk.find),
+    Layout("nbt", lambda tree: True, _find_anywhere),
+)
+"""Layouts in the order in which they are tried; the last is any: players, items, level.dat."""
+
+
+def banners_in(path: str | Path, on_error: OnError = raise_error) -> Iterator[Found]:
+    """Every banner of a file or of a world's folder, with where it was found.
+
+    Files: NBT (structures, schematics, Litematica, Bedrock's, players, items) and regions. They
+    are told by their bytes, not by their names. Links are not followed out of a world.
+
+    on_error: takes the error of one broken banner, chunk or file of a world, and the search goes
+    on; by default it is raised.
+
+    Raises DesignError for a file that is none of these, and for a folder that is no world.
+    """
+    path = Path(path)
+    if path.is_dir():
+        yield from _in_world(path, on_error)
+    elif path.is_file():
+        yield from _in_file(path, path.name, on_error)
+    else:
+        raise DesignError(f"{path}: no such file or folder; check the path")
+
+
+def is_binary(head: bytes, size: int) -> bool:
+    """Whether a file of this size [bytes], which opens so, is one for `banners_in`.
+
+    head: the first 8 KiB.
+    """
+    return is_compressed(head) or is_nbt(head, size) or region.recognises(head, size)
+
+
+def find_in_bytes(data: bytes, where: str, on_error: OnError = raise_error) -> Iterator[Found]:
+    """Every banner of an NBT file's bytes, by its layout."""
+    tree = read_nbt(data, where)
+    layout = next(layout for layout in LAYOUTS if layout.recognises(tree))
+    return layout.find(tree, where, on_error)
+
+
+def _in_file(path: Path, where: str, on_error: OnError) -> Iterator[Found]:
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        head = file.read(_HEAD)
+        file.seek(0)
+        if is_compressed(head) or is_nbt(head, size):
+            check_size(size, where, MAX_BYTES)
+            yield from find_in_bytes(file.read(), where, on_error)
+        elif region.recognises(head, size) or path.suffix == ".mca":
+            yield from region.find(file, path.name, where, on_error, path.parent)
+        else:
+            raise DesignError(f"{where}: {_refusal(head)}")
+
+
+def _refusal(head: bytes) -> str:
+    if head[:4] == b"PK\x03\x04":
+        return "a zip file; unpack it and give the world's folder or one of its files"
+    if not head:
+        return "an empty file; save or download it anew"
+    return "neither NBT nor a region file; give a structure, a schematic or a world"
+
+
+def _in_world(folder: Path, on_error: OnError) -> Iterator[Found]:
+    found = False
+    for path in _world_files(folder):
+        found = True
+        try:
+            yield from _in_file(path, path.relative_to(folder).as_posix(), on_error)
+        except DesignError as error:
+            on_error(error)
+        except OSError as error:
+            on_error(DesignError(f"{path}: {error.strerror}; make it readable"))
+    if not found:
+        raise DesignError(f"{folder}: no world of Java Edition; give the folder of level.dat")
+
+
+def _world_files(folder: Path) -> Iterator[Path]:
+    """The files of a world that may hold banners, folder by folder in a fixed order."""
+    count = 0
+    for top, folders, names in os.walk(folder):
+        folders.sort()
+        for name in sorted(names, key=_natural):
+            path = Path(top, name)
+            if not _may_hold(path) or path.is_symlink() or not path.is_file():
+                continue
+            count += 1
+            if count > MAX_FILES:
+                raise DesignError(f"{folder}: over {MAX_FILES} files; give one dimension's folder")
+            yield path
+
+
+def _may_hold(path: Path) -> bool:
+    """level.dat, players, saved structures, and the regions of blocks and of entities."""
+    if path.suffix == ".mca":
+        return path.parent.name != "poi"
+    if path.suffix == ".dat":
+        players = path.parent.name == "playerdata" or path.parent.parent.name == "players"
+        return path.name == "level.dat" or players
+    return path.suffix == ".nbt"
+
+
+def _natural(name: str) -> list[tuple[int, str]]:
+    """Regions by the numbers in their names, -1 before 10."""
+    return [
+        (int(part), "") if part.lstrip("-").isdecimal() and len(part) < 12 else (0, part)
+        for part in name.split(".")
+    ]

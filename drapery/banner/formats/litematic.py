@@ -1,0 +1,93 @@
+"""Litematica's schematics (`.litematic`): named boxes, each a palette and packed block states.
+
+Indices take `max(2, bits of the palette)` bits each and may begin in one long and end in the
+next; x is fastest, then z, then y. A size may be negative: the box then lies the other way.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from drapery.banner.formats.blocks import (
+    OnError,
+    Spot,
+    at_block,
+    banners_of_block,
+    banners_of_entities,
+    compound,
+    compounds,
+    plain_banners,
+    raise_error,
+    spot,
+    state_name,
+)
+from drapery.banner.formats.found import Found
+from drapery.banner.formats.palettes import bits_for, longs_needed, names_in_box, packed_pieces
+from drapery.banner.formats.tree import Tree
+from drapery.banner.names import shown
+from drapery.errors import DesignError
+
+NAME = "litematic"
+LEAST_BITS = 2
+
+
+def recognises(tree: dict[str, Tree]) -> bool:
+    """Whether an NBT file's tree is a Litematica schematic."""
+    return isinstance(tree.get("Regions"), dict)
+
+
+def find(
+    tree: dict[str, Tree], where: str = "", on_error: OnError = raise_error
+) -> Iterator[Found]:
+    """Every banner of a schematic: blocks, contents of containers, entities.
+
+    tree: of the whole file. Positions count from the schematic's origin.
+    Raises DesignError where the file is no schematic.
+    """
+    regions = compound(tree, where, "Regions")
+    for name in regions:
+        label = f"{where} region {shown(name)}"
+        yield from _find_in_region(compound(regions, label, name), label, on_error)
+
+
+def _find_in_region(region: dict[str, Tree], where: str, on_error: OnError) -> Iterator[Found]:
+    size = spot(region.get("Size"), f"{where} Size")
+    corner = _corner(spot(region.get("Position"), f"{where} Position"), size)
+    entities = {
+        spot(entity.get("Pos", entity), where): entity
+        for entity in compounds(region, where, "TileEntities")
+    }
+    names = _names(region, size, entities, where)
+    for place, entity in entities.items():
+        at = at_block(where, _sum(corner, place))
+        yield from banners_of_block(entity, names.pop(place, None), at, on_error)
+    yield from plain_banners({_sum(corner, place): name for place, name in names.items()}, where)
+    yield from banners_of_entities(compounds(region, where, "Entities"), where, on_error)
+
+
+def _names(
+    region: dict[str, Tree], size: Spot, places: dict[Spot, dict[str, Tree]], where: str
+) -> dict[Spot, str]:
+    """The ids of the blocks at these places and of all banners."""
+    states = [state_name(state) for state in compounds(region, where, "BlockStatePalette")]
+    box = abs(size[0]), abs(size[1]), abs(size[2])
+    count, bits = box[0] * box[1] * box[2], bits_for(len(states), LEAST_BITS)
+    longs = np.asarray(region.get("BlockStates", ()))
+    if longs.dtype.kind != "i" or longs.ndim != 1:
+        raise DesignError(f"{where}: BlockStates is no array of longs; save the file anew")
+    if len(longs) < longs_needed(count, bits, spanning=True):
+        raise DesignError(
+            f"{where}: BlockStates holds fewer than {count} blocks; save the file anew"
+        )
+    palette = {number: name for number, name in enumerate(states) if name}
+    return names_in_box(packed_pieces(longs, bits, count), palette, box, places, where)
+
+
+def _corner(position: Spot, size: Spot) -> Spot:
+    """The box's least corner, which the block entities count from."""
+    x, y, z = (at + min(0, side + 1) for at, side in zip(position, size, strict=True))
+    return x, y, z
+
+
+def _sum(a: Spot, b: Spot) -> Spot:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]

@@ -1,0 +1,59 @@
+"""Bedrock's binary NBT: structures (`.mcstructure`), and any other file of its byte order.
+
+A structure lists its blocks by number, z fastest, then y, then x; block entities are kept by
+that number. Banners there have their base dye, and `Type:1` is the ominous banner.
+"""
+
+from collections.abc import Iterator
+
+from drapery.banner.formats.blocks import (
+    OnError,
+    Spot,
+    at_block,
+    banners_of_block,
+    banners_of_entities,
+    compound,
+    compounds,
+    raise_error,
+    spot,
+)
+from drapery.banner.formats.found import Found
+from drapery.banner.formats.tree import Tree
+from drapery.errors import DesignError
+
+NAME = "mcstructure"
+
+
+def recognises(tree: dict[str, Tree]) -> bool:
+    """Whether an NBT file's tree is a Bedrock structure."""
+    return "structure_world_origin" in tree or (
+        "format_version" in tree and isinstance(tree.get("structure"), dict)
+    )
+
+
+def find(
+    tree: dict[str, Tree], where: str = "", on_error: OnError = raise_error
+) -> Iterator[Found]:
+    """Every banner of a structure: blocks, contents of containers, entities.
+
+    tree: of the whole file. Positions count from the structure's corner.
+    Raises DesignError where the file is no structure.
+    """
+    size = spot(tree.get("size"), f"{where} size")
+    structure = compound(tree, where, "structure")
+    palettes = compound(structure, where, "palette")
+    for name in palettes:
+        data = compound(compound(palettes, where, name), where, "block_position_data")
+        for number in data:
+            entity = compound(compound(data, where, number), where, "block_entity_data")
+            at = at_block(where, _place(number, size, where))
+            yield from banners_of_block(entity, None, at, on_error)
+    yield from banners_of_entities(compounds(structure, where, "entities"), where, on_error)
+
+
+def _place(number: str, size: Spot, where: str) -> Spot:
+    """The place of a block by its number."""
+    _, height, length = size
+    if not (number.isascii() and number.isdigit() and len(number) < 12 and height * length > 0):
+        raise DesignError(f"{where}: {number[:12]!r} is no block's number; export the file anew")
+    return int(number) // (height * length), int(number) // length % height, int(number) % length

@@ -1,0 +1,140 @@
+"""Region files of Java worlds (`r.<x>.<z>.mca`): up to 32 x 32 chunks in sectors of 4 KiB.
+
+The first sector tells each chunk's place: three bytes for its first sector and one for their
+number. A chunk opens with its length and the kind of its compression; the kind's high bit says
+that the chunk is too large and has its own file, `c.<x>.<z>.mcc`.
+"""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from drapery.banner.formats import chunk
+from drapery.banner.formats.blocks import OnError, raise_error
+from drapery.banner.formats.found import Found
+from drapery.banner.formats.inflate import check_size, inflate
+from drapery.banner.formats.nbt import read_nbt
+from drapery.errors import DesignError
+
+NAME = "region"
+SECTOR = 4096
+SIDE = 32
+MAX_CHUNK = 16 * 2**20
+"""Bytes of an unpacked chunk; most are under 300 KiB."""
+
+MAX_REGION = 2**30
+"""Bytes of all unpacked chunks of a file, so that a bomb cannot hide in each."""
+
+KINDS = {1: "gzip", 2: "zlib", 3: "none", 4: "LZ4", 127: "one of a mod's own"}
+_OWN_FILE = 0x80
+_WORDS = (b"banner", b"Banner", b"shield")
+"""A chunk without any of these in its bytes bears no design and need not be read further."""
+
+_FILE_NAME = re.compile(r"r\.(-?\d{1,9})\.(-?\d{1,9})\.mc[ar]")
+
+
+def recognises(head: bytes, size: int) -> bool:
+    """Whether a file of this size [bytes] that opens so is a region.
+
+    head: at least the first sector. Region files have no mark of their own, but every chunk
+    that they list must lie inside them and behind the two sectors of the header.
+    """
+    if size == 0 or size < 2 * SECTOR or len(head) < SECTOR:
+        return False
+    places = [_place(head, n) for n in range(SIDE * SIDE)]
+    used = [(first, count) for first, count in places if first or count]
+    return all(first >= 2 and count and first * SECTOR < size for first, count in used)
+
+
+def find(
+    file: BinaryIO,
+    name: str,
+    where: str = "",
+    on_error: OnError = raise_error,
+    folder: Path | None = None,
+) -> Iterator[Found]:
+    """Every banner of a region file, with its place: `chunk 3,-1 block 48,71,-9`.
+
+    A broken chunk is one error; the others are read.
+
+    name: the file's, `r.<x>.<z>.mca`, which tells the chunks' places. folder: where the files of
+    chunks too large for a region lie.
+    """
+    corner = _corner(name)
+    left = MAX_REGION
+    head = file.read(SECTOR)
+    for number in _listed(head, where, on_error):
+        x, z = corner[0] + number % SIDE, corner[1] + number // SIDE
+        at = f"{where} chunk {x},{z}"
+        try:
+            data = _unpacked(file, _place(head, number), folder, f"c.{x}.{z}.mcc", at)
+            left -= len(data)
+            check_size(MAX_REGION - left, where, MAX_REGION)
+            if any(word in data for word in _WORDS):
+                yield from chunk.find(read_nbt(data, at), at, on_error)
+        except DesignError as error:
+            on_error(error)
+        if left < 0:
+            return
+
+
+def _corner(name: str) -> tuple[int, int]:
+    """The first chunk of a region, from the file's name; 0, 0 for other names."""
+    match = _FILE_NAME.fullmatch(name)
+    return (int(match[1]) * SIDE, int(match[2]) * SIDE) if match else (0, 0)
+
+
+def _listed(head: bytes, where: str, on_error: OnError) -> list[int]:
+    """The numbers of the chunks that a region has."""
+    if len(head) < SECTOR:
+        # The game makes empty region files where it meant to save and did not.
+        if head:
+            on_error(DesignError(f"{where}: cut off: {len(head)} bytes are no region file"))
+        return []
+    return [number for number in range(SIDE * SIDE) if _place(head, number) != (0, 0)]
+
+
+def _place(head: bytes, number: int) -> tuple[int, int]:
+    """A chunk's first sector and its number of sectors."""
+    entry = head[4 * number : 4 * number + 4]
+    return int.from_bytes(entry[:3], "big"), entry[3]
+
+
+def _unpacked(
+    file: BinaryIO, place: tuple[int, int], folder: Path | None, own_file: str, where: str
+) -> bytes:
+    """A chunk's NBT. Raises DesignError, naming chunk and byte, where it is broken."""
+    first, count = place
+    file.seek(first * SECTOR)
+    opening = file.read(5)
+    length = int.from_bytes(opening[:4], "big")
+    if len(opening) < 5 or not 1 <= length <= count * SECTOR:
+        at = first * SECTOR
+        raise DesignError(f"{where}: no chunk at byte {at}; let the game repair the world")
+    kind = opening[4]
+    large = kind & _OWN_FILE
+    data = _own_file(folder, own_file, where) if large else file.read(length - 1)
+    return _unwrap(data, kind & ~_OWN_FILE, where)
+
+
+def _own_file(folder: Path | None, name: str, where: str) -> bytes:
+    """What a chunk of over a megabyte keeps in a file beside the region."""
+    path = folder / name if folder else None
+    if path is None or path.is_symlink() or not path.is_file():
+        raise DesignError(f"{where}: its file {name} is missing; copy it beside the region")
+    check_size(path.stat().st_size, f"{where} {name}", MAX_CHUNK)
+    return path.read_bytes()
+
+
+def _unwrap(data: bytes, kind: int, where: str) -> bytes:
+    if kind not in (1, 2, 3):
+        name = KINDS.get(kind, "unknown")
+        raise DesignError(
+            f"{where}: compressed by method {kind} ({name}), which is not read;"
+            " set region-file-compression=deflate and let the server save it anew"
+        )
+    if kind == 3:
+        check_size(len(data), where, MAX_CHUNK)
+        return data
+    return inflate(data, where, MAX_CHUNK)

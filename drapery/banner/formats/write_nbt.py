@@ -1,0 +1,68 @@
+"""Writing binary NBT, by nbtlib: plain trees to bytes, banners to the trees of Java 1.21."""
+
+import gzip
+import io
+from typing import TYPE_CHECKING, Any, Literal
+
+from drapery.banner.design import Banner
+from drapery.banner.formats.tree import Tree, names
+from drapery.errors import DesignError
+
+if TYPE_CHECKING:
+    from nbtlib import Base
+
+DATA_VERSION = 3953
+"""Java 1.21, whose banners the later versions read too."""
+
+
+def encode(tree: dict[str, Tree], order: Literal["big", "little"] = "big") -> bytes:
+    """The bytes of a tree; Java's compressed, Bedrock's not.
+
+    Ints are written as TAG_Int and bools as TAG_Byte; nbtlib's own tags stay what they are.
+    """
+    from nbtlib import File
+
+    raw = io.BytesIO()
+    File(tag(tree)).write(raw, byteorder=order)
+    # The time stays out of the header, so that equal trees are equal files.
+    return gzip.compress(raw.getvalue(), mtime=0) if order == "big" else raw.getvalue()
+
+
+def tag(tree: Tree) -> "Base":
+    """A plain tree as nbtlib's tags."""
+    import nbtlib
+
+    if isinstance(tree, nbtlib.Base):
+        return tree
+    if isinstance(tree, dict):
+        return nbtlib.Compound({key: tag(value) for key, value in tree.items()})
+    if isinstance(tree, list):
+        return nbtlib.List([tag(value) for value in tree])
+    kinds: dict[type, Any] = {bool: nbtlib.Byte, int: nbtlib.Int, str: nbtlib.String}
+    return kinds[type(tree)](tree)
+
+
+def block_entity(banner: Banner) -> dict[str, Tree]:
+    """A banner's block entity; the block's id tells the base dye."""
+    layers = names(banner.layers)
+    return {"id": "minecraft:banner"} | ({"patterns": layers} if layers else {})
+
+
+def item(banner: Banner) -> dict[str, Tree]:
+    """One banner or shield as an item object."""
+    components: dict[str, Tree] = {}
+    if banner.layers:
+        components["minecraft:banner_patterns"] = names(banner.layers)
+    if banner.kind == "shield":
+        components["minecraft:base_color"] = banner.base
+    name = "shield" if banner.kind == "shield" else f"{banner.base}_banner"
+    return {"id": f"minecraft:{name}", "count": 1} | (
+        {"components": components} if components else {}
+    )
+
+
+def placeable(banner: Banner) -> Banner:
+    """The same banner. Raises DesignError for a shield, which cannot be placed as a block."""
+    if banner.kind == "shield":
+        raise DesignError("a shield is no block; write it as an item, or its design as a banner")
+    return banner

@@ -1,0 +1,346 @@
+"""Banners in files of placed blocks, of every layout and age, each with its place."""
+
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+import world_maker as make
+from hypothesis import given
+from hypothesis import strategies as st
+from world_maker import LIME, PLAIN, RED, SHIELD
+
+from drapery.banner.design import Banner
+from drapery.banner.formats.files import banners_in, find_in_bytes, is_binary
+from drapery.banner.formats.palettes import bits_for, packed_pieces, unpack, varint_pieces
+from drapery.banner.formats.tree import OMINOUS
+from drapery.errors import DesignError
+
+STANDING = {
+    (1, 2, 3): (make.block_id(RED), make.entity(RED)),
+    (4, 0, 5): (make.block_id(LIME, wall=True), make.entity(LIME)),
+    (0, 0, 0): ("minecraft:chest", make.chest(RED, SHIELD)),
+}
+
+
+def found(data: bytes) -> dict[str, Banner]:
+    return {one.where.removeprefix("f "): one.banner for one in find_in_bytes(data, "f")}
+
+
+def in_blocks(prefix: str = "") -> dict[str, Banner]:
+    return {
+        f"{prefix}block 1,2,3": RED,
+        f"{prefix}block 4,0,5": LIME,
+        f"{prefix}block 0,0,0.Items[0]": RED,
+        f"{prefix}block 0,0,0.Items[1]": SHIELD,
+    }
+
+
+def test_a_structure_gives_blocks_containers_and_entities():
+    frame = {
+        "pos": make.List[make.nbtlib.Double]([1.5, 2.5, -0.5]),
+        "nbt": {"id": "minecraft:item_frame", "Item": make.item(LIME)},
+    }
+    bare = {(7, 7, 7): (make.block_id(PLAIN), None), (8, 7, 7): ("minecraft:stone", None)}
+    data = make.nbt_file(make.structure(STANDING | bare, [frame]))
+    expected = in_blocks() | {"block 7,7,7": PLAIN, "item_frame at 1,2,-1.Item": LIME}
+    assert found(data) == expected
+
+
+def test_a_structure_of_several_palettes_reads_by_the_first():
+    tree = make.structure({(1, 2, 3): (make.block_id(RED), make.entity(RED))})
+    tree["palettes"] = [tree.pop("palette"), [{"Name": "minecraft:stone"}]]
+    assert found(make.nbt_file(tree)) == {"block 1,2,3": RED}
+
+
+def test_an_old_structure_keeps_the_base_in_the_block_entity():
+    tree = make.structure({(1, 2, 3): ("minecraft:standing_banner", make.entity(RED, "1.12"))})
+    assert found(make.nbt_file(tree)) == {"block 1,2,3": RED}
+
+
+@pytest.mark.parametrize("version", [1, 2, 3])
+@pytest.mark.parametrize("padding", [1, 200])
+def test_a_schematic_of_every_version(version: int, padding: int):
+    data = make.nbt_file(make.schem(version, (6, 4, 7), STANDING, padding), "Schematic")
+    assert found(data) == in_blocks()
+
+
+def test_a_schematics_banner_without_a_block_entity_is_plain():
+    blocks = {(5, 3, 6): (make.block_id(PLAIN), None)}
+    assert found(make.nbt_file(make.schem(2, (6, 4, 7), blocks))) == {"block 5,3,6": PLAIN}
+
+
+def test_the_older_schematic_with_numeric_ids():
+    tree = {
+        "Width": make.Short(2),
+        "Height": make.Short(1),
+        "Length": make.Short(1),
+        "Materials": "Alpha",
+        "Blocks": make.ByteArray([-80, 0]),
+        "Data": make.ByteArray([0, 0]),
+        "TileEntities": [make.entity(RED, "1.12") | {"x": 1, "y": 0, "z": 0}],
+    }
+    assert found(make.nbt_file(tree, "Schematic")) == {"block 1,0,0": RED}
+
+
+@pytest.mark.parametrize("padding", [1, 3, 14, 100])
+def test_a_litematica_box(padding: int):
+    data = make.nbt_file(make.litematic((6, 4, 7), (0, 0, 0), STANDING, padding))
+    assert found(data) == in_blocks("region 'hut' ")
+
+
+def test_a_litematica_box_of_negative_size_lies_the_other_way():
+    blocks = {
+        (0, 0, 0): (make.block_id(RED), make.entity(RED)),
+        (5, 3, 6): (make.block_id(PLAIN), None),
+    }
+    data = make.nbt_file(make.litematic((-6, 4, -7), (10, 20, 30), blocks))
+    where = "region 'hut' block"
+    assert found(data) == {f"{where} 5,20,24": RED, f"{where} 10,23,30": PLAIN}
+
+
+PLACES = {
+    "1.12": ((3, 70, -40), "1.12"),
+    "1.13": ((3, 70, -40), "1.13"),
+    "1.16": ((15, 255, 15), "1.13"),
+    "1.18": ((-1, -60, 31), "1.20.5"),
+}
+
+
+@pytest.mark.parametrize("padding", [1, 5, 20, 40, 300])
+@pytest.mark.parametrize("era", PLACES)
+def test_a_chunk_of_every_age_tells_the_base_dye(era: str, padding: int):
+    place, entity_era = PLACES[era]
+    name = None if era == "1.12" else make.block_id(RED)
+    tree = make.chunk(era, {place: (name, make.entity(RED, entity_era))}, padding)
+    assert found(make.nbt_file(tree)) == {f"block {place[0]},{place[1]},{place[2]}": RED}
+
+
+def test_a_section_of_one_state_has_no_indices():
+    tree = make.chunk("1.18", {(0, 0, 0): (make.block_id(RED), make.entity(RED))})
+    tree["sections"][0]["block_states"] = {"palette": [{"Name": make.block_id(RED)}]}
+    assert found(make.nbt_file(tree)) == {"block 0,0,0": RED}
+
+
+def test_entities_wear_banners():
+    captain = {
+        "id": "minecraft:pillager",
+        "Pos": make.List[make.nbtlib.Double]([1.2, 64.0, -3.7]),
+        "equipment": {"head": make.item(OMINOUS)},
+    }
+    data = make.nbt_file({"DataVersion": 4440, "Entities": [captain], "Position": [0, 0]})
+    assert found(data) == {"pillager at 1,64,-4.equipment.head": OMINOUS}
+
+
+def test_a_bedrock_structure_and_its_ominous_banner():
+    item = {"Name": "minecraft:banner", "Damage": 1, "Count": 1}
+    entities = {
+        (1, 2, 3): make.bedrock_entity(RED),
+        (0, 0, 1): make.bedrock_entity(PLAIN, ominous=True),
+        (2, 0, 0): {
+            "id": "Chest",
+            "Items": [{"Name": "minecraft:banner", "Damage": 1, "Count": 1}],
+        },
+    }
+    data = make.raw_nbt(make.mcstructure((4, 3, 5), entities), "little")
+    assert is_binary(data, len(data))
+    assert found(data) == {
+        "block 1,2,3": RED,
+        "block 0,0,1": OMINOUS,
+        "block 2,0,0.Items[0]": Banner("red"),
+    }
+
+
+def test_a_players_file_is_searched_as_a_whole():
+    data = make.nbt_file({"Inventory": [make.item(RED)], "EnderItems": [make.item(SHIELD)]})
+    assert found(data) == {"f.Inventory[0]": RED, "f.EnderItems[0]": SHIELD}
+
+
+@pytest.mark.parametrize("kind", [1, 2, 3])
+def test_a_region_names_chunk_and_block(tmp_path: Path, kind: int):
+    chunks = {
+        (3, -1): make.chunk("1.18", {(48, 71, -9): (make.block_id(RED), make.entity(RED))}),
+        (31, -32): make.chunk("1.13", {(500, 5, -510): ("minecraft:chest", make.chest(SHIELD))}),
+        (0, -5): {"sections": [], "note": "nothing"},
+    }
+    path = make.save(tmp_path / "r.0.-1.mca", make.region(chunks, kind))
+    assert {one.where: one.banner for one in banners_in(path)} == {
+        "r.0.-1.mca chunk 3,-1 block 48,71,-9": RED,
+        "r.0.-1.mca chunk 31,-32 block 500,5,-510.Items[0]": SHIELD,
+    }
+
+
+RED_CHUNK = make.chunk("1.18", {(48, 71, 9): (make.block_id(RED), make.entity(RED))})
+LIME_CHUNK = make.chunk("1.18", {(64, 71, 9): (make.block_id(LIME), make.entity(LIME))})
+
+
+def test_a_broken_chunk_does_not_hide_the_others(tmp_path: Path):
+    broken = struct.pack(">IB", 99, 2) + b"x\x9c" + bytes(97)
+    path = make.save(tmp_path / "r.0.0.mca", make.region({(3, 0): broken, (4, 0): LIME_CHUNK}))
+    errors: list[DesignError] = []
+    assert [one.banner for one in banners_in(path, errors.append)] == [LIME]
+    assert len(errors) == 1 and "r.0.0.mca chunk 3,0: " in str(errors[0])
+    with pytest.raises(DesignError, match=r"chunk 3,0: broken compressed data"):
+        list(banners_in(path))
+
+
+def test_lz4_and_unknown_compression_are_named(tmp_path: Path):
+    for kind, name in ((4, "LZ4"), (9, "unknown")):
+        chunk = struct.pack(">IB", 50, kind) + bytes(49)
+        path = make.save(tmp_path / "r.0.0.mca", make.region({(3, 0): chunk}))
+        with pytest.raises(DesignError, match=rf"chunk 3,0: .*method {kind} \({name}\)"):
+            list(banners_in(path))
+
+
+def test_a_chunk_too_large_for_a_region_has_its_own_file(tmp_path: Path):
+    data = make.region({(3, 0): struct.pack(">IB", 1, 0x82)})
+    path = make.save(tmp_path / "r.0.0.mca", data)
+    with pytest.raises(DesignError, match=r"c\.3\.0\.mcc is missing"):
+        list(banners_in(path))
+    make.save(tmp_path / "c.3.0.mcc", make.PACKERS[2](make.raw_nbt(RED_CHUNK)))
+    assert [one.banner for one in banners_in(path)] == [RED]
+
+
+def make_world(folder: Path) -> None:
+    region = make.region({(3, 0): RED_CHUNK})
+    make.save(folder / "level.dat", make.nbt_file({"Data": {"Player": {"Item": make.item(LIME)}}}))
+    make.save(folder / "region" / "r.0.0.mca", region)
+    make.save(folder / "region" / "r.-1.0.mca", b"")
+    make.save(folder / "DIM-1" / "region" / "r.0.0.mca", region)
+    make.save(folder / "dimensions" / "a" / "b" / "entities" / "r.0.0.mca", region)
+    make.save(folder / "poi" / "r.0.0.mca", b"not read")
+    make.save(folder / "playerdata" / "x.dat", make.nbt_file({"Inventory": [make.item(SHIELD)]}))
+    make.save(folder / "playerdata" / "x.dat_old", b"not read")
+
+
+def test_a_world_gives_the_banners_of_all_its_dimensions_and_players(tmp_path: Path):
+    make_world(tmp_path)
+    block = "chunk 3,0 block 48,71,9"
+    assert [(one.where, one.banner) for one in banners_in(tmp_path)] == [
+        ("level.dat.Data.Player.Item", LIME),
+        (f"DIM-1/region/r.0.0.mca {block}", RED),
+        (f"dimensions/a/b/entities/r.0.0.mca {block}", RED),
+        ("playerdata/x.dat.Inventory[0]", SHIELD),
+        (f"region/r.0.0.mca {block}", RED),
+    ]
+
+
+def test_links_out_of_a_world_are_not_followed(tmp_path: Path):
+    make_world(tmp_path / "other")
+    world = tmp_path / "world"
+    make.save(world / "level.dat", make.nbt_file({"Data": {}}))
+    (world / "region").symlink_to(tmp_path / "other" / "region")
+    (world / "DIM1").mkdir()
+    (world / "DIM1" / "r.0.0.mca").symlink_to(tmp_path / "other" / "region" / "r.0.0.mca")
+    own_file = make.region({(3, 0): struct.pack(">IB", 1, 0x82)})
+    make.save(world / "DIM2" / "r.0.0.mca", own_file)
+    (world / "DIM2" / "c.3.0.mcc").symlink_to(tmp_path / "other" / "level.dat")
+    errors: list[DesignError] = []
+    assert list(banners_in(world, errors.append)) == []
+    assert len(errors) == 1 and "c.3.0.mcc is missing" in str(errors[0])
+
+
+def test_files_are_told_by_their_bytes(tmp_path: Path):
+    schematic = make.nbt_file(make.schem(3, (6, 4, 7), STANDING))
+    region = make.region({(3, 0): RED_CHUNK})
+    assert len(list(banners_in(make.save(tmp_path / "one.txt", schematic)))) == 4
+    assert len(list(banners_in(make.save(tmp_path / "two.bin", region)))) == 1
+    for text in (b"\n/give @p red_banner", b"{}", b"planetminecraft.com/banner/?b=b1f", b""):
+        assert not is_binary(text, len(text))
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "place"),
+    [
+        ("a.zip", b"PK\x03\x04" + bytes(99), "a.zip: a zip file; unpack it"),
+        ("a.nbt", b"", "a.nbt: an empty file"),
+        ("a.nbt", b"hello", "a.nbt: neither NBT nor a region"),
+        ("r.0.0.mca", b"hello", "r.0.0.mca: cut off: 5 bytes"),
+        ("r.0.0.mca", struct.pack(">I", 0x00FFFF01).ljust(4096, b"\0"), "no chunk at byte"),
+    ],
+)
+def test_files_that_are_none_are_refused_by_name(
+    tmp_path: Path, name: str, data: bytes, place: str
+):
+    with pytest.raises(DesignError, match=place):
+        list(banners_in(make.save(tmp_path / name, data)))
+
+
+def test_folders_that_are_no_world_and_missing_paths_are_refused(tmp_path: Path):
+    with pytest.raises(DesignError, match="no world"):
+        list(banners_in(tmp_path))
+    with pytest.raises(DesignError, match="no such file"):
+        list(banners_in(tmp_path / "nowhere"))
+
+
+def test_one_bad_banner_does_not_hide_the_others():
+    bad = make.entity(RED) | {"patterns": make.new_layers(RED) * 9}
+    tree = make.structure(STANDING | {(9, 9, 9): (make.block_id(RED), bad)})
+    errors: list[DesignError] = []
+    assert len(list(find_in_bytes(make.nbt_file(tree), "f", errors.append))) == 4
+    assert len(errors) == 1 and str(errors[0]).startswith("f block 9,9,9.patterns: 18 layers")
+
+
+BROKEN = {
+    "blocks": {"palette": [], "blocks": 3},
+    "pos": {"palette": [{"Name": "minecraft:red_banner"}], "blocks": [{"state": 0, "pos": "x"}]},
+    "Palette": {"Width": 1, "Height": 1, "Length": 1, "Palette": 3},
+    "BlockStates": {
+        "Regions": {
+            "a": {
+                "Size": {"x": 99, "y": 99, "z": 99},
+                "Position": {"x": 0, "y": 0, "z": 0},
+                "BlockStatePalette": [{"Name": "minecraft:red_banner"}] * 3,
+                "BlockStates": make.LongArray([1, 2, 3, 4, 5]),
+            }
+        }
+    },
+    "Regions": {"Regions": {"a": 3}},
+    "block_entities": {"sections": [], "block_entities": [{"id": "minecraft:banner"}]},
+    "size": {"structure_world_origin": [0, 0, 0], "structure": {}},
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_layouts_with_wrong_parts_are_refused(name: str):
+    with pytest.raises(DesignError) as caught:
+        found(make.nbt_file(BROKEN[name]))
+    assert str(caught.value).startswith("f") and "\n" not in str(caught.value)
+
+
+@given(st.integers(2, 15), st.booleans(), st.data())
+def test_unpacking_undoes_packing(bits: int, spanning: bool, data):
+    numbers = data.draw(st.lists(st.integers(0, 2**bits - 1), min_size=1, max_size=200))
+    longs = np.array(make.packed(numbers, bits, spanning))
+    places = np.arange(len(numbers))
+    assert unpack(longs, bits, places, spanning).tolist() == numbers
+    if spanning:
+        pieces = [values for _, values in packed_pieces(longs, bits, len(numbers))]
+        assert np.concatenate(pieces).tolist() == numbers
+
+
+@given(st.lists(st.integers(0, 2**31 - 1) | st.integers(0, 300), max_size=200))
+def test_reading_varints_undoes_writing_them(numbers: list[int]):
+    pieces = [values for _, values in varint_pieces(make.varints(numbers), "f")]
+    assert np.concatenate([np.array([], int), *pieces]).tolist() == numbers
+
+
+def test_long_arrays_are_read_in_pieces_that_join(monkeypatch: pytest.MonkeyPatch):
+    from drapery.banner.formats import palettes
+
+    monkeypatch.setattr(palettes, "PIECE", 64)
+    numbers = [(7 * n * n) % 300 for n in range(1000)]
+    for pieces in (
+        palettes.varint_pieces(make.varints(numbers), "f"),
+        palettes.packed_pieces(np.array(make.packed(numbers, 9, True)), 9, len(numbers)),
+    ):
+        runs = list(pieces)
+        assert len(runs) > 10 and all(len(values) <= 64 for _, values in runs)
+        assert [first for first, _ in runs] == [
+            sum(len(values) for _, values in runs[:n]) for n in range(len(runs))
+        ]
+        assert np.concatenate([values for _, values in runs]).tolist() == numbers
+
+
+def test_the_bits_of_an_index():
+    assert [bits_for(n, 4) for n in (0, 1, 16, 17, 33, 4096)] == [4, 4, 4, 5, 6, 12]
