@@ -4,7 +4,8 @@ import json
 import sys
 from pathlib import Path
 
-from drapery.assets.banner import base_sheet, pattern_sheet
+from drapery.assets import banner, shield
+from drapery.assets.blocks import BLOCKS
 from drapery.assets.canvas import Texels
 from drapery.assets.png import encode
 from drapery.banner.patterns import PATTERN_NAMES
@@ -18,18 +19,33 @@ PACK_FORMAT = 34
 
 def banner_sheets() -> dict[str, Texels]:
     """The banner's sheets by their path within the textures."""
-    sheets = {f"entity/banner/{name}.png": pattern_sheet(name) for name in PATTERN_NAMES}
-    return {"entity/banner_base.png": base_sheet(), **sheets}
+    sheets = {f"entity/banner/{name}.png": banner.pattern_sheet(name) for name in PATTERN_NAMES}
+    return {"entity/banner_base.png": banner.base_sheet(), **sheets}
+
+
+def shield_sheets() -> dict[str, Texels]:
+    """The shield's sheets by their path within the textures."""
+    bases = {
+        "entity/shield_base.png": shield.base_sheet(),
+        "entity/shield_base_nopattern.png": shield.plain_sheet(),
+    }
+    sheets = {f"entity/shield/{name}.png": shield.shield_sheet(name) for name in PATTERN_NAMES}
+    return {**bases, **sheets}
+
+
+def block_textures() -> dict[str, Texels]:
+    """The textures of blocks by their path within the textures."""
+    return {f"block/{name}.png": draw() for name, draw in BLOCKS.items()}
 
 
 def all_sheets() -> dict[str, Texels]:
     """Every texture of ours by its path within the textures."""
-    return banner_sheets()
+    return {**banner_sheets(), **shield_sheets(), **block_textures()}
 
 
 def pack_description() -> str:
     """The text of `pack.mcmeta`."""
-    pack = {"pack_format": PACK_FORMAT, "description": "Drapery's own banners"}
+    pack = {"pack_format": PACK_FORMAT, "description": "Drapery's own banners, shields and blocks"}
     return json.dumps({"pack": pack}, indent=2) + "\n"
 
 

@@ -32,7 +32,8 @@ def _fold(top: int, bottom: int, start: int, dark: int, width: int, height: int)
     reach = np.where(offset < 0, LEFT_REACH, RIGHT_REACH)
     near = np.maximum(reach - abs(offset), 0)
     growth = np.clip(y - start, 0, FOLD_GROWTH)
-    return dark * near * growth // (reach * FOLD_GROWTH)
+    shade: Axis = dark * near * growth // (reach * FOLD_GROWTH)
+    return shade
 
 
 def folds(width: int, height: int) -> Axis:
@@ -63,7 +64,8 @@ def hem(width: int, height: int) -> Axis:
 def cloth(width: int, height: int) -> Grey:
     """Shade of hanging cloth at each texel of its face, shape [height, width]."""
     dark = folds(width, height) + weave(width, height) + hem(width, height)
-    return np.clip(255 - dark, DARKEST, 255).astype(np.uint8)
+    bright: Grey = np.clip(255 - dark, DARKEST, 255).astype(np.uint8)
+    return bright
 
 
 def seam(coverage: Grey) -> Grey:

@@ -130,9 +130,10 @@ def rhombus(width: int, height: int) -> Grey:
 
 
 def border(width: int, height: int) -> Grey:
+    """A frame three twentieths of the width deep."""
     x, y = axes(width, height)
-    inner = (7 * abs(x - width) < 5 * width) & (7 * (height - abs(y - height)) > 2 * width)
-    return cover(~inner, width, height)
+    inwards = np.minimum(np.minimum(x, 2 * width - x), np.minimum(y, 2 * height - y))
+    return cover(10 * inwards <= 3 * width, width, height)
 
 
 def _scallop(length: int, depths: tuple[int, ...]) -> Axis:

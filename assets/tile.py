@@ -1,0 +1,18 @@
+"""What all block textures share: their size, and tone numbers made into texels of a palette."""
+
+import numpy as np
+
+from drapery.assets.canvas import Texels
+from drapery.assets.noise import Field
+
+SIZE = 16
+"""Texels to a block's side."""
+
+Palette = tuple[tuple[int, int, int], ...]
+"""Colours in sRGB from dark to light; a tone is a place in it."""
+
+
+def paint(tones: Field, palette: Palette) -> Texels:
+    """Opaque texels; tones beyond the palette take its nearest end."""
+    colours = np.array([(*colour, 255) for colour in palette], np.uint8)
+    return colours[np.clip(tones, 0, len(palette) - 1)]

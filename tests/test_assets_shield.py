@@ -1,0 +1,81 @@
+"""The shield's art: on its own box, painted on the front alone, from the banner's shapes."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from drapery.assets.canvas import HANDLE, PLATE
+from drapery.assets.charges import CHARGES
+from drapery.assets.shapes import SHAPES
+from drapery.assets.shield import FIELD, base_sheet, field_face, plain_sheet, shield_sheet
+from drapery.assets.shield_charges import SHIELD_CHARGES
+from drapery.banner.patterns import PATTERN_NAMES
+
+
+def test_the_field_is_the_plate_within_its_rim():
+    assert (FIELD.x, FIELD.y, FIELD.width, FIELD.height) == (2, 2, 10, 20)
+    assert set(SHIELD_CHARGES) == set(CHARGES)
+
+
+@pytest.mark.parametrize("pattern", PATTERN_NAMES)
+def test_a_pattern_is_grey_and_on_the_field_only(pattern):
+    sheet = shield_sheet(pattern)
+    assert sheet.shape == (64, 64, 4)
+    assert (sheet[..., :1] == sheet[..., :3]).all()
+    assert sheet[FIELD.slices].any()
+    sheet[FIELD.slices] = 0
+    assert not sheet.any()
+
+
+def test_no_two_patterns_have_the_same_face():
+    faces = {name: field_face(name)[..., 3] for name in PATTERN_NAMES}
+    for first, second in combinations(PATTERN_NAMES, 2):
+        assert (faces[first] != faces[second]).any(), (first, second)
+
+
+@pytest.mark.parametrize("pattern", sorted(SHAPES))
+def test_a_shape_covers_as_much_of_the_shield_as_of_the_banner(pattern):
+    # A texel is a tenth of the shield's width: four pales cannot keep to three twentieths.
+    banner = SHAPES[pattern](20, 40).mean() / 255
+    shield = SHAPES[pattern](10, 20).mean() / 255
+    assert abs(banner - shield) < (0.21 if pattern == "small_stripes" else 0.12)
+
+
+@pytest.mark.parametrize("width, height", [(20, 40), (10, 20)])
+@pytest.mark.parametrize(
+    "pattern",
+    [
+        "small_stripes",
+        "cross",
+        "straight_cross",
+        "circle",
+        "rhombus",
+        "border",
+        "curly_border",
+        "triangle_bottom",
+        "triangles_bottom",
+        "stripe_center",
+    ],
+)
+def test_symmetric_shapes_are_symmetric_at_both_sizes(pattern, width, height):
+    face = SHAPES[pattern](width, height)
+    np.testing.assert_array_equal(face, face[:, ::-1])
+    if not pattern.startswith("triangle"):
+        np.testing.assert_array_equal(face, face[::-1])
+
+
+@pytest.mark.parametrize("draw", [base_sheet, plain_sheet])
+def test_a_base_is_opaque_over_plate_and_handle_and_nowhere_else(draw):
+    drawn = np.zeros((64, 64), bool)
+    for box in (PLATE, HANDLE):
+        for region in (box.sides, box.top, box.bottom):
+            drawn[region.slices] = True
+    np.testing.assert_array_equal(draw()[..., 3], np.where(drawn, 255, 0))
+
+
+def test_the_painted_field_is_white_and_the_two_bases_share_the_rest():
+    painted, plain = base_sheet(), plain_sheet()
+    assert painted[FIELD.slices][..., :3].min() >= 220
+    painted[FIELD.slices] = plain[FIELD.slices] = 0
+    np.testing.assert_array_equal(painted, plain)
