@@ -139,7 +139,7 @@ def test_a_bedrock_structure_and_its_ominous_banner():
         (0, 0, 1): make.bedrock_entity(PLAIN, ominous=True),
         (2, 0, 0): {
             "id": "Chest",
-            "Items": [{"Name": "minecraft:banner", "Damage": 1, "Count": 1}],
+            "Items": [item],
         },
     }
     data = make.raw_nbt(make.mcstructure((4, 3, 5), entities), "little")

@@ -1,0 +1,98 @@
+"""The forms of bytes as the door knows them, each with its reader and writer."""
+
+import io
+from collections.abc import Callable, Iterator
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import litematic, mcstructure, region, schem, structure
+from drapery.banner.formats.files import find_in_bytes
+from drapery.banner.formats.form import BinaryForm
+from drapery.banner.formats.found import Found
+from drapery.banner.formats.inflate import is_compressed
+from drapery.banner.formats.nbt import is_nbt, read_nbt
+from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.write_nbt import encode, item
+from drapery.errors import DesignError
+
+Recognises = Callable[[dict[str, Tree]], bool]
+Find = Callable[[dict[str, Tree]], Iterator[Found]]
+
+
+def _nbt_form(
+    name: str,
+    title: str,
+    suffixes: tuple[str, ...],
+    recognises: Recognises,
+    find: Find,
+    write: Callable[[Banner], bytes] | None = None,
+) -> BinaryForm:
+    """A form by its suffix, read only if its tree has the layout."""
+
+    def read(data: bytes) -> Iterator[Found]:
+        tree = read_nbt(data, name)
+        if not recognises(tree):
+            raise DesignError(f"{name}: the file is NBT but no {title}; leave the form out")
+        return find(tree)
+
+    return BinaryForm(name, title, suffixes, _by_suffix(suffixes), read, write)
+
+
+def _by_suffix(suffixes: tuple[str, ...]) -> Callable[[bytes, str], bool]:
+    return lambda head, name: _opens_as_nbt(head) and name.lower().endswith(suffixes)
+
+
+def _opens_as_nbt(head: bytes) -> bool:
+    # Bedrock's header tells the length of the whole file, which the head does not show.
+    return is_compressed(head) or is_nbt(head) or head[8:9] == b"\n"
+
+
+def _is_region(head: bytes, name: str) -> bool:
+    return name.lower().endswith(".mca") or region.recognises(head, 1 << 40)
+
+
+def _read_region(data: bytes) -> Iterator[Found]:
+    return region.find(io.BytesIO(data), "", region.NAME)
+
+
+BINARY_FORMS: tuple[BinaryForm, ...] = (
+    _nbt_form(
+        structure.NAME,
+        "structure block's file",
+        (".nbt",),
+        structure.recognises,
+        structure.find,
+        lambda banner: structure.write([banner]),
+    ),
+    _nbt_form(
+        schem.NAME,
+        "Sponge schematic",
+        (".schem", ".schematic"),
+        schem.recognises,
+        schem.find,
+        lambda banner: schem.write([banner]),
+    ),
+    _nbt_form(
+        litematic.NAME,
+        "Litematica schematic",
+        (".litematic",),
+        litematic.recognises,
+        litematic.find,
+    ),
+    _nbt_form(
+        mcstructure.NAME,
+        "Bedrock structure",
+        (".mcstructure",),
+        mcstructure.recognises,
+        mcstructure.find,
+    ),
+    BinaryForm(region.NAME, "world's region", (".mca",), _is_region, _read_region),
+    BinaryForm(
+        "nbt",
+        "other NBT: an item, a player, level.dat",
+        (".dat", ".nbt"),
+        lambda head, name: _opens_as_nbt(head),
+        lambda data: find_in_bytes(data, "nbt"),
+        lambda banner: encode(item(banner)),
+    ),
+)
+"""Every form of bytes; a file is of the first that recognises it."""

@@ -1,0 +1,77 @@
+"""What we write as bytes: nbtlib reads it as the game would, and it comes back to itself."""
+
+import io
+
+import nbtlib
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from world_maker import LIME, PLAIN, RED, SHIELD
+
+from drapery.banner.design import Banner, Layer
+from drapery.banner.dyes import DYE_NAMES
+from drapery.banner.formats import schem, structure
+from drapery.banner.formats.binary import BINARY_FORMS
+from drapery.banner.formats.files import find_in_bytes
+from drapery.banner.patterns import PATTERN_NAMES
+from drapery.errors import DesignError
+
+WRITERS = {form.name: form for form in BINARY_FORMS if form.write}
+LAYERS = st.builds(
+    Layer, st.sampled_from([*PATTERN_NAMES, "mod:rose/thorn"]), st.sampled_from(DYE_NAMES)
+)
+BANNERS = st.builds(Banner, st.sampled_from(DYE_NAMES), st.lists(LAYERS, max_size=16).map(tuple))
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_every_banner_comes_back(name: str):
+    form = WRITERS[name]
+
+    @given(BANNERS)
+    def round_trip(banner: Banner):
+        data = form.write(banner)
+        assert [one.banner for one in form.read(data)] == [banner]
+        assert [one.banner for one in find_in_bytes(data, "f")] == [banner]
+        assert form.recognises(data[:64], "x" + form.suffixes[0])
+
+    round_trip()
+
+
+@given(st.lists(BANNERS, min_size=1, max_size=9))
+def test_many_banners_stand_in_a_row(banners: list[Banner]):
+    for write in (structure.write, schem.write):
+        found = list(find_in_bytes(write(banners), "f"))
+        assert [one.banner for one in found] == banners
+        assert [one.where for one in found] == [f"f block {x},0,0" for x in range(len(banners))]
+
+
+def test_the_same_banners_are_the_same_bytes():
+    for write in (structure.write, schem.write):
+        assert write([RED, LIME]) == write([RED, LIME])
+
+
+def test_nbtlib_reads_what_we_write():
+    root = nbtlib.File.load(io.BytesIO(structure.write([RED, PLAIN])), gzipped=True)
+    assert root["size"] == [2, 1, 1]
+    assert root["palette"][1] == {
+        "Name": "minecraft:blue_banner",
+        "Properties": {"rotation": "0"},
+    }
+    assert root["blocks"][0]["nbt"]["patterns"][0] == {"pattern": "creeper", "color": "yellow"}
+    box = nbtlib.File.load(io.BytesIO(schem.write([RED, PLAIN])), gzipped=True)["Schematic"]
+    assert (box["Width"], type(box["Width"])) == (2, nbtlib.Short)
+    assert list(box["Blocks"]["Data"]) == [0, 1]
+
+
+def test_a_shield_is_an_item_and_no_block():
+    data = WRITERS["nbt"].write(SHIELD)
+    assert [one.banner for one in find_in_bytes(data, "f")] == [SHIELD]
+    for name in ("structure", "schem"):
+        with pytest.raises(DesignError, match="a shield is no block"):
+            WRITERS[name].write(SHIELD)
+
+
+def test_a_form_that_is_forced_must_fit():
+    data = structure.write([RED])
+    with pytest.raises(DesignError, match="no Sponge schematic"):
+        list(WRITERS["schem"].read(data))
