@@ -1,0 +1,37 @@
+"""One form for all shapes inside the kernels: a signed distance field that is packed once."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.mesh import Array
+
+SPHERE, CAPSULE, BOX, PLANE, BLOCKS, SURFACE = range(6)
+
+NO_FILLED = np.zeros((0, 0, 0), np.uint8)
+NO_CORNERS = np.zeros((0, 3, 3))
+NO_LINKS = np.zeros((0, 3), np.int32)
+
+
+class Field(NamedTuple):
+    """A shape as the kernels read it. Flat, as a parallel loop takes no tuple within a tuple.
+
+    kind: one of the constants above; numbers: what its kernel documents; bounds: low and high
+    corner [m], shape [2, 3]; inner: half of the thinnest width [m], 0 where it is not known.
+    Blocks have filled: 1 where there is a cube, shape [I, J, K].
+    Surfaces have, triangles in the tree's order, corners [m], shape [T, 3, 3]; normals:
+    pseudonormals, shape [T, 7, 3]; boxes [M, 2, 3] and links [M, 3], see `bvh.Tree`; parts: first
+    node, end and whether solid, shape [P, 3].
+    """
+
+    kind: int
+    numbers: Array
+    bounds: Array
+    inner: float
+    filled: NDArray[np.uint8] = NO_FILLED
+    corners: Array = NO_CORNERS
+    normals: Array = NO_CORNERS
+    boxes: Array = NO_CORNERS
+    links: NDArray[np.int32] = NO_LINKS
+    parts: NDArray[np.int32] = NO_LINKS

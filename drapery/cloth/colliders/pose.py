@@ -1,0 +1,66 @@
+"""Where a collider is: a rigid pose, and a path of poses through time."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from drapery.errors import OptionError
+from drapery.mesh import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """A point p of a shape stands in the world at rotation · p + position.
+
+    position: [m], shape [3].
+    rotation: rotation matrix, shape [3, 3].
+    """
+
+    position: Array = field(default_factory=lambda: np.zeros(3))
+    rotation: Array = field(default_factory=lambda: np.eye(3))
+
+
+Path = Callable[[float], Pose]
+"""The pose at a time [s]. It is asked at the start and at the end of every step."""
+
+STILL = Pose()
+
+
+def still(time: float) -> Pose:
+    """The path of a collider that stays where its shape says."""
+    return STILL
+
+
+def straight(velocity: tuple[float, float, float]) -> Path:
+    """The path of a collider that leaves its place at time 0 with this velocity [m/s]."""
+    step = np.asarray(velocity, float)
+    return lambda time: Pose(position=step * time)
+
+
+def swinging(pivot: tuple[float, float, float], swing: float, period: float, phase: float) -> Path:
+    """The path of a leg that walks: it swings about the x axis through `pivot` [m].
+
+    swing: largest angle to either side [degrees]; period [s]; phase: part of a period, 0 to 1.
+    """
+    centre = np.asarray(pivot, float)
+    if not period > 0:
+        raise OptionError(f"period {period} s: a swing needs a period above 0")
+
+    def pose(time: float) -> Pose:
+        rotation = rotation_about((1, 0, 0), swing * np.sin(2 * np.pi * (time / period + phase)))
+        return Pose(centre - rotation @ centre, rotation)
+
+    return pose
+
+
+def rotation_about(axis: tuple[float, float, float], angle: float) -> Array:
+    """Rotation matrix [3, 3] about an axis by an angle [degrees] (Rodrigues)."""
+    length = float(np.linalg.norm(axis))
+    if not (np.isfinite(length) and length > 0):
+        raise OptionError(f"axis {axis}: a rotation needs an axis with a direction")
+    x, y, z = np.asarray(axis, float) / length
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    turn = np.radians(angle)
+    rotation: Array = np.eye(3) + np.sin(turn) * cross + (1 - np.cos(turn)) * (cross @ cross)
+    return rotation

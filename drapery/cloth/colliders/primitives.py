@@ -1,0 +1,90 @@
+"""Signed distance and outward direction of the round and the flat shapes.
+
+Each kernel takes the shape's numbers and a point in the shape's frame, and gives the distance [m],
+negative inside, and the unit direction in which it grows fastest.
+"""
+
+from numba import njit
+
+from drapery.cloth.colliders.vectors import (
+    Vector,
+    along,
+    dot,
+    norm,
+    subtract,
+    turned,
+    turned_back,
+    unit,
+)
+from drapery.mesh import Array
+
+
+@njit(cache=True, error_model="numpy")
+def sphere_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
+    """numbers: centre, radius."""
+    arm = subtract(p, (numbers[0], numbers[1], numbers[2]))
+    length = norm(arm)
+    return length - numbers[3], unit(arm, length)
+
+
+@njit(cache=True, error_model="numpy")
+def capsule_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
+    """numbers: start, end, radius."""
+    start = (numbers[0], numbers[1], numbers[2])
+    axis = subtract((numbers[3], numbers[4], numbers[5]), start)
+    square = dot(axis, axis)
+    part = dot(subtract(p, start), axis) / square if square > 0 else 0.0
+    arm = subtract(p, along(start, min(max(part, 0.0), 1.0), axis))
+    length = norm(arm)
+    if length > 1e-300:
+        return length - numbers[6], unit(arm, length)
+    return -numbers[6], _across(axis)
+
+
+@njit(cache=True, error_model="numpy")
+def _across(axis: Vector) -> Vector:
+    """A unit vector at a right angle to the axis: for points on it, where all sides are equal."""
+    x, y, z = axis
+    side = (-y, x, 0.0) if abs(x) + abs(y) > abs(z) * 1e-6 else (1.0, 0.0, 0.0)
+    return unit(side, norm(side))
+
+
+@njit(cache=True, error_model="numpy")
+def plane_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
+    """numbers: point, unit normal."""
+    normal = (numbers[3], numbers[4], numbers[5])
+    return dot(subtract(p, (numbers[0], numbers[1], numbers[2])), normal), normal
+
+
+@njit(cache=True, error_model="numpy")
+def box_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
+    """numbers: centre, half edge lengths, rotation row by row."""
+    rotation = numbers[6:15].reshape(3, 3)
+    local = turned_back(rotation, subtract(p, (numbers[0], numbers[1], numbers[2])))
+    distance, normal = cuboid_distance((numbers[3], numbers[4], numbers[5]), local)
+    return distance, turned(rotation, normal)
+
+
+@njit(cache=True, error_model="numpy")
+def cuboid_distance(half: Vector, p: Vector) -> tuple[float, Vector]:
+    """An upright box about the origin. Outside: the nearest point. Inside: the nearest face."""
+    closest = (
+        min(max(p[0], -half[0]), half[0]),
+        min(max(p[1], -half[1]), half[1]),
+        min(max(p[2], -half[2]), half[2]),
+    )
+    arm = subtract(p, closest)
+    length = norm(arm)
+    if length > 0:
+        return length, unit(arm, length)
+    return _nearest_face(half, p)
+
+
+@njit(cache=True, error_model="numpy")
+def _nearest_face(half: Vector, p: Vector) -> tuple[float, Vector]:
+    x, y, z = abs(p[0]) - half[0], abs(p[1]) - half[1], abs(p[2]) - half[2]
+    if y >= x and y >= z:
+        return y, (0.0, 1.0 if p[1] >= 0 else -1.0, 0.0)
+    if x >= z:
+        return x, (1.0 if p[0] >= 0 else -1.0, 0.0, 0.0)
+    return z, (0.0, 0.0, 1.0 if p[2] >= 0 else -1.0)

@@ -1,0 +1,141 @@
+"""What a cloth can meet: shapes as constants, in their own frame. A collider's path moves them."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import OptionError
+from drapery.mesh import Array, Triangles
+
+MAX_CELLS = 1 << 24
+MAX_TRIANGLES = 1_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Sphere:
+    """centre [m], shape [3]; radius [m]."""
+
+    centre: Array
+    radius: float
+
+    def __post_init__(self) -> None:
+        _points("Sphere centre", self.centre, (3,))
+        _lengths("Sphere radius", self.radius)
+
+
+@dataclass(frozen=True, eq=False)
+class Capsule:
+    """All points within `radius` [m] of the segment from start to end [m], shape [3] each."""
+
+    start: Array
+    end: Array
+    radius: float
+
+    def __post_init__(self) -> None:
+        _points("Capsule start", self.start, (3,))
+        _points("Capsule end", self.end, (3,))
+        _lengths("Capsule radius", self.radius)
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """centre [m]; size, the three edge lengths [m]; rotation [3, 3] of the box about its centre."""
+
+    centre: Array
+    size: Array
+    rotation: Array = field(default_factory=lambda: np.eye(3))
+
+    def __post_init__(self) -> None:
+        _points("Box centre", self.centre, (3,))
+        _points("Box size", self.size, (3,))
+        _lengths("Box size", self.size)
+        _rotation("Box rotation", self.rotation)
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A half-space: solid below the plane through `point` [m]; `normal` points to free space."""
+
+    point: Array
+    normal: Array
+
+    def __post_init__(self) -> None:
+        _points("Plane point", self.point, (3,))
+        _points("Plane normal", self.normal, (3,))
+        _lengths("Plane normal", float(np.linalg.norm(np.asarray(self.normal, float))))
+
+
+@dataclass(frozen=True, eq=False)
+class Voxels:
+    """Cubes of one size on a grid: a piece of a world of blocks, or a creature made of them.
+
+    cells: integer cell coordinates, shape [M, 3]; cell (i, j, k) fills [i, i+1] x [j, j+1] x
+        [k, k+1] times `size`. Faces between two filled cells do not exist for a cloth.
+    size: edge length [m].
+    """
+
+    cells: NDArray[np.integer]
+    size: float = 1.0
+
+    def __post_init__(self) -> None:
+        cells = np.asarray(self.cells)
+        if cells.ndim != 2 or cells.shape[1] != 3 or not len(cells):
+            raise OptionError(f"Voxels cells of shape {cells.shape}: give whole numbers [M, 3]")
+        if not np.issubdtype(cells.dtype, np.integer):
+            raise OptionError(f"Voxels cells of type {cells.dtype}: give whole numbers")
+        extent = cells.max(axis=0).astype(float) - cells.min(axis=0) + 1
+        if extent.prod() > MAX_CELLS:
+            raise OptionError(
+                f"Voxels spanning {extent.astype(int)} cells: split them, {MAX_CELLS} is the most"
+            )
+        _lengths("Voxels size", self.size)
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """Any surface of triangles. Use `mesh_collider` and friends to make one.
+
+    Connected parts that are closed are solid, and overlapping parts unite; open parts are
+    sheets that stop a cloth on both sides.
+
+    vertices: [m], shape [V, 3]; no two alike.
+    triangles: vertex indices, shape [T, 3], int32; counter-clockwise seen from outside.
+    part: number of the connected part of each triangle, shape [T].
+    solid: whether each part is closed, shape [P].
+    """
+
+    vertices: Array
+    triangles: Triangles
+    part: NDArray[np.int32]
+    solid: NDArray[np.bool_]
+
+
+Shape = Sphere | Capsule | Box | Plane | Voxels | TriangleMesh
+
+
+def sixfold_volumes(vertices: Array, triangles: Triangles, part: NDArray[np.int32]) -> Array:
+    """Six times the signed volume [m³] of every part, shape [P]; negative when inside out."""
+    a, b, c = (vertices[triangles[:, i]] - vertices.mean(axis=0) for i in range(3))
+    volumes = np.zeros(int(part.max()) + 1)
+    np.add.at(volumes, part, np.einsum("ij,ij->i", a, np.cross(b, c)))
+    return volumes
+
+
+def _points(what: str, value: Array, shape: tuple[int, ...]) -> None:
+    array = np.asarray(value, float)
+    if array.shape != shape or not np.isfinite(array).all():
+        raise OptionError(f"{what} {value}: give {shape[-1]} finite numbers")
+
+
+def _lengths(what: str, value: Array | float) -> None:
+    array = np.asarray(value, float)
+    if not (np.isfinite(array).all() and (array > 0).all()):
+        raise OptionError(f"{what} {value}: give lengths above 0")
+
+
+def _rotation(what: str, value: Array) -> None:
+    _points(what, np.ravel(value), (9,))
+    matrix = np.asarray(value, float)
+    if not np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-9) or np.linalg.det(matrix) < 0:
+        raise OptionError(f"{what}: give an orthonormal right-handed matrix [3, 3]")

@@ -1,0 +1,219 @@
+"""The collision stage of a step: cloths against colliders, after the solver has moved them.
+
+The points tested are the particles and, on the faces between them, a lattice of points that move
+with their triangle; a push on such a point is shared by the triangle's corners in proportion to
+weight and inverse mass, as in Bridson, Fedkiw and Anderson 2002 ("Robust treatment of collisions,
+contact and friction for cloth animation", section 7). Each point is swept along its whole motion,
+so nothing passes through, however fast. Points are taken in a fixed order, one after another.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit, prange
+from numpy.typing import NDArray
+
+from drapery.cloth.cloth import Cloth
+from drapery.cloth.colliders.fields import Field
+from drapery.cloth.colliders.packing import pack
+from drapery.cloth.colliders.pose import Path, Pose, still
+from drapery.cloth.colliders.shapes import Shape
+from drapery.cloth.colliders.sweep import Frame, Skin, meet
+from drapery.cloth.colliders.vectors import Vector, along, subtract
+from drapery.cloth.state import State
+from drapery.errors import OptionError
+from drapery.mesh import Array, Triangles
+
+THINNEST = 1e-4
+"""The least distance kept from a surface [m]: normals are well known only off the surface."""
+
+
+@dataclass(frozen=True, eq=False)
+class Collider:
+    """A shape that cloth cannot enter.
+
+    path: the shape's pose through time; still by default.
+    restitution: part of the approach speed that a bounce gives back, 0 to 1.
+    friction: Coulomb's coefficient.
+    """
+
+    shape: Shape
+    path: Path = still
+    restitution: float = 0.0
+    friction: float = 0.3
+    packed: Field = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.restitution <= 1:
+            raise OptionError(f"restitution {self.restitution}: give a number from 0 to 1")
+        if not 0 <= self.friction < np.inf:
+            raise OptionError(f"friction {self.friction}: give a number of at least 0")
+        object.__setattr__(self, "packed", pack(self.shape))
+
+
+class Probes(NamedTuple):
+    """The points that are tested: particle indices [M, 3] and their weights [M, 3]."""
+
+    particles: NDArray[np.int32]
+    weights: Array
+
+
+def probes(cloth: Cloth, order: int = 2) -> Probes:
+    """The points of a cloth to test, face points first and particles last.
+
+    order: parts into which each side of a face is cut. 1 tests the particles alone, 2 also the
+        middles of all edges, 3 two points on every edge and the middle of every face, and so on.
+        Choose it so that the points lie closer than the thinnest collider is wide.
+    """
+    if not 1 <= order <= 16:
+        raise OptionError(f"collision order {order}: give a whole number from 1 to 16")
+    return face_probes(len(cloth.inv_mass), cloth.triangles, order)
+
+
+def face_probes(count: int, triangles: Triangles, order: int) -> Probes:
+    """As `probes`, for `count` particles and triangles [T, 3]."""
+    own = np.arange(count, dtype=np.int32)
+    alone = Probes(np.stack([own, own, own], axis=1), np.tile([1.0, 0.0, 0.0], (count, 1)))
+    shares = [
+        (i, j, order - i - j)
+        for i in range(order + 1)
+        for j in range(order + 1 - i)
+        if order not in (i, j, order - i - j)
+    ]
+    if not shares or not len(triangles):
+        return alone
+    lattice = np.array(shares)
+    corners = np.repeat(triangles, len(lattice), axis=0)
+    parts = np.tile(lattice, (len(triangles), 1))
+    # Two triangles share the points of their common edge: keep each point once.
+    rank = np.argsort(np.where(parts > 0, corners, np.iinfo(np.int32).max), axis=1, kind="stable")
+    corners = np.take_along_axis(corners, rank, axis=1)
+    parts = np.take_along_axis(parts, rank, axis=1)
+    corners = np.where(parts > 0, corners, corners[:, :1])
+    unique = np.unique(np.concatenate([corners, parts], axis=1), axis=0)
+    return Probes(
+        np.concatenate([unique[:, :3].astype(np.int32), alone.particles]),
+        np.concatenate([unique[:, 3:] / order, alone.weights]),
+    )
+
+
+def collide(
+    cloth: Cloth,
+    before: State,
+    after: State,
+    colliders: Sequence[Collider],
+    points: Probes,
+    *,
+    radius: float,
+) -> State:
+    """The state after a step, with everything that entered a collider brought back.
+
+    before, after: the states at the start and the end of the step; pinned particles keep their
+        place. points: from `probes`. radius: distance kept from every surface, half the cloth's
+        thickness [m]; at least `THINNEST` is kept.
+    """
+    inv_mass = np.ascontiguousarray(cloth.inv_mass, float)
+    start = np.ascontiguousarray(before.positions, float)
+    positions, velocities = np.array(after.positions), np.array(after.velocities)
+    dt = after.time - before.time
+    if not dt > 0:
+        raise OptionError(f"collision over a step of {dt} s: the time must grow")
+    for collider in colliders:
+        frame = frame_between(collider.path(before.time), collider.path(after.time))
+        skin = Skin(max(radius, THINNEST), float(collider.restitution), float(collider.friction))
+        args = (collider.packed, frame, skin, points, inv_mass, start, positions, velocities, dt)
+        collide_all(*args) if len(positions) > 1 else collide_one(*args, 0)
+    return replace(after, positions=positions, velocities=velocities)
+
+
+def frame_between(start: Pose, end: Pose) -> Frame:
+    return Frame(
+        *(
+            np.ascontiguousarray(part, float)
+            for pose in (start, end)
+            for part in (pose.position, pose.rotation)
+        )
+    )
+
+
+@njit(cache=True, error_model="numpy", parallel=True)
+def collide_all(
+    shape: Field,
+    frame: Frame,
+    skin: Skin,
+    points: Probes,
+    inv_mass: Array,
+    start: Array,
+    positions: Array,
+    velocities: Array,
+    dt: float,
+) -> None:
+    """Every cloth of a batch; each is one thread's alone, so threads change no bit."""
+    for cloth in prange(len(positions)):
+        collide_one(shape, frame, skin, points, inv_mass, start, positions, velocities, dt, cloth)
+
+
+@njit(cache=True, error_model="numpy")
+def collide_one(
+    shape: Field,
+    frame: Frame,
+    skin: Skin,
+    points: Probes,
+    inv_mass: Array,
+    start: Array,
+    positions: Array,
+    velocities: Array,
+    dt: float,
+    cloth: int,
+) -> None:
+    for m in range(len(points.particles)):
+        particles, weights = points.particles[m], points.weights[m]
+        give = softness(particles, weights, inv_mass)
+        if give == 0.0:
+            continue
+        a = blend(start[cloth], particles, weights)
+        b = blend(positions[cloth], particles, weights)
+        v = blend(velocities[cloth], particles, weights)
+        touched, end, speed = meet(shape, frame, skin, a, b, v, dt)
+        if touched:
+            share(positions[cloth], particles, weights, inv_mass, give, subtract(end, b))
+            share(velocities[cloth], particles, weights, inv_mass, give, subtract(speed, v))
+
+
+@njit(cache=True, error_model="numpy")
+def softness(particles: NDArray[np.int32], weights: Array, inv_mass: Array) -> float:
+    """Inverse of the mass [1/kg] that a push on the point meets; 0 if all its particles are
+    pinned."""
+    total = 0.0
+    for corner in range(3):
+        total += weights[corner] * weights[corner] * inv_mass[particles[corner]]
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def blend(rows: Array, particles: NDArray[np.int32], weights: Array) -> Vector:
+    """Weighted sum of three rows of an array [N, 3]."""
+    total = (0.0, 0.0, 0.0)
+    for corner in range(3):
+        i = particles[corner]
+        total = along(total, weights[corner], (rows[i, 0], rows[i, 1], rows[i, 2]))
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def share(
+    rows: Array,
+    particles: NDArray[np.int32],
+    weights: Array,
+    inv_mass: Array,
+    give: float,
+    change: Vector,
+) -> None:
+    """Change the particles so that their weighted sum changes by `change`, momentum kept."""
+    for corner in range(3):
+        i = particles[corner]
+        part = weights[corner] * inv_mass[i] / give
+        for axis in range(3):
+            rows[i, axis] += part * change[axis]

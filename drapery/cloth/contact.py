@@ -1,0 +1,169 @@
+"""Cloth against itself: particles keep a thickness apart.
+
+Particles are sorted into the cells of a spatial hash (Teschner et al. 2003, "Optimized spatial
+hashing for collision detection of deformable objects"), and pairs that are too near are pushed
+apart along the line between them, one after another in the order of their indices. Only particles
+are tested, so the thickness should be about the distance between neighbours, not less.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numba import njit, prange
+from numpy.typing import NDArray
+
+from drapery.cloth.cloth import Cloth
+from drapery.cloth.state import State
+from drapery.errors import OptionError
+from drapery.mesh import Array
+
+PASSES = 4
+PRIMES = (73856093, 19349663, 83492791)
+"""Teschner's primes for the three cell coordinates."""
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """What self-collision needs to know of a cloth.
+
+    thickness: least distance [m] between particles.
+    friends: particles that may be nearer, [sum], for particle i at first[i] to first[i + 1].
+    inv_mass: [1/kg], shape [N].
+    """
+
+    thickness: float
+    first: NDArray[np.int32]
+    friends: NDArray[np.int32]
+    inv_mass: Array
+
+
+def contacts(cloth: Cloth, thickness: float) -> Contacts:
+    """Self-collision for a cloth; springs' ends and pairs that are nearer at rest are left alone.
+
+    Raises OptionError for a thickness [m] that is not above 0.
+    """
+    if not 0 < thickness < np.inf:
+        raise OptionError(f"self-collision thickness {thickness}: give a length above 0")
+    from scipy.spatial import cKDTree
+
+    rest = np.asarray(cloth.rest_positions, float)
+    near = cKDTree(rest).query_pairs(thickness, output_type="ndarray")
+    pairs = np.concatenate([np.asarray(cloth.spring_pairs), near])
+    ends = np.unique(np.concatenate([pairs, pairs[:, ::-1]]).astype(np.int32), axis=0)
+    first = np.searchsorted(ends[:, 0], np.arange(len(rest) + 1)).astype(np.int32)
+    inv_mass = np.ascontiguousarray(cloth.inv_mass, float)
+    return Contacts(float(thickness), first, np.ascontiguousarray(ends[:, 1]), inv_mass)
+
+
+def separate(contact: Contacts, state: State) -> State:
+    """The state with particles at least the thickness apart, and none approaching when touching."""
+    positions, velocities = np.array(state.positions), np.array(state.velocities)
+    args = (contact.thickness, contact.first, contact.friends, contact.inv_mass)
+    separate_all(positions, velocities, *args)
+    return replace(state, positions=positions, velocities=velocities)
+
+
+@njit(cache=True, error_model="numpy", parallel=True)
+def separate_all(
+    positions: Array,
+    velocities: Array,
+    thickness: float,
+    first: NDArray[np.int32],
+    friends: NDArray[np.int32],
+    inv_mass: Array,
+) -> None:
+    """Every cloth of a batch; each is one thread's alone, so threads change no bit."""
+    for cloth in prange(len(positions)):
+        x, v = positions[cloth], velocities[cloth]
+        for _ in range(PASSES):
+            if separate_pass(x, v, thickness, first, friends, inv_mass) == 0:
+                break
+
+
+@njit(cache=True, error_model="numpy")
+def separate_pass(
+    x: Array,
+    v: Array,
+    thickness: float,
+    first: NDArray[np.int32],
+    friends: NDArray[np.int32],
+    inv_mass: Array,
+) -> int:
+    """Push apart every pair found in the hash, once; the number of pairs that were too near."""
+    cells = cells_of(x, thickness)
+    starts, members = hashed(cells)
+    found = 0
+    for i in range(len(x)):
+        for a in range(-1, 2):
+            for b in range(-1, 2):
+                for c in range(-1, 2):
+                    key = key_of(cells[i, 0] + a, cells[i, 1] + b, cells[i, 2] + c, len(starts) - 1)
+                    for place in range(starts[key], starts[key + 1]):
+                        j = members[place]
+                        if j > i and not befriended(i, j, first, friends):
+                            found += push_apart(x, v, i, j, thickness, inv_mass)
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def cells_of(x: Array, size: float) -> NDArray[np.int64]:
+    cells = np.empty(x.shape, np.int64)
+    for i in range(len(x)):
+        for axis in range(3):
+            cells[i, axis] = int(np.floor(x[i, axis] / size))
+    return cells
+
+
+@njit(cache=True, error_model="numpy")
+def key_of(a: int, b: int, c: int, slots: int) -> int:
+    return ((a * PRIMES[0]) ^ (b * PRIMES[1]) ^ (c * PRIMES[2])) % slots
+
+
+@njit(cache=True, error_model="numpy")
+def hashed(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Counting sort of the particles by key; equal keys stay in the order of their indices."""
+    count = len(cells)
+    slots = 2 * count + 1
+    starts = np.zeros(slots + 1, np.int64)
+    keys = np.empty(count, np.int64)
+    for i in range(count):
+        keys[i] = key_of(cells[i, 0], cells[i, 1], cells[i, 2], slots)
+        starts[keys[i] + 1] += 1
+    for slot in range(slots):
+        starts[slot + 1] += starts[slot]
+    fill, members = starts[:-1].copy(), np.empty(count, np.int64)
+    for i in range(count):
+        members[fill[keys[i]]] = i
+        fill[keys[i]] += 1
+    return starts, members
+
+
+@njit(cache=True, error_model="numpy")
+def befriended(i: int, j: int, first: NDArray[np.int32], friends: NDArray[np.int32]) -> bool:
+    for place in range(first[i], first[i + 1]):
+        if friends[place] >= j:
+            return bool(friends[place] == j)
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def push_apart(x: Array, v: Array, i: int, j: int, thickness: float, inv_mass: Array) -> int:
+    """Share the missing distance, and the approach speed, by inverse mass."""
+    dx, dy, dz = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[j, 2] - x[i, 2]
+    square = dx * dx + dy * dy + dz * dz
+    give = inv_mass[i] + inv_mass[j]
+    if square >= thickness * thickness or give == 0.0:
+        return 0
+    length = square**0.5
+    n = (dx / length, dy / length, dz / length) if length > 0.0 else (0.0, 0.0, 1.0)
+    approach = 0.0
+    for axis in range(3):
+        approach += (v[j, axis] - v[i, axis]) * n[axis]
+    stop = min(approach, 0.0)
+    for axis in range(3):
+        push = (thickness - length) * n[axis] / give
+        x[i, axis] -= inv_mass[i] * push
+        x[j, axis] += inv_mass[j] * push
+        v[i, axis] += inv_mass[i] / give * stop * n[axis]
+        v[j, axis] -= inv_mass[j] / give * stop * n[axis]
+    return 1
