@@ -10,9 +10,13 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from drapery.banner.packs import Packs
+
 BANNER = "assets/minecraft/textures/entity/banner/"
 SHIELD = "assets/minecraft/textures/entity/shield/"
 OLD_BASE = "assets/minecraft/textures/entity/banner_base.png"
+CREEPER = BANNER + "creeper.png"
+META = "pack.mcmeta"
 NEW_BASE = BANNER + "banner_base.png"
 
 
@@ -37,6 +41,17 @@ def mcmeta(pack_format: int = 46, **more: Any) -> bytes:
     """A `pack.mcmeta`; `pack` and other sections may be given."""
     root = {"pack": {"pack_format": pack_format, "description": "a test"}} | more
     return json.dumps(root).encode()
+
+
+def strip(*reds: int) -> bytes:
+    """A texture of frames 8 x 8 one under the other, told apart by their red."""
+    frames = [np.full((8, 8, 4), (red, 0, 0, 255), np.uint8) for red in reds]
+    return png(np.concatenate(frames))
+
+
+def red(packs: Packs, pattern: str = "creeper", time: float = 0.0) -> int:
+    """The first texel's red, by which tests number their files."""
+    return int(packs.sheet(pattern, time=time)[0, 0, 0])
 
 
 def folder_pack(path: Path, files: Mapping[str, bytes | str]) -> Path:

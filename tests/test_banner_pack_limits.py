@@ -11,13 +11,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from pack_maker import BANNER, folder_pack, mcmeta, plain, zip_pack
+from pack_maker import BANNER, CREEPER, folder_pack, mcmeta, plain, zip_pack
 
 from drapery.banner.pack_sources import MAX_FILES
 from drapery.banner.packs import MAX_PNG, open_packs
 from drapery.errors import PackError
 
-CREEPER = BANNER + "creeper.png"
 SOUND = {"pack.mcmeta": mcmeta(), CREEPER: plain(1, 0, 0, 255)}
 
 
@@ -194,6 +193,13 @@ def listing(count: int) -> bytes:
     return body + struct.pack(
         "<4s4H2LH", b"PK\5\6", 0, 0, count & 0xFFFF, count & 0xFFFF, len(body), 0, 0
     )
+
+
+def test_nameless_entries(tmp_path: Path) -> None:
+    record = b"PK\1\2" + bytes(42)
+    end = struct.pack("<4s4H2LH", b"PK\5\6", 0, 0, 1, 1, len(record), 0, 0)
+    (tmp_path / "a.zip").write_bytes(record + end)
+    assert "neither assets nor pack.mcmeta" in refusal(tmp_path / "a.zip")
 
 
 @pytest.mark.parametrize("count", [MAX_FILES + 1, 1_000_000])

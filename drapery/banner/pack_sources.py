@@ -234,7 +234,8 @@ def _zip(path: Path) -> ZipSource:
 
 
 def _indexed(archive: "ZipFile", label: str) -> ZipSource:
-    infos = [info for info in archive.infolist() if not info.is_dir()]
+    # Nameless entries occur in damaged zips, and is_dir fails on them before Python 3.12.
+    infos = [info for info in archive.infolist() if info.filename and not info.is_dir()]
     if len(infos) > MAX_FILES:
         raise PackError(f"pack {label} has {len(infos)} files; at most {MAX_FILES} are read")
     # Some old tools write backslashes.

@@ -3,6 +3,7 @@
 import struct
 from io import BytesIO
 from typing import TYPE_CHECKING
+from warnings import catch_warnings
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,7 +49,8 @@ def read_png(data: bytes, name: str) -> Texels:
     from PIL.PngImagePlugin import PngImageFile
 
     try:
-        with PngImageFile(BytesIO(data)) as image:
+        # Pillow warns of broken animation chunks, which are of no use here.
+        with catch_warnings(action="ignore"), PngImageFile(BytesIO(data)) as image:
             image.load()
             texels = _rgba(image, depth=data[24])
     except (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error) as error:
