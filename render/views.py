@@ -37,15 +37,15 @@ VIEWS: dict[str, View] = {
 }
 
 
-def frame_view(name: str, bounds: Bounds, aspect: float, margin: float = 0.05) -> Camera:
-    """The named view of a box: all of it is seen, with at least `margin` of the picture around.
+def frame_view(name: str, points: Array, aspect: float, margin: float = 0.05) -> Camera:
+    """The named view of points [..., 3]: all are seen, with `margin` of the picture around.
 
-    aspect: width / height of the picture. For moving cloth give the bounds of all its moments.
+    aspect: width / height of the picture. For moving cloth give the points of all its moments.
     Raises OptionError for a name that is none.
     """
     if name not in VIEWS:
         raise OptionError(f"view {name!r} is not known; use one of: {', '.join(VIEWS)}")
-    return frame_box(VIEWS[name], bounds, aspect, margin)
+    return frame_points(VIEWS[name], points, aspect, margin)
 
 
 def turntable(view: View, bounds: Bounds, aspect: float, frames: int) -> list[Camera]:
@@ -61,26 +61,47 @@ def turntable(view: View, bounds: Bounds, aspect: float, frames: int) -> list[Ca
 
 def frame_box(view: View, bounds: Bounds, aspect: float, margin: float = 0.05) -> Camera:
     """A camera in the view's direction that shows the box as large as the margin allows."""
-    corners = _corners(bounds)
-    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    return frame_points(view, _corners(bounds), aspect, margin)
+
+
+def frame_points(view: View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
+    """A camera in the view's direction that shows all points as large as the margin allows.
+
+    Raises OptionError for points that are not finite.
+    """
+    points = points.reshape(-1, 3).astype(np.float64)
+    if not (len(points) and np.isfinite(points).all()):
+        raise OptionError("the subject's points are not finite; there is nothing to frame")
     back, right, up = _axes(view)
-    x, y, z = (np.sum((corners - centre) * axis, axis=1) for axis in (right, up, back))
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    x, y, z = (np.sum((points - middle) * axis, axis=1) for axis in (right, up, back))
     room = 1 - 2 * margin
+    # At least as deep as half a pixel of a large picture, so a flat subject has a near plane.
     radius = float(np.abs(z).max()) + 1e-3
     if view.fov is None:
+        centre = middle + right * (x.min() + x.max()) / 2 + up * (y.min() + y.max()) / 2
         height = max(float(np.ptp(y)), float(np.ptp(x)) / aspect, 1e-6) / room
         return _camera(centre, back, up, 4 * radius + 1, radius, height=height)
-    # Every corner must lie inside the field of view: |y| <= tan (distance - z).
     tan = np.tan(np.radians(view.fov) / 2) * room
-    needed = max(float((np.abs(y) / tan + z).max()), float((np.abs(x) / (tan * aspect) + z).max()))
-    return _camera(centre, back, up, max(needed, radius * 1.05), radius, fov=view.fov)
+    (x_mid, x_away), (y_mid, y_away) = _fit(x, z, tan * aspect), _fit(y, z, tan)
+    centre = middle + right * x_mid + up * y_mid
+    return _camera(centre, back, up, max(x_away, y_away, radius * 1.05), radius, fov=view.fov)
+
+
+def _fit(across: Array, depth: Array, tan: float) -> tuple[float, float]:
+    """Where to aim along one axis, and how far away to stand, to see points at these depths.
+
+    A point is seen where |across - aim| <= tan (distance - depth): the two outermost lines of
+    sight, across = aim +- tan (distance - depth), meet at the nearest place to stand.
+    """
+    high = float((across + tan * depth).max())
+    low = float((across - tan * depth).min())
+    return (high + low) / 2, (high - low) / (2 * tan)
 
 
 def _corners(bounds: Bounds) -> Array:
     picks = (np.arange(8)[:, None] >> np.arange(3)) & 1
     corners: Array = np.where(picks, bounds[1], bounds[0]).astype(np.float64)
-    if not np.isfinite(corners).all():
-        raise OptionError("the subject's bounds are not finite; there is nothing to frame")
     return corners
 
 

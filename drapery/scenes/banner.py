@@ -5,14 +5,16 @@ block afterwards. All moments of an animation are simulated first, as one batch 
 camera can frame them together.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
-from drapery.cloth import Cloth, Gravity, SolverDesbrun, Wind, grid, rest_state, simulate
+from drapery.cloth import Cloth, Gravity, Wind, grid, rest_state, simulate
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.scene import Model, Scene
 from drapery.render.views import frame_view
@@ -47,31 +49,28 @@ def still(banner: Banner, packs: Packs, settings: Settings) -> Scene:
 
 
 def loop(
-    banner: Banner, packs: Packs, settings: Settings, seconds: float, fps: float
+    banner: Banner, packs: Packs, settings: Settings, count: int, fps: float
 ) -> Iterator[Scene]:
-    """Scenes of a seamless loop: the last is followed by the first.
+    """`count` scenes of a seamless loop: the last is followed by the first.
 
     The wind repeats after the loop's length; the flag has settled into that period.
     """
-    count = max(1, round(seconds * fps))
     if settings.pose == "vanilla":
-        sways = max(1, round(seconds / SWAY_PERIOD))
+        sways = max(1, round(count / fps / SWAY_PERIOD))
         flags = _stiff(settings, sways * np.arange(count) / count)
     else:
         flags = _dress(settings, _wave(settings, count, fps))
     return _scenes(banner, packs, settings, flags)
 
 
-def _scenes(
-    banner: Banner, packs: Packs, settings: Settings, flags: Mesh
-) -> Iterator[Scene]:
+def _scenes(banner: Banner, packs: Packs, settings: Settings, flags: Mesh) -> Iterator[Scene]:
     """One scene for each moment of the flag, positions [F, V, 3], all framed alike."""
     frame = Model(wood(settings.placement), (wood_look(packs),))
     # One tuple for all moments: the renderer prepares what does not change only once.
     looks = (flag_look(banner, packs, settings.layers),)
     everything = np.concatenate([frame.mesh.positions, flags.positions.reshape(-1, 3)])
     width, height = settings.size
-    camera = frame_view(settings.view, (everything.min(0), everything.max(0)), width / height)
+    camera = frame_view(settings.view, everything, width / height)
     for positions, normals in zip(flags.positions, flags.normals, strict=True):
         flag = replace(flags, positions=positions, normals=normals)
         yield Scene(
@@ -112,12 +111,24 @@ def _wind(settings: Settings, period: float | None = None) -> Wind:
 
 def _hang(settings: Settings) -> Array:
     """The flag after `time` seconds, shape [N, 3]."""
-    raise NotImplementedError
+    cloth = _cloth(settings)
+    steps = math.ceil(settings.time / STEP)
+    if steps == 0:
+        return rest_state(cloth).positions[0]
+    forces = (Gravity(), _wind(settings))
+    states = simulate(cloth, forces=forces, dt=settings.time / steps, every=steps)
+    return next(islice(states, 1, None)).positions[0]
 
 
 def _wave(settings: Settings, count: int, fps: float) -> Array:
     """One period of the flag's motion in a periodic wind, shape [count, N, 3]."""
-    raise NotImplementedError
+    period = count / fps
+    steps = math.ceil(1 / (fps * STEP))
+    forces = (Gravity(), _wind(settings, period))
+    states = simulate(_cloth(settings), forces=forces, dt=1 / (fps * steps), every=steps)
+    first = math.ceil(SETTLING / period) * count
+    recorded = [state.positions[0] for state in islice(states, first, first + count + 1)]
+    return close_loop(np.stack(recorded))
 
 
 def close_loop(motion: Array) -> Array:

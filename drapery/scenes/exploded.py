@@ -24,7 +24,7 @@ def exploded(banner: Banner, packs: Packs, settings: Settings) -> Scene:
     models = tuple(Model(_sheet(GAP * i), (look,)) for i, look in enumerate(looks))
     corners = np.concatenate([model.mesh.positions for model in models])
     width, height = settings.size
-    camera = frame_view(settings.view, (corners.min(0), corners.max(0)), width / height)
+    camera = frame_view(settings.view, corners, width / height)
     background = background_colour(settings.background)
     return Scene(models, camera, settings.size, background=background)
 
