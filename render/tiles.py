@@ -1,8 +1,9 @@
 """The rasteriser proper: triangles of a tile -> which is seen at each sample -> its colour.
 
 Coverage is exact: corners are whole numbers of 1/256 pixel, edge functions are 64-bit integers,
-and a sample on an edge belongs to the triangle whose top or left edge it is, so that triangles
-that share an edge cover each sample once. A sample remembers one whole number, its depth above
+and a sample on an edge belongs to the triangle whose left or lower edge it is, so that triangles
+that share an edge cover each sample once. (That is the top-left rule in the rows of a GL, which
+count upwards: llvmpipe covers the same samples.) A sample remembers one whole number, its depth above
 the number of its triangle; the greatest is what is seen. Of equals in depth the triangle drawn
 later wins, as under GL_LEQUAL, and no order of the work can change the picture.
 
@@ -45,12 +46,12 @@ def _floor_divide(value, step, inverse):
 @_inner
 def _edge(ax, ay, bx, by):
     """The edge function from a to b: its steps to the right and down by one pixel, its value at
-    the tile's first sample (less one where the edge is neither top nor left), 1 / |step|."""
+    the tile's first sample (less one where the edge is neither left nor lower), 1 / |step|."""
     right = -(by - ay) * 256
     down = (bx - ax) * 256
     value = (by - ay) * ax - (bx - ax) * ay
-    top_left = by < ay or (by == ay and bx > ax)
-    return right, down, value - (not top_left), 1.0 / max(abs(right), 1)
+    owned = by < ay or (by == ay and bx < ax)
+    return right, down, value - (not owned), 1.0 / max(abs(right), 1)
 
 
 @_inner
