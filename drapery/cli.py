@@ -5,7 +5,7 @@ import sys
 import typer
 from typer.exceptions import TyperException
 
-from drapery.commands import animate, compare, doctor, flat, layers, render, show
+from drapery.commands import animate, compare, doctor, flat, layers, render, scene, show
 from drapery.commands.notices import adopt_warnings, say
 from drapery.errors import DraperyError
 
@@ -22,6 +22,7 @@ for name, command in {
     "show": show,
     "compare": compare,
     "layers": layers,
+    "scene": scene,
     "doctor": doctor,
 }.items():
     app.command(name)(command.run)

@@ -1,9 +1,10 @@
 """The door: a banner becomes a frame or an animation."""
 
 import warnings
+from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Literal, Unpack
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
 
@@ -11,7 +12,10 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
 from drapery.render.frame import Animation, Frame
 from drapery.render.scene import Scene
-from drapery.settings import MAX_FRAMES, Options, Settings, within
+from drapery.settings import MAX_FRAMES, MAX_SIDE, Options, Settings, within
+
+if TYPE_CHECKING:
+    from drapery.scenes.catalogue import Entry, Shot
 
 
 def draw(banner: Banner, **options: Unpack[Options]) -> Frame:
@@ -46,15 +50,34 @@ def frames(banner: Banner, seconds: float, fps: float, settings: Settings) -> It
     """The frames of `animate`, one by one as they are drawn; see `frame_count`."""
     from drapery.scenes.banner import loop
 
-    within("fps", fps, 1, 120, "frames/s")
-    within("seconds", seconds, 1 / fps, MAX_FRAMES / fps, f"s at {fps:g} frames/s")
     packs = open_packs(settings.packs)
-    return _drawn(loop(banner, packs, settings, frame_count(seconds, fps), fps), packs, settings)
+    count = frame_count(seconds, fps)
+    return _drawn(loop(banner, packs, settings, count, fps), packs, settings)
 
 
 def frame_count(seconds: float, fps: float) -> int:
-    """How many frames a loop of this length [s] has."""
+    """How many frames an animation of this length [s] has. Raises OptionError."""
+    within("fps", fps, 1, 120, "frames/s")
+    within("seconds", seconds, 1 / fps, MAX_FRAMES / fps, f"s at {fps:g} frames/s")
     return max(1, round(seconds * fps))
+
+
+def scene_frames(
+    scene: "Entry", parameters: Any, shot: "Shot", backend: str = "auto", *, last: bool = False
+) -> Iterator[Frame]:
+    """The frames of a ready-made scene, or only its last, drawn one by one.
+
+    Raises OptionError or BackendError.
+    """
+    from drapery.render.backends import backend as backend_named
+
+    for side in shot.size:
+        within("size", side, 1, MAX_SIDE, "pixels")
+    draw_scene = backend_named(backend)
+    pictures = scene.play(parameters, shot)
+    if last:
+        pictures = iter([*deque(pictures, maxlen=1)])
+    return (p if isinstance(p, Frame) else draw_scene(p) for p in pictures)
 
 
 def draw_face(

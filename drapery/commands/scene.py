@@ -1,0 +1,95 @@
+"""`drapery scene`: the ready-made scenes, each by one command."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice, progress
+
+
+def run(
+    name: Annotated[
+        str | None, typer.Argument(metavar="NAME", help="Which scene.", show_default=False)
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("-o", "--out", metavar="TARGET", help="A picture, animation or folder."),
+    ] = None,
+    show_list: Annotated[bool, typer.Option("--list", help="Name all scenes.")] = False,
+    parameter: Annotated[
+        list[str] | None,
+        typer.Option("-p", "--set", metavar="NAME=VALUE", help="A parameter of the scene."),
+    ] = None,
+    seconds: Annotated[float, typer.Option(help="Length of the animation.")] = 4.0,
+    fps: Annotated[float, typer.Option(help="Frames per second.")] = 20.0,
+    size: o.SizeOption = "480x480",
+    backend: o.BackendOption = "auto",
+) -> None:
+    """Play a ready-made scene; a still picture shows its last moment."""
+    from drapery.errors import OptionError
+
+    if show_list:
+        _show_list()
+    elif name is None:
+        raise OptionError("no scene is named; `drapery scene --list` names them all")
+    elif out is None:
+        _show_parameters(name)
+    else:
+        _play(name, out, parameter or [], seconds, fps, size, backend)
+
+
+def _play(
+    name: str,
+    out: Path,
+    parameters: list[str],
+    seconds: float,
+    fps: float,
+    size: str,
+    backend: str,
+) -> None:
+    from drapery.pictures import frame_count, scene_frames
+    from drapery.render.encode import check_animation_target, check_frame_target, save_animation
+    from drapery.scenes.catalogue import Shot, find
+    from drapery.settings import pair
+
+    scene, words = find(name), _words(parameters)
+    is_still = out.suffix.lower() == ".png"
+    (check_frame_target if is_still else check_animation_target)(out)
+    shot = Shot(pair("size", size), frame_count(seconds, fps), fps)
+    with compile_notice(), progress("frames", shot.count) as tick:
+        drawn = scene_frames(scene, scene.parameters(words), shot, backend, last=is_still)
+        if is_still:
+            next(drawn).save(out)
+        else:
+            save_animation(drawn, fps, out, total=shot.count, progress=tick)
+
+
+def _words(parameters: list[str]) -> dict[str, str]:
+    from drapery.errors import OptionError
+
+    for parameter in parameters:
+        if "=" not in parameter:
+            raise OptionError(f"parameter {parameter!r} has no value; write NAME=VALUE")
+    pairs = (parameter.split("=", 1) for parameter in parameters)
+    return {name.strip(): value.strip() for name, value in pairs}
+
+
+def _show_list() -> None:
+    from drapery.scenes.catalogue import find, names
+
+    for name in names():
+        print(f"{name:16} {find(name).summary}")
+
+
+def _show_parameters(name: str) -> None:
+    from dataclasses import fields
+
+    from drapery.scenes.catalogue import find
+
+    scene = find(name)
+    print(scene.summary)
+    defaults = scene.parameters()
+    for field in fields(defaults):
+        print(f"  {field.name} = {getattr(defaults, field.name)}")
