@@ -82,7 +82,7 @@ def _children(path: _Path, node: Tree) -> Iterator[tuple[_Path, Tree]]:
         else ()
     )
     return (
-        ((path, key), child) for key, child in pairs if child and isinstance(child, (dict, list))
+        ((path, key), child) for key, child in pairs if isinstance(child, (dict, list)) and child
     )
 
 
@@ -129,9 +129,9 @@ def _is_item(node: dict[str, Tree]) -> bool:
         identifier = node.get("Name")  # Bedrock; in Java a block state of a palette has a Name too
     if is_shield_id(identifier):
         return _is_patterned_shield(node)
-    return is_banner_id(identifier) and (
-        base_of(identifier) is not None or bool(_ITEM_KEYS.intersection(node))
-    )
+    if not isinstance(identifier, str) or not is_banner_id(identifier):
+        return False
+    return base_of(identifier) is not None or bool(_ITEM_KEYS.intersection(node))
 
 
 def _is_patterned_shield(node: dict[str, Tree]) -> bool:
