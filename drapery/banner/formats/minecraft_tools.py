@@ -17,6 +17,8 @@ from drapery.banner.formats.urls import (
 from drapery.banner.patterns import BY_CODE
 
 NAME = "minecraft_tools"
+TITLE = "minecraft.tools' address"
+EXAMPLE = "https://minecraft.tools/en/banner.php?color_id_0=4&shape_id_1=28&color_id_1=15"
 SITE = "minecraft.tools"
 HOST = "minecraft.tools"
 _ORDER = """

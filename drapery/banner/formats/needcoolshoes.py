@@ -18,6 +18,8 @@ from drapery.banner.formats.urls import (
 from drapery.banner.patterns import BY_CODE, PATTERNS
 
 NAME = "needcoolshoes"
+TITLE = "NeedCoolShoes', ncrs.skin's or skinmc's address"
+EXAMPLE = "https://www.needcoolshoes.com/banner?=ealleNhEehppai"
 SITE = "NeedCoolShoes"
 HOSTS = ("needcoolshoes.com", "needcoolershoes.com", "ncrs.skin", "skinmc.net")
 ALPHABET = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+/"

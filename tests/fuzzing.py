@@ -1,0 +1,242 @@
+"""Fuzzing of the forms: seeded mutations of sound inputs, and a tally of what came of them.
+
+The suite runs a short slice of it, `benchmarks/fuzz_formats.py` the long run.
+"""
+
+import gzip
+import random
+import re
+import struct
+import time
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import world_maker as make
+
+from drapery.banner.formats import schem, structure
+from drapery.banner.formats.binary import BINARY_FORMS
+from drapery.errors import DraperyError
+
+MAX_SECONDS = 1.0
+
+
+@dataclass
+class Tally:
+    """What came of the inputs of one form.
+
+    outcomes: how many inputs ended so, by a short name. slowest: the longest reading [s], of
+    processor time. failures: inputs that ended otherwise than in banners or a DraperyError.
+    """
+
+    outcomes: Counter[str] = field(default_factory=Counter)
+    slowest: float = 0.0
+    failures: list[tuple[Any, str]] = field(default_factory=list)
+
+    @property
+    def count(self) -> int:
+        return sum(self.outcomes.values())
+
+
+def fuzz(
+    read: Callable[[Any], Iterable[Any]],
+    samples: Sequence[Any],
+    mutate: Callable[[random.Random, Sequence[Any]], Any],
+    count: int,
+    seed: int = 0,
+) -> Tally:
+    """Read `count` mutated samples and tally the outcomes."""
+    rng = random.Random(seed)
+    tally = Tally()
+    for _ in range(count):
+        _judge(read, mutate(rng, samples), tally)
+    return tally
+
+
+def _judge(read: Callable[[Any], Iterable[Any]], given: Any, tally: Tally) -> None:
+    start = time.process_time()
+    try:
+        number = len(list(read(given)))
+        outcome = "no banner" if number == 0 else "a banner" if number == 1 else "banners"
+    except DraperyError as error:
+        outcome = kind_of(str(error))
+        if "\n" in str(error):
+            tally.failures.append((given, f"an error of many lines: {error!r}"))
+    except Exception as error:  # what the fuzzing is for: any other end is a failure
+        outcome = f"FAILED {type(error).__name__}"
+        tally.failures.append((given, repr(error)))
+    seconds = time.process_time() - start
+    if seconds > MAX_SECONDS:
+        tally.failures.append((given, f"took {seconds:.2f} s"))
+    tally.slowest = max(tally.slowest, seconds)
+    tally.outcomes[outcome] += 1
+
+
+def kind_of(message: str) -> str:
+    """An error without its place and numbers: `over N tags by byte N`."""
+    tail = message.rpartition(": ")[2] if ": " in message else message
+    tail = re.sub(r"'[^']*'|\"[^\"]*\"", "'…'", tail)
+    return re.sub(r"-?\d+", "N", tail).partition(";")[0][:60]
+
+
+def mutate_bytes(rng: random.Random, samples: Sequence[bytes]) -> bytes:
+    """A sample with one to eight changes; compressed ones are mostly changed inside."""
+    data = rng.choice(samples)
+    packed = data[:2] == b"\x1f\x8b"
+    if packed and rng.random() < 0.8:
+        return gzip.compress(_changed(rng, gzip.decompress(data), samples), 1, mtime=0)
+    return _changed(rng, data, samples)
+
+
+def _changed(rng: random.Random, data: bytes, samples: Sequence[bytes]) -> bytes:
+    for _ in range(rng.randint(1, 8)):
+        data = rng.choice(_BYTE_CHANGES)(rng, data, samples)
+    return data
+
+
+def _place(rng: random.Random, data: Sequence[Any]) -> int:
+    """Half of the changes go to the first hundred places, where the structure is."""
+    return (
+        rng.randrange(min(len(data), 100) + 1)
+        if rng.random() < 0.5
+        else rng.randrange(len(data) + 1)
+    )
+
+
+def _flip(rng: random.Random, data: bytes, _: Any) -> bytes:
+    at = _place(rng, data)
+    return (
+        data[:at]
+        + bytes(byte ^ 1 << rng.randrange(8) for byte in data[at : at + 1])
+        + data[at + 1 :]
+    )
+
+
+def _overwrite(rng: random.Random, data: bytes, _: Any) -> bytes:
+    at, piece = _place(rng, data), rng.choice(_EXTREMES)
+    return data[:at] + piece + data[at + len(piece) :]
+
+
+def _insert(rng: random.Random, data: bytes, _: Any) -> bytes:
+    at = _place(rng, data)
+    return data[:at] + rng.randbytes(rng.randint(1, 9)) + data[at:]
+
+
+def _cut(rng: random.Random, data: bytes, _: Any) -> bytes:
+    at = _place(rng, data)
+    return data[:at] if rng.random() < 0.3 else data[:at] + data[at + rng.randint(1, 40) :]
+
+
+def _repeat(rng: random.Random, data: bytes, _: Any) -> bytes:
+    at = _place(rng, data)
+    return data[:at] + data[at : at + rng.randint(1, 40)] * rng.choice((2, 9, 600)) + data[at:]
+
+
+def _splice(rng: random.Random, data: bytes, samples: Any) -> bytes:
+    other = rng.choice(samples)
+    at, start = _place(rng, data), _place(rng, other)
+    return data[:at] + other[start : start + rng.randint(1, 200)] + data[at:]
+
+
+_EXTREMES = [
+    *(struct.pack(">i", n) for n in (-1, 0, 2**31 - 1, -(2**31), 500_001, 2**24)),
+    *(struct.pack("<i", n) for n in (2**31 - 1, 2**24)),
+    b"\xff\xff",
+    b"\0\0",
+    *(bytes([kind]) for kind in range(14)),
+    b"\x09\0\0\0\x01" * 200,
+    b"\x0a\0\0" * 200,
+]
+
+_BYTE_CHANGES = [_flip, _flip, _overwrite, _overwrite, _insert, _cut, _repeat, _splice]
+
+
+def mutate_text(rng: random.Random, samples: Sequence[str]) -> str:
+    """A sample with one to eight changes."""
+    text = rng.choice(samples)
+    for _ in range(rng.randint(1, 8)):
+        text = rng.choice(_TEXT_CHANGES)(rng, text, samples)
+    return text
+
+
+def _insert_token(rng: random.Random, text: str, _: Any) -> str:
+    at = _place(rng, text)
+    return text[:at] + rng.choice(_TOKENS) + text[at:]
+
+
+def _replace_letter(rng: random.Random, text: str, _: Any) -> str:
+    at = _place(rng, text)
+    return text[:at] + rng.choice(_LETTERS) + text[at + 1 :]
+
+
+_LETTERS = "\"'{}[]:;,=?&./\\-+_0123456789abcdefABCXYZ \t\n\0é€\U0001f600\ud800"
+_TOKENS = [
+    *(
+        "[" * 600,
+        "{a:" * 600,
+        "(" * 99,
+        "]" * 9,
+        "}" * 9,
+        '"',
+        "'",
+        "\\",
+        "\\u0000",
+        "\\N{DIGIT ONE}",
+    ),
+    *("9" * 400, "-1", "1e400", "0x" + "f" * 99, "0b1", "1_000", "NaN", "true", "null", "bool(1)"),
+    *(
+        "[B;1b]",
+        "[L;" + "9" * 30 + "]",
+        "uuid(a)",
+        "minecraft:",
+        "a:b:c",
+        "%00",
+        "%ff",
+        "&b=",
+        "?=",
+    ),
+    *(
+        "Patterns:[",
+        "Color:99",
+        'pattern:{asset_id:"a:b"}',
+        "creeper",
+        "red",
+        "\n",
+        "  ",
+        "//",
+        "#",
+    ),
+]
+
+_TEXT_CHANGES = [_replace_letter, _replace_letter, _insert_token, _cut, _repeat, _splice]
+
+
+def binary_samples() -> dict[str, list[bytes]]:
+    """Sound files of every form of bytes, small, so that changes hit what matters."""
+    blocks = {
+        (1, 0, 3): (make.block_id(make.RED), make.entity(make.RED)),
+        (0, 0, 1): (make.block_id(make.LIME, wall=True), make.entity(make.LIME)),
+        (0, 1, 0): ("minecraft:chest", make.chest(make.RED, make.SHIELD)),
+        (1, 1, 1): (make.block_id(make.PLAIN), None),
+    }
+    old = {(1, 0, 3): (make.block_id(make.RED), make.entity(make.RED, "1.13"))}
+    older = {(1, 0, 3): (None, make.entity(make.RED, "1.12"))}
+    now = {place: block for place, block in blocks.items() if block[1]}
+    chunks = [make.chunk("1.18", now), make.chunk("1.13", old, 40), make.chunk("1.12", older)]
+    bedrock = {(1, 2, 3): make.bedrock_entity(make.RED), (0, 0, 0): make.bedrock_entity(make.LIME)}
+    player = {"Inventory": [make.item(make.RED), make.item(make.SHIELD)], "Pos": [1, 2, 3, 4, 5]}
+    schematics = [make.schem(version, (2, 2, 4), blocks, 3) for version in (1, 2, 3)]
+    return {
+        "structure": [structure.write([make.RED]), make.nbt_file(make.structure(blocks))],
+        "schem": [schem.write([make.LIME, make.RED]), *map(make.nbt_file, schematics)],
+        "litematic": [make.nbt_file(make.litematic((2, -2, 4), (0, 0, 0), blocks, 20))],
+        "mcstructure": [make.raw_nbt(make.mcstructure((2, 3, 4), bedrock), "little")],
+        "region": [make.region({(n, 0): chunk for n, chunk in enumerate(chunks)}, 3)],
+        "nbt": [*map(make.nbt_file, chunks), make.nbt_file(player), make.raw_nbt(player, "little")],
+    }
+
+
+def binary_readers() -> dict[str, Callable[[bytes], Iterable[Any]]]:
+    """The reader of each form of bytes, with all that it takes to find its banners."""
+    return {form.name: form.read for form in BINARY_FORMS}

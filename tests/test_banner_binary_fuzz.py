@@ -1,0 +1,24 @@
+"""A slice of the fuzzing: a changed file gives banners or one line, soon."""
+
+import fuzzing
+import pytest
+
+SAMPLES = fuzzing.binary_samples()
+READERS = fuzzing.binary_readers()
+
+
+def test_every_form_of_bytes_is_fuzzed():
+    assert SAMPLES.keys() == READERS.keys()
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_the_samples_are_sound(name: str):
+    for sample in SAMPLES[name]:
+        assert list(READERS[name](sample))
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_changed_files_are_read_or_refused(name: str):
+    tally = fuzzing.fuzz(READERS[name], SAMPLES[name], fuzzing.mutate_bytes, 400, seed=1)
+    assert not tally.failures, tally.failures[0][1]
+    assert tally.count == 400 and len(tally.outcomes) > 3
