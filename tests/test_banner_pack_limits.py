@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from pack_maker import BANNER, CREEPER, folder_pack, mcmeta, plain, zip_pack
 
-from drapery.banner.pack_sources import MAX_FILES
+from drapery.banner.pack_checks import MAX_FILES
 from drapery.banner.packs import MAX_PNG, open_packs
 from drapery.errors import PackError
 

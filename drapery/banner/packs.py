@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Literal
 
 from drapery.banner.pack import Pack, added_patterns, open_pack
+from drapery.banner.pack_folders import OwnArt
 from drapery.banner.pack_meta import MAX_JSON, read_json
-from drapery.banner.pack_sources import OwnArt
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.png import Texels, read_png
 from drapery.banner.sprite_sources import Directory, SpriteSource, parse_atlas, textures_of

@@ -1,0 +1,24 @@
+"""What folders and zips of packs have in common: what marks a pack, limits, words for faults."""
+
+from drapery.errors import PackError
+
+MAX_FILES = 100_000
+"""Most files in a zip or folder; the game's own jar has about 30,000."""
+
+ROOTS = ("assets", "data", "pack.mcmeta")
+"""A folder with one of these at its top is a pack."""
+
+LITTER = ("__MACOSX", ".DS_Store")
+"""What some systems leave beside it."""
+
+
+def within(data: bytes, limit: int, place: str) -> bytes:
+    """The data of a file, if it keeps to the limit [bytes]. Raises PackError naming the place."""
+    if len(data) > limit:
+        raise PackError(f"{place} is over {limit} bytes: shrink it")
+    return data
+
+
+def reason(error: BaseException) -> str:
+    """Why something failed, in the system's words."""
+    return getattr(error, "strerror", None) or str(error) or type(error).__name__

@@ -1,0 +1,129 @@
+"""Packs in folders, and our own art."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+
+from drapery.banner.pack_checks import LITTER, MAX_FILES, ROOTS, reason, within
+from drapery.errors import PackError
+
+
+@dataclass(frozen=True)
+class OwnArt:
+    """The art that comes with this package; its folder is a pack's `assets`."""
+
+    label: str = "drapery's own art"
+
+    def read(self, name: str, limit: int) -> bytes | None:
+        """See `pack_sources.Source`."""
+        node = self._node(name)
+        return node.read_bytes() if node is not None and node.is_file() else None
+
+    def files(self, folder: str) -> tuple[str, ...]:
+        """See `pack_sources.Source`."""
+        node = self._node(folder)
+        return tuple(sorted(_walk(node, folder))) if node is not None and node.is_dir() else ()
+
+    def folders(self, folder: str) -> tuple[str, ...]:
+        """See `pack_sources.Source`."""
+        node = self._node(folder)
+        if node is None or not node.is_dir():
+            return ()
+        return tuple(sorted(n.name for n in node.iterdir() if n.is_dir() and n.name[0] not in "_."))
+
+    def _node(self, name: str) -> Traversable | None:
+        top, *parts = name.split("/")
+        return files("drapery.assets").joinpath(*parts) if top == "assets" else None
+
+
+@dataclass(frozen=True)
+class FolderSource:
+    """A pack in a folder. Links that lead out of it are refused."""
+
+    root: Path
+    label: str
+
+    def read(self, name: str, limit: int) -> bytes | None:
+        """See `pack_sources.Source`."""
+        path = self.root / name
+        try:
+            if not path.is_file():
+                self._refuse_broken_link(path, name)
+                return None
+            self._refuse_way_out(path, name)
+            with path.open("rb") as file:
+                return within(file.read(limit + 1), limit, f"{self.label}: {name}")
+        except (OSError, RuntimeError) as error:
+            raise PackError(f"{self.label}: {name} cannot be read: {reason(error)}") from None
+
+    def files(self, folder: str) -> tuple[str, ...]:
+        """See `pack_sources.Source`."""
+        found = []
+        for here, folders, names in os.walk(self.root / folder):
+            folders.sort()
+            place = Path(here).relative_to(self.root).as_posix()
+            found += [f"{place}/{name}" for name in names]
+            if len(found) > MAX_FILES:
+                raise PackError(
+                    f"{self.label}: {folder} has over {MAX_FILES} files: leave some out"
+                )
+        return tuple(sorted(found))
+
+    def folders(self, folder: str) -> tuple[str, ...]:
+        """See `pack_sources.Source`."""
+        try:
+            with os.scandir(self.root / folder) as entries:
+                return tuple(sorted(entry.name for entry in entries if entry.is_dir()))
+        except OSError:
+            return ()
+
+    def _refuse_way_out(self, path: Path, name: str) -> None:
+        if not path.resolve().is_relative_to(self.root.resolve()):
+            raise PackError(
+                f"{self.label}: {name} is a link out of the pack: put the file itself there"
+            )
+
+    def _refuse_broken_link(self, path: Path, name: str) -> None:
+        if path.is_symlink():
+            raise PackError(f"{self.label}: {name} is a link to nothing: put the file itself there")
+
+
+def open_folder(path: Path) -> FolderSource:
+    """The pack in a folder, or in the one folder in it that is one. Raises PackError, OSError."""
+    names = {entry.name for entry in path.iterdir() if entry.name not in LITTER}
+    if names & set(ROOTS):
+        return FolderSource(path, str(path))
+    inside = [name for name in sorted(names) if _looks_like_pack(path / name)]
+    if len(inside) == 1:
+        return FolderSource(path / inside[0], str(path / inside[0]))
+    raise PackError(f"pack {path} is no resource pack: {_folder_hint(path, inside)}")
+
+
+def _folder_hint(path: Path, inside: list[str]) -> str:
+    if inside:
+        return f"it holds several, choose one: {', '.join(inside[:5])}"
+    for parent in path.resolve().parents:
+        if (parent / "pack.mcmeta").is_file():
+            return f"it lies inside one, point at {parent}"
+    if (path / "manifest.json").is_file():
+        return "it is one for Bedrock, and only those for Java are read"
+    zips = sorted(entry.name for entry in path.iterdir() if entry.suffix in (".zip", ".jar"))
+    if zips:
+        return f"it holds {', '.join(zips[:5])}, point at one of them"
+    return "it has neither assets nor pack.mcmeta, point at the folder that has"
+
+
+def _looks_like_pack(path: Path) -> bool:
+    return any((path / name).exists() for name in ROOTS)
+
+
+def _walk(node: Traversable, name: str) -> Iterator[str]:
+    for child in node.iterdir():
+        path = f"{name}/{child.name}"
+        if child.is_dir():
+            yield from _walk(child, path)
+        else:
+            yield path

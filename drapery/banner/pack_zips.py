@@ -1,0 +1,166 @@
+"""Packs in zips and jars. Nothing is ever unpacked to disk, and little trusted."""
+
+import os
+import struct
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from stat import S_ISLNK
+from typing import TYPE_CHECKING
+
+from drapery.banner.pack_checks import LITTER, MAX_FILES, ROOTS, reason, within
+from drapery.errors import PackError
+
+if TYPE_CHECKING:
+    from zipfile import ZipFile, ZipInfo
+
+MAX_DIRECTORY = 8 << 20
+"""Largest list of contents in a zip [bytes]; it is read whole before the first file."""
+
+MAX_RATIO = 200
+"""Most that a file over a mebibyte may be squeezed; PNG files hardly shrink at all."""
+
+_LONGEST_TAIL = 76 + 22 + (1 << 16)
+"""A zip's end records and the longest comment behind them [bytes]."""
+
+
+@dataclass(frozen=True)
+class ZipSource:
+    """A pack in a zip or jar. entries: the files by their names under the pack's root."""
+
+    archive: "ZipFile"
+    entries: "dict[str, ZipInfo]"
+    doubles: frozenset[str]
+    label: str
+
+    def read(self, name: str, limit: int) -> bytes | None:
+        """See `pack_sources.Source`."""
+        entry = self.entries.get(name)
+        if entry is None:
+            return None
+        place = f"{self.label}: {name}"
+        if name in self.doubles:
+            raise PackError(f"{place} is in the zip twice: pack it anew")
+        _check_entry(entry, limit, place)
+        try:
+            with self.archive.open(entry) as file:
+                # The stated size may lie; never more than the limit is unpacked.
+                return within(file.read(limit + 1), limit, place)
+        except _zip_faults() as error:
+            raise PackError(f"{place} is damaged ({reason(error)}): get the zip anew") from None
+
+    def files(self, folder: str) -> tuple[str, ...]:
+        """See `pack_sources.Source`."""
+        return tuple(sorted(name for name in self.entries if name.startswith(f"{folder}/")))
+
+    def folders(self, folder: str) -> tuple[str, ...]:
+        """See `pack_sources.Source`."""
+        start = len(folder) + 1
+        inside = (name[start:] for name in self.entries if name.startswith(f"{folder}/"))
+        return tuple(sorted({rest.split("/", 1)[0] for rest in inside if "/" in rest}))
+
+
+def _zip_faults() -> tuple[type[Exception], ...]:
+    """All that zipfile is known to raise on damaged files."""
+    from zipfile import BadZipFile, LargeZipFile
+
+    wrong = (EOFError, ValueError, RuntimeError, IndexError, struct.error, zlib.error)
+    return BadZipFile, LargeZipFile, OSError, *wrong
+
+
+def open_zip(path: Path) -> ZipSource:
+    """The pack in a zip or jar, also under one top folder. Raises PackError, OSError."""
+    _check_directory(path)
+    from zipfile import ZipFile
+
+    try:
+        archive = ZipFile(path)
+    except _zip_faults() as error:
+        raise PackError(f"pack {path} is a damaged zip ({reason(error)}): get it anew") from None
+    try:
+        return _indexed(archive, str(path))
+    except PackError:
+        archive.close()
+        raise
+
+
+def _indexed(archive: "ZipFile", label: str) -> ZipSource:
+    # Nameless entries occur in damaged zips, and is_dir fails on them before Python 3.12.
+    infos = [info for info in archive.infolist() if info.filename and not info.is_dir()]
+    if len(infos) > MAX_FILES:
+        raise PackError(f"pack {label} has {len(infos)} files; at most {MAX_FILES} are read")
+    # Some old tools write backslashes.
+    named = [(info.filename.replace("\\", "/"), info) for info in infos]
+    for name, _ in named:
+        if name.startswith("/") or name[1:2] == ":" or ".." in name.split("/"):
+            raise PackError(
+                f"pack {label}: the name {name[:80]!r} leads out of it: do not trust it"
+            )
+    root = _root_in_zip([name for name, _ in named], label)
+    entries: dict[str, ZipInfo] = {}
+    doubles = set()
+    for name, info in named:
+        if name.startswith(root):
+            short = name[len(root) :]
+            if short in entries:
+                doubles.add(short)
+            entries[short] = info
+    return ZipSource(archive, entries, frozenset(doubles), label)
+
+
+def _root_in_zip(names: list[str], label: str) -> str:
+    """The prefix of the pack's root: none, or the one top folder of a repacked download."""
+    tops = {name.split("/", 1)[0] for name in names}
+    if tops & set(ROOTS):
+        return ""
+    inside = {
+        parts[0]
+        for parts in (name.split("/", 2) for name in names)
+        if len(parts) > 1 and parts[1] in ROOTS and parts[0] not in LITTER
+    }
+    if len(inside) == 1:
+        return f"{inside.pop()}/"
+    if inside:
+        hint = f"it holds several, unpack it and choose one: {', '.join(sorted(inside)[:5])}"
+    elif "manifest.json" in tops:
+        hint = "it is one for Bedrock, and only those for Java are read"
+    elif any(name.endswith(".zip") for name in tops):
+        hint = "it holds another zip, unpack it once"
+    else:
+        hint = "it has neither assets nor pack.mcmeta at its top"
+    raise PackError(f"pack {label} is no resource pack: {hint}")
+
+
+def _check_directory(path: Path) -> None:
+    """Refuse a huge list of contents before zipfile reads it; see APPNOTE 4.3.14 to 4.3.16."""
+    with path.open("rb") as file:
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(0, size - _LONGEST_TAIL))
+        tail = file.read()
+    at = tail.rfind(b"PK\x05\x06")
+    if at < 0 or len(tail) < at + 22:
+        raise PackError(f"pack {path} is neither a folder nor a whole zip or jar: get it anew")
+    length = struct.unpack_from("<I", tail, at + 12)[0]
+    if tail[at - 20 : at - 16] == b"PK\x06\x07":
+        # Only the place where zipfile itself looks counts: right before the locator.
+        big = tail[max(0, at - 76) : at - 20]
+        length = struct.unpack_from("<Q", big, 40)[0] if big[:4] == b"PK\x06\x06" else 1 << 64
+    if length > MAX_DIRECTORY:
+        raise PackError(
+            f"pack {path} lists too many files; at most {MAX_FILES} are read: thin it out"
+        )
+
+
+def _check_entry(entry: "ZipInfo", limit: int, place: str) -> None:
+    if entry.flag_bits & 1:
+        raise PackError(f"{place} is encrypted: pack it without a password")
+    if S_ISLNK(entry.external_attr >> 16):
+        raise PackError(f"{place} is a link: put the file itself there")
+    if entry.compress_type not in (0, 8):
+        raise PackError(f"{place} is squeezed in a way the game cannot read: use plain deflate")
+    squeezed = entry.file_size > MAX_RATIO * max(1, entry.compress_size)
+    if entry.file_size > limit or (squeezed and entry.file_size > 1 << 20):
+        raise PackError(
+            f"{place} would unpack from {entry.compress_size} to {entry.file_size} bytes:"
+            " a zip bomb is not read"
+        )
