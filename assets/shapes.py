@@ -117,10 +117,11 @@ def triangles_bottom(width: int, height: int) -> Grey:
 
 
 def circle(width: int, height: int) -> Grey:
-    """A roundel over three fifths of the width."""
+    """A roundel over half the width."""
     x, y = axes(width, height)
     square = (x - width) ** 2 + (y - height) ** 2
-    return cover(25 * square < 9 * width * width, width, height)
+    # A little over half, so that the shield's small roundel is round too.
+    return cover(4 * square <= width * width + width, width, height)
 
 
 def rhombus(width: int, height: int) -> Grey:
