@@ -7,18 +7,19 @@ camera can frame them together.
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 from itertools import islice
 
 import numpy as np
 
 from drapery.banner.design import Banner
-from drapery.banner.packs import Packs
+from drapery.banner.packs import Packs, open_packs
 from drapery.cloth import Cloth, Gravity, Wind, grid, rest_state, simulate
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.scene import Model, Scene
 from drapery.render.views import frame_view
-from drapery.settings import Settings, background_colour
+from drapery.scenes.catalogue import Shot
+from drapery.settings import LayerMode, Placement, Pose, Settings, background_colour
 from drapery.style.block import (
     FLAG_SIZE,
     FLAG_SKIN,
@@ -37,6 +38,29 @@ SETTLING = 8.0
 """A loop is recorded after the flag has hung in the wind at least this long [s]."""
 BREEZE = (0.35, 0.0, 1.0)
 """Where the wind blows to: out from the pole, and a little along the flag."""
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """A design and what `drapery animate` can be asked of it; see `Settings`."""
+
+    design: str = "white creeper:lime border:black"
+    pose: Pose = "cloth"
+    placement: Placement = "standing"
+    view: str = "hero"
+    grid: tuple[int, int] = (5, 9)
+    wind: float = 4.0
+    seed: int = 0
+    layers: LayerMode = "stacked"
+    thickness: float = 1.0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """A seamless loop of the banner."""
+    options = {f.name: getattr(parameters, f.name) for f in fields(parameters)}
+    banner = Banner.parse(options.pop("design"))
+    settings = Settings(**options, size=shot.size)
+    return loop(banner, open_packs(()), settings, shot.count, shot.fps)
 
 
 def still(banner: Banner, packs: Packs, settings: Settings) -> Scene:
