@@ -117,11 +117,10 @@ def triangles_bottom(width: int, height: int) -> Grey:
 
 
 def circle(width: int, height: int) -> Grey:
-    """A roundel over half the width."""
+    """A roundel over half the width, its radius rounded up to whole texels."""
     x, y = axes(width, height)
-    square = (x - width) ** 2 + (y - height) ** 2
-    # A little over half, so that the shield's small roundel is round too.
-    return cover(4 * square <= width * width + width, width, height)
+    diameter = 2 * ((width + 3) // 4)
+    return cover((x - width) ** 2 + (y - height) ** 2 < diameter**2, width, height)
 
 
 def rhombus(width: int, height: int) -> Grey:
