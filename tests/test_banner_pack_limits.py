@@ -74,6 +74,7 @@ def test_folders_that_are_no_packs(tmp_path: Path, folder: str, hint: str) -> No
         (["manifest.json"], "it is one for Bedrock"),
         (["inner.zip"], "it holds another zip"),
         (["one/assets/a", "two/assets/a"], "it holds several, unpack it and choose one: one, two"),
+        (["a\nb/assets/a", "c/assets/a"], "it holds several, unpack it and choose one: 'a\\nb', c"),
         (["readme.txt"], "neither assets nor pack.mcmeta"),
         ([], "neither assets nor pack.mcmeta"),
     ],

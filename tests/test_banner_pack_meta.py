@@ -76,9 +76,10 @@ def test_by_default_a_pack_is_taken_at_its_newest(
 
 
 def test_a_byte_order_mark_and_raw_line_breaks_are_borne(tmp_path: Path) -> None:
-    text = '\ufeff{"pack": {"pack_format": 9, "description": "two\nlines"}}'
+    text = '\ufeff{"pack": {"pack_format": 9, "description": "§ltwo\n lines\u001b[2J"}}'
     path = folder_pack(tmp_path, {META: text, CREEPER: plain(1, 0, 0, 255)})
-    assert open_packs([path]).packs[1].format == 9
+    pack = open_packs([path]).packs[1]
+    assert pack.format == 9 and pack.meta.description == "two lines[2J"
 
 
 def test_a_pack_may_hide_files_below_it(tmp_path: Path) -> None:

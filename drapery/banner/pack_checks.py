@@ -1,5 +1,7 @@
 """What folders and zips of packs have in common: what marks a pack, limits, words for faults."""
 
+from collections.abc import Iterable
+
 from drapery.errors import PackError
 
 MAX_FILES = 100_000
@@ -17,6 +19,11 @@ def within(data: bytes, limit: int, place: str) -> bytes:
     if len(data) > limit:
         raise PackError(f"{place} is over {limit} bytes: shrink it")
     return data
+
+
+def listed(names: Iterable[str]) -> str:
+    """The first five names in one line, whatever is in them."""
+    return ", ".join(name if name.isprintable() else ascii(name) for name in sorted(names)[:5])
 
 
 def reason(error: BaseException) -> str:

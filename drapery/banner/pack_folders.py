@@ -7,7 +7,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
-from drapery.banner.pack_checks import LITTER, MAX_FILES, ROOTS, reason, within
+from drapery.banner.pack_checks import LITTER, MAX_FILES, ROOTS, listed, reason, within
 from drapery.errors import PackError
 
 
@@ -104,15 +104,15 @@ def open_folder(path: Path) -> FolderSource:
 
 def _folder_hint(path: Path, inside: list[str]) -> str:
     if inside:
-        return f"it holds several, choose one: {', '.join(inside[:5])}"
+        return f"it holds several, choose one: {listed(inside)}"
     for parent in path.resolve().parents:
         if (parent / "pack.mcmeta").is_file():
             return f"it lies inside one, point at {parent}"
     if (path / "manifest.json").is_file():
         return "it is one for Bedrock, and only those for Java are read"
-    zips = sorted(entry.name for entry in path.iterdir() if entry.suffix in (".zip", ".jar"))
+    zips = [entry.name for entry in path.iterdir() if entry.suffix in (".zip", ".jar")]
     if zips:
-        return f"it holds {', '.join(zips[:5])}, point at one of them"
+        return f"it holds {listed(zips)}, point at one of them"
     return "it has neither assets nor pack.mcmeta, point at the folder that has"
 
 

@@ -104,7 +104,7 @@ def parse_meta(data: bytes, name: str) -> PackMeta:
         formats,
         _overlays(root, name),
         _filters(root, name),
-        description if isinstance(description, str) else json.dumps(description),
+        _one_line(description if isinstance(description, str) else json.dumps(description)),
     )
 
 
@@ -115,8 +115,14 @@ def parse_version(data: bytes, name: str) -> PackMeta:
     if isinstance(version, dict):
         version = version.get("resource_major", version.get("resource"))
     title = root.get("name") if isinstance(root, dict) else None
-    text = f"Minecraft {title}" if isinstance(title, str) else ""
+    text = _one_line(f"Minecraft {title}") if isinstance(title, str) else ""
     return PackMeta(version if _is_count(version) else None, description=text)
+
+
+def _one_line(text: str) -> str:
+    """For a terminal: no line breaks, no control codes, no formatting codes of the game's."""
+    plain = re.sub("§.", "", text)
+    return "".join(c for c in " ".join(plain.split()) if c.isprintable())[:200]
 
 
 def _overlays(root: dict[str, Any], name: str) -> tuple[Overlay, ...]:

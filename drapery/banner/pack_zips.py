@@ -8,7 +8,7 @@ from pathlib import Path
 from stat import S_ISLNK
 from typing import TYPE_CHECKING
 
-from drapery.banner.pack_checks import LITTER, MAX_FILES, ROOTS, reason, within
+from drapery.banner.pack_checks import LITTER, MAX_FILES, ROOTS, listed, reason, within
 from drapery.errors import PackError
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ def _root_in_zip(names: list[str], label: str) -> str:
     if len(inside) == 1:
         return f"{inside.pop()}/"
     if inside:
-        hint = f"it holds several, unpack it and choose one: {', '.join(sorted(inside)[:5])}"
+        hint = f"it holds several, unpack it and choose one: {listed(inside)}"
     elif "manifest.json" in tops:
         hint = "it is one for Bedrock, and only those for Java are read"
     elif any(name.endswith(".zip") for name in tops):
