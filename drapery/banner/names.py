@@ -18,11 +18,12 @@ _BUKKIT = {
 }
 """The server API's names, where they are not the ids. DIAGONAL_RIGHT is the trap: it is `rd`."""
 
-_BEDROCK = {"flw": "flow", "gus": "guster"}
+BEDROCK_CODES = {"flow": "flw", "guster": "gus"}
+"""The codes of the two patterns that came too late to have one in Java."""
 
 _ALSO = {
-    "field": "base",
     "fully": "base",
+    "fully_field": "base",
     "masoned": "bricks",
     "brick": "bricks",
     "saltire": "cross",
@@ -45,7 +46,7 @@ def shown(value: object, longest: int = 40) -> str:
         return f"a compound of {len(value)}"
     if isinstance(value, (list, tuple)):
         return f"a list of {len(value)}"
-    text = value if isinstance(value, str) else str(value)
+    text = str(value)
     if len(text) > longest:
         text = text[: longest - 1] + "…"
     return repr(text) if isinstance(value, str) else text
@@ -61,9 +62,10 @@ def plain(name: str) -> str:
 def _pattern_table() -> dict[str, str]:
     titles = {plain(p.title): p.name for p in PATTERNS.values()}
     codes = {code: p.name for code, p in BY_CODE.items()}
+    bedrock = {code: name for name, code in BEDROCK_CODES.items()}
     ids = {name: name for name in PATTERNS}
     # Later wins: `base` and `cross` are ids before they are the heralds' Base and Cross.
-    return titles | _ALSO | _BUKKIT | _BEDROCK | codes | ids
+    return titles | _ALSO | _BUKKIT | bedrock | codes | ids
 
 
 def is_custom(name: str) -> bool:
@@ -121,6 +123,17 @@ def dye_name(value: object, at: str = "", *, inverted: bool = False) -> str:
             + ("" if hint else ", ".join(DYES))
         )
     return name
+
+
+def bukkit_pattern(name: str, at: str = "") -> str:
+    """The pattern's name in Bukkit up to 1.20: `diagonal_up_right` gives DIAGONAL_RIGHT.
+
+    Raises DesignError, opening with the place `at`, for the patterns of data packs.
+    """
+    if is_custom(name):
+        raise DesignError(f"{_place(at)}Bukkit has no name for {shown(name)}, of a data pack")
+    names = {meant: said for said, meant in _BUKKIT.items()}
+    return names.get(name, name).upper()
 
 
 def is_dye(value: str) -> bool:

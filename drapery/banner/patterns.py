@@ -13,7 +13,7 @@ class Pattern:
 
 
 _TABLE = """
-base b Fully
+base b Field
 square_bottom_left bl Base Dexter Canton
 square_bottom_right br Base Sinister Canton
 square_top_left tl Chief Dexter Canton

@@ -1,1 +1,24 @@
 """Every written form of a banner, one file a form."""
+
+from drapery.banner.formats.door import (
+    FORMS,
+    parse_banner,
+    parse_banners,
+    read_design,
+    read_designs,
+    recognise,
+    write_banner,
+)
+from drapery.banner.formats.found import Found, find_banners
+
+__all__ = [
+    "FORMS",
+    "Found",
+    "find_banners",
+    "parse_banner",
+    "parse_banners",
+    "read_design",
+    "read_designs",
+    "recognise",
+    "write_banner",
+]

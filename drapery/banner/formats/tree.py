@@ -67,6 +67,8 @@ def under(at: str, key: str | int) -> str:
     """The path of a child: `under("a", "b")` is `a.b`, `under("a", 2)` is `a[2]`."""
     if isinstance(key, int):
         return f"{at}[{key}]"
+    if len(key) > 40 or not key.isprintable():
+        key = shown(key)
     return f"{at}.{key}" if at else key
 
 

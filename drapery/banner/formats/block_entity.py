@@ -1,0 +1,34 @@
+"""A banner's block entity in SNBT, with the block's id before it, which tells the base dye.
+
+`minecraft:red_banner{patterns:[…]}`. Up to 1.12 the entity had `Base` and stood alone.
+"""
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import commands, trees
+from drapery.banner.formats.found import Found
+from drapery.banner.formats.setblock import write as write_command
+from drapery.banner.formats.tree import is_banner_id
+
+NAME = "block-entity"
+TITLE = "block entity in SNBT, after its block's id"
+EXAMPLE = 'minecraft:red_banner[rotation=8]{patterns:[{pattern:"minecraft:creeper",color:"lime"}]}'
+
+
+def recognises(text: str) -> bool:
+    """Whether the text is a tree or a block's id with one."""
+    identifier, brace, entity = text.strip().partition("{")
+    return (
+        bool(brace)
+        and "atterns:" in entity[:9]
+        and (trees.recognises(text) or is_banner_id(identifier))
+    )
+
+
+def read(text: str) -> list[Found]:
+    """The banner of the entity. Raises DesignError where nothing tells its base dye."""
+    return trees.read(text) if trees.recognises(text) else commands.read_command(text)
+
+
+def write(banner: Banner) -> str:
+    """The block's id and its entity (1.20.5+). Raises DesignError for shields."""
+    return write_command(banner).removeprefix("/setblock ~ ~ ~ ")

@@ -1,0 +1,284 @@
+"""The door: any text or file in, banners out; and a banner in, any form out."""
+
+import sys
+import warnings
+from collections.abc import Callable
+from itertools import islice
+from pathlib import Path
+from types import ModuleType
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import (
+    bedrock,
+    block_entity,
+    commands,
+    give,
+    give_legacy,
+    give_old,
+    item,
+    item_replace,
+    minecraft_tools,
+    needcoolshoes,
+    own_json,
+    planet_minecraft,
+    setblock,
+    shorthand,
+    summon,
+    trees,
+    wynncraft,
+)
+from drapery.banner.formats.form import Form, single
+from drapery.banner.formats.found import Found
+from drapery.banner.formats.snbt import MAX_TEXT
+from drapery.banner.names import shown
+from drapery.errors import DesignError
+
+_HEAD = 8192
+
+
+def _form(module: ModuleType, read: Callable[[str], list[Found]]) -> Form:
+    return Form(module.NAME, module.TITLE, module.EXAMPLE, module.recognises, read, module.write)
+
+
+def _site(module: ModuleType, code: str) -> Form:
+    def write(banner: Banner) -> str:
+        if banner.kind != "banner":
+            raise DesignError(f"{module.SITE} edits banners, not shields: write the form 'give'")
+        address: str = module.write(banner)
+        return address
+
+    name = module.NAME.replace("_", "-")
+    title = f"address of {module.SITE}'s editor, or its code alone"
+    return Form(name, title, code, module.recognises, single(module.parse), write)
+
+
+_TABLE = (
+    _site(planet_minecraft, "https://www.planetminecraft.com/banner/?b=2c729cmcf28"),
+    _site(needcoolshoes, "https://www.needcoolshoes.com/banner?=ealleNhEehppai"),
+    _site(
+        minecraft_tools,
+        "https://minecraft.tools/en/banner.php?color_id_0=15&shape_id_1=30&color_id_1=10",
+    ),
+    _form(give_old, commands.read_command),
+    _form(setblock, commands.read_command),
+    _form(summon, commands.read_command),
+    _form(item_replace, commands.read_command),
+    _form(give_legacy, commands.read_command),
+    _form(block_entity, block_entity.read),
+    _form(wynncraft, trees.read),
+    _form(own_json, trees.read),
+    _form(bedrock, trees.read),
+    _form(item, trees.read),
+    _form(give, commands.read_command),
+    _form(shorthand, single(shorthand.parse)),
+)
+
+FORMS: dict[str, Form] = {form.name: form for form in _TABLE}
+"""Every form of text by name. A text is of the first that recognises it."""
+
+
+def recognise(text: str) -> Form:
+    """The form that a text is, or is meant to be. Raises DesignError for none."""
+    for form in _TABLE:
+        if form.recognises(text):
+            return form
+    if text.lstrip().startswith(("http://", "https://")):
+        raise DesignError(
+            f"{shown(text.strip(), 60)}: no banner editor's address that is known here;"
+            " copy the banner's /give command instead"
+        )
+    raise DesignError(
+        f"{shown(text.strip(), 60)}: no form of a banner; write it as {shorthand.EXAMPLE!r},"
+        " or paste a /give command"
+    )
+
+
+def parse_banners(text: str, *, form: str | None = None) -> list[Found]:
+    """All banners of a text, at least one, with where in it each was found.
+
+    form: one of FORMS, for a text that does not tell its own. Several commands may stand on a
+    line each, as in a function file; a line that is broken is warned of and passed over.
+
+    Raises DesignError with the place and the remedy.
+    """
+    if len(text) > MAX_TEXT:
+        raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: cut it down")
+    text = text.removeprefix("\ufeff")
+    if not text.strip():
+        raise DesignError(f"the text is empty: give a banner, as {shorthand.EXAMPLE!r}")
+    if form is not None:
+        return _named(form).read(text)
+    lines = _command_lines(text)
+    return _all_lines(lines) if len(lines) > 1 else recognise(text).read(text)
+
+
+def parse_banner(text: str, *, form: str | None = None, number: int | None = None) -> Banner:
+    """The banner of a text in any form, which is told by itself.
+
+    form: one of FORMS, to force it. number: which one, from 1, if the text holds several.
+
+    Raises DesignError with the place and the remedy.
+    """
+    return pick(parse_banners(text, form=form), number)
+
+
+def write_banner(banner: Banner, form: str = "json") -> str:
+    """The banner in one of FORMS. Raises DesignError if that form cannot hold it."""
+    write = _named(form).write
+    if write is None:
+        raise DesignError(f"the form {form!r} can be read but not written")
+    return write(banner)
+
+
+def pick(found: list[Found], number: int | None = None) -> Banner:
+    """The one banner that is meant; several that are the same are one.
+
+    number: which, from 1. Raises DesignError if it is needed or out of range.
+    """
+    if number is None and len({f.banner for f in found}) == 1:
+        return found[0].banner
+    if number is None:
+        first, last = found[0].where, found[-1].where
+        raise DesignError(
+            f"{len(found)} banners, from {shown(first)} to {shown(last)}: choose one by its number"
+        )
+    if not 1 <= number <= len(found):
+        raise DesignError(f"there is no banner number {number}: they are 1 to {len(found)}")
+    return found[number - 1].banner
+
+
+def read_design(
+    source: str | Path, *, form: str | None = None, number: int | None = None
+) -> Banner:
+    """The banner of a text, of a file if there is one by that name, or of standard input ("-").
+
+    Raises DesignError as `parse_banner` does, and for files that cannot be read.
+    """
+    return pick(read_designs(source, form=form), number)
+
+
+def read_designs(source: str | Path, *, form: str | None = None) -> list[Found]:
+    """All banners of a text, a file or a world's folder, or standard input ("-").
+
+    Raises DesignError as `parse_banners` does, and for files that cannot be read.
+    """
+    if source == "-":
+        return parse_banners(_decoded(sys.stdin.buffer.read(4 * MAX_TEXT + 1), "-"), form=form)
+    path = _as_path(source)
+    if path is None:
+        return parse_banners(str(source), form=form)
+    try:
+        return _read_path(path, form)
+    except OSError as error:
+        raise DesignError(f"{path}: {error.strerror or error}; check the path") from None
+
+
+def _named(form: str) -> Form:
+    if form not in FORMS:
+        import difflib
+
+        close = difflib.get_close_matches(form[:40].lower(), FORMS, 1)
+        hint = f"; did you mean '{close[0]}'?" if close else f": they are {', '.join(FORMS)}"
+        raise DesignError(f"unknown form {shown(form)}{hint}")
+    return FORMS[form]
+
+
+def _command_lines(text: str) -> list[tuple[int, str]]:
+    """The lines that are commands, with their numbers, if the text has them line by line."""
+    if "\n" not in text.strip():
+        return []
+    lines = enumerate(text.split("\n"), 1)
+    return [(number, line) for number, line in lines if commands.command_of(line)]
+
+
+def _all_lines(lines: list[tuple[int, str]]) -> list[Found]:
+    """The banners of all commands; what is broken is passed over while others are whole."""
+    found: list[Found] = []
+    errors: list[DesignError] = []
+    for number, line in lines:
+        if "banner" not in line and "shield" not in line:
+            continue
+        try:
+            read = commands.read_command(line, line=number)
+            found += [Found(f.banner, f"line {number} {f.where}") for f in read]
+        except DesignError as error:
+            place = "" if str(error).startswith("line ") else f"line {number}: "
+            errors.append(DesignError(f"{place}{error}"))
+    return _despite(found, errors, "the commands hold no banner: paste a /give command")
+
+
+def _despite(found: list[Found], errors: list[DesignError], nothing: str) -> list[Found]:
+    """What was found, with a warning of what was not; the first error if that was all."""
+    if not found:
+        raise errors[0] if errors else DesignError(nothing)
+    for error in islice(errors, _MOST_WARNINGS):
+        warnings.warn(str(error), stacklevel=3)
+    if len(errors) > _MOST_WARNINGS:
+        warnings.warn(f"and {len(errors) - _MOST_WARNINGS} more like these", stacklevel=3)
+    return found
+
+
+_MOST_WARNINGS = 5
+
+_SUFFIXES = frozenset(
+    f".{suffix}"
+    for suffix in (
+        *("json", "mcfunction", "snbt", "txt"),
+        *("dat", "litematic", "mca", "mcstructure", "nbt", "schem", "schematic"),
+    )
+)
+
+
+def _as_path(source: str | Path) -> Path | None:
+    """The file or world that a source names, or None where it is a text."""
+    if isinstance(source, Path):
+        return source
+    if len(source) > 1024 or "\n" in source or "\0" in source:
+        return None
+    path = Path(source)
+    try:
+        if path.exists() and (not path.is_dir() or _is_world(path)):
+            return path
+    except OSError:
+        return None
+    if path.suffix.lower() in _SUFFIXES and not set('{}[]"').intersection(source):
+        raise DesignError(f"{shown(source, 80)}: there is no such file; check the path")
+    return None
+
+
+def _is_world(path: Path) -> bool:
+    return (path / "level.dat").exists() or (path / "region").is_dir()
+
+
+def _read_path(path: Path, form: str | None) -> list[Found]:
+    from drapery.banner.formats.files import is_binary
+
+    if path.is_dir():
+        return _read_binary(path)
+    with path.open("rb") as file:
+        head = file.read(_HEAD)
+        if is_binary(head, path.stat().st_size) or path.suffix.lower() == ".mca":
+            return _read_binary(path)
+        data = head + file.read(4 * MAX_TEXT + 1 - len(head))
+    try:
+        return parse_banners(_decoded(data, str(path)), form=form)
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from None
+
+
+def _read_binary(path: Path) -> list[Found]:
+    from drapery.banner.formats.files import banners_in
+
+    errors: list[DesignError] = []
+    return _despite(list(banners_in(path, errors.append)), errors, f"{path}: no banner in it")
+
+
+def _decoded(data: bytes, name: str) -> str:
+    encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError as error:
+        raise DesignError(
+            f"{name}: neither text nor a known file of banners (byte {error.start});"
+            " give UTF-8 text, NBT, a schematic or a region"
+        ) from None

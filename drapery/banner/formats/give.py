@@ -1,0 +1,45 @@
+"""Java 1.20.5 and later: `/give @p minecraft:white_banner[banner_patterns=[…]]`.
+
+Since 1.21.5 other components are written otherwise (`tooltip_display`, names as SNBT); these do
+not bear on the banner, and the grammar takes both.
+"""
+
+from drapery.banner.design import Banner
+from drapery.banner.formats.commands import command_of
+from drapery.banner.formats.snbt import write_snbt
+from drapery.banner.formats.tree import is_banner_id, is_shield_id, names
+
+NAME = "give"
+TITLE = "Java 1.20.5+ command or item argument"
+EXAMPLE = (
+    '/give @p minecraft:white_banner[banner_patterns=[{pattern:"creeper",color:"lime"},'
+    '{pattern:"border",color:"black"}]]'
+)
+
+
+def recognises(text: str) -> bool:
+    """Whether the text begins with a command, or with an item's id right before its components."""
+    identifier, bracket, _ = text.replace("{", "[", 1).partition("[")
+    alone = bool(bracket) and (_is_item(identifier) or not identifier.strip())
+    return alone or command_of(text) is not None
+
+
+def write(banner: Banner) -> str:
+    """The command that gives the banner or shield to the nearest player."""
+    return f"/give @p {argument(banner)}"
+
+
+def argument(banner: Banner) -> str:
+    """The item argument: id and components."""
+    patterns = f"banner_patterns={write_snbt(names(banner.layers))}"
+    if banner.kind == "shield":
+        base = f'base_color="{banner.base}"'
+        return (
+            f"minecraft:shield[{base},{patterns}]" if banner.layers else f"minecraft:shield[{base}]"
+        )
+    item = f"minecraft:{banner.base}_banner"
+    return f"{item}[{patterns}]" if banner.layers else item
+
+
+def _is_item(word: str) -> bool:
+    return is_shield_id(word) or is_banner_id(word)

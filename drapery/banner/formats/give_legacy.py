@@ -1,0 +1,78 @@
+"""Java 1.13 to 1.20.4: `white_banner{BlockEntityTag:{Patterns:[{Pattern:"cre",Color:5}]}}`."""
+
+from drapery.banner.design import Banner, Layer
+from drapery.banner.dyes import DYES
+from drapery.banner.formats.give import recognises as is_command
+from drapery.banner.formats.snbt import write_snbt
+from drapery.banner.formats.tree import Tree
+from drapery.banner.names import shown
+from drapery.banner.patterns import PATTERNS
+from drapery.errors import DesignError
+
+NAME = "give-legacy"
+TITLE = "Java 1.13-1.20.4 command or item argument"
+EXAMPLE = (
+    "/give @p minecraft:white_banner{BlockEntityTag:{Patterns:["
+    '{Pattern:"cre",Color:5},{Pattern:"bo",Color:15}]}}'
+)
+
+
+def recognises(text: str) -> bool:
+    """Whether the text is a command or an item, with a tag as before 1.20.5."""
+    return "BlockEntityTag" in text and is_command(text)
+
+
+def write(banner: Banner) -> str:
+    """The command that gives the banner or shield to the nearest player.
+
+    Raises DesignError for patterns that came after 1.20.4.
+    """
+    return f"/give @p {argument(banner)}"
+
+
+def argument(banner: Banner) -> str:
+    """The item argument: id and tag."""
+    layers = legacy_layers(banner.layers, "1.20.4")
+    if banner.kind == "shield":
+        base = {"Base": DYES[banner.base].number}
+        return f"minecraft:shield{write_snbt(tag(base | _patterns(layers)))}"
+    return f"minecraft:{banner.base}_banner" + (
+        write_snbt(tag(_patterns(layers))) if layers else ""
+    )
+
+
+def tag(entity: dict[str, Tree]) -> dict[str, Tree]:
+    """An item's tag that holds a block entity."""
+    return {"BlockEntityTag": entity}
+
+
+def _patterns(layers: list[Tree]) -> dict[str, Tree]:
+    return {"Patterns": layers} if layers else {}
+
+
+def legacy_layers(
+    layers: tuple[Layer, ...], version: str, *, inverted: bool = False, lacks: tuple[str, ...] = ()
+) -> list[Tree]:
+    """Layers as `[{"Pattern": code, "Color": number}, …]`.
+
+    inverted: numbers count from black. lacks: patterns that the version does not have yet.
+
+    Raises DesignError for patterns without a code in that version.
+    """
+    return [
+        {
+            "Pattern": _code(layer, number, version, lacks),
+            "Color": 15 - DYES[layer.dye].number if inverted else DYES[layer.dye].number,
+        }
+        for number, layer in enumerate(layers, 1)
+    ]
+
+
+def _code(layer: Layer, number: int, version: str, lacks: tuple[str, ...]) -> str:
+    pattern = PATTERNS.get(layer.pattern)
+    if pattern is None or pattern.code is None or layer.pattern in lacks:
+        raise DesignError(
+            f"layer {number}: Java {version} has no pattern {shown(layer.pattern)};"
+            " write the form 'give' or leave the layer out"
+        )
+    return pattern.code

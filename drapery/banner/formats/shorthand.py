@@ -1,0 +1,82 @@
+"""Typed by hand: `white creeper:lime border:black`, or as the game's tooltip says it.
+
+The base dye comes first, then layers from the lowest to the highest, each `pattern:dye` or, where
+commas or lines part them, also `Lime Creeper Charge`. `shield` before the base makes a shield.
+"""
+
+from drapery.banner.design import Banner, Layer
+from drapery.banner.formats.tree import base_of, check_count
+from drapery.banner.names import dye_name, is_dye, pattern_id, shown
+from drapery.errors import DesignError
+
+NAME = "text"
+TITLE = "shorthand, typed by hand"
+EXAMPLE = "white creeper:lime border:black"
+
+_BREAKS = str.maketrans(dict.fromkeys(",;\r", "\n"))
+
+
+def recognises(text: str) -> bool:
+    """Whether the text holds none of the brackets and quotes that the other forms have."""
+    return not set('{}[]"@/=').intersection(text)
+
+
+def parse(text: str) -> Banner:
+    """Read the shorthand. Raises DesignError naming the layer, counted from 1."""
+    pieces = [words for line in text.translate(_BREAKS).split("\n") if (words := _words(line))]
+    if not pieces:
+        raise DesignError(f"the text is empty: write a base dye and layers, as {EXAMPLE!r}")
+    shield = pieces[0][0].lower() == "shield" and bool(pieces[0].pop(0))
+    if not pieces[0]:
+        raise DesignError("the shield has no base dye: write 'shield white creeper:lime'")
+    base = _base(pieces[0].pop(0))
+    if pieces[0][:1] in (["banner"], ["Banner"]):
+        pieces[0].pop(0)
+    layers = [layer for words in pieces for layer in _phrases(words)]
+    check_count(len(layers), "the text")
+    read = tuple(_layer(layer, f"layer {n}") for n, layer in enumerate(layers, 1))
+    return Banner(base, read, kind="shield" if shield else "banner")
+
+
+def write(banner: Banner) -> str:
+    """The shorthand; it can hold every banner."""
+    kind = "shield " if banner.kind == "shield" else ""
+    return kind + " ".join([banner.base, *(f"{x.pattern}:{x.dye}" for x in banner.layers)])
+
+
+def _words(line: str) -> list[str]:
+    """The words of a line, with `a : b` and `light blue` each brought into one."""
+    words: list[str] = []
+    for word in ":".join(part.strip() for part in line.split(":")).split():
+        light = words and words[-1].lower().endswith("light")
+        if light and word.lower().partition(":")[0] in ("blue", "gray", "grey"):
+            words[-1] += "_" + word
+        else:
+            words.append(word)
+    return words
+
+
+def _base(word: str) -> str:
+    if ":" in word.removeprefix("minecraft:"):
+        raise DesignError(f"{shown(word)}: a base dye comes first, as {EXAMPLE!r}")
+    return base_of(word) or dye_name(word, "base")
+
+
+def _phrases(words: list[str]) -> list[str]:
+    """Layers in a row of words: each ends with its `:dye`, the last perhaps with none."""
+    phrases: list[list[str]] = [[]]
+    for word in words:
+        phrases[-1].append(word)
+        if ":" in word:
+            phrases.append([])
+    return [" ".join(phrase) for phrase in phrases if phrase]
+
+
+def _layer(phrase: str, at: str) -> Layer:
+    at = f"{at} {shown(phrase)}"
+    pattern, colon, dye = phrase.rpartition(":")
+    if not colon:
+        dye, _, pattern = phrase.partition(" ")
+        if not pattern or not is_dye(dye):
+            raise DesignError(f"{at}: it has no dye: write pattern:dye, as 'creeper:lime'")
+    return Layer(pattern_id(pattern, at), dye_name(dye, at))

@@ -1,0 +1,325 @@
+"""SNBT and the game's commands: text to a plain tree by the grammar in `snbt.lark`, and back."""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from drapery.banner.formats.tree import Tree
+from drapery.banner.names import shown
+from drapery.errors import DesignError
+
+if TYPE_CHECKING:
+    from lark import Lark, Token
+    from lark.exceptions import UnexpectedInput
+
+MAX_TEXT = 1 << 20
+"""Characters."""
+
+MAX_DEPTH = 512
+"""Brackets within brackets, as in the game's own reader."""
+
+MAX_TOKENS = 120_000
+"""Words, texts and brackets; a thousand banners of six layers have some 70,000."""
+
+
+class Brackets(dict[str, Tree]):
+    """What stands in `[name=value,…]`: components, a block's state, or a selector's filters."""
+
+
+Part = Any
+"""Of a command: a word (str; lark's Token, which knows its column), Brackets, or a compound."""
+
+
+def parse_snbt(text: str, *, line: int = 1) -> Tree:
+    """The tree of an SNBT text. Typed numbers become int and float, typed arrays lists.
+
+    line: the number of the text's first line, for errors.
+
+    Raises DesignError with line, column and what was expected, and past the limits.
+    """
+    return _parse(text, "tree", line)
+
+
+def parse_command(text: str, *, line: int = 1) -> list[Part]:
+    """The parts of a command or of an item argument, in order, by the same rules."""
+    parts: list[Part] = _parse(text, "command", line)
+    return parts
+
+
+def write_snbt(tree: Tree) -> str:
+    """The shortest SNBT of a tree, as the game's commands hold it: `{pattern:"creeper"}`."""
+    if isinstance(tree, dict):
+        return "{" + ",".join(f"{_key(k)}:{write_snbt(v)}" for k, v in tree.items()) + "}"
+    if isinstance(tree, list):
+        return "[" + ",".join(map(write_snbt, tree)) + "]"
+    if isinstance(tree, str):
+        return '"' + tree.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return str(tree)
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch("[A-Za-z_][A-Za-z0-9_]*", key) else write_snbt(key)
+
+
+def _parse(text: str, start: str, line: int) -> Any:
+    if len(text) > MAX_TEXT:
+        raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: cut it down")
+    from lark.exceptions import UnexpectedInput
+
+    try:
+        return _parser().parse(text, start)
+    except UnexpectedInput as error:
+        _explain(error, text, line)
+    except _FaultError as fault:
+        raise DesignError(f"{_where(fault.token, line)}: {fault}") from None
+
+
+@cache
+def _parser() -> "Lark":
+    from lark import Lark
+
+    grammar = files(__package__).joinpath("snbt.lark").read_text("utf-8")
+    return Lark(
+        grammar,
+        parser="lalr",
+        start=["tree", "command"],
+        transformer=_build(),
+        postlex=_Limits(),
+        maybe_placeholders=False,
+    )
+
+
+class _FaultError(Exception):
+    """Something wrong at a token that the grammar cannot see."""
+
+    def __init__(self, token: Any, message: str) -> None:
+        super().__init__(message)
+        self.token = token
+
+
+class _Limits:
+    """Watches the tokens go by, so that no text takes long or nests deep."""
+
+    always_accept = ()
+
+    def process(self, stream: "Iterator[Token]") -> "Iterator[Token]":
+        depth = 0
+        for number, token in enumerate(stream):
+            if token.type in ("LBRACE", "LSQB"):
+                depth += 1
+            elif token.type in ("RBRACE", "RSQB"):
+                depth -= 1
+            if depth > MAX_DEPTH:
+                raise _FaultError(token, f"nested over {MAX_DEPTH} deep: no banner is")
+            if number >= MAX_TOKENS:
+                raise _FaultError(token, f"over {MAX_TOKENS} words and brackets: cut the text down")
+            yield token
+
+
+def _build() -> Any:
+    """The functions that build the tree, by the names of the grammar's rules."""
+    from lark import Transformer
+
+    class Build(Transformer[Any, Any]):
+        def tree(self, c: list[Any]) -> Tree:
+            return c[0]
+
+        def command(self, c: list[Any]) -> list[Part]:
+            return c
+
+        def word(self, c: list[Any]) -> Part:
+            return c[0]
+
+        def string(self, c: list[Any]) -> str:
+            return _unquoted(c[0])
+
+        def key_word(self, c: list[Any]) -> str:
+            return str(c[0])
+
+        def identifier(self, c: list[Any]) -> str:
+            return f"{c[0]}:{c[1]}"
+
+        def scalar(self, c: list[Any]) -> Tree:
+            return scalar(c[0])
+
+        def call(self, c: list[Any]) -> Tree:
+            return _call(c[0], c[1:])
+
+        def pair(self, c: list[Any]) -> tuple[str, Tree]:
+            return c[0], c[1]
+
+        def scoped_pair(self, c: list[Any]) -> tuple[str, Tree]:
+            return f"{c[0]}:{c[1]}", c[2]
+
+        def entry(self, c: list[Any]) -> tuple[str, Tree]:
+            return c[0], c[1] if len(c) > 1 else None
+
+        def numbered(self, c: list[Any]) -> Tree:
+            return c[1]
+
+        def pairs(self, c: list[Any]) -> list[Any]:
+            return _joined(c)
+
+        entries = elements = pairs
+
+        def compound(self, c: list[Any]) -> dict[str, Tree]:
+            return dict(c[0]) if c else {}
+
+        def brackets(self, c: list[Any]) -> Brackets:
+            return Brackets(c[0] if c else ())
+
+        def list(self, c: Any) -> Tree:
+            return c[0] if c else []
+
+        def array(self, c: Any) -> Tree:
+            if c[0] not in ("B", "I", "L"):
+                raise _FaultError(c[0], f"{shown(c[0])} is no type of array: they are B, I and L")
+            return c[1] if len(c) > 1 else []
+
+    return Build()
+
+
+def _joined(children: list[Any]) -> list[Any]:
+    """`items: item | items "," item`: the first child grows, so that long lists stay linear."""
+    if len(children) == 1:
+        return [children[0]]
+    children[0].append(children[1])
+    grown: list[Any] = children[0]
+    return grown
+
+
+_INTEGER = re.compile(
+    r"([+-]?)(?:0[xX]([0-9a-fA-F_]+)|0[bB]([01_]+)|([0-9][0-9_]*))[uUsS]?[bBsSiIlL]?"
+)
+_FLOAT = re.compile(
+    r"([+-]?(?:[0-9][0-9_]*\.?[0-9_]*|\.[0-9][0-9_]*)(?:[eE][+-]?[0-9][0-9_]*)?)[fFdD]?"
+)
+_LONGEST_NUMBER = 80
+
+
+def scalar(word: str) -> Tree:
+    """What a bare word stands for: `5b` and `0x5` are 5, `true` is 1, `creeper` is itself."""
+    word = str(word)
+    if word in ("true", "false"):
+        return int(word == "true")
+    if len(word) > _LONGEST_NUMBER:
+        return word
+    try:
+        if match := _INTEGER.fullmatch(word):
+            return _integer(*match.groups(default=""))
+        if match := _FLOAT.fullmatch(word):
+            return float(match[1].replace("_", ""))
+    except ValueError:  # nothing but underscores
+        pass
+    return word
+
+
+def _integer(sign: str, hexadecimal: str, binary: str, decimal: str) -> int:
+    base = 16 if hexadecimal else 2 if binary else 10
+    return int(sign + (hexadecimal or binary or decimal).replace("_", ""), base)
+
+
+def _call(name: "Token", arguments: list[Tree]) -> Tree:
+    """`bool(x)` and `uuid("…")`, the two functions of 1.21.5."""
+    argument = arguments[0] if len(arguments) == 1 else None
+    if name == "bool" and isinstance(argument, (int, float)):
+        return int(argument != 0)
+    if name == "uuid" and isinstance(argument, str):
+        return _uuid(name, argument)
+    raise _FaultError(name, f"{shown(str(name))} is no call that SNBT knows: bool(1), uuid('…')")
+
+
+def _uuid(name: "Token", text: str) -> list[int]:
+    """Four signed numbers of 32 bits, highest first."""
+    digits = text.replace("-", "")
+    if not re.fullmatch("[0-9a-fA-F]{32}", digits):
+        raise _FaultError(name, f"{shown(text)} is no UUID")
+    words = [int(digits[place : place + 8], 16) for place in range(0, 32, 8)]
+    return [word - (1 << 32) if word >> 31 else word for word in words]
+
+
+_ESCAPE = re.compile(
+    r"\\(?:x([0-9a-fA-F]{2})|u([0-9a-fA-F]{4})|U([0-9a-fA-F]{8})|N\{([^}]{1,80})\}|(.))", re.DOTALL
+)
+_LETTERS = {"b": "\b", "s": " ", "t": "\t", "n": "\n", "f": "\f", "r": "\r"}
+
+
+def _unquoted(token: "Token") -> str:
+    """The text between the quotes, its escapes resolved (1.21.5; before, only quotes had them)."""
+    inner = token[1:-1]
+    if "\\" not in inner:
+        return inner
+    return _ESCAPE.sub(lambda match: _escape(token, match), inner)
+
+
+def _escape(token: "Token", match: "re.Match[str]") -> str:
+    code = match[1] or match[2] or match[3]
+    try:
+        if code:
+            return chr(int(code, 16))
+        if match[4]:
+            import unicodedata
+
+            return unicodedata.lookup(match[4])
+    except (ValueError, OverflowError, KeyError):
+        raise _FaultError(token, f"{shown(match[0])} is no character") from None
+    return _LETTERS.get(match[5], match[5])
+
+
+_EXPECTED = {
+    "COMMA": "','",
+    "COLON": "':'",
+    "SEMICOLON": "';'",
+    "EQUAL": "'='",
+    "RBRACE": "'}'",
+    "RSQB": "']'",
+    "RPAR": "')'",
+    "$END": "the end",
+    "WORD": "a name or value",
+    "COMMAND_WORD": "a word",
+}
+
+
+def _explain(error: "UnexpectedInput", text: str, line: int) -> NoReturn:
+    """Raise the one line that says where the text goes wrong and what should stand there."""
+    from lark.exceptions import UnexpectedCharacters
+
+    token = getattr(error, "token", None)
+    if token is not None and token.type == "$END":
+        place, what = len(text.rstrip()), "the text ends too early"
+    else:
+        place = min(error.pos_in_stream or 0, len(text))
+        what = f"unexpected {text[place : place + 1]!r}"
+    where = _where_at(text, place, line)
+    if isinstance(error, UnexpectedCharacters) and text[place : place + 1] in ("'", '"'):
+        raise DesignError(f"{where}: a quote that never ends {_excerpt(text, place)}; close it")
+    raise DesignError(f"{where}: {what} {_excerpt(text, place)}{_wanted(error)}")
+
+
+def _wanted(error: "UnexpectedInput") -> str:
+    expected = next(
+        filter(None, (getattr(error, k, None) for k in ("accepts", "allowed", "expected"))), ()
+    )
+    # Where a value may end, that it may also go on as `a:b` helps nobody.
+    idle = {"COLON", "EQUAL", "SEMICOLON", "LPAR"} if "COMMA" in expected else set()
+    names = [name for key, name in _EXPECTED.items() if key in expected and key not in idle]
+    return f"; expected {' or '.join(names)}" if names else ""
+
+
+def _excerpt(text: str, place: int) -> str:
+    before, after = text[max(place - 20, 0) : place], text[place : place + 12]
+    lead = "…" if place > 20 else ""
+    trail = "…" if len(text) > place + 12 else ""
+    return f"at {lead}{before}⟨here⟩{after}{trail}".replace("\n", " ")
+
+
+def _where_at(text: str, place: int, line: int) -> str:
+    rows = text.count("\n", 0, place)
+    column = place - text.rfind("\n", 0, place)
+    return f"line {line + rows}, column {column}"
+
+
+def _where(token: "Token", line: int) -> str:
+    return f"line {line - 1 + (token.line or 1)}, column {token.column}"

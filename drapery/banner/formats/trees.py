@@ -1,0 +1,85 @@
+"""Texts that are a whole tree, in JSON or SNBT: read once, then told apart by what they hold."""
+
+import json
+from collections.abc import Iterator
+from contextlib import suppress
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import own_json, wynncraft
+from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.snbt import MAX_TEXT, parse_snbt
+from drapery.banner.formats.tree import Tree, banner_from_block_entity, banner_from_tag, get
+from drapery.errors import DesignError
+
+DATA_ANSWER = " has the following "
+"""What `/data get` says between the name and the tree."""
+
+
+def recognises(text: str) -> bool:
+    """Whether the text is one tree, or the game's answer to `/data get`."""
+    text = text.lstrip()
+    lists = text.startswith("[") and text[1:].lstrip().startswith(("{", "[", "]", '"', "'"))
+    return lists or text.startswith("{") or DATA_ANSWER in text[:200]
+
+
+def read(text: str, *, line: int = 1) -> list[Found]:
+    """All banners of the tree. Raises DesignError with the place, also where there is none."""
+    tree = read_text(text, line=line)
+    found = list(_found(tree))
+    if not found:
+        raise DesignError(
+            f"no banner in the {_sort(tree)}: it needs an id as 'minecraft:red_banner'"
+        )
+    return found
+
+
+def read_text(text: str, *, line: int = 1) -> Tree:
+    """The tree of a text, by JSON where it is that, else by SNBT."""
+    start = max(text.find("{"), 0) if DATA_ANSWER in text[:200] else 0
+    if start == 0 and len(text) <= MAX_TEXT:
+        with suppress(ValueError, RecursionError):
+            return json.loads(text)
+    return _snbt(text, start, line)
+
+
+def _snbt(text: str, start: int, line: int) -> Tree:
+    # Spaces for what the game says before, so that columns stay those of the text.
+    return parse_snbt(" " * start + text[start:], line=line)
+
+
+def _found(tree: Tree) -> Iterator[Found]:
+    if wynncraft.matches(tree):
+        yield Found(wynncraft.from_tree(tree))
+    elif own_json.matches(tree):
+        yield Found(own_json.from_tree(tree))
+    elif isinstance(tree, dict) and (banner := _without_id(tree)):
+        yield Found(banner)
+    else:
+        yield from find_banners(tree)
+
+
+def _without_id(tree: dict[str, Tree]) -> Banner | None:
+    """A block entity, a tag or components that somebody cut out: the id is gone."""
+    if "id" in tree or "Name" in tree:
+        return None
+    if get(tree, "BlockEntityTag")[1] is not None:
+        return banner_from_tag("banner", tree) if _tells_base(tree) else _baseless(tree)
+    if "Patterns" in tree or "patterns" in tree or "Type" in tree:
+        return banner_from_block_entity(tree)
+    return _baseless(tree) if get(tree, "banner_patterns")[1] is not None else None
+
+
+def _tells_base(tag: dict[str, Tree]) -> bool:
+    entity = get(tag, "BlockEntityTag")[1]
+    return isinstance(entity, dict) and ("Base" in entity or entity.get("Type") == 1)
+
+
+def _baseless(tree: dict[str, Tree]) -> Banner:
+    raise DesignError(
+        f"{next(iter(tree))}: the base dye is not told here but by the item's id:"
+        " put it before, as minecraft:red_banner[…]"
+    )
+
+
+def _sort(tree: Tree) -> str:
+    return "compound" if isinstance(tree, dict) else "list" if isinstance(tree, list) else "text"

@@ -1,0 +1,82 @@
+"""Wynncraft's guild JSON: `{"base": "BLACK", "layers": [{"colour": "RED", "pattern": "CROSS"}]}`.
+
+Patterns and dyes bear Bukkit's names. The guild's whole answer may stand around it, under
+`banner`; `tier` and `structure` are of the guild's tower, not of the design.
+"""
+
+import json
+
+from drapery.banner.design import Banner, Layer
+from drapery.banner.formats.tree import Tree, check_count, under
+from drapery.banner.names import bukkit_pattern, dye_name, pattern_id, shown
+from drapery.errors import DesignError
+
+NAME = "wynncraft"
+TITLE = "Wynncraft's guild JSON"
+EXAMPLE = (
+    '{"base": "BLACK", "tier": 2, "structure": "tier2",'
+    ' "layers": [{"colour": "RED", "pattern": "DIAGONAL_RIGHT"}]}'
+)
+
+
+def recognises(text: str) -> bool:
+    """Whether the text is JSON with the keys that this form alone has."""
+    return text.lstrip().startswith("{") and any(k in text for k in ('"colour"', '"tier"'))
+
+
+def matches(tree: Tree) -> bool:
+    """Whether a tree is meant as this form, alone or in a guild's answer."""
+    if not isinstance(tree, dict):
+        return False
+    inner = tree.get("banner")
+    return _is_design(inner) or _is_design(tree)
+
+
+def _is_design(tree: Tree) -> bool:
+    if not isinstance(tree, dict) or "base" not in tree:
+        return False
+    layers = tree.get("layers")
+    entries = layers if isinstance(layers, list) else []
+    told = any(isinstance(entry, dict) and "colour" in entry for entry in entries)
+    return told or "tier" in tree or "structure" in tree
+
+
+def from_tree(tree: dict[str, Tree], at: str = "") -> Banner:
+    """The banner of the JSON's tree. Raises DesignError naming the place."""
+    if not _is_design(tree) and isinstance(tree.get("banner"), dict):
+        tree, at = tree["banner"], under(at, "banner")
+    layers = tree.get("layers", [])
+    if not isinstance(layers, list):
+        raise DesignError(f"{under(at, 'layers')}: {shown(layers)} is no list of layers")
+    check_count(len(layers), under(at, "layers"))
+    read = tuple(_layer(x, under(under(at, "layers"), n)) for n, x in enumerate(layers))
+    return Banner(dye_name(tree.get("base"), under(at, "base")), read)
+
+
+def _layer(entry: Tree, at: str) -> Layer:
+    if not isinstance(entry, dict):
+        raise DesignError(f"{at}: {shown(entry)} is no layer: write {{colour:…, pattern:…}}")
+    colour = entry.get("colour", entry.get("color"))
+    pattern = pattern_id(entry.get("pattern"), under(at, "pattern"), bukkit=True)
+    return Layer(pattern, dye_name(colour, under(at, "colour")))
+
+
+def write(banner: Banner) -> str:
+    """The JSON of the design, without tier and structure.
+
+    Raises DesignError for shields and for the patterns of data packs.
+    """
+    if banner.kind != "banner":
+        raise DesignError("Wynncraft has no shields: write another form, as 'give'")
+    return json.dumps(
+        {
+            "base": banner.base.upper(),
+            "layers": [
+                {
+                    "colour": layer.dye.upper(),
+                    "pattern": bukkit_pattern(layer.pattern, f"layer {number}"),
+                }
+                for number, layer in enumerate(banner.layers, 1)
+            ],
+        }
+    )
