@@ -1,6 +1,5 @@
 """`drapery animate`: a banner waving in the wind, as a seamless loop."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -9,7 +8,7 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
 
 OutOption = Annotated[
-    Path,
+    str,
     typer.Option(
         "-o",
         "--out",

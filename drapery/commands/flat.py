@@ -20,10 +20,10 @@ def run(
     """Write the plain 20 x 40 face of a banner, enlarged."""
     from drapery.banner.formats import read_design
     from drapery.pictures import draw_face
-    from drapery.render.encode import check_frame_target
+    from drapery.render.encode import check_still_target
     from drapery.settings import within
 
     within("scale", scale, 1, MAX_SCALE, "pixels")
-    check_frame_target(out)
+    check_still_target(out)
     side = "back" if back else "front"
     draw_face(read_design(design), packs=tuple(pack or ()), scale=scale, side=side).save(out)

@@ -35,17 +35,24 @@ def compile_notice() -> Iterator[None]:
     """Say so when kernels are being compiled: it happens once, and takes some seconds."""
     from numba.core import event
 
-    listener = _FirstCompile()
-    event.register("numba:compile", listener)
-    try:
+    class FirstCompile(event.Listener):  # type: ignore[misc]
+        spoken = False
+
+        def on_start(self, event: Any) -> None:
+            if not self.spoken:
+                say("compiling kernels, which happens once ...")
+            self.spoken = True
+
+        def on_end(self, event: Any) -> None:
+            pass
+
+    with event.install_listener("numba:compile", FirstCompile()):
         yield
-    finally:
-        event.unregister("numba:compile", listener)
 
 
 @contextmanager
-def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
-    """A bar with count, rate and time left; the callable takes how many are done."""
+def progress(what: str, total: int) -> Iterator[Callable[[int, int | None], None]]:
+    """A bar with count, rate and time left; the callable takes how many are done, of how many."""
     from rich.console import Console
     from rich.progress import (
         BarColumn,
@@ -58,23 +65,4 @@ def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(what, total=total)
-        yield lambda done: bar.update(task, completed=done)
-
-
-class _FirstCompile:
-    """A listener of numba's events that speaks once."""
-
-    def __init__(self) -> None:
-        self.spoken = False
-
-    def on_start(self, event: Any) -> None:
-        if not self.spoken:
-            say("compiling kernels, which happens once ...")
-        self.spoken = True
-
-    def on_end(self, event: Any) -> None:
-        """Numba wants the other half too."""
-
-    def notify(self, event: Any) -> None:
-        if event.is_start:
-            self.on_start(event)
+        yield lambda done, _total: bar.update(task, completed=done)

@@ -34,9 +34,9 @@ def run(
     """Draw a banner as cloth and write one picture."""
     from drapery.banner.formats import read_design
     from drapery.pictures import draw
-    from drapery.render.encode import check_frame_target
+    from drapery.render.encode import check_still_target
 
     options = o.options_of(ctx.params)
-    check_frame_target(out)
+    check_still_target(out)
     with compile_notice():
         draw(read_design(design), **options).save(out)

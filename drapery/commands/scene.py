@@ -1,6 +1,5 @@
 """`drapery scene`: the ready-made scenes, each by one command."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -14,7 +13,7 @@ def run(
         str | None, typer.Argument(metavar="NAME", help="Which scene.", show_default=False)
     ] = None,
     out: Annotated[
-        Path | None,
+        str | None,
         typer.Option("-o", "--out", metavar="TARGET", help="A picture, animation or folder."),
     ] = None,
     show_list: Annotated[bool, typer.Option("--list", help="Name all scenes.")] = False,
@@ -42,7 +41,7 @@ def run(
 
 def _play(
     name: str,
-    out: Path,
+    out: str,
     parameters: list[str],
     seconds: float,
     fps: float,
@@ -50,13 +49,13 @@ def _play(
     backend: str,
 ) -> None:
     from drapery.pictures import frame_count, scene_frames
-    from drapery.render.encode import check_animation_target, check_frame_target, save_animation
+    from drapery.render.encode import check_animation_target, check_still_target, save_animation
     from drapery.scenes.catalogue import Shot, find
     from drapery.settings import pair
 
     scene, words = find(name), _words(parameters)
-    is_still = out.suffix.lower() == ".png"
-    (check_frame_target if is_still else check_animation_target)(out)
+    is_still = out.lower().endswith(".png") and not out.lower().endswith(".sheet.png")
+    (check_still_target if is_still else check_animation_target)(out)
     shot = Shot(pair("size", size), frame_count(seconds, fps), fps)
     with compile_notice(), progress("frames", shot.count) as tick:
         drawn = scene_frames(scene, scene.parameters(words), shot, backend, last=is_still)
