@@ -5,7 +5,7 @@ import sys
 import typer
 from typer.exceptions import TyperException
 
-from drapery.commands import animate, compare, doctor, flat, layers, render, scene, show
+from drapery.commands import animate, compare, doctor, flat, golden, layers, render, scene, show
 from drapery.commands.notices import adopt_warnings, say
 from drapery.errors import DraperyError
 
@@ -26,6 +26,7 @@ for name, command in {
     "doctor": doctor,
 }.items():
     app.command(name)(command.run)
+app.add_typer(golden.app, name="golden")
 
 
 def main() -> None:
@@ -37,7 +38,9 @@ def main() -> None:
         say(str(error))
         code = 2
     except TyperException as error:
-        say(f"{error.format_message()} (see `drapery --help`)")
+        # With no command at all the help has been shown, and there is no message.
+        if error.format_message():
+            say(f"{error.format_message()} (see `drapery --help`)")
         code = error.exit_code
     except (KeyboardInterrupt, typer.Abort):
         say("stopped")

@@ -27,7 +27,7 @@ LAW: dict[str, set[str]] = {
     "drapery.pictures": {"errors", "mesh", "settings", "banner", "render", "scenes"},
     "drapery.compare": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
     "drapery.sheets": {"errors", "settings", "banner", "render", "pictures"},
-    "drapery.testing": {"errors", "banner", "render", "compare"},
+    "drapery.testing": {"errors", "settings", "banner", "render", "pictures", "compare"},
 }
 TOP_FLOOR = {"drapery.cli", "drapery.commands", "drapery.__main__", "drapery"}
 

@@ -1,0 +1,56 @@
+"""`drapery golden`: golden images of a file of cases, for projects without Python."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from drapery.commands.notices import compile_notice
+
+app = typer.Typer(help="Golden images from a TOML or YAML file of cases.", no_args_is_help=True)
+
+FileArgument = Annotated[
+    Path, typer.Argument(metavar="FILE", help="The cases: TOML or YAML.", show_default=False)
+]
+
+
+@app.command()
+def check(
+    file: FileArgument,
+    report: Annotated[Path, typer.Option(help="Where pictures of what failed go.")] = Path(
+        "drapery-report"
+    ),
+) -> None:
+    """Draw every case and compare: exit code 0 all as before, 1 some differ, 2 bad input."""
+    from drapery.testing.case_check import check_cases, unused_goldens
+    from drapery.testing.cases import read_cases
+    from drapery.testing.failures import clear, write_report
+
+    cases = read_cases(file)
+    clear(report)
+    failed = 0
+    with compile_notice():
+        for outcome in check_cases(cases, file.parent, report):
+            if outcome.fault is not None:
+                failed += 1
+                print(f"{outcome.name}: {outcome.fault}")
+    for path in unused_goldens(cases, file.parent):
+        print(f"unused golden: {path}")
+    page = write_report(report)
+    print(f"{len(cases.case) - failed} as before, {failed} not" + (f"; see {page}" if page else ""))
+    raise typer.Exit(1 if failed else 0)
+
+
+@app.command()
+def update(file: FileArgument) -> None:
+    """Draw every case and keep the picture as its golden."""
+    from drapery.testing.case_check import update_cases
+    from drapery.testing.cases import read_cases
+
+    cases = read_cases(file)
+    with compile_notice():
+        outcomes = list(update_cases(cases, file.parent))
+    for outcome in outcomes:
+        if outcome.written:
+            print(f"wrote {outcome.name}")
+    print(f"{sum(o.written for o in outcomes)} of {len(outcomes)} goldens written")

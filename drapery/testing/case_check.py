@@ -1,0 +1,98 @@
+"""Checking a file of cases: each is drawn and held against its golden, or becomes the new one."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import read_design
+from drapery.banner.packs import open_packs
+from drapery.pictures import draw
+from drapery.render.frame import Frame
+from drapery.render.output import replacing
+from drapery.testing.cases import Case, CaseFile
+from drapery.testing.explain import LayerNote, explain, layer_notes
+from drapery.testing.failures import keep_failure
+from drapery.testing.golden import (
+    GoldenError,
+    Tolerance,
+    agrees,
+    decode,
+    encode,
+    fingerprint,
+)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a case. fault: one line, or None where the picture is as it was."""
+
+    name: str
+    fault: str | None = None
+    written: bool = False
+
+
+def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[Outcome]:
+    """Draw each case and hold it against its golden; pictures of faults go to `report`."""
+    for case in cases.case:
+        frame, notes = _draw(case, folder)
+        path = _golden_path(cases, case, folder)
+        yield Outcome(case.name, _fault(case, path, frame, notes, report))
+
+
+def update_cases(cases: CaseFile, folder: Path) -> Iterator[Outcome]:
+    """Draw each case and write it as the golden where it differs from the one there."""
+    for case in cases.case:
+        frame, notes = _draw(case, folder)
+        path = _golden_path(cases, case, folder)
+        new = fingerprint(frame) if case.hashed else encode(frame, notes)
+        changed = not path.exists() or path.read_bytes() != new
+        if changed:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with replacing(path) as beside:
+                beside.write_bytes(new)
+        yield Outcome(case.name, written=changed)
+
+
+def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
+    """Goldens in the folder that no case names."""
+    used = {_golden_path(cases, case, folder) for case in cases.case}
+    found = (path for kind in ("*.png", "*.sha256") for path in (folder / cases.goldens).glob(kind))
+    return sorted(path for path in found if path not in used)
+
+
+def _draw(case: Case, folder: Path) -> tuple[Frame, list[LayerNote]]:
+    banner: Banner = read_design(case.design)
+    options = case.options(folder)
+    notes = layer_notes(banner, open_packs(options["packs"]))
+    return draw(banner, **options), notes
+
+
+def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:
+    backend = "" if case.backend in ("auto", "soft") else f"-{case.backend}"
+    ending = "sha256" if case.hashed else "png"
+    return folder / cases.goldens / f"{case.name}{backend}.{ending}"
+
+
+def _fault(
+    case: Case, path: Path, frame: Frame, notes: list[LayerNote], report: Path
+) -> str | None:
+    if not path.exists():
+        keep_failure(report, "case", case.name, None, frame, "there is no golden yet")
+        return f"no golden at {path}; write it with `drapery golden update`"
+    data = path.read_bytes()
+    if case.hashed:
+        if data == fingerprint(frame):
+            return None
+        line = f"the hash changed to {fingerprint(frame).decode().strip()}"
+        keep_failure(report, "case", case.name, None, frame, line)
+        return line
+    try:
+        expected, before = decode(data)
+    except GoldenError as error:
+        return f"{path}: {error}; restore it, or replace it with `drapery golden update`"
+    if agrees(expected, frame, Tolerance(case.tolerance, case.pixels)):
+        return None
+    line = explain(expected, frame, before, notes)
+    keep_failure(report, "case", case.name, expected, frame, line)
+    return line

@@ -1,0 +1,133 @@
+"""Golden images without writing Python: a TOML or YAML file of cases.
+
+    goldens = "goldens"
+
+    [defaults]
+    packs = ["."]
+    size = "256x256"
+
+    [[case]]
+    name = "creeper"
+    design = "white creeper:lime"
+    view = "hero"
+
+Paths are relative to the file. A case's keys are the options of `drapery render`, beside `name`,
+`design`, `tolerance`, `pixels` and `hashed`; `defaults` gives them to every case.
+"""
+
+import re
+import tomllib
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+
+from drapery.errors import OptionError
+from drapery.settings import Options, pair
+
+MAX_FILE = 4 << 20
+MAX_CASES = 100_000
+
+
+class Case(BaseModel):
+    """One picture to be kept: what is drawn, and how exactly it must stay."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 ._-]{0,99}$")
+    design: str
+    tolerance: int = Field(default=0, ge=0, le=255)
+    pixels: int = Field(default=0, ge=0)
+    hashed: bool = False
+    packs: tuple[str, ...] = ()
+    pose: Literal["cloth", "vanilla"] = "cloth"
+    placement: Literal["standing", "wall"] = "standing"
+    view: str = "front"
+    size: tuple[int, int] = (256, 256)
+    grid: tuple[int, int] = (5, 9)
+    wind: float = 4.0
+    time: float = 3.0
+    seed: int = 0
+    layers: Literal["stacked", "flat"] = "stacked"
+    thickness: float = 1.0
+    background: str = "transparent"
+    backend: str = "auto"
+
+    @field_validator("size", "grid", mode="before")
+    @classmethod
+    def _as_pair(cls, value: Any) -> Any:
+        return pair("size or grid", value) if isinstance(value, str) else value
+
+    def options(self, folder: Path) -> Options:
+        """The case's picture options, packs as paths from the file's folder."""
+        chosen = self.model_dump(include=set(Options.__optional_keys__))
+        return Options(**chosen | {"packs": tuple(folder / pack for pack in self.packs)})  # type: ignore[typeddict-item]
+
+
+class CaseFile(BaseModel):
+    """The whole file."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    goldens: str = "goldens"
+    defaults: dict[str, Any] = Field(default_factory=dict)
+    case: tuple[Case, ...] = Field(min_length=1, max_length=MAX_CASES)
+
+
+def read_cases(path: Path) -> CaseFile:
+    """Read a file of cases. Raises OptionError, naming the file, the case and the key."""
+    raw = _load(path)
+    defaults = raw.get("defaults")
+    cases = raw.get("case")
+    if isinstance(defaults, dict) and isinstance(cases, list):
+        raw["case"] = [{**defaults, **c} if isinstance(c, dict) else c for c in cases]
+    try:
+        read = CaseFile.model_validate(raw)
+    except ValidationError as error:
+        raise OptionError(f"{path}: {_first_fault(error)}") from None
+    except OptionError as error:
+        raise OptionError(f"{path}: {error}") from None
+    _check_names(path, read.case)
+    return read
+
+
+def _load(path: Path) -> dict[str, Any]:
+    import yaml
+
+    try:
+        data = path.read_bytes()
+        if len(data) > MAX_FILE:
+            raise OptionError(f"{path} is larger than {MAX_FILE >> 20} MiB; split it")
+        text = data.decode("utf-8")
+        if path.suffix.lower() in (".yaml", ".yml"):
+            loaded = yaml.safe_load(text)
+        else:
+            loaded = tomllib.loads(text)
+    except OSError as error:
+        raise OptionError(f"{path}: {error.strerror}; name a TOML or YAML file") from None
+    except (ValueError, RecursionError, yaml.YAMLError) as error:
+        raise OptionError(f"{path}: {_one_line(str(error))}; mend it there") from None
+    if not isinstance(loaded, dict):
+        raise OptionError(f"{path} holds no cases; write [[case]] with name and design")
+    return loaded
+
+
+def _check_names(path: Path, cases: tuple[Case, ...]) -> None:
+    seen: set[str] = set()
+    for case in cases:
+        # Some file systems do not tell case apart.
+        if case.name.lower() in seen:
+            raise OptionError(f"{path}: two cases are named {case.name!r}; give each its own name")
+        seen.add(case.name.lower())
+
+
+def _first_fault(error: ValidationError) -> str:
+    faults = error.errors()
+    first = faults[0]
+    place = ".".join(str(part) for part in first["loc"])
+    more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+    return f"{place}: {_one_line(first['msg'])}{more}"
+
+
+def _one_line(text: str) -> str:
+    return re.sub(r"\s+", " ", text).strip()
