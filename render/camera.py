@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.errors import OptionError
+
 Vector = tuple[float, float, float]
 Matrix = NDArray[np.float64]
 
@@ -61,4 +63,19 @@ def projection_matrix(camera: Camera, aspect: float) -> Matrix:
             1.0,
         )
     matrix[0, 0], matrix[1, 1] = scale / aspect, scale
+    return matrix
+
+
+def clip_matrix(camera: Camera, size: tuple[int, int]) -> Matrix:
+    """World to clip space for a picture of this width and height, shape [4, 4].
+
+    Its products are summed in a fixed order. Raises OptionError for a camera that spans no view.
+    """
+    eye, lens = view_matrix(camera), projection_matrix(camera, size[0] / size[1])
+    matrix = np.asarray(sum(lens[:, k, None] * eye[k] for k in range(4)))
+    if not np.isfinite(matrix).all():
+        raise OptionError(
+            "the camera's position, target and up must span a view; give it a target other than"
+            " its position, and an up across its sight"
+        )
     return matrix

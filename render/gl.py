@@ -1,0 +1,235 @@
+"""Pictures by OpenGL, through pyrender: a graphics card where EGL finds one, else Mesa's llvmpipe.
+
+The obstacles of starting it are met in gl_platform, those of drawing in gl_passes. One renderer
+lives as long as the process, for deleting one ends OpenGL for all; it keeps the topology it drew
+last, so that an animation only uploads positions and light.
+"""
+
+import atexit
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import cache
+from threading import Lock
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import OptionError
+from drapery.mesh import Triangles
+from drapery.render.camera import Matrix, clip_matrix
+from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
+from drapery.render.flatten import flattened
+from drapery.render.frame import Frame, Pixels
+from drapery.render.gl_platform import load_pyrender, release
+from drapery.render.scene import Scene
+from drapery.render.wardrobe import BLEND, CUTOUT, Wardrobe
+
+CUTOUT_BIT, SOLID_BIT, UNLIT_BIT = 1, 2, 4  # as in flat.frag
+
+
+@dataclass
+class Stage:
+    """What one process keeps: pyrender, its platform and renderer, and the scene drawn last."""
+
+    pyrender: Any
+    passes: Any
+    platform: Any
+    renderer: Any
+    topology: Topology | None = None
+    vertices: Any = None
+    scene: Any = None
+    blends: list[tuple[Any, Triangles]] = field(default_factory=list)
+
+
+_lock = Lock()
+
+
+def draw_scene(scene: Scene) -> Frame:
+    """Draw a scene. Raises OptionError for what cannot be drawn, BackendError without OpenGL."""
+    drawing = draw_list(scene.models)
+    with _current() as stage:
+        _check(stage, scene, drawing)
+        if stage.topology is not drawing.topology:
+            _set_up(stage, drawing.topology)
+        samples = _draw(stage, scene, drawing)
+    return Frame(resolved(samples, round(scene.samples**0.5)))
+
+
+def describe() -> str:
+    """The OpenGL renderer in use. Raises BackendError where there is none."""
+    with _current() as stage:
+        name = type(stage.platform).__name__.removesuffix("Platform")
+        return f"{name}, {stage.passes.renderer_name()}"
+
+
+@contextmanager
+def _current() -> Iterator[Stage]:
+    """The stage, its context current in this thread alone."""
+    with _lock:
+        stage = _stage()
+        stage.platform.make_current()
+        try:
+            yield stage
+        finally:
+            release(stage.platform)
+
+
+@cache
+def _stage() -> Stage:
+    pyrender, platform = load_pyrender()
+    from drapery.render import gl_passes
+
+    atexit.register(_close)
+    return Stage(pyrender, gl_passes, platform, gl_passes.CoatRenderer())
+
+
+def _close() -> None:
+    """End OpenGL while its modules are still whole."""
+    if _stage.cache_info().currsize:
+        stage = _stage()
+        stage.platform.make_current()
+        stage.renderer.delete()
+        stage.platform.delete_context()
+
+
+def _check(stage: Stage, scene: Scene, drawing: DrawList) -> None:
+    if scene.samples not in (1, 4, 16):
+        raise OptionError(f"samples {scene.samples} is not known; use 1, 4 or 16")
+    most = stage.passes.largest_side()
+    width, height = scene.size
+    if min(scene.size) < 1 or max(scene.size) * round(scene.samples**0.5) > most:
+        raise OptionError(
+            f"size {width}x{height} with {scene.samples} samples a pixel cannot be drawn; this"
+            f" OpenGL takes up to {most} samples a side, the backend soft more"
+        )
+    high, wide = drawing.topology.wardrobe.atlas.shape[:2]
+    if max(high, wide) > most:
+        raise OptionError(
+            f"the scene's textures need {wide}x{high} texels and this OpenGL takes {most} a side;"
+            " use smaller ones, or the backend soft"
+        )
+    for name, values in (("positions", drawing.positions), ("normals", drawing.normals)):
+        if not np.isfinite(values).all():
+            vertex = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
+            model = int(np.searchsorted(drawing.topology.vertex_start, vertex, "right")) - 1
+            raise OptionError(
+                f"model {model} has {name} that are not finite numbers;"
+                " a simulation that blew up wants a smaller time step"
+            )
+
+
+def _draw(stage: Stage, scene: Scene, drawing: DrawList) -> Pixels:
+    """Premultiplied samples, shape [H * n, W * n, 4], n * n samples a pixel."""
+    grid = round(scene.samples**0.5)
+    renderer = stage.renderer
+    renderer.viewport_width, renderer.viewport_height = (side * grid for side in scene.size)
+    renderer.matrix = clip_matrix(scene.camera, scene.size)
+    renderer.light_tint = np.array(scene.light.tint, np.float32)
+    stage.vertices.upload(drawing.positions, drawing.brightness(scene.light))
+    for primitive, triangles in stage.blends:
+        primitive.reorder(far_to_near(triangles, drawing.positions, renderer.matrix))
+    background = np.array(scene.background) / 255
+    stage.scene.bg_color = background * [*[background[3]] * 3, 1]
+    flags = stage.pyrender.RenderFlags
+    samples: Pixels = renderer.render(stage.scene, flags.OFFSCREEN | flags.RGBA | flags.FLAT)
+    return samples
+
+
+def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Triangles:
+    """Triangles that blend [T, 3], sorted by the depth of their middle; equals keep their order."""
+    clip = positions[triangles].astype(np.float64) @ matrix[2:, :3].T + matrix[2:, 3]
+    depth = (clip[..., 0] / clip[..., 1]).sum(axis=1)
+    return triangles[np.argsort(-depth, kind="stable")]
+
+
+def _set_up(stage: Stage, topology: Topology) -> None:
+    """Put the constant part of a draw list on the graphics side, and the last one's away."""
+    pyrender, passes, old = stage.pyrender, stage.passes, stage.vertices
+    wardrobe = _wardrobe(topology)
+    vertex_look = np.zeros(len(topology.uvs), np.int32)
+    vertex_look[topology.triangles] = topology.triangle_look[:, None]
+    base_rects, _ = coat_attributes(wardrobe, vertex_look, 0)
+    stage.topology, stage.vertices = topology, passes.Vertices(topology.uvs, base_rects)
+    material = _material(pyrender, wardrobe)
+    stage.blends, primitives = [], []
+    for coat, triangles, blend in coat_passes(topology, wardrobe):
+        rects, tints = coat_attributes(wardrobe, vertex_look, coat)
+        primitives.append(
+            passes.CoatPrimitive(stage.vertices, rects, tints, triangles, blend, material)
+        )
+        if blend:
+            stage.blends.append((primitives[-1], triangles))
+    stage.scene = pyrender.Scene()
+    stage.scene.add(pyrender.PerspectiveCamera(yfov=1.0))  # pyrender asks for one
+    if primitives:
+        # One mesh: pyrender draws a mesh's primitives in order, but its meshes in any.
+        stage.scene.add(pyrender.Mesh(primitives))
+    if old is not None:
+        old.delete()
+
+
+def _wardrobe(topology: Topology) -> Wardrobe:
+    """Coats that blend are composited beforehand: a triangle lays all of them down at once."""
+    wardrobe = topology.wardrobe
+    stacked = (wardrobe.look_alpha == BLEND) & (wardrobe.look_coats[:, 1] > 1)
+    return flattened(wardrobe) if stacked.any() else wardrobe
+
+
+def _material(pyrender: Any, wardrobe: Wardrobe) -> Any:
+    """The atlas as a texture; pyrender turns its source over, so it gets it turned over."""
+    from OpenGL.GL import GL_CLAMP_TO_EDGE, GL_NEAREST
+
+    sampler = pyrender.Sampler(None, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)
+    atlas = wardrobe.atlas[::-1]
+    texture = pyrender.Texture(source=atlas, source_channels="RGBA", sampler=sampler)
+    return pyrender.MetallicRoughnessMaterial(baseColorTexture=texture)
+
+
+class Pass(NamedTuple):
+    """One draw call: coat number `coat` of triangles [T, 3], over what lies behind if `blend`."""
+
+    coat: int
+    triangles: Triangles
+    blend: bool
+
+
+def coat_passes(topology: Topology, wardrobe: Wardrobe) -> list[Pass]:
+    """What to draw in turn: coat k of everything solid, for k = 0, 1, ...; then what blends."""
+    look = topology.triangle_look
+    counts, blends = wardrobe.look_coats[look, 1], wardrobe.look_alpha[look] == BLEND
+    return [
+        Pass(coat, topology.triangles[(blends == blend) & (counts > coat)], blend)
+        for blend in (False, True)
+        for coat in range(counts[blends == blend].max(initial=0))
+    ]
+
+
+def coat_attributes(
+    wardrobe: Wardrobe, vertex_look: NDArray[np.int32], coat: int
+) -> tuple[NDArray[np.uint16], NDArray[np.uint8]]:
+    """At each vertex its coat's rectangle [V, 4], and its tint and kind [V, 4] as in flat.frag."""
+    first, count = wardrobe.look_coats.T
+    worn = first + np.minimum(coat, count - 1)
+    alpha = wardrobe.look_alpha
+    kind = (
+        CUTOUT_BIT * (alpha == CUTOUT)
+        + SOLID_BIT * ((alpha != BLEND) & (coat == 0))
+        + UNLIT_BIT * ~wardrobe.look_lit
+    )
+    tints = np.column_stack([wardrobe.coat_tints[worn], kind]).astype(np.uint8)
+    return wardrobe.coat_rects[worn].astype(np.uint16)[vertex_look], tints[vertex_look]
+
+
+def resolved(samples: Pixels, grid: int) -> Pixels:
+    """Straight-alpha pixels from grid x grid premultiplied samples each, weighed alike."""
+    if grid == 1 and np.isin(samples[..., 3], (0, 255)).all():
+        return np.ascontiguousarray(samples)
+    height, width = samples.shape[0] // grid, samples.shape[1] // grid
+    cells = samples.reshape(height, grid, width, grid, 4).sum(axis=(1, 3), dtype=np.int32)
+    alpha = np.maximum(cells[..., 3:], 1)
+    pixels = np.empty((height, width, 4), np.uint8)
+    pixels[..., :3] = np.minimum((cells[..., :3] * 255 + alpha // 2) // alpha, 255)
+    pixels[..., 3] = (cells[..., 3] + grid * grid // 2) // grid**2
+    return pixels

@@ -1,0 +1,177 @@
+"""pyrender's renderer, taught ordered coats. Import it only after `gl_platform.load_pyrender`.
+
+One primitive draws one coat of every triangle that has it, in the order of the coats; the depth
+test is GL_LEQUAL, so that an upper coat lies on the lower one. All primitives of a mesh share the
+vertex positions: only these and the light are uploaded for a frame.
+"""
+
+import ctypes
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyrender
+from numpy.typing import NDArray
+from OpenGL import GL
+from pyrender.constants import BufFlags
+from pyrender.shader_program import ShaderProgramCache
+
+SHADERS = Path(__file__).parent / "shaders"
+
+Float32 = NDArray[np.float32]
+
+
+class Vertices:
+    """What all primitives share on the graphics side: positions and light, UVs, lowest coats.
+
+    uvs: shape [V, 2], float32. base_rects: the lowest coats' rectangles, shape [V, 4], uint16.
+    """
+
+    def __init__(self, uvs: Float32, base_rects: NDArray[np.uint16]) -> None:
+        self.values = np.zeros((max(len(uvs), 1), 4), np.float32)
+        self.moving = filled(GL.GL_ARRAY_BUFFER, self.values, GL.GL_DYNAMIC_DRAW)
+        self.uvs = filled(GL.GL_ARRAY_BUFFER, uvs)
+        self.base_rects = filled(GL.GL_ARRAY_BUFFER, base_rects)
+
+    def upload(self, positions: Float32, light: Float32) -> None:
+        if len(positions):
+            self.values[:, :3], self.values[:, 3] = positions, light
+        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self.moving)
+        GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, self.values.nbytes, self.values)
+
+    def delete(self) -> None:
+        GL.glDeleteBuffers(3, [self.moving, self.uvs, self.base_rects])
+
+
+class CoatPrimitive(pyrender.Primitive):  # type: ignore[misc]
+    """Triangles wearing one coat.
+
+    rects: the coat's rectangle at each vertex, shape [V, 4], uint16.
+    tints: its tint and kind, shape [V, 4], uint8.
+    triangles: shape [T, 3]. blend: whether what lies behind shines through.
+    """
+
+    def __init__(
+        self,
+        vertices: Vertices,
+        rects: NDArray[np.uint16],
+        tints: NDArray[np.uint8],
+        triangles: NDArray[np.int32],
+        blend: bool,
+        material: Any,
+    ) -> None:
+        super().__init__(positions=np.zeros((1, 3), np.float32), material=material)
+        self.vertices, self.rects, self.tints = vertices, rects, tints
+        self.triangles, self.blend = triangles, blend
+
+    def _compute_buf_flags(self) -> int:
+        return int(BufFlags.POSITION)  # our shader numbers its attributes itself
+
+    def _add_to_context(self) -> None:
+        rects, tints = (filled(GL.GL_ARRAY_BUFFER, a) for a in (self.rects, self.tints))
+        self._vaid = GL.glGenVertexArrays(1)
+        GL.glBindVertexArray(self._vaid)
+        attribute(0, 4, GL.GL_FLOAT, self.vertices.moving)
+        attribute(1, 2, GL.GL_FLOAT, self.vertices.uvs)
+        attribute(2, 4, GL.GL_UNSIGNED_SHORT, rects)
+        attribute(3, 4, GL.GL_UNSIGNED_SHORT, self.vertices.base_rects)
+        attribute(4, 4, GL.GL_UNSIGNED_BYTE, tints)
+        self._buffers = [rects, tints, filled(GL.GL_ELEMENT_ARRAY_BUFFER, self.triangles)]
+        GL.glBindVertexArray(0)
+
+    def reorder(self, triangles: NDArray[np.int32]) -> None:
+        """Draw the same triangles in another order from now on."""
+        self.triangles = triangles
+        if self._in_context():
+            self._bind()
+            GL.glBufferSubData(GL.GL_ELEMENT_ARRAY_BUFFER, 0, triangles.nbytes, triangles)
+            self._unbind()
+
+
+def filled(target: int, values: NDArray[Any], usage: int = GL.GL_STATIC_DRAW) -> int:
+    """A new buffer, bound, holding these values."""
+    buffer: int = GL.glGenBuffers(1)
+    GL.glBindBuffer(target, buffer)
+    GL.glBufferData(target, values.nbytes, np.ascontiguousarray(values), usage)
+    return buffer
+
+
+def attribute(location: int, size: int, kind: int, buffer: int) -> None:
+    GL.glBindBuffer(GL.GL_ARRAY_BUFFER, buffer)
+    GL.glEnableVertexAttribArray(location)
+    GL.glVertexAttribPointer(location, size, kind, GL.GL_FALSE, 0, ctypes.c_void_p(0))
+
+
+class CoatRenderer(pyrender.Renderer):  # type: ignore[misc]
+    """Draws into one buffer without multisampling, at any size, for the life of the process."""
+
+    matrix: NDArray[np.float64]
+    light_tint: Float32
+    _main_fb: int | None
+    _main_fb_dims: tuple[int, int]
+
+    def __init__(self) -> None:
+        super().__init__(1, 1)
+        self._program_cache = ShaderProgramCache(str(SHADERS))
+
+    def _get_camera_matrices(self, scene: Any) -> tuple[Any, Any]:
+        return np.eye(4), self.matrix  # our shader knows the product alone
+
+    def _configure_forward_pass_viewport(self, flags: int) -> None:
+        super()._configure_forward_pass_viewport(flags)
+        GL.glDepthFunc(GL.GL_LEQUAL)
+        GL.glDisable(GL.GL_CULL_FACE)
+        GL.glDisable(GL.GL_DITHER)
+        GL.glEnable(GL.GL_BLEND)
+        GL.glBlendFunc(GL.GL_ONE, GL.GL_ONE_MINUS_SRC_ALPHA)
+
+    def _bind_and_draw_primitive(self, primitive: Any, pose: Any, program: Any, flags: int) -> None:
+        primitive._bind()
+        self._bind_texture(primitive.material.baseColorTexture, "atlas", program)
+        program.set_uniform("light_tint", self.light_tint)
+        GL.glDepthMask(GL.GL_FALSE if primitive.blend else GL.GL_TRUE)
+        GL.glDrawElements(
+            GL.GL_TRIANGLES, primitive.triangles.size, GL.GL_UNSIGNED_INT, ctypes.c_void_p(0)
+        )
+        primitive._unbind()
+
+    def _configure_main_framebuffer(self) -> None:
+        size = self.viewport_width, self.viewport_height
+        if self._main_fb is not None and self._main_fb_dims == size:
+            return
+        self._delete_main_framebuffer()
+        self._main_cb, self._main_db = GL.glGenRenderbuffers(2)
+        self._main_fb = self._main_fb_ms = GL.glGenFramebuffers(1)
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._main_fb)
+        for buffer, kind, point in (
+            (self._main_cb, GL.GL_RGBA8, GL.GL_COLOR_ATTACHMENT0),
+            (self._main_db, GL.GL_DEPTH_COMPONENT24, GL.GL_DEPTH_ATTACHMENT),
+        ):
+            GL.glBindRenderbuffer(GL.GL_RENDERBUFFER, buffer)
+            GL.glRenderbufferStorage(GL.GL_RENDERBUFFER, kind, *size)
+            GL.glFramebufferRenderbuffer(GL.GL_FRAMEBUFFER, point, GL.GL_RENDERBUFFER, buffer)
+        self._main_fb_dims = size
+
+    def _delete_main_framebuffer(self) -> None:
+        if self._main_fb is not None:
+            GL.glDeleteFramebuffers(1, [self._main_fb])
+            GL.glDeleteRenderbuffers(2, [self._main_cb, self._main_db])
+        self._main_fb = self._main_fb_ms = self._main_cb = self._main_db = None
+
+    def _read_main_framebuffer(self, scene: Any, flags: int) -> NDArray[np.uint8]:
+        """Premultiplied colours, shape [H, W, 4], top row first."""
+        width, height = self._main_fb_dims
+        pixels = np.empty((height, width, 4), np.uint8)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._main_fb)
+        GL.glReadPixels(0, 0, width, height, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, pixels)
+        return pixels[::-1]  # OpenGL's rows count upwards
+
+
+def largest_side() -> int:
+    """The longest side of a texture and of a picture that this OpenGL takes [pixels]."""
+    limits = (GL.GL_MAX_TEXTURE_SIZE, GL.GL_MAX_RENDERBUFFER_SIZE)
+    return min(int(GL.glGetIntegerv(limit)) for limit in limits)
+
+
+def renderer_name() -> str:
+    return f"{GL.glGetString(GL.GL_RENDERER).decode()}"
