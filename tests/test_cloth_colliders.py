@@ -129,7 +129,7 @@ def test_friction_holds_a_slider_below_the_friction_angle_only(angle, slides):
 
 
 @pytest.mark.parametrize("name", SHAPES)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(data=st.data())
 def test_nothing_tunnels_at_20_m_per_s(name, data):
     number = st.floats(-1, 1)

@@ -9,10 +9,11 @@ are tested, so the thickness should be about the distance between neighbours, no
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit, prange
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
+from drapery.cloth.colliders.compiled import door, kernel
+from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array
@@ -55,32 +56,44 @@ def contacts(cloth: Cloth, thickness: float) -> Contacts:
     return Contacts(float(thickness), first, np.ascontiguousarray(ends[:, 1]), inv_mass)
 
 
-def separate(contact: Contacts, state: State) -> State:
-    """The state with particles at least the thickness apart, and none approaching when touching."""
-    positions, velocities = np.array(state.positions), np.array(state.velocities)
-    args = (contact.thickness, contact.first, contact.friends, contact.inv_mass)
-    separate_all(positions, velocities, *args)
-    return replace(state, positions=positions, velocities=velocities)
+def separate(contact: Contacts, state: State, *, threads: int | None = None) -> State:
+    """The state with particles at least the thickness apart, and none approaching when touching.
+
+    threads: None for as many as there are processors.
+    """
+    positions, velocities = (
+        np.array(a, float, order="C") for a in (state.positions, state.velocities)
+    )
+    fixed = (contact.thickness, contact.first, contact.friends, contact.inv_mass)
+
+    def work(first: int, last: int) -> None:
+        separate_all(positions, velocities, first, last, *fixed)
+
+    run_blocks(work, len(positions), 1, thread_count(threads))
+    dtype = state.positions.dtype
+    return replace(state, positions=positions.astype(dtype), velocities=velocities.astype(dtype))
 
 
-@njit(cache=True, error_model="numpy", parallel=True)
+@door
 def separate_all(
     positions: Array,
     velocities: Array,
+    begin: int,
+    end: int,
     thickness: float,
     first: NDArray[np.int32],
     friends: NDArray[np.int32],
     inv_mass: Array,
 ) -> None:
-    """Every cloth of a batch; each is one thread's alone, so threads change no bit."""
-    for cloth in prange(len(positions)):
+    """Cloths begin..end of a batch; each is one thread's alone, so threads change no bit."""
+    for cloth in range(begin, end):
         x, v = positions[cloth], velocities[cloth]
         for _ in range(PASSES):
             if separate_pass(x, v, thickness, first, friends, inv_mass) == 0:
                 break
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def separate_pass(
     x: Array,
     v: Array,
@@ -105,7 +118,7 @@ def separate_pass(
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def cells_of(x: Array, size: float) -> NDArray[np.int64]:
     cells = np.empty(x.shape, np.int64)
     for i in range(len(x)):
@@ -114,12 +127,12 @@ def cells_of(x: Array, size: float) -> NDArray[np.int64]:
     return cells
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def key_of(a: int, b: int, c: int, slots: int) -> int:
     return ((a * PRIMES[0]) ^ (b * PRIMES[1]) ^ (c * PRIMES[2])) % slots
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def hashed(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Counting sort of the particles by key; equal keys stay in the order of their indices."""
     count = len(cells)
@@ -138,7 +151,7 @@ def hashed(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int6
     return starts, members
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def befriended(i: int, j: int, first: NDArray[np.int32], friends: NDArray[np.int32]) -> bool:
     for place in range(first[i], first[i + 1]):
         if friends[place] >= j:
@@ -146,7 +159,7 @@ def befriended(i: int, j: int, first: NDArray[np.int32], friends: NDArray[np.int
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def push_apart(x: Array, v: Array, i: int, j: int, thickness: float, inv_mass: Array) -> int:
     """Share the missing distance, and the approach speed, by inverse mass."""
     dx, dy, dz = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[j, 2] - x[i, 2]
@@ -154,7 +167,7 @@ def push_apart(x: Array, v: Array, i: int, j: int, thickness: float, inv_mass: A
     give = inv_mass[i] + inv_mass[j]
     if square >= thickness * thickness or give == 0.0:
         return 0
-    length = square**0.5
+    length = np.sqrt(square)
     n = (dx / length, dy / length, dz / length) if length > 0.0 else (0.0, 0.0, 1.0)
     approach = 0.0
     for axis in range(3):

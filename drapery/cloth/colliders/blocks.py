@@ -5,9 +5,9 @@ always lies on a face that has free space before it, so the faces between two cu
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from drapery.cloth.colliders.compiled import kernel
 from drapery.cloth.colliders.primitives import cuboid_distance
 from drapery.cloth.colliders.vectors import Vector, norm, subtract, unit
 
@@ -15,7 +15,7 @@ Grid = NDArray[np.uint8]
 HALF = (0.5, 0.5, 0.5)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def blocks_distance(filled: Grid, p: Vector) -> tuple[float, Vector]:
     """filled: 1 where there is a cube, shape [I, J, K]; p: relative to the grid's corner.
 
@@ -30,14 +30,14 @@ def blocks_distance(filled: Grid, p: Vector) -> tuple[float, Vector]:
     return _nearest_cube(filled, i, j, k, p)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _is_filled(filled: Grid, i: int, j: int, k: int) -> bool:
     wide, tall, deep = filled.shape
     inside = 0 <= i < wide and 0 <= j < tall and 0 <= k < deep
     return inside and bool(filled[i, j, k])
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _outside_grid(filled: Grid, p: Vector) -> tuple[float, Vector]:
     wide, tall, deep = filled.shape
     closest = (min(max(p[0], 0.0), wide), min(max(p[1], 0.0), tall), min(max(p[2], 0.0), deep))
@@ -46,7 +46,7 @@ def _outside_grid(filled: Grid, p: Vector) -> tuple[float, Vector]:
     return length, unit(arm, length)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _nearest_cube(filled: Grid, i: int, j: int, k: int, p: Vector) -> tuple[float, Vector]:
     best, normal = 1.0, (0.0, 1.0, 0.0)
     for a in range(i - 1, i + 2):
@@ -59,7 +59,7 @@ def _nearest_cube(filled: Grid, i: int, j: int, k: int, p: Vector) -> tuple[floa
     return best, normal
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _way_out(filled: Grid, i: int, j: int, k: int, p: Vector) -> tuple[float, Vector]:
     """The shortest of the six straight ways from inside a cube to free space."""
     best, normal = np.inf, (0.0, 1.0, 0.0)

@@ -3,9 +3,9 @@
 from functools import singledispatch
 
 import numpy as np
-from numba import njit
 
 from drapery.cloth.colliders.blocks import blocks_distance
+from drapery.cloth.colliders.compiled import door
 from drapery.cloth.colliders.fields import BLOCKS, BOX, CAPSULE, PLANE, SPHERE, Field
 from drapery.cloth.colliders.primitives import (
     box_distance,
@@ -19,7 +19,7 @@ from drapery.cloth.colliders.vectors import Vector, scale, subtract
 from drapery.errors import OptionError
 
 
-@njit(cache=True, error_model="numpy")
+@door
 def distance(field: Field, p: Vector, limit: float) -> tuple[float, Vector]:
     """Signed distance [m] and outward unit direction at p, in the shape's frame.
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from drapery.cloth.exact import sine_of_turns
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
@@ -48,19 +49,19 @@ def swinging(pivot: tuple[float, float, float], swing: float, period: float, pha
         raise OptionError(f"period {period} s: a swing needs a period above 0")
 
     def pose(time: float) -> Pose:
-        rotation = rotation_about((1, 0, 0), swing * np.sin(2 * np.pi * (time / period + phase)))
-        return Pose(centre - rotation @ centre, rotation)
+        rotation = rotation_about((1, 0, 0), swing * float(sine_of_turns(time / period + phase)))
+        return Pose(centre - (rotation * centre).sum(axis=1), rotation)
 
     return pose
 
 
 def rotation_about(axis: tuple[float, float, float], angle: float) -> Array:
     """Rotation matrix [3, 3] about an axis by an angle [degrees] (Rodrigues)."""
-    length = float(np.linalg.norm(axis))
+    length = float(np.sqrt(np.square(axis).sum()))
     if not (np.isfinite(length) and length > 0):
         raise OptionError(f"axis {axis}: a rotation needs an axis with a direction")
-    x, y, z = np.asarray(axis, float) / length
+    x, y, z = unit = np.asarray(axis, float) / length
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    turn = np.radians(angle)
-    rotation: Array = np.eye(3) + np.sin(turn) * cross + (1 - np.cos(turn)) * (cross @ cross)
+    sine, cosine = sine_of_turns(angle / 360), sine_of_turns(angle / 360 + 0.25)
+    rotation: Array = cosine * np.eye(3) + sine * cross + (1 - cosine) * np.outer(unit, unit)
     return rotation

@@ -4,8 +4,7 @@ Each kernel takes the shape's numbers and a point in the shape's frame, and give
 negative inside, and the unit direction in which it grows fastest.
 """
 
-from numba import njit
-
+from drapery.cloth.colliders.compiled import kernel
 from drapery.cloth.colliders.vectors import (
     Vector,
     along,
@@ -19,7 +18,7 @@ from drapery.cloth.colliders.vectors import (
 from drapery.mesh import Array
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def sphere_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     """numbers: centre, radius."""
     arm = subtract(p, (numbers[0], numbers[1], numbers[2]))
@@ -27,7 +26,7 @@ def sphere_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     return length - numbers[3], unit(arm, length)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def capsule_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     """numbers: start, end, radius."""
     start = (numbers[0], numbers[1], numbers[2])
@@ -41,7 +40,7 @@ def capsule_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     return -numbers[6], _across(axis)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _across(axis: Vector) -> Vector:
     """A unit vector at a right angle to the axis: for points on it, where all sides are equal."""
     x, y, z = axis
@@ -49,14 +48,14 @@ def _across(axis: Vector) -> Vector:
     return unit(side, norm(side))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def plane_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     """numbers: point, unit normal."""
     normal = (numbers[3], numbers[4], numbers[5])
     return dot(subtract(p, (numbers[0], numbers[1], numbers[2])), normal), normal
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def box_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     """numbers: centre, half edge lengths, rotation row by row."""
     rotation = numbers[6:15].reshape(3, 3)
@@ -65,7 +64,7 @@ def box_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     return distance, turned(rotation, normal)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def cuboid_distance(half: Vector, p: Vector) -> tuple[float, Vector]:
     """An upright box about the origin. Outside: the nearest point. Inside: the nearest face."""
     closest = (
@@ -80,7 +79,7 @@ def cuboid_distance(half: Vector, p: Vector) -> tuple[float, Vector]:
     return _nearest_face(half, p)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _nearest_face(half: Vector, p: Vector) -> tuple[float, Vector]:
     x, y, z = abs(p[0]) - half[0], abs(p[1]) - half[1], abs(p[2]) - half[2]
     if y >= x and y >= z:

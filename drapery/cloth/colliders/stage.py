@@ -9,19 +9,20 @@ so nothing passes through, however fast. Points are taken in a fixed order, one 
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit, prange
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
+from drapery.cloth.colliders.compiled import door, kernel
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.packing import pack
 from drapery.cloth.colliders.pose import Path, Pose, still
 from drapery.cloth.colliders.shapes import Shape
 from drapery.cloth.colliders.sweep import Frame, Skin, meet
 from drapery.cloth.colliders.vectors import Vector, along, subtract
+from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
@@ -107,25 +108,43 @@ def collide(
     points: Probes,
     *,
     radius: float,
+    threads: int | None = None,
 ) -> State:
     """The state after a step, with everything that entered a collider brought back.
 
     before, after: the states at the start and the end of the step; pinned particles keep their
         place. points: from `probes`. radius: distance kept from every surface, half the cloth's
-        thickness [m]; at least `THINNEST` is kept.
+        thickness [m]; at least `THINNEST` is kept. threads: None for as many as there are
+        processors.
     """
-    inv_mass = np.ascontiguousarray(cloth.inv_mass, float)
-    start = np.ascontiguousarray(before.positions, float)
-    positions, velocities = np.array(after.positions), np.array(after.velocities)
     dt = after.time - before.time
     if not dt > 0:
         raise OptionError(f"collision over a step of {dt} s: the time must grow")
+    inv_mass, start = np.array(cloth.inv_mass, float), np.array(before.positions, float, order="C")
+    positions, velocities = (
+        np.array(a, float, order="C") for a in (after.positions, after.velocities)
+    )
     for collider in colliders:
         frame = frame_between(collider.path(before.time), collider.path(after.time))
         skin = Skin(max(radius, THINNEST), float(collider.restitution), float(collider.friction))
-        args = (collider.packed, frame, skin, points, inv_mass, start, positions, velocities, dt)
-        collide_all(*args) if len(positions) > 1 else collide_one(*args, 0)
-    return replace(after, positions=positions, velocities=velocities)
+        fixed: Any = (
+            collider.packed,
+            frame,
+            skin,
+            points,
+            inv_mass,
+            start,
+            positions,
+            velocities,
+            dt,
+        )
+
+        def work(first: int, last: int, fixed: Any = fixed) -> None:
+            collide_all(first, last, *fixed)
+
+        run_blocks(work, len(positions), 1, thread_count(threads))
+    dtype = after.positions.dtype
+    return replace(after, positions=positions.astype(dtype), velocities=velocities.astype(dtype))
 
 
 def frame_between(start: Pose, end: Pose) -> Frame:
@@ -138,8 +157,10 @@ def frame_between(start: Pose, end: Pose) -> Frame:
     )
 
 
-@njit(cache=True, error_model="numpy", parallel=True)
+@door
 def collide_all(
+    first: int,
+    last: int,
     shape: Field,
     frame: Frame,
     skin: Skin,
@@ -150,12 +171,12 @@ def collide_all(
     velocities: Array,
     dt: float,
 ) -> None:
-    """Every cloth of a batch; each is one thread's alone, so threads change no bit."""
-    for cloth in prange(len(positions)):
+    """Cloths first..last of a batch; each is one thread's alone, so threads change no bit."""
+    for cloth in range(first, last):
         collide_one(shape, frame, skin, points, inv_mass, start, positions, velocities, dt, cloth)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def collide_one(
     shape: Field,
     frame: Frame,
@@ -182,7 +203,7 @@ def collide_one(
             share(velocities[cloth], particles, weights, inv_mass, give, subtract(speed, v))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def softness(particles: NDArray[np.int32], weights: Array, inv_mass: Array) -> float:
     """Inverse of the mass [1/kg] that a push on the point meets; 0 if all its particles are
     pinned."""
@@ -192,7 +213,7 @@ def softness(particles: NDArray[np.int32], weights: Array, inv_mass: Array) -> f
     return total
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def blend(rows: Array, particles: NDArray[np.int32], weights: Array) -> Vector:
     """Weighted sum of three rows of an array [N, 3]."""
     total = (0.0, 0.0, 0.0)
@@ -202,7 +223,7 @@ def blend(rows: Array, particles: NDArray[np.int32], weights: Array) -> Vector:
     return total
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def share(
     rows: Array,
     particles: NDArray[np.int32],

@@ -7,9 +7,9 @@ along the pseudonormal of the face, edge or vertex on which that point lies.
 """
 
 import numpy as np
-from numba import njit
 
 from drapery.cloth.colliders.bvh import build_tree
+from drapery.cloth.colliders.compiled import kernel
 from drapery.cloth.colliders.fields import SURFACE, Field
 from drapery.cloth.colliders.shapes import TriangleMesh, sixfold_volumes
 from drapery.cloth.colliders.vectors import Vector, along, dot, norm, row, scale, subtract
@@ -82,7 +82,7 @@ def _units(vectors: Array) -> Array:
     return units
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def surface_distance(field: Field, p: Vector, limit: float) -> tuple[float, Vector]:
     """The union of the parts: the least distance. Beyond `limit` [m] the answer is `limit`."""
     best, normal = limit, (0.0, 1.0, 0.0)
@@ -98,7 +98,7 @@ def surface_distance(field: Field, p: Vector, limit: float) -> tuple[float, Vect
     return best, normal
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _part_distance(
     field: Field, first: int, end: int, solid: int, p: Vector, limit: float
 ) -> tuple[float, Vector]:
@@ -119,7 +119,7 @@ def _part_distance(
     return _with_sign(row(field.normals[at], region), subtract(p, closest), solid)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _with_sign(pseudonormal: Vector, arm: Vector, solid: int) -> tuple[float, Vector]:
     length = norm(arm)
     if length < 1e-12:
@@ -129,7 +129,7 @@ def _with_sign(pseudonormal: Vector, arm: Vector, solid: int) -> tuple[float, Ve
     return length, scale(1 / length, arm)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _box_square(box: Array, p: Vector) -> float:
     """Square of the distance from p to a box [2, 3]; 0 inside."""
     total = 0.0
@@ -139,7 +139,7 @@ def _box_square(box: Array, p: Vector) -> float:
     return total
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def closest_on_triangle(corners: Array, p: Vector) -> tuple[Vector, int]:
     """The nearest point of a triangle [3, 3], and the face, edge or corner on which it lies."""
     a, b, c = row(corners, 0), row(corners, 1), row(corners, 2)

@@ -11,8 +11,7 @@ sphere tracing, Hart 1996): the distance to the shape is a step that cannot meet
 
 from typing import NamedTuple
 
-from numba import njit
-
+from drapery.cloth.colliders.compiled import kernel
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.packing import distance
 from drapery.cloth.colliders.vectors import (
@@ -57,24 +56,24 @@ class Skin(NamedTuple):
     friction: float
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def into_frame(position: Array, rotation: Array, p: Vector) -> Vector:
     return turned_back(rotation, subtract(p, (position[0], position[1], position[2])))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def out_of_frame(position: Array, rotation: Array, p: Vector) -> Vector:
     return add(turned(rotation, p), (position[0], position[1], position[2]))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def surface_velocity(frame: Frame, p: Vector, dt: float) -> Vector:
     """Velocity [m/s] in the world of the shape's point p."""
     start = out_of_frame(frame.position0, frame.rotation0, p)
     return scale(1 / dt, subtract(out_of_frame(frame.position1, frame.rotation1, p), start))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def misses(field: Field, a: Vector, b: Vector, radius: float) -> bool:
     """Whether the segment's box and the shape's box are further apart than the radius."""
     for axis in range(3):
@@ -85,7 +84,7 @@ def misses(field: Field, a: Vector, b: Vector, radius: float) -> bool:
     return False
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def trace(field: Field, p: Vector, motion: Vector, radius: float) -> tuple[float, Vector]:
     """The part of `motion` after which p comes nearer than `radius`, and the normal there.
 
@@ -112,7 +111,7 @@ def trace(field: Field, p: Vector, motion: Vector, radius: float) -> tuple[float
     return part, normal
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def approach(
     field: Field,
     p: Vector,
@@ -143,7 +142,7 @@ def approach(
     return low, normal
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def rubbed(along_surface: Vector, limit: float) -> Vector:
     """What Coulomb friction leaves: the vector shortened by `limit`, or nothing."""
     length = norm(along_surface)
@@ -152,7 +151,7 @@ def rubbed(along_surface: Vector, limit: float) -> Vector:
     return scale(1 - limit / length, along_surface)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def reflected(v: Vector, normal: Vector, restitution: float, friction: float) -> Vector:
     """A velocity or motion after a touch; one that leaves the surface stays as it is."""
     into = -dot(v, normal)
@@ -163,7 +162,7 @@ def reflected(v: Vector, normal: Vector, restitution: float, friction: float) ->
     return along(left, restitution * into, normal)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def meet(
     field: Field, frame: Frame, skin: Skin, start: Vector, end: Vector, velocity: Vector, dt: float
 ) -> tuple[bool, Vector, Vector]:
@@ -189,7 +188,7 @@ def meet(
     return True, out_of_frame(frame.position1, frame.rotation1, p), v
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _answer(
     frame: Frame, skin: Skin, p: Vector, normal: Vector, velocity: Vector, dt: float
 ) -> tuple[Vector, float]:
@@ -201,7 +200,7 @@ def _answer(
     return add(carried, reflected(relative, outward, bounce, skin.friction)), bounce
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _pushed_out(
     field: Field, frame: Frame, skin: Skin, p: Vector, velocity: Vector, dt: float
 ) -> tuple[bool, Vector, Vector]:
