@@ -2,6 +2,11 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import DTypeLike
+
+from drapery.cloth.cloth import Cloth
+from drapery.errors import OptionError
 from drapery.mesh import Array
 
 
@@ -17,3 +22,19 @@ class State:
     positions: Array
     velocities: Array
     time: float = 0.0
+
+
+def rest_state(cloth: Cloth, count: int = 1, dtype: DTypeLike = np.float32) -> State:
+    """`count` cloths at rest in their rest shape, shape [count, N, 3]; float32 or float64.
+
+    Raises OptionError.
+    """
+    if count < 1:
+        raise OptionError(f"count {count} is too few; use at least 1 cloth")
+    if np.dtype(dtype) not in (np.float32, np.float64):
+        raise OptionError(f"dtype {np.dtype(dtype)} is not supported; use float32 or float64")
+    # The batch is the innermost axis in memory, where the kernels want it; see `lanes`.
+    lanes = np.empty((*cloth.rest_positions.shape, count), dtype)
+    lanes[:] = cloth.rest_positions[..., None]
+    positions = lanes.transpose(2, 0, 1)
+    return State(positions, np.zeros_like(positions))

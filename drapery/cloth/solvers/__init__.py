@@ -1,1 +1,1 @@
-"""The methods that step a cloth, one file each."""
+"""One file a method; all are `Solver`s."""

@@ -1,0 +1,362 @@
+"""The inner loops that the solvers share.
+
+Arrays are [3N, L]: row 3i + axis holds one coordinate of particle i for L cloths of one topology
+("lanes"), so every inner loop does the same to each cloth and is vectorised. Arithmetic is strict
+IEEE in a fixed order (no fastmath): the same bits for any L, on any processor.
+`error_model="numpy"` is needed: a division that may raise cannot be vectorised. Loops over three
+axes have a bound that the compiler does not know, or it would unroll them and take thrice as long.
+"""
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from drapery.cloth import exact
+from drapery.cloth.wind import CROSSWIND
+
+TINY = 1e-6
+"""Springs count as at least this share of their rest length, so that coincident ends divide."""
+STILL = 1e-9
+"""Slower velocities [m/s] are flushed to 0: decaying motion would become subnormal, and slow."""
+GUST_RMS = 0.1836
+"""Rms of gradient noise whose gradients are uniform in [-1, 1]³, measured over 10⁷ points."""
+ALONG, ACROSS, UP = CROSSWIND
+
+kernel = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
+"""For what only other kernels call: part of their callers' cache, never called from Python."""
+sine_of_turns = kernel(exact.sine_of_turns)
+
+
+@kernel
+def take_lanes(y: Any, x: Any, start: Any) -> None:
+    """Copy the lanes from `start` of x [3N, B] into the block y [3N, L]."""
+    for row in range(y.shape[0]):
+        for lane in range(y.shape[1]):
+            y[row, lane] = x[row, start + lane]
+
+
+@kernel
+def give_lanes(x: Any, y: Any, start: Any) -> None:
+    """Copy the block y [3N, L] to the lanes from `start` of x [3N, B]."""
+    for row in range(y.shape[0]):
+        for lane in range(y.shape[1]):
+            x[row, start + lane] = y[row, lane]
+
+
+@kernel
+def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) -> None:
+    """g += dt/m · F: a spring longer than its rest length pulls both ends together."""
+    tiny = x.dtype.type(TINY)
+    for s in range(springs.rest.size):
+        i, j = springs.pairs[s, 0], springs.pairs[s, 1]
+        length = springs.rest[s]
+        least = length * tiny
+        pull = dt * springs.stiffness[s]
+        pull_i, pull_j = pull * inv_mass[i], pull * inv_mass[j]
+        for lane in range(x.shape[1]):
+            dx = x[3 * j, lane] - x[3 * i, lane]
+            dy = x[3 * j + 1, lane] - x[3 * i + 1, lane]
+            dz = x[3 * j + 2, lane] - x[3 * i + 2, lane]
+            d = np.sqrt(dx * dx + dy * dy + dz * dz)
+            strain = (d - length) / max(d, least)
+            g[3 * i, lane] += pull_i * strain * dx
+            g[3 * i + 1, lane] += pull_i * strain * dy
+            g[3 * i + 2, lane] += pull_i * strain * dz
+            g[3 * j, lane] -= pull_j * strain * dx
+            g[3 * j + 1, lane] -= pull_j * strain * dy
+            g[3 * j + 2, lane] -= pull_j * strain * dz
+
+
+@kernel
+def shorten(x: Any, links: Any) -> None:
+    """One sweep of Provot's correction: links over their longest length are pulled back to it."""
+    for s in range(links.longest.size):
+        i, j = links.pairs[s, 0], links.pairs[s, 1]
+        most = links.longest[s]
+        part_i, part_j = links.share_i[s], links.share_j[s]
+        for lane in range(x.shape[1]):
+            dx = x[3 * j, lane] - x[3 * i, lane]
+            dy = x[3 * j + 1, lane] - x[3 * i + 1, lane]
+            dz = x[3 * j + 2, lane] - x[3 * i + 2, lane]
+            d = max(np.sqrt(dx * dx + dy * dy + dz * dz), most)
+            excess = (d - most) / d
+            x[3 * i, lane] += part_i * excess * dx
+            x[3 * i + 1, lane] += part_i * excess * dy
+            x[3 * i + 2, lane] += part_i * excess * dz
+            x[3 * j, lane] -= part_j * excess * dx
+            x[3 * j + 1, lane] -= part_j * excess * dy
+            x[3 * j + 2, lane] -= part_j * excess * dz
+
+
+@kernel
+def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any, work: Any) -> None:
+    """Three noises of unit rms at points `at` [3, L], into out [3, L].
+
+    `first` [L] is added to the cell number along axis 0, which repeats after `cells`. The three
+    share a cell's one random vector in three orders, so they are not correlated.
+    """
+    F = at.dtype.type
+    one, count, scale = F(1), F(cells), F(1 / (127.5 * GUST_RMS))
+    six, ten, fifteen, middle = F(6), F(10), F(15), F(127.5)
+    for axis in range(at.shape[0]):
+        for lane in range(at.shape[1]):
+            # np.floor would keep the loop from being vectorised.
+            cell = F(np.int32(at[axis, lane]))
+            cell = cell - one if cell > at[axis, lane] else cell
+            work[3 + axis, lane] = at[axis, lane] - cell
+            work[axis, lane] = cell
+            out[axis, lane] = 0
+    for lane in range(at.shape[1]):
+        cell = work[0, lane] + first[lane]
+        turns = cell / count
+        whole = F(np.int32(turns))
+        work[0, lane] = cell - count * (whole - one if whole > turns else whole)
+    for corner in range(8):
+        di, dj, dk = F(corner & 1), F((corner >> 1) & 1), F(corner >> 2)
+        for lane in range(at.shape[1]):
+            i = work[0, lane] + di
+            i = i if i < count else i - count
+            h = np.uint32(np.uint32(np.int32(i)) * np.uint32(0x9E3779B1))
+            h ^= np.uint32(np.uint32(np.int32(work[1, lane] + dj)) * np.uint32(0x27D4EB2F))
+            h ^= np.uint32(np.uint32(np.int32(work[2, lane] + dk)) * np.uint32(0x165667B1))
+            # The 32-bit finaliser of MurmurHash3 (Appleby 2011).
+            h = np.uint32(h ^ seed)
+            h = np.uint32(np.uint32(h ^ (h >> np.uint32(16))) * np.uint32(0x85EBCA6B))
+            h = np.uint32(np.uint32(h ^ (h >> np.uint32(13))) * np.uint32(0xC2B2AE35))
+            h = np.uint32(h ^ (h >> np.uint32(16)))
+            x, y, z = work[3, lane] - di, work[4, lane] - dj, work[5, lane] - dk
+            # Perlin's fade, 6 a⁵ - 15 a⁴ + 10 a³, on each axis.
+            a, b, c = one - abs(x), one - abs(y), one - abs(z)
+            weight = a * a * a * (a * (a * six - fifteen) + ten) * scale
+            weight *= b * b * b * (b * (b * six - fifteen) + ten)
+            weight *= c * c * c * (c * (c * six - fifteen) + ten)
+            p = F(np.int32(h & np.uint32(255))) - middle
+            q = F(np.int32((h >> np.uint32(8)) & np.uint32(255))) - middle
+            r = F(np.int32((h >> np.uint32(16)) & np.uint32(255))) - middle
+            out[0, lane] += weight * (p * x + q * y + r * z)
+            out[1, lane] += weight * (q * x + r * y + p * z)
+            out[2, lane] += weight * (r * x + p * y + q * z)
+
+
+@kernel
+def blow(
+    wind: Any, x: Any, controls: Any, gusts: Any, number: Any, start: Any, time: Any, work: Any
+) -> None:
+    """Velocity of one wind on the lanes from `start` at the control particles, into wind [3C, L].
+
+    work: [18, L] of the same type.
+    """
+    F = x.dtype.type
+    numbers, seed = gusts.numbers[number], gusts.seeds[number]
+    phases, origins = gusts.phases[number], gusts.origins[number]
+    at, swell, drift, first, noise = work[6:9], work[9], work[10], work[11], work[12:15]
+    for lane in range(x.shape[1]):
+        now = time + phases[start + lane]
+        swell[lane] = numbers[9] * (1 + numbers[10] * sine_of_turns(now * numbers[11]))
+        cells = now * numbers[14]
+        cells -= numbers[15] * np.floor(cells / numbers[15])
+        first[lane] = -np.floor(cells)
+        drift[lane] = cells - np.floor(cells)
+    # Noise is 0 where all three coordinates are whole: keep the origin off such a place.
+    middle, scale = F(0.5), F(numbers[13])
+    along, across, up = F(numbers[12] * ALONG), F(numbers[12] * ACROSS), F(numbers[12] * UP)
+    for control in range(controls.size):
+        row = 3 * controls[control]
+        for axis in range(at.shape[0]):
+            ex, ey, ez = F(numbers[3 * axis]), F(numbers[3 * axis + 1]), F(numbers[3 * axis + 2])
+            for lane in range(x.shape[1]):
+                px = x[row, lane] + origins[0, start + lane]
+                py = x[row + 1, lane] + origins[1, start + lane]
+                pz = x[row + 2, lane] + origins[2, start + lane]
+                at[axis, lane] = scale * (ex * px + ey * py + ez * pz) + middle
+        for lane in range(x.shape[1]):
+            at[0, lane] -= drift[lane]
+        gradient_noise(noise, at, first, numbers[15], seed, work)
+        for axis in range(at.shape[0]):
+            e0, e1, e2 = F(numbers[axis]), F(numbers[3 + axis]), F(numbers[6 + axis])
+            for lane in range(x.shape[1]):
+                wind[3 * control + axis, lane] = (
+                    e0 * (swell[lane] + along * noise[0, lane])
+                    + e1 * across * noise[1, lane]
+                    + e2 * up * noise[2, lane]
+                )
+
+
+@kernel
+def add_wind_velocities(
+    g: Any, x: Any, v: Any, faces: Any, wind: Any, pressure: Any, inv_mass: Any, dt: Any, u: Any
+) -> None:
+    """g += dt/m · F of one wind, whose velocity at the control particles is `wind` [3C, L].
+
+    A face's corners a, b, c, d share its force; its vector area is (c - a) x (d - b) / 2. A
+    triangle is a face whose d is a. u: work, [3 or more, L].
+    """
+    half_pressure = x.dtype.type(pressure / 2)
+    tiny = x.dtype.type(1e-30)
+    for f in range(faces.corners.shape[0]):
+        for row in range(3 * faces.corners.shape[1]):
+            corner, axis = row // 3, row % 3
+            wind_at, weight = wind[3 * faces.controls[f, corner] + axis], faces.weights[f, corner]
+            v_at, share = v[3 * faces.corners[f, corner] + axis], faces.shares[f, corner]
+            keep = x.dtype.type(corner > 0)
+            for lane in range(x.shape[1]):
+                u[axis, lane] = keep * u[axis, lane] + (weight * wind_at[lane] - share * v_at[lane])
+        a, b = 3 * faces.corners[f, 0], 3 * faces.corners[f, 1]
+        c, d = 3 * faces.corners[f, 2], 3 * faces.corners[f, 3]
+        for lane in range(x.shape[1]):
+            px, qx = x[c, lane] - x[a, lane], x[d, lane] - x[b, lane]
+            py, qy = x[c + 1, lane] - x[a + 1, lane], x[d + 1, lane] - x[b + 1, lane]
+            pz, qz = x[c + 2, lane] - x[a + 2, lane], x[d + 2, lane] - x[b + 2, lane]
+            nx, ny, nz = py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx
+            area = np.sqrt(nx * nx + ny * ny + nz * nz) + tiny
+            head_on = nx * u[0, lane] + ny * u[1, lane] + nz * u[2, lane]
+            push = half_pressure * head_on / area
+            u[0, lane], u[1, lane], u[2, lane] = push * nx, push * ny, push * nz
+        for row in range(3 * faces.corners.shape[1]):
+            corner, axis = row // 3, row % 3
+            at = faces.corners[f, corner]
+            part = dt * inv_mass[at] * faces.shares[f, corner]
+            for lane in range(x.shape[1]):
+                g[3 * at + axis, lane] += part * u[axis, lane]
+
+
+@kernel
+def mix(out: Any, rows: Any, matrix: Any, base: Any, stride: Any) -> None:
+    """out[o'] = sum_i matrix[o, i] rows[i'], for the particles o' = base + o · stride and i'."""
+    count = matrix.shape[1]
+    for row in range(3 * matrix.shape[0]):
+        o, axis = row // 3, row % 3
+        to, part = out[3 * (base + o * stride) + axis], matrix[o]
+        for lane in range(to.size):
+            to[lane] = 0
+        for i in range(0, count - 3, 4):
+            a, b, c, d = part[i], part[i + 1], part[i + 2], part[i + 3]
+            at, step = 3 * (base + i * stride) + axis, 3 * stride
+            p, q, r, s = rows[at], rows[at + step], rows[at + 2 * step], rows[at + 3 * step]
+            for lane in range(to.size):
+                to[lane] += a * p[lane] + b * q[lane] + c * r[lane] + d * s[lane]
+        for i in range(count // 4 * 4, count):
+            a, p = part[i], rows[3 * (base + i * stride) + axis]
+            for lane in range(to.size):
+                to[lane] += a * p[lane]
+
+
+@kernel
+def filter_velocities(g: Any, filter: Any, pins: Any, work: Any) -> None:
+    """g = W g in the frame of the pins' mean velocity; see `Filter`. work: [3N + 3, L]."""
+    mean = work[g.shape[0] :]
+    for axis in range(mean.shape[0]):
+        for lane in range(g.shape[1]):
+            mean[axis, lane] = 0
+        for p in range(pins.size):
+            part = g.dtype.type(1 / pins.size)
+            for lane in range(g.shape[1]):
+                mean[axis, lane] += part * g[3 * pins[p] + axis, lane]
+    if pins.size > 0:
+        shift(g, mean, -1)
+    for p in range(pins.size):
+        for axis in range(mean.shape[0]):
+            for lane in range(g.shape[1]):
+                g[3 * pins[p] + axis, lane] = 0
+    for form in range(filter.kind, filter.kind + 1):
+        if form == 0:
+            for row in range(g.shape[0]):
+                for lane in range(g.shape[1]):
+                    work[row, lane] = g[row, lane]
+            mix(g, work, filter.left, 0, 1)
+        else:
+            filter_grid(g, filter, work)
+            release_pins(g, filter.pull, pins, work)
+    if pins.size > 0:
+        shift(g, mean, 1)
+
+
+@kernel
+def shift(g: Any, by: Any, sign: Any) -> None:
+    """g += sign · by, the same [3, L] for all particles."""
+    part = g.dtype.type(sign)
+    for row in range(g.shape[0]):
+        for lane in range(g.shape[1]):
+            g[row, lane] += part * by[row % 3, lane]
+
+
+@kernel
+def filter_grid(g: Any, filter: Any, work: Any) -> None:
+    """The separable filter on the grid's free rows; see `Filter`."""
+    rows, columns = filter.spectrum.shape
+    begin = filter.first * columns
+    for c in range(columns):
+        mix(work, g, filter.left_t, begin + c, columns)
+    for r in range(rows):
+        mix(g, work, filter.right_t, begin + r * columns, 1)
+        for c in range(3 * columns):
+            part = filter.spectrum[r, c // 3]
+            for lane in range(g.shape[1]):
+                g[3 * (begin + r * columns) + c, lane] *= part
+        mix(work, g, filter.right, begin + r * columns, 1)
+    for c in range(columns):
+        mix(g, work, filter.left, begin + c, columns)
+
+
+@kernel
+def release_pins(g: Any, pull: Any, pins: Any, work: Any) -> None:
+    """g += pull g[pins]."""
+    for row in range(3 * pull.shape[1]):
+        for lane in range(g.shape[1]):
+            work[row, lane] = g[3 * pins[row // 3] + row % 3, lane]
+    for row in range(g.shape[0]):
+        for p in range(pull.shape[1]):
+            part = pull[row // 3, p]
+            for lane in range(g.shape[1]):
+                g[row, lane] += part * work[3 * p + row % 3, lane]
+
+
+@kernel
+def add_uniform(g: Any, inv_mass: Any, numbers: Any, push: Any, start: Any) -> None:
+    """g += dt (gravity + push), then drag, implicitly: the speed of free fall ends at g / drag.
+
+    numbers: dt, drag, time, gravity (3). push: accelerations [3N, B] of all cloths, or empty.
+    """
+    F = g.dtype.type
+    dt, slow = F(numbers[0]), F(1 / (1 + numbers[0] * numbers[1]))
+    for row in range(g.shape[0]):
+        if inv_mass[row // 3] == 0:
+            continue
+        fall = F(numbers[0] * numbers[3 + row % 3])
+        if push.size > 0:
+            for lane in range(g.shape[1]):
+                g[row, lane] += dt * push[row, start + lane]
+        for lane in range(g.shape[1]):
+            g[row, lane] = (g[row, lane] + fall) * slow
+
+
+@kernel
+def move(x: Any, u: Any, old: Any, dt: Any) -> None:
+    """old = x; x += dt u."""
+    for row in range(x.shape[0]):
+        for lane in range(x.shape[1]):
+            old[row, lane] = x[row, lane]
+            x[row, lane] += dt * u[row, lane]
+
+
+@kernel
+def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any) -> None:
+    """Pins go where their path leads, [steps, 3P, B] or [steps, 3P, 1], or stay ([0, ...])."""
+    for row in range(3 * pins.size):
+        at = 3 * pins[row // 3] + row % 3
+        for lane in range(x.shape[1]):
+            if targets.shape[0] == 0:
+                x[at, lane] = old[at, lane]
+            else:
+                x[at, lane] = targets[step, row, start + lane if targets.shape[2] > 1 else 0]
+
+
+@kernel
+def set_velocities(v: Any, x: Any, old: Any, dt: Any) -> None:
+    """v = (x - old) / dt, flushed to 0 below STILL."""
+    still, none = x.dtype.type(STILL), x.dtype.type(0)
+    for row in range(x.shape[0]):
+        for lane in range(x.shape[1]):
+            speed = (x[row, lane] - old[row, lane]) / dt
+            v[row, lane] = speed if abs(speed) >= still else none

@@ -1,0 +1,100 @@
+"""Between states, [B, N, 3], and what the kernels run over: lanes [3N, B], in blocks.
+
+A block's cloths are stepped together while they are in cache. Each lane does the same arithmetic
+whatever its block, so neither the block's width nor the number of threads changes a bit.
+"""
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from drapery.cloth.pins import PinPath
+from drapery.cloth.state import State
+from drapery.errors import OptionError
+from drapery.mesh import Array
+
+BLOCK_BYTES = 1 << 18
+"""Positions and velocities of a block; with the kernels' own arrays a block stays in L2."""
+
+
+def to_lanes(values: Array) -> Array:
+    """[B, N, 3] as contiguous [3N, B]; no copy of what `from_lanes` returned."""
+    return np.ascontiguousarray(values.transpose(1, 2, 0)).reshape(-1, len(values))
+
+
+def from_lanes(lanes: Array) -> Array:
+    """[3N, B] seen as [B, N, 3]."""
+    return lanes.reshape(-1, 3, lanes.shape[1]).transpose(2, 0, 1)
+
+
+def block_width(particles: int, itemsize: int) -> int:
+    """Cloths to a block: a power of two, 8 to 256."""
+    fit = BLOCK_BYTES // (6 * particles * itemsize)
+    return int(min(256, max(8, 1 << max(fit, 1).bit_length() - 1)))
+
+
+def run_blocks(work: Callable[[int, int], None], count: int, width: int, threads: int) -> None:
+    """Call work(first, last) over blocks of `count` lanes; the order does not matter."""
+    blocks = -(-count // width)
+    threads = min(threads, blocks)
+    if threads <= 1:
+        work(0, count)
+        return
+    cuts = [min(count, blocks * part // threads * width) for part in range(threads + 1)]
+    jobs = [_pool(threads - 1).submit(work, *cut) for cut in zip(cuts[1:-1], cuts[2:], strict=True)]
+    work(cuts[0], cuts[1])
+    for job in jobs:
+        job.result()
+
+
+@cache
+def _pool(threads: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(threads, thread_name_prefix="drapery-cloth")
+
+
+def thread_count(wanted: int | None) -> int:
+    """`wanted`, or as many as this process may use. Raises OptionError."""
+    if wanted is None:
+        return (
+            len(os.sched_getaffinity(0))
+            if hasattr(os, "sched_getaffinity")
+            else os.cpu_count() or 1
+        )
+    if wanted < 1:
+        raise OptionError(f"threads {wanted} is too few; use at least 1")
+    return wanted
+
+
+def cast(plan: Any, dtype: Any) -> Any:
+    """A named tuple of arrays and numbers with its floating-point arrays as `dtype`."""
+    return type(plan)(
+        *[
+            np.ascontiguousarray(part, dtype)
+            if isinstance(part, np.ndarray) and part.dtype.kind == "f"
+            else part
+            for part in plan
+        ]
+    )
+
+
+def pin_targets(path: PinPath | None, state: State, dt: float, steps: int, pinned: int) -> Array:
+    """Where the P pins are after each step, [steps, 3P, B] or [steps, 3P, 1]; [0, ...]
+    if they stay. Raises OptionError."""
+    dtype = state.positions.dtype
+    if path is None:
+        return np.zeros((0, 3 * pinned, 1), dtype)
+    count = len(state.positions)
+    targets = []
+    for step in range(steps):
+        place = np.asarray(path(state.time + (step + 1) * dt), dtype)
+        if place.shape not in ((pinned, 3), (count, pinned, 3)):
+            raise OptionError(
+                f"pin path gave positions of shape {place.shape}; "
+                f"give {(pinned, 3)} or {(count, pinned, 3)}"
+            )
+        targets.append(to_lanes(place.reshape(-1, pinned, 3)))
+    return np.stack(targets)

@@ -1,0 +1,127 @@
+"""Wind: a steady flow, a sine, and gusts of gradient noise that travel with the flow.
+
+Ken Perlin, "An image synthesizer" (SIGGRAPH 1985), for the noise and its use; "Improving noise"
+(SIGGRAPH 2002) for the quintic fade. Moving frozen turbulence with the mean flow is Taylor's
+hypothesis (Proc. R. Soc. A 164, 1938).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import OptionError
+from drapery.mesh import Array
+
+CROSSWIND = (1.0, 0.75, 0.5)
+"""Rms of gusts along, across and up, over that along: Panofsky, Dutton, "Atmospheric
+Turbulence" (1984), near neutral air over flat ground."""
+UNBOUND_CELLS = 4096.0
+"""Gusts of a wind without a period repeat after this many gust sizes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Wind:
+    """A wind that presses on faces: force = pressure · area · ((wind - velocity) · n) n.
+
+    Cloth edge-on to the wind feels none; cloth that moves with it feels none either.
+
+    velocity: mean wind [m/s].
+    gusts: turbulence intensity, the rms of the gusts along the wind over its mean speed.
+    gust_size: the size of a gust [m]; they travel with the mean wind.
+    sine: amplitude of a regular swell over the mean speed; sine_period: its period [s].
+    seed: which gusts.
+    period: all repeats after this many seconds exactly; the sine's period and the gusts' speed
+        are rounded to fit. None: no repetition in sight.
+    pressure: force per area and speed [N s/m³].
+    phases: time offset of each cloth of a batch [s], shape [B] or one number.
+    origins: where each cloth stands in the wind [m], shape [B, 3] or [3].
+    """
+
+    velocity: tuple[float, float, float]
+    gusts: float = 0.4
+    gust_size: float = 1.5
+    sine: float = 0.2
+    sine_period: float = 3.1
+    seed: int = 0
+    period: float | None = None
+    pressure: float = 0.25
+    phases: Array | float = 0.0
+    origins: Array | tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        velocity = np.asarray(self.velocity, float)
+        if velocity.shape != (3,) or not np.isfinite(velocity).all():
+            raise OptionError(f"wind velocity {self.velocity!r} must be three finite numbers [m/s]")
+        for name in ("gusts", "sine", "pressure"):
+            _at_least_zero(name, getattr(self, name))
+        for name in ("gust_size", "sine_period", *(["period"] if self.period is not None else [])):
+            _positive(name, getattr(self, name))
+        for name in ("phases", "origins"):
+            if not np.isfinite(getattr(self, name)).all():
+                raise OptionError(f"wind {name} must be finite numbers")
+
+
+def _at_least_zero(name: str, value: float) -> None:
+    if not (np.isfinite(value) and value >= 0):
+        raise OptionError(f"wind {name} {value!r} is out of range; use a number from 0 up")
+
+
+def _positive(name: str, value: float) -> None:
+    if not (np.isfinite(value) and value > 0):
+        raise OptionError(f"wind {name} {value!r} is out of range; use a number over 0")
+
+
+class Gusts(NamedTuple):
+    """W winds on B cloths, as the kernels read them; see `_numbers` for the columns."""
+
+    numbers: Array
+    seeds: NDArray[np.uint32]
+    phases: Array
+    origins: Array
+
+
+def lower_winds(winds: Sequence[Wind], count: int) -> Gusts:
+    """All winds on `count` cloths as arrays: [W, 17], [W], [W, B] and [W, 3, B].
+
+    Raises OptionError.
+    """
+    phases = np.zeros((len(winds), count))
+    origins = np.zeros((len(winds), 3, count))
+    for number, wind in enumerate(winds):
+        try:
+            phases[number] = wind.phases
+            origins[number] = np.asarray(wind.origins, float).T.reshape(3, -1)
+        except ValueError:
+            raise OptionError(f"wind phases and origins must fit {count} cloths") from None
+    numbers = np.array([_numbers(wind) for wind in winds]).reshape(len(winds), 17)
+    seeds = np.array([wind.seed & 0xFFFFFFFF for wind in winds], np.uint32)
+    return Gusts(numbers, seeds, phases, origins)
+
+
+def _numbers(wind: Wind) -> list[float]:
+    """Axes (9: along, across, up), speed, sine amplitude and frequency [1/s], gust amplitude,
+    1 / gust size, gust frequency [cells/s], cells before the gusts repeat, pressure."""
+    velocity = np.asarray(wind.velocity, float)
+    speed = float(np.sqrt((velocity * velocity).sum()))
+    sine_frequency = 1.0 / wind.sine_period
+    frequency, cells = speed / wind.gust_size, UNBOUND_CELLS
+    if wind.period is not None:
+        sine_frequency = max(1, round(wind.period * sine_frequency)) / wind.period
+        cells = max(1, round(wind.period * frequency))
+        frequency = cells / wind.period
+    gusts = [wind.gusts * speed, 1.0 / wind.gust_size, frequency, cells]
+    return [*_axes(velocity, speed), speed, wind.sine, sine_frequency, *gusts, wind.pressure]
+
+
+def _axes(velocity: Array, speed: float) -> list[float]:
+    """Orthonormal rows: along the wind, level across it, and the third."""
+    if speed == 0:
+        return [1, 0, 0, 0, 0, 1, 0, 1, 0]
+    along = velocity / speed
+    level = np.array([along[2], 0.0, -along[0]])
+    length = float(np.sqrt((level * level).sum()))
+    across = level / length if length > 1e-9 else np.array([1.0, 0.0, 0.0])
+    return [*along, *across, *np.cross(along, across)]
