@@ -38,6 +38,7 @@ class Stage:
     platform: Any
     renderer: Any
     topology: Topology | None = None
+    stacked: bool = False
     vertices: Any = None
     scene: Any = None
     blends: list[tuple[Any, Triangles]] = field(default_factory=list)
@@ -46,13 +47,17 @@ class Stage:
 _lock = Lock()
 
 
-def draw_scene(scene: Scene) -> Frame:
-    """Draw a scene. Raises OptionError for what cannot be drawn, BackendError without OpenGL."""
+def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
+    """Draw a scene. Raises OptionError for what cannot be drawn, BackendError without OpenGL.
+
+    stacked: lay coats over one another in the picture, in one pass each, as the game does, rather
+    than once beforehand in the texture. That is slower; colours round by up to 2/255 otherwise.
+    """
     drawing = draw_list(scene.models)
     with _current() as stage:
         _check(stage, scene, drawing)
-        if stage.topology is not drawing.topology:
-            _set_up(stage, drawing.topology)
+        if stage.topology is not drawing.topology or stage.stacked != stacked:
+            _set_up(stage, drawing.topology, stacked)
         samples = _draw(stage, scene, drawing)
     return Frame(resolved(samples, round(scene.samples**0.5)))
 
@@ -127,7 +132,7 @@ def _draw(stage: Stage, scene: Scene, drawing: DrawList) -> Pixels:
     renderer.viewport_width, renderer.viewport_height = (side * grid for side in scene.size)
     renderer.matrix = clip_matrix(scene.camera, scene.size)
     renderer.light_tint = np.array(scene.light.tint, np.float32)
-    stage.vertices.upload(drawing.positions, drawing.brightness(scene.light))
+    stage.vertices.upload(drawing.positions, scene.light.brightness(drawing.normals))
     for primitive, triangles in stage.blends:
         primitive.reorder(far_to_near(triangles, drawing.positions, renderer.matrix))
     background = np.array(scene.background) / 255
@@ -144,14 +149,15 @@ def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Tri
     return triangles[np.argsort(-depth, kind="stable")]
 
 
-def _set_up(stage: Stage, topology: Topology) -> None:
+def _set_up(stage: Stage, topology: Topology, stacked: bool) -> None:
     """Put the constant part of a draw list on the graphics side, and the last one's away."""
     pyrender, passes, old = stage.pyrender, stage.passes, stage.vertices
-    wardrobe = _wardrobe(topology)
+    wardrobe = _wardrobe(topology.wardrobe, stacked)
     vertex_look = np.zeros(len(topology.uvs), np.int32)
     vertex_look[topology.triangles] = topology.triangle_look[:, None]
     base_rects, _ = coat_attributes(wardrobe, vertex_look, 0)
-    stage.topology, stage.vertices = topology, passes.Vertices(topology.uvs, base_rects)
+    stage.topology, stage.stacked = topology, stacked
+    stage.vertices = passes.Vertices(topology.uvs, base_rects)
     material = _material(pyrender, wardrobe)
     stage.blends, primitives = [], []
     for coat, triangles, blend in coat_passes(topology, wardrobe):
@@ -170,11 +176,13 @@ def _set_up(stage: Stage, topology: Topology) -> None:
         old.delete()
 
 
-def _wardrobe(topology: Topology) -> Wardrobe:
-    """Coats that blend are composited beforehand: a triangle lays all of them down at once."""
-    wardrobe = topology.wardrobe
-    stacked = (wardrobe.look_alpha == BLEND) & (wardrobe.look_coats[:, 1] > 1)
-    return flattened(wardrobe) if stacked.any() else wardrobe
+def _wardrobe(wardrobe: Wardrobe, stacked: bool) -> Wardrobe:
+    """Coats composited beforehand; if stacked only where they blend, for there a triangle must lay
+    down all its coats at once."""
+    many = wardrobe.look_coats[:, 1] > 1
+    if stacked:
+        many &= wardrobe.look_alpha == BLEND
+    return flattened(wardrobe) if many.any() else wardrobe
 
 
 def _material(pyrender: Any, wardrobe: Wardrobe) -> Any:
@@ -224,12 +232,13 @@ def coat_attributes(
 
 def resolved(samples: Pixels, grid: int) -> Pixels:
     """Straight-alpha pixels from grid x grid premultiplied samples each, weighed alike."""
-    if grid == 1 and np.isin(samples[..., 3], (0, 255)).all():
+    alpha = samples[..., 3]
+    if grid == 1 and ((alpha == 255) | (alpha == 0)).all():
         return np.ascontiguousarray(samples)
     height, width = samples.shape[0] // grid, samples.shape[1] // grid
     cells = samples.reshape(height, grid, width, grid, 4).sum(axis=(1, 3), dtype=np.int32)
-    alpha = np.maximum(cells[..., 3:], 1)
+    total = np.maximum(cells[..., 3:], 1)
     pixels = np.empty((height, width, 4), np.uint8)
-    pixels[..., :3] = np.minimum((cells[..., :3] * 255 + alpha // 2) // alpha, 255)
+    pixels[..., :3] = np.minimum((cells[..., :3] * 255 + total // 2) // total, 255)
     pixels[..., 3] = (cells[..., 3] + grid * grid // 2) // grid**2
     return pixels

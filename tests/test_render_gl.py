@@ -112,15 +112,15 @@ SCENES = {
 }
 
 
+@pytest.mark.parametrize("stacked", [False, True], ids=["flat", "stacked"])
 @pytest.mark.parametrize("name", SCENES)
-def test_opengl_draws_what_our_rasteriser_draws(name: str) -> None:
+def test_opengl_draws_what_our_rasteriser_draws(name: str, stacked: bool) -> None:
     """Coverage equal but for 0.1 % of the samples; elsewhere colours within 2/255.
 
     A colour counts by its weight: at an alpha of 3 a channel has three visible steps.
     """
-    ours, theirs = (
-        draw(SCENES[name]).pixels.astype(int) for draw in (soft.draw_scene, gl.draw_scene)
-    )
+    ours = soft.draw_scene(SCENES[name]).pixels.astype(int)
+    theirs = gl.draw_scene(SCENES[name], stacked=stacked).pixels.astype(int)
     weighed = [np.dstack([p[..., :3] * p[..., 3:] / 255, p[..., 3]]) for p in (ours, theirs)]
     covered = ours[..., 3] > 0
     assert name == "nothing" or covered.mean() > 0.05
