@@ -4,14 +4,14 @@ Model units are 1/16 block with y down and z towards the back; the block's trans
 upright and shrinks them to two thirds.
 """
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from drapery.mesh import Array, Mesh
+from drapery.style.boxes import Box, box_mesh, join, upright
 from drapery.style.extrusion import extrude
-from drapery.style.skin import BoxSkin, box_skin
+from drapery.style.skin import box_skin
 
 Placement = Literal["standing", "wall"]
 
@@ -21,27 +21,17 @@ SCALE = 2.0 / 3.0 / 16.0
 FLAG_SIZE = (20 * SCALE, 40 * SCALE)
 """Width and height of the flag [m]."""
 
-SHEET = 64.0
-FLAG_SKIN = box_skin((0, 0), (20, 40, 1), SHEET)
+FLAG_SKIN = box_skin((0, 0), (20, 40, 1))
 SWAY_PERIOD = 5.0
 """The game's own sway repeats after this time [s]: 100 ticks of 1/20 s."""
 
 
-@dataclass(frozen=True)
-class _Box:
-    """A box of the model: its least corner and its size [model units], its unfolding."""
-
-    corner: tuple[float, float, float]
-    size: tuple[float, float, float]
-    offset: tuple[float, float]
-
-
-_WOOD: dict[Placement, tuple[_Box, ...]] = {
+_WOOD: dict[Placement, tuple[Box, ...]] = {
     "standing": (
-        _Box((-1, -42, -1), (2, 42, 2), (44, 0)),
-        _Box((-10, -44, -1), (20, 2, 2), (0, 42)),
+        Box((-1, -42, -1), (2, 42, 2), (44, 0)),
+        Box((-10, -44, -1), (20, 2, 2), (0, 42)),
     ),
-    "wall": (_Box((-10, -20.5, 9.5), (20, 2, 2), (0, 42)),),
+    "wall": (Box((-10, -20.5, 9.5), (20, 2, 2), (0, 42)),),
 }
 _FLAG_PIVOT: dict[Placement, tuple[float, float, float]] = {
     "standing": (0, -44, 0),
@@ -49,11 +39,13 @@ _FLAG_PIVOT: dict[Placement, tuple[float, float, float]] = {
 }
 _FLAG_MIDDLE = -1.5
 """Depth of the flag's middle sheet under its pivot [model units]."""
+_ORIGIN = (0.5, 0.0, 0.5)
+"""The model's origin in the block [m]."""
 
 
 def to_world(points: Array) -> Array:
     """Model units [..., 3] -> metres in the block's own space, whose floor is 0..1 x 0..1."""
-    placed: Array = points * np.array([SCALE, -SCALE, -SCALE]) + np.array([0.5, 0.0, 0.5])
+    placed: Array = points * np.array([SCALE, -SCALE, -SCALE]) + np.array(_ORIGIN)
     return placed
 
 
@@ -62,7 +54,7 @@ def turn(mesh: Mesh, degrees: float) -> Mesh:
     angle = np.radians(-degrees)
     cos, sin = np.cos(angle), np.sin(angle)
     matrix = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
-    centre = np.array([0.5, 0.0, 0.5])
+    centre = np.array(_ORIGIN)
     # einsum adds in a fixed order; BLAS may not.
     positions = np.einsum("ij,...j->...i", matrix, mesh.positions - centre) + centre
     return Mesh(
@@ -78,7 +70,7 @@ def flag_origin(placement: Placement) -> Array:
 
 def wood(placement: Placement) -> Mesh:
     """Pole and bar, textured by `banner_base`."""
-    return _join([_box_mesh(box) for box in _WOOD[placement]])
+    return upright(join([box_mesh(box) for box in _WOOD[placement]]), SCALE, _ORIGIN)
 
 
 def stiff_flag(placement: Placement, phase: float, thickness: float = 1.0) -> Mesh:
@@ -114,66 +106,3 @@ def _swing(flag: Mesh, angle: float, placement: Placement) -> Mesh:
     pivot = to_world(np.array(_FLAG_PIVOT[placement], np.float64))
     normals = np.einsum("ij,...j->...i", matrix, flag.normals)
     return Mesh(hung + pivot, normals, flag.triangles, flag.uvs)
-
-
-def _box_mesh(box: _Box) -> Mesh:
-    """The six faces of a box, each with its own four corners and normal."""
-    width, height, depth = box.size
-    skin = box_skin(box.offset, box.size, SHEET)
-    faces = [_face(*side) for side in _sides(skin)]
-    unit = np.concatenate([corners for corners, _, _ in faces])
-    corner = np.array(box.corner, np.float64)
-    return Mesh(
-        to_world(corner + unit * np.array([width, height, depth])),
-        np.concatenate([normals for _, normals, _ in faces]),
-        np.concatenate([np.array([[0, 2, 1], [1, 2, 3]], np.int32) + 4 * i for i in range(6)]),
-        np.concatenate([uvs for _, _, uvs in faces]),
-    )
-
-
-_Side = tuple[
-    tuple[float, float, float],
-    tuple[int, int, int],
-    tuple[int, int, int],
-    tuple[float, float, float],
-    tuple[float, float, float, float],
-]
-
-
-def _sides(skin: BoxSkin) -> list[_Side]:
-    """(upper left corner, step right, step down, world normal, texture) of each face.
-
-    In fractions of the box: x to the right, y down, z to the back, as in the model.
-    """
-    return [
-        ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), skin.front_rect),
-        ((1, 0, 1), (-1, 0, 0), (0, 1, 0), (0, 0, -1), skin.back_rect),
-        ((0, 0, 1), (0, 0, -1), (0, 1, 0), (-1, 0, 0), skin.left),
-        ((1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 0), skin.right),
-        ((0, 0, 1), (1, 0, 0), (0, 0, -1), (0, 1, 0), skin.top),
-        ((0, 1, 0), (1, 0, 0), (0, 0, 1), (0, -1, 0), skin.bottom),
-    ]
-
-
-def _face(
-    start: tuple[float, float, float],
-    right: tuple[int, int, int],
-    down: tuple[int, int, int],
-    normal: tuple[float, float, float],
-    rect: tuple[float, float, float, float],
-) -> tuple[Array, Array, Array]:
-    r, d = np.array(right), np.array(down)
-    corners = np.array(start) + np.stack([0 * r, r, d, r + d])
-    left, top, right_, bottom = rect
-    uvs = np.array([[left, top], [right_, top], [left, bottom], [right_, bottom]])
-    return corners, np.tile(np.array(normal, np.float64), (4, 1)), uvs
-
-
-def _join(meshes: list[Mesh]) -> Mesh:
-    firsts = np.cumsum([0, *(len(m.uvs) for m in meshes[:-1])])
-    return Mesh(
-        np.concatenate([m.positions for m in meshes]),
-        np.concatenate([m.normals for m in meshes]),
-        np.concatenate([m.triangles + np.int32(f) for m, f in zip(meshes, firsts, strict=True)]),
-        np.concatenate([m.uvs for m in meshes]),
-    )

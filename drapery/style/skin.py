@@ -92,17 +92,21 @@ def _place_each(uvs: Array, rects: Array) -> Array:
 
 
 def box_skin(
-    offset: tuple[float, float], size: tuple[float, float, float], sheet: float
+    offset: tuple[float, float],
+    size: tuple[float, float, float],
+    sheet: tuple[float, float] = (64, 64),
 ) -> BoxSkin:
-    """The skin of a box of the game's models, all in texels of a square sheet.
+    """The skin of a box of the game's models, all in texels.
 
-    offset: upper left corner of its unfolding; size: width, height and depth of the box.
+    offset: upper left corner of its unfolding; size: width, height and depth of the box; sheet:
+    width and height of the texture.
     """
     x, y = offset
     width, height, depth = size
 
     def rect(left: float, top: float, w: float, h: float) -> Rect:
-        return left / sheet, top / sheet, (left + w) / sheet, (top + h) / sheet
+        across, down = sheet
+        return left / across, top / down, (left + w) / across, (top + h) / down
 
     return BoxSkin(
         front_rect=rect(x + depth, y + depth, width, height),

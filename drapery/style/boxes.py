@@ -1,0 +1,98 @@
+"""Boxes of the game's models: six rectangles, textured by one unfolding.
+
+Model units are texels, y points down and z to the back, as in the game's models.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.mesh import Array, Mesh
+from drapery.style.skin import BoxSkin, box_skin
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box of a model: its least corner and its size [texels], its unfolding's upper left corner.
+
+    grown: how far each side is pushed out [texels]; the texture stays as it is.
+    """
+
+    corner: tuple[float, float, float]
+    size: tuple[float, float, float]
+    offset: tuple[float, float]
+    grown: float = 0.0
+
+
+def box_mesh(box: Box, sheet: tuple[float, float] = (64, 64)) -> Mesh:
+    """The six faces of a box, each with its own four corners and normal, in model units.
+
+    Seen upright: the normals and the order of the corners are those of a model whose y and z have
+    been turned about, as `upright` does. sheet: width and height of the texture [texels].
+    """
+    skin = box_skin(box.offset, box.size, sheet)
+    faces = [_face(*side) for side in _sides(skin)]
+    unit = np.concatenate([corners for corners, _, _ in faces])
+    corner = np.array(box.corner, np.float64) - box.grown
+    return Mesh(
+        corner + unit * (np.array(box.size, np.float64) + 2 * box.grown),
+        np.concatenate([normals for _, normals, _ in faces]),
+        np.concatenate([np.array([[0, 2, 1], [1, 2, 3]], np.int32) + 4 * i for i in range(6)]),
+        np.concatenate([uvs for _, _, uvs in faces]),
+    )
+
+
+def upright(mesh: Mesh, scale: float, origin: tuple[float, float, float]) -> Mesh:
+    """A mesh of boxes in metres, y up: `scale` metres a texel, the model's origin at `origin`."""
+    positions = mesh.positions * np.array([scale, -scale, -scale]) + np.array(origin)
+    return Mesh(positions, mesh.normals, mesh.triangles, mesh.uvs)
+
+
+def join(meshes: Sequence[Mesh]) -> Mesh:
+    """Several meshes as one."""
+    firsts = np.cumsum([0, *(len(m.uvs) for m in meshes[:-1])])
+    return Mesh(
+        np.concatenate([m.positions for m in meshes]),
+        np.concatenate([m.normals for m in meshes]),
+        np.concatenate([m.triangles + np.int32(f) for m, f in zip(meshes, firsts, strict=True)]),
+        np.concatenate([m.uvs for m in meshes]),
+    )
+
+
+_Side = tuple[
+    tuple[float, float, float],
+    tuple[int, int, int],
+    tuple[int, int, int],
+    tuple[float, float, float],
+    tuple[float, float, float, float],
+]
+
+
+def _sides(skin: BoxSkin) -> list[_Side]:
+    """(upper left corner, step right, step down, world normal, texture) of each face.
+
+    In fractions of the box: x to the right, y down, z to the back, as in the model.
+    """
+    return [
+        ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), skin.front_rect),
+        ((1, 0, 1), (-1, 0, 0), (0, 1, 0), (0, 0, -1), skin.back_rect),
+        ((0, 0, 1), (0, 0, -1), (0, 1, 0), (-1, 0, 0), skin.left),
+        ((1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 0), skin.right),
+        ((0, 0, 1), (1, 0, 0), (0, 0, -1), (0, 1, 0), skin.top),
+        ((0, 1, 0), (1, 0, 0), (0, 0, 1), (0, -1, 0), skin.bottom),
+    ]
+
+
+def _face(
+    start: tuple[float, float, float],
+    right: tuple[int, int, int],
+    down: tuple[int, int, int],
+    normal: tuple[float, float, float],
+    rect: tuple[float, float, float, float],
+) -> tuple[Array, Array, Array]:
+    r, d = np.array(right), np.array(down)
+    corners = np.array(start) + np.stack([0 * r, r, d, r + d])
+    left, top, right_, bottom = rect
+    uvs = np.array([[left, top], [right_, top], [left, bottom], [right_, bottom]])
+    return corners, np.tile(np.array(normal, np.float64), (4, 1)), uvs
