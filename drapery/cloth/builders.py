@@ -1,4 +1,4 @@
-"""Builders of cloths. Each returns a checked `Cloth`; sizes in metres, masses by surface density."""
+"""Builders of cloths: sizes in metres, masses by surface density, stiffness by kind of spring."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -7,40 +7,34 @@ inverse mass, so their rows of W are those of the identity. A free cloth's rows 
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.exact import inverse, sine_of_turns
 from drapery.mesh import Array
 
-DENSE, SEPARABLE = 0, 1
-
 
 class Filter(NamedTuple):
-    """A filter as the kernels read it: u = W g.
+    """u = W g as products of small matrices with the particles of a grid's lines.
 
-    kind: DENSE: left is W [N, N], and the rest is empty.
-    SEPARABLE: over the grid's rows from `first` and its columns,
-    u = left ((leftᵀ g right) * spectrum) rightᵀ with orthonormal left [R, R] and right [C, C]
-    (and their transposes, laid out for the kernels);
-    then u += pull u[pins], pull [N, P], which brings the pinned particles' u to 0.
+    matrices: all of them, flat. products: [n, 5], for each the place and size of its matrix, the
+    first particle of its line and the step to the next, and whether it reads g or u (0 or 1) to
+    write the other. The last one writes u. release: [N, P]; u += release u[pins] brings the
+    pinned particles' u to 0; [N, 0] where it is so already.
     """
 
-    kind: int
-    left: Array
-    left_t: Array
-    right: Array
-    right_t: Array
-    spectrum: Array
-    first: int
-    pull: Array
+    matrices: Array
+    products: NDArray[np.int64]
+    release: Array
 
 
 def cloth_filter(cloth: Cloth, dt: float) -> Filter:
     """The cheapest filter for this cloth."""
     if _is_regular(cloth):
         return separable_filter(cloth, dt)
-    none = np.zeros((0, 0))
-    return Filter(DENSE, dense_filter(cloth, dt), none, none, none, none, 0, none)
+    W = dense_filter(cloth, dt)
+    products = np.array([[0, len(W), 0, 1, 0]])
+    return Filter(W.ravel(), products, np.zeros((len(W), 0)))
 
 
 def dense_filter(cloth: Cloth, dt: float) -> Array:
@@ -56,31 +50,44 @@ def dense_filter(cloth: Cloth, dt: float) -> Array:
 
 
 def separable_filter(cloth: Cloth, dt: float) -> Filter:
-    """W of a regular grid as small products along its columns and its rows.
+    """W of a regular grid as small products along its rows and columns.
 
     The springs that would leave the grid are mirrored at its edges. Then the eigenvectors of H
-    are products of those of the two 1-D Laplacians, which are cosines; sines for rows that hang
-    from a pinned one. With 1-D eigenvalues r and c, structural springs have r + c, shear springs
-    rc + 2r + 2c and flexion springs r² + 4r + c² + 4c.
+    are products of those of the two 1-D Laplacians, which are cosines; sines for columns that
+    hang from a pinned row. With 1-D eigenvalues r and c, structural springs have r + c, shear
+    springs rc + 2r + 2c and flexion springs r² + 4r + c² + 4c. So: to the waves of each row; for
+    each wave, the filter of the columns; and back.
     """
     assert cloth.grid_shape is not None
     rows, columns = cloth.grid_shape
     pins = np.flatnonzero(cloth.inv_mass == 0)
     hangs = np.array_equal(pins, np.arange(columns))
-    left, r = _hanging(rows - 1) if hangs else _free(rows)
-    right, c = _free(columns)
+    V, r = _hanging(rows - 1) if hangs else _free(rows)
+    U, c = _free(columns)
     r = r[:, None]
     k = [_stiffness(cloth, kind) for kind in range(3)]
     H = k[0] * (r + c) + k[1] * (r * c + 2 * r + 2 * c) + k[2] * (r * r + 4 * r + c * c + 4 * c)
     spectrum = 1 / (1 - dt**2 * cloth.inv_mass.max() * H)
-    pull = np.zeros((len(cloth.inv_mass), 0))
+    # One matrix a wave: V diag(spectrum[:, wave]) Vᵀ, summed without BLAS.
+    down = (V[None, :, None, :] * V[None, None] * spectrum.T[:, None, None]).sum(-1)
+    first, size = columns * hangs, columns * columns
+    lines = [(0, columns, first + row * columns, 1, 0) for row in range(len(V))]
+    lines += [(2 * size + c * len(V) ** 2, len(V), first + c, columns, 1) for c in range(columns)]
+    lines += [(size, columns, first + row * columns, 1, 0) for row in range(len(V))]
+    release = np.zeros((rows * columns, 0))
     if not hangs and len(pins):
-        at_row, at_column = np.divmod(pins, columns)
-        waves = spectrum * left[at_row][:, :, None] * right[at_column][:, None, :]
-        sums = (waves[:, None] * left[None, :, :, None]).sum(2)
-        W = (sums[:, :, None] * right[None, None]).sum(3).reshape(len(pins), -1).T
-        pull = -(W[:, :, None] * inverse(W[pins])[None]).sum(1)
-    return Filter(SEPARABLE, left, left.T, right, right.T, spectrum, int(hangs), pull)
+        release = _release(down, U, pins)
+    matrices = np.concatenate([U.T.ravel(), U.ravel(), down.ravel()])
+    return Filter(matrices, np.array(lines), release)
+
+
+def _release(down: Array, U: Array, pins: NDArray[np.int64]) -> Array:
+    """-W[:, pins] W[pins, pins]⁻¹: forces at the pins that hold them still."""
+    row, column = np.divmod(pins, len(U))
+    waves = down[:, :, row] * U[column].T[:, None, :]
+    W = (waves[:, :, None, :] * U.T[:, None, :, None]).sum(0).reshape(-1, len(pins))
+    release: Array = -(W[:, :, None] * inverse(W[pins])[None]).sum(1)
+    return release
 
 
 def _is_regular(cloth: Cloth) -> bool:

@@ -222,101 +222,68 @@ def add_wind_velocities(
 
 
 @kernel
-def mix(out: Any, rows: Any, matrix: Any, base: Any, stride: Any) -> None:
-    """out[o'] = sum_i matrix[o, i] rows[i'], for the particles o' = base + o · stride and i'."""
-    count = matrix.shape[1]
-    for row in range(3 * matrix.shape[0]):
-        o, axis = row // 3, row % 3
-        to, part = out[3 * (base + o * stride) + axis], matrix[o]
-        for lane in range(to.size):
-            to[lane] = 0
-        for i in range(0, count - 3, 4):
-            a, b, c, d = part[i], part[i + 1], part[i + 2], part[i + 3]
-            at, step = 3 * (base + i * stride) + axis, 3 * stride
-            p, q, r, s = rows[at], rows[at + step], rows[at + 2 * step], rows[at + 3 * step]
-            for lane in range(to.size):
-                to[lane] += a * p[lane] + b * q[lane] + c * r[lane] + d * s[lane]
-        for i in range(count // 4 * 4, count):
-            a, p = part[i], rows[3 * (base + i * stride) + axis]
-            for lane in range(to.size):
-                to[lane] += a * p[lane]
-
-
-@kernel
-def filter_velocities(g: Any, filter: Any, pins: Any, work: Any) -> None:
-    """g = W g in the frame of the pins' mean velocity; see `Filter`. work: [3N + 3, L]."""
-    mean = work[g.shape[0] :]
+def frame_velocity(mean: Any, v: Any, pins: Any) -> None:
+    """Mean velocity of the pins, into mean [3, L]; 0 if there are none."""
     for axis in range(mean.shape[0]):
-        for lane in range(g.shape[1]):
+        for lane in range(v.shape[1]):
             mean[axis, lane] = 0
         for p in range(pins.size):
-            part = g.dtype.type(1 / pins.size)
-            for lane in range(g.shape[1]):
-                mean[axis, lane] += part * g[3 * pins[p] + axis, lane]
-    if pins.size > 0:
-        shift(g, mean, -1)
-    for p in range(pins.size):
-        for axis in range(mean.shape[0]):
-            for lane in range(g.shape[1]):
-                g[3 * pins[p] + axis, lane] = 0
-    for form in range(filter.kind, filter.kind + 1):
-        if form == 0:
-            for row in range(g.shape[0]):
-                for lane in range(g.shape[1]):
-                    work[row, lane] = g[row, lane]
-            mix(g, work, filter.left, 0, 1)
-        else:
-            filter_grid(g, filter, work)
-            release_pins(g, filter.pull, pins, work)
-    if pins.size > 0:
-        shift(g, mean, 1)
+            part = v.dtype.type(1 / pins.size)
+            for lane in range(v.shape[1]):
+                mean[axis, lane] += part * v[3 * pins[p] + axis, lane]
 
 
 @kernel
-def shift(g: Any, by: Any, sign: Any) -> None:
-    """g += sign · by, the same [3, L] for all particles."""
-    part = g.dtype.type(sign)
-    for row in range(g.shape[0]):
-        for lane in range(g.shape[1]):
-            g[row, lane] += part * by[row % 3, lane]
+def subtract_frame(g: Any, v: Any, mean: Any) -> None:
+    """g = v - mean."""
+    for row in range(v.shape[0]):
+        for lane in range(v.shape[1]):
+            g[row, lane] = v[row, lane] - mean[row % 3, lane]
 
 
 @kernel
-def filter_grid(g: Any, filter: Any, work: Any) -> None:
-    """The separable filter on the grid's free rows; see `Filter`."""
-    rows, columns = filter.spectrum.shape
-    begin = filter.first * columns
-    for c in range(columns):
-        mix(work, g, filter.left_t, begin + c, columns)
-    for r in range(rows):
-        mix(g, work, filter.right_t, begin + r * columns, 1)
-        for c in range(3 * columns):
-            part = filter.spectrum[r, c // 3]
-            for lane in range(g.shape[1]):
-                g[3 * (begin + r * columns) + c, lane] *= part
-        mix(work, g, filter.right, begin + r * columns, 1)
-    for c in range(columns):
-        mix(g, work, filter.left, begin + c, columns)
+def filter_velocities(both: Any, filter: Any, pins: Any) -> None:
+    """both[1] = W both[0], pins at 0; both [2, 3N, L], of which both[0] is spoilt. See `Filter`."""
+    for row in range(3 * pins.size):
+        for lane in range(both.shape[2]):
+            both[0, 3 * pins[row // 3] + row % 3, lane] = 0
+            both[1, 3 * pins[row // 3] + row % 3, lane] = 0
+    for p in range(filter.products.shape[0]):
+        begin, size, base, stride, source = filter.products[p]
+        rows, out = both[source], both[1 - source]
+        for row in range(3 * size):
+            o, axis = row // 3, row % 3
+            to = out[3 * (base + o * stride) + axis]
+            part = filter.matrices[begin + o * size : begin + (o + 1) * size]
+            for lane in range(to.size):
+                to[lane] = 0
+            for i in range(0, size - 3, 4):
+                a, b, c, d = part[i], part[i + 1], part[i + 2], part[i + 3]
+                at, step = 3 * (base + i * stride) + axis, 3 * stride
+                w, x, y, z = rows[at], rows[at + step], rows[at + 2 * step], rows[at + 3 * step]
+                for lane in range(to.size):
+                    to[lane] += a * w[lane] + b * x[lane] + c * y[lane] + d * z[lane]
+            for i in range(size // 4 * 4, size):
+                a, w = part[i], rows[3 * (base + i * stride) + axis]
+                for lane in range(to.size):
+                    to[lane] += a * w[lane]
+    for p in range(filter.release.shape[1]):
+        for axis in range(3):
+            for lane in range(both.shape[2]):
+                both[0, 3 * p + axis, lane] = both[1, 3 * pins[p] + axis, lane]
+    for row in range(both.shape[1]):
+        for p in range(filter.release.shape[1]):
+            part = filter.release[row // 3, p]
+            for lane in range(both.shape[2]):
+                both[1, row, lane] += part * both[0, 3 * p + row % 3, lane]
 
 
 @kernel
-def release_pins(g: Any, pull: Any, pins: Any, work: Any) -> None:
-    """g += pull g[pins]."""
-    for row in range(3 * pull.shape[1]):
-        for lane in range(g.shape[1]):
-            work[row, lane] = g[3 * pins[row // 3] + row % 3, lane]
-    for row in range(g.shape[0]):
-        for p in range(pull.shape[1]):
-            part = pull[row // 3, p]
-            for lane in range(g.shape[1]):
-                g[row, lane] += part * work[3 * p + row % 3, lane]
+def add_uniform(g: Any, mean: Any, inv_mass: Any, numbers: Any, push: Any, start: Any) -> None:
+    """g += mean + dt (gravity + push), then drag, implicitly: a fall's speed ends at g / drag.
 
-
-@kernel
-def add_uniform(g: Any, inv_mass: Any, numbers: Any, push: Any, start: Any) -> None:
-    """g += dt (gravity + push), then drag, implicitly: the speed of free fall ends at g / drag.
-
-    numbers: dt, drag, time, gravity (3). push: accelerations [3N, B] of all cloths, or empty.
+    mean: [3, L]. numbers: dt, drag, time, gravity (3). push: accelerations [3N, B] of all cloths,
+    or empty.
     """
     F = g.dtype.type
     dt, slow = F(numbers[0]), F(1 / (1 + numbers[0] * numbers[1]))
@@ -328,7 +295,7 @@ def add_uniform(g: Any, inv_mass: Any, numbers: Any, push: Any, start: Any) -> N
             for lane in range(g.shape[1]):
                 g[row, lane] += dt * push[row, start + lane]
         for lane in range(g.shape[1]):
-            g[row, lane] = (g[row, lane] + fall) * slow
+            g[row, lane] = (g[row, lane] + mean[row % 3, lane] + fall) * slow
 
 
 @kernel

@@ -8,6 +8,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -45,7 +46,7 @@ def run_blocks(work: Callable[[int, int], None], count: int, width: int, threads
         work(0, count)
         return
     cuts = [min(count, blocks * part // threads * width) for part in range(threads + 1)]
-    jobs = [_pool(threads - 1).submit(work, *cut) for cut in zip(cuts[1:-1], cuts[2:], strict=True)]
+    jobs = [_pool(threads - 1).submit(work, *cut) for cut in pairwise(cuts[1:])]
     work(cuts[0], cuts[1])
     for job in jobs:
         job.result()

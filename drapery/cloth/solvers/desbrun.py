@@ -198,22 +198,24 @@ def _advance(
     for start in range(first, last, width):
         lanes = min(width, last - start)
         y, u = np.empty((rows, lanes), x.dtype), np.empty((rows, lanes), x.dtype)
-        g, old = np.empty((rows, lanes), x.dtype), np.empty((rows + 3, lanes), x.dtype)
+        both, old = np.empty((2, rows, lanes), x.dtype), np.empty((rows, lanes), x.dtype)
+        g, mean = both[1], np.empty((3, lanes), x.dtype)
         wind = np.empty((3 * plan.controls.size, lanes), x.dtype)
         work = np.empty((18, lanes), x.dtype)
         kernels.take_lanes(y, x, start)
         kernels.take_lanes(u, v, start)
         for step in range(steps):
             time = numbers[2] + step * numbers[0]
-            kernels.take_lanes(g, u, 0)
-            kernels.add_spring_velocities(g, y, plan.springs, plan.inv_mass, dt)
-            kernels.filter_velocities(g, plan.filter, plan.pins, old)
+            kernels.frame_velocity(mean, u, plan.pins)
+            kernels.subtract_frame(both[0], u, mean)
+            kernels.add_spring_velocities(both[0], y, plan.springs, plan.inv_mass, dt)
+            kernels.filter_velocities(both, plan.filter, plan.pins)
             for number in range(gusts.seeds.size):
                 kernels.blow(wind, y, plan.controls, gusts, number, start, time, work)
                 kernels.add_wind_velocities(
                     g, y, u, plan.faces, wind, gusts.numbers[number, 16], plan.inv_mass, dt, work
                 )
-            kernels.add_uniform(g, plan.inv_mass, numbers, push, start)
+            kernels.add_uniform(g, mean, plan.inv_mass, numbers, push, start)
             kernels.move(y, g, old, dt)
             kernels.place_pins(y, old, plan.pins, targets, step, start)
             for _ in range(sweeps):
