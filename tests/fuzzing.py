@@ -4,6 +4,7 @@ The suite runs a short slice of it, `benchmarks/fuzz_formats.py` the long run.
 """
 
 import gzip
+import io
 import random
 import re
 import struct
@@ -11,15 +12,26 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
+import nbtlib
 import world_maker as make
 
-from drapery.banner.formats import schem, structure
+from drapery.banner.formats import (
+    minecraft_tools,
+    needcoolshoes,
+    planet_minecraft,
+    schem,
+    structure,
+)
 from drapery.banner.formats.binary import BINARY_FORMS
 from drapery.errors import DraperyError
 
 MAX_SECONDS = 1.0
+MAX_MEMORY = 200.0
+GZIP = b"\x1f\x8b"
+_STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 
 
 @dataclass
@@ -27,11 +39,13 @@ class Tally:
     """What came of the inputs of one form.
 
     outcomes: how many inputs ended so, by a short name. slowest: the longest reading [s], of
-    processor time. failures: inputs that ended otherwise than in banners or a DraperyError.
+    processor time. heaviest: the most memory that a reading added [MB], where Linux tells it.
+    failures: inputs that ended otherwise than in banners or a DraperyError.
     """
 
     outcomes: Counter[str] = field(default_factory=Counter)
     slowest: float = 0.0
+    heaviest: float = 0.0
     failures: list[tuple[Any, str]] = field(default_factory=list)
 
     @property
@@ -50,12 +64,14 @@ def fuzz(
     rng = random.Random(seed)
     tally = Tally()
     for _ in range(count):
-        _judge(read, mutate(rng, samples), tally)
+        judge(read, mutate(rng, samples), tally)
     return tally
 
 
-def _judge(read: Callable[[Any], Iterable[Any]], given: Any, tally: Tally) -> None:
-    start = time.process_time()
+def judge(read: Callable[[Any], Iterable[Any]], given: Any, tally: Tally) -> None:
+    """Read one input and note how it ended."""
+    before, start = _memory("VmRSS"), time.process_time()
+    _forget_peak()
     try:
         number = len(list(read(given)))
         outcome = "no banner" if number == 0 else "a banner" if number == 1 else "banners"
@@ -69,24 +85,126 @@ def _judge(read: Callable[[Any], Iterable[Any]], given: Any, tally: Tally) -> No
     seconds = time.process_time() - start
     if seconds > MAX_SECONDS:
         tally.failures.append((given, f"took {seconds:.2f} s"))
+    grown = _memory("VmHWM") - before
+    if grown > MAX_MEMORY:
+        tally.failures.append((given, f"took {grown:.0f} MB"))
     tally.slowest = max(tally.slowest, seconds)
+    tally.heaviest = max(tally.heaviest, grown)
     tally.outcomes[outcome] += 1
+
+
+def _memory(name: str) -> float:
+    """This process's memory now (VmRSS) or at its peak (VmHWM) [MB]; 0 if it is not told."""
+    if not _STATUS.exists():
+        return 0.0
+    line = next(line for line in _STATUS.read_text().splitlines() if line.startswith(name))
+    return int(line.split()[1]) / 1024
+
+
+def _forget_peak() -> None:
+    """Let the peak begin anew. See proc(5), /proc/pid/clear_refs."""
+    if _CLEAR.exists():
+        _CLEAR.write_text("5")
 
 
 def kind_of(message: str) -> str:
     """An error without its place and numbers: `over N tags by byte N`."""
     tail = message.rpartition(": ")[2] if ": " in message else message
-    tail = re.sub(r"'[^']*'|\"[^\"]*\"", "'…'", tail)
-    return re.sub(r"-?\d+", "N", tail).partition(";")[0][:60]
+    tail = re.sub(r"'[^']*'|\"[^\"]*\"", "'…'", tail).partition(";")[0]
+    tail = re.sub(r"\(.*?\)", "(…)", tail).rstrip(")")
+    return re.sub(r"[+-]?[\d.,]+(e[+-]?\d+)?", "N", tail)[:60]
 
 
 def mutate_bytes(rng: random.Random, samples: Sequence[bytes]) -> bytes:
-    """A sample with one to eight changes; compressed ones are mostly changed inside."""
+    """A sample with one to eight changes: half of them of its tree, the rest of its bytes."""
     data = rng.choice(samples)
-    packed = data[:2] == b"\x1f\x8b"
-    if packed and rng.random() < 0.8:
+    if rng.random() < 0.5:
+        return _with_other_tree(rng, data)
+    if data[:2] == GZIP and rng.random() < 0.8:
         return gzip.compress(_changed(rng, gzip.decompress(data), samples), 1, mtime=0)
     return _changed(rng, data, samples)
+
+
+def _with_other_tree(rng: random.Random, data: bytes) -> bytes:
+    """The file with changed tags, written anew, so that the reader gets past the bytes."""
+    if data[:2] == GZIP:
+        return gzip.compress(_changed_nbt(rng, gzip.decompress(data), "big"), 1, mtime=0)
+    if data[0] == 10:
+        return _changed_nbt(rng, data, "little")
+    chunks = [_chunk_nbt(data, number) for number in range(3)]
+    number = rng.randrange(3)
+    chunks[number] = _changed_nbt(rng, chunks[number], "big")
+    bodies = [struct.pack(">IB", len(chunk) + 1, 3) + chunk for chunk in chunks]
+    return make.region({(n, 0): body for n, body in enumerate(bodies)})
+
+
+def _chunk_nbt(region: bytes, number: int) -> bytes:
+    at = int.from_bytes(region[4 * number : 4 * number + 3], "big") * 4096
+    return region[at + 5 : at + 4 + int.from_bytes(region[at : at + 4], "big")]
+
+
+def _changed_nbt(rng: random.Random, raw: bytes, order: str) -> bytes:
+    root = nbtlib.File.parse(io.BytesIO(raw), order)
+    for _ in range(rng.randint(1, 8)):
+        _change_tag(rng, root)
+    out = io.BytesIO()
+    root.write(out, order)
+    return out.getvalue()
+
+
+def _change_tag(rng: random.Random, root: nbtlib.Compound) -> None:
+    """Delete, replace, rename or multiply one tag of the tree."""
+    parents = [node for node in _containers(root) if len(node)]
+    if not parents:
+        return
+    parent = rng.choice(parents)
+    other = rng.choice(parents)
+    if isinstance(parent, list):
+        at = rng.randrange(len(parent))
+        if rng.random() < 0.5:
+            parent[at : at + 1] = [parent[at]] * rng.choice((0, 2, 20, 300))
+        elif fitting := [tag for tag in _ODD_TAGS if isinstance(tag, type(parent[at]))]:
+            parent[at] = rng.choice(fitting)
+        return
+    key = rng.choice(list(parent))
+    tag = parent.pop(key) if rng.random() < 0.6 else parent[key]
+    if rng.random() < 0.3 and not isinstance(other, list):
+        key = rng.choice(list(other) or [key])
+    parent[key] = rng.choice(_ODD_TAGS) if rng.random() < 0.6 else tag
+
+
+def _containers(root: Any) -> list[Any]:
+    found, left = [], [root]
+    while left:
+        node = left.pop()
+        if isinstance(node, dict | list):
+            found.append(node)
+            left.extend(node.values() if isinstance(node, dict) else node)
+    return found
+
+
+_ODD_TAGS = [
+    *(nbtlib.Int(n) for n in (-1, 0, 1, 15, 16, 99, 2**31 - 1, -(2**31))),
+    *(nbtlib.Byte(n) for n in (-128, 0, 1, 127)),
+    *(nbtlib.Short(n) for n in (-1, 0, 2**15 - 1)),
+    *(nbtlib.Long(n) for n in (-(2**63), 2**63 - 1)),
+    *(nbtlib.Double(n) for n in (float("nan"), float("inf"), 1e300, -0.5)),
+    *(nbtlib.String(s) for s in ("", "Banner", "minecraft:banner", "minecraft:red_banner", "cr")),
+    *(
+        nbtlib.String(s)
+        for s in ("minecraft:shield", "a:b", "red", "\n\t", "x" * 9999, "\U0001f600")
+    ),
+    *(nbtlib.List[kind]() for kind in (nbtlib.Int, nbtlib.Compound, nbtlib.String, nbtlib.List)),
+    nbtlib.List[nbtlib.Int](range(3)),
+    nbtlib.List[nbtlib.Double]([float("nan")] * 3),
+    nbtlib.List[nbtlib.Compound]([nbtlib.Compound()] * 20),
+    nbtlib.Compound(),
+    nbtlib.ByteArray([-1] * 20),
+    nbtlib.ByteArray([]),
+    nbtlib.IntArray([-1, 2**31 - 1, 5]),
+    nbtlib.LongArray([-1] * 342),
+    nbtlib.LongArray([]),
+]
 
 
 def _changed(rng: random.Random, data: bytes, samples: Sequence[bytes]) -> bytes:
@@ -240,3 +358,20 @@ def binary_samples() -> dict[str, list[bytes]]:
 def binary_readers() -> dict[str, Callable[[bytes], Iterable[Any]]]:
     """The reader of each form of bytes, with all that it takes to find its banners."""
     return {form.name: form.read for form in BINARY_FORMS}
+
+
+def text_readers() -> dict[str, Callable[[str], Iterable[Any]]]:
+    """The reader of each form of text."""
+    return {
+        form.NAME: lambda text, form=form: [form.parse(text)]
+        for form in (planet_minecraft, needcoolshoes, minecraft_tools)
+    }
+
+
+def text_samples() -> dict[str, list[str]]:
+    """Sound texts of every form of text."""
+    banners = (make.LIME, make.RED, make.PLAIN)
+    return {
+        form.NAME: [form.EXAMPLE, *map(form.write, banners)]
+        for form in (planet_minecraft, needcoolshoes, minecraft_tools)
+    }

@@ -311,7 +311,7 @@ def test_layouts_with_wrong_parts_are_refused(name: str):
 @given(st.integers(2, 15), st.booleans(), st.data())
 def test_unpacking_undoes_packing(bits: int, spanning: bool, data):
     numbers = data.draw(st.lists(st.integers(0, 2**bits - 1), min_size=1, max_size=200))
-    longs = np.array(make.packed(numbers, bits, spanning))
+    longs = np.array(make.packed(numbers, bits, spanning), np.int64)
     places = np.arange(len(numbers))
     assert unpack(longs, bits, places, spanning).tolist() == numbers
     if spanning:
@@ -332,7 +332,7 @@ def test_long_arrays_are_read_in_pieces_that_join(monkeypatch: pytest.MonkeyPatc
     numbers = [(7 * n * n) % 300 for n in range(1000)]
     for pieces in (
         palettes.varint_pieces(make.varints(numbers), "f"),
-        palettes.packed_pieces(np.array(make.packed(numbers, 9, True)), 9, len(numbers)),
+        palettes.packed_pieces(np.array(make.packed(numbers, 9, True), np.int64), 9, len(numbers)),
     ):
         runs = list(pieces)
         assert len(runs) > 10 and all(len(values) <= 64 for _, values in runs)

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from drapery.banner.formats.nbt import MAX_DEPTH, MAX_TAGS, is_nbt, read_nbt
+from drapery.banner.formats.nbt import MAX_DEPTH, MAX_TAGS, Numbers, is_nbt, read_nbt
 from drapery.errors import DesignError
 
 ORDERS = ["big", "little"]
@@ -33,8 +33,10 @@ def plain(tree):
         return {str(key): plain(value) for key, value in tree.items()}
     if isinstance(tree, bytes):
         return list(np.frombuffer(tree, np.int8))
+    if isinstance(tree, Numbers):
+        return plain(tree.array().tolist())
     if isinstance(tree, np.ndarray):
-        return [plain(value) for value in tree.tolist()]
+        return plain(tree.tolist())
     if isinstance(tree, list):
         return [plain(value) for value in tree]
     return tree if isinstance(tree, str) else float(tree) if tree % 1 else int(tree)

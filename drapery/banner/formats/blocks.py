@@ -4,8 +4,10 @@ from collections.abc import Callable, Iterator
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.nbt import Numbers
 from drapery.banner.formats.tree import Tree, banner_from_block_entity, base_of, is_banner_id
 from drapery.banner.names import shown
 from drapery.errors import DesignError
@@ -51,8 +53,6 @@ def spot(value: Tree, where: str) -> Spot:
     """
     if isinstance(value, dict):
         value = [value.get(axis) for axis in "xyz"]
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
     if not isinstance(value, list) or len(value) != 3 or not all(map(_is_finite, value)):
         raise DesignError(f"{where}: {shown(value)} is no position of three numbers")
     return int(value[0] // 1), int(value[1] // 1), int(value[2] // 1)
@@ -60,6 +60,15 @@ def spot(value: Tree, where: str) -> Spot:
 
 def _is_finite(value: Any) -> bool:
     return isinstance(value, int | float) and abs(value) < 2**63
+
+
+def longs(value: Tree, where: str) -> NDArray[np.int64]:
+    """The numbers of a long array; none of None. Raises DesignError for anything else."""
+    if isinstance(value, Numbers) and value.dtype.endswith("i8"):
+        return value.array().astype(np.int64)
+    if value is None or (isinstance(value, list) and all(isinstance(n, int) for n in value)):
+        return np.array(value or (), np.int64)
+    raise DesignError(f"{where}: {shown(value)} is no array of longs; save the file anew")
 
 
 def at_block(where: str, place: Spot) -> str:

@@ -19,6 +19,7 @@ from drapery.banner.formats.blocks import (
     banners_of_entities,
     compound,
     compounds,
+    longs,
     raise_error,
     spot,
     state_name,
@@ -77,12 +78,12 @@ def _block(section: dict[str, Tree] | None, place: Spot, where: str) -> str | No
 
 def _index(states: dict[str, Tree], count: int, number: int, where: str) -> int:
     """The palette index of one of the section's blocks."""
-    longs = np.asarray(states.get("data", states.get("BlockStates", ())))
+    packed = longs(states.get("data", states.get("BlockStates")), where)
     bits = bits_for(count, LEAST_BITS)
-    spanning = len(longs) == longs_needed(SECTION_BLOCKS, bits, spanning=True)
-    if not spanning and len(longs) != longs_needed(SECTION_BLOCKS, bits, spanning=False):
+    spanning = len(packed) == longs_needed(SECTION_BLOCKS, bits, spanning=True)
+    if not spanning and len(packed) != longs_needed(SECTION_BLOCKS, bits, spanning=False):
         raise DesignError(
-            f"{where}: {len(longs)} longs do not hold a section of {count} block states;"
+            f"{where}: {len(packed)} longs do not hold a section of {count} block states;"
             " let the game save the chunk anew"
         )
-    return int(unpack(longs, bits, np.array([number]), spanning)[0])
+    return int(unpack(packed, bits, np.array([number]), spanning)[0])

@@ -6,8 +6,6 @@ next; x is fastest, then z, then y. A size may be negative: the box then lies th
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from drapery.banner.formats.blocks import (
     OnError,
     Spot,
@@ -16,6 +14,7 @@ from drapery.banner.formats.blocks import (
     banners_of_entities,
     compound,
     compounds,
+    longs,
     plain_banners,
     raise_error,
     spot,
@@ -72,15 +71,13 @@ def _names(
     states = [state_name(state) for state in compounds(region, where, "BlockStatePalette")]
     box = abs(size[0]), abs(size[1]), abs(size[2])
     count, bits = box[0] * box[1] * box[2], bits_for(len(states), LEAST_BITS)
-    longs = np.asarray(region.get("BlockStates", ()))
-    if longs.dtype.kind != "i" or longs.ndim != 1:
-        raise DesignError(f"{where}: BlockStates is no array of longs; save the file anew")
-    if len(longs) < longs_needed(count, bits, spanning=True):
+    packed = longs(region.get("BlockStates"), where)
+    if len(packed) < longs_needed(count, bits, spanning=True):
         raise DesignError(
             f"{where}: BlockStates holds fewer than {count} blocks; save the file anew"
         )
     palette = {number: name for number, name in enumerate(states) if name}
-    return names_in_box(packed_pieces(longs, bits, count), palette, box, places, where)
+    return names_in_box(packed_pieces(packed, bits, count), palette, box, places, where)
 
 
 def _corner(position: Spot, size: Spot) -> Spot:

@@ -2,8 +2,9 @@
 
 A file's tree comes as plain Python: compounds are `dict`, lists `list`, numbers `int` and
 `float`, strings `str`. Byte arrays are `bytes`; int and long arrays and lists of numbers are
-numpy views of the file, but `list` if they are short. nbtlib reads past a file's end as zeros
-and recurses as deep as a file tells it to, so foreign files come through here.
+`Numbers`, which stay in the file until they are wanted, but `list` if they are short. nbtlib
+reads past a file's end as zeros and recurses as deep as a file tells it to, so foreign files
+come through here.
 """
 
 import struct
@@ -28,7 +29,7 @@ MAX_NAMES = 4096
 """Names to share between compounds; a file has some hundreds."""
 
 SHORT_LIST = 4
-"""Lists of up to so many numbers (positions, rotations) are `list`; longer ones are views."""
+"""Lists of up to so many numbers (positions, rotations) are `list`; longer ones are Numbers."""
 
 Order: TypeAlias = Literal["big", "little"]
 Reader: TypeAlias = Callable[[bytes, int], tuple[Any, int]]
@@ -36,7 +37,7 @@ Reader: TypeAlias = Callable[[bytes, int], tuple[Any, int]]
 Length: TypeAlias = Callable[[bytes, int], tuple[Any, ...]]
 
 _COST = [1] * 11 + [2, 2]
-"""Tags that a tag of each kind counts for: a numpy view is as heavy as two."""
+"""Tags that a tag of each kind counts for: Numbers are as heavy as two."""
 
 _END, _COMPOUND, _LAST = 0, 10, 12
 _NUMBERS = {1: "i1", 2: "i2", 3: "i4", 4: "i8", 5: "f4", 6: "f8"}
@@ -50,6 +51,20 @@ class Codec(NamedTuple):
     int_: Length
     readers: list[Reader | None]
     dtypes: dict[int, str]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Numbers:
+    """An array or a long list of numbers, within the file's bytes. True, and equal to no other."""
+
+    data: bytes
+    start: int
+    length: int
+    dtype: str
+
+    def array(self) -> NDArray[Any]:
+        """The numbers, shape [length], not copied."""
+        return np.frombuffer(self.data, self.dtype, self.length, self.start)
 
 
 class _BytesError(Exception):
@@ -225,13 +240,10 @@ def _list_head(cursor: _Cursor) -> tuple[int, int]:
     return kind, length
 
 
-def _numbers(cursor: _Cursor, kind: int, length: int) -> Tree:
-    array, cursor.at = _view(cursor.data, cursor.at, cursor.codec.dtypes[kind], length)
-    return _short(array)
-
-
-def _short(array: NDArray[Any]) -> Any:
-    return array.tolist() if len(array) <= SHORT_LIST else array
+def _numbers(cursor: _Cursor, kind: int, length: int) -> list[Any] | Numbers:
+    dtype = cursor.codec.dtypes[kind]
+    value, cursor.at = _array(cursor.data, cursor.at, dtype, length)
+    return value
 
 
 def _values(cursor: _Cursor, reader: Reader, length: int) -> list[Tree]:
@@ -263,14 +275,14 @@ def _text(raw: bytes) -> str:
     return halves.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
 
 
-def _view(data: bytes, at: int, dtype: str, length: int) -> tuple[NDArray[Any], int]:
-    """An array's numbers, not copied."""
+def _array(data: bytes, at: int, dtype: str, length: int) -> tuple[list[Any] | Numbers, int]:
     stop = at + length * int(dtype[-1])
     if length < 0 or stop > len(data):
         raise _BytesError(
-            f"an array of {length} before byte {at} is longer than the rest; save it anew"
+            f"an array of {length} at byte {at} is longer than the rest; save it anew"
         )
-    return np.frombuffer(data, dtype, length, at), stop
+    numbers = Numbers(data, at, length, dtype)
+    return (numbers.array().tolist() if length <= SHORT_LIST else numbers), stop
 
 
 def _number_reader(letter: str) -> Reader:
@@ -291,17 +303,18 @@ def _string_reader(length_of: Length) -> Reader:
 
 
 def _array_reader(length_of: Length, dtype: str) -> Reader:
-    def read(data: bytes, at: int) -> tuple[Any, int]:
-        array, stop = _view(data, at + 4, dtype, length_of(data, at)[0])
-        return _short(array), stop
+    def read(data: bytes, at: int) -> tuple[list[Any] | Numbers, int]:
+        return _array(data, at + 4, dtype, length_of(data, at)[0])
 
     return read
 
 
 def _byte_array_reader(length_of: Length) -> Reader:
     def read(data: bytes, at: int) -> tuple[bytes, int]:
-        array, stop = _view(data, at + 4, "|i1", length_of(data, at)[0])
-        return array.tobytes(), stop
+        stop = at + 4 + length_of(data, at)[0]
+        if not at + 4 <= stop <= len(data):
+            raise _BytesError(f"an array at byte {at} is longer than the rest; save it anew")
+        return data[at + 4 : stop], stop
 
     return read
 

@@ -1,6 +1,6 @@
 """Which block stands where: palettes of block states and the arrays that index them."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -59,7 +59,7 @@ def names_in_box(
     }
 
 
-def varint_pieces(data: bytes, where: str) -> Iterator[tuple[int, NDArray[Any]]]:
+def varint_pieces(data: bytes, where: str) -> Pieces:
     """Numbers of seven bits a byte, lowest first; a byte's eighth bit says that one follows.
 
     Raises DesignError for a number of more than five bytes or without an end.
@@ -100,14 +100,14 @@ def longs_needed(count: int, bits: int, spanning: bool) -> int:
 
 
 def unpack(
-    longs: NDArray[Any], bits: int, places: NDArray[np.int64], spanning: bool
+    longs: NDArray[np.int64], bits: int, places: NDArray[np.int64], spanning: bool
 ) -> NDArray[np.int64]:
     """The indices at the given places of an array of longs, filled from the lowest bit.
 
     spanning: an index may begin in one long and end in the next (Litematica; the game to 1.15).
     Since 1.16 it may not, and the bits left over in a long are empty.
     """
-    words = np.asarray(longs).astype(np.uint64)
+    words = longs.view(np.uint64)
     if spanning:
         word, shift = places * bits // 64, places * bits % 64
     else:
@@ -120,7 +120,7 @@ def unpack(
     return ((low | high) & np.uint64((1 << bits) - 1)).astype(np.int64)
 
 
-def packed_pieces(longs: NDArray[Any], bits: int, count: int) -> Iterator[tuple[int, NDArray[Any]]]:
+def packed_pieces(longs: NDArray[np.int64], bits: int, count: int) -> Pieces:
     """All `count` indices of a spanning array of longs, a piece at a time."""
     for first in range(0, count, PIECE):
         places = np.arange(min(PIECE, count - first))

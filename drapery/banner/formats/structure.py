@@ -35,27 +35,25 @@ def find(
     tree: of the whole file. Raises DesignError where the file is no structure.
     """
     names = _palette(tree, where)
-    banners = {state for state, name in enumerate(names) if is_banner_id(name)}
     bare_blocks: dict[Spot, str] = {}
     for block in compounds(tree, where, "blocks"):
         state, entity = block.get("state"), block.get("nbt")
-        if entity is None and state not in banners:
-            continue
-        place = spot(block.get("pos"), where)
-        name = names[state] if isinstance(state, int) and 0 <= state < len(names) else None
+        name = names.get(state) if isinstance(state, int) else None
         if isinstance(entity, dict):
-            yield from banners_of_block(entity, name, at_block(where, place), on_error)
-        elif name:
-            bare_blocks[place] = name
+            at = at_block(where, spot(block.get("pos"), where))
+            yield from banners_of_block(entity, name, at, on_error)
+        elif name and is_banner_id(name):
+            bare_blocks[spot(block.get("pos"), where)] = name
     yield from plain_banners(bare_blocks, where)
     yield from banners_of_entities(compounds(tree, where, "entities"), where, on_error)
 
 
-def _palette(tree: dict[str, Tree], where: str) -> list[str | None]:
-    """The names of the states; of several palettes (ships), which differ in wood, the first."""
+def _palette(tree: dict[str, Tree], where: str) -> dict[int, str]:
+    """The ids of the states; of several palettes (ships), which differ in wood, the first."""
     if isinstance(several := tree.get("palettes"), list):
         tree = {"palette": several[0] if several else []}
-    return [state_name(state) for state in compounds(tree, where, "palette")]
+    states = enumerate(compounds(tree, where, "palette"))
+    return {number: name for number, state in states if (name := state_name(state))}
 
 
 def write(banners: Sequence[Banner]) -> bytes:
