@@ -7,6 +7,7 @@ from pathlib import Path
 from drapery.assets import banner, shield
 from drapery.assets.blocks import BLOCKS
 from drapery.assets.canvas import Texels
+from drapery.assets.figure import DANCER, TRAVELLER, cape_sheet, figure_sheet
 from drapery.assets.png import encode
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DraperyError, OutputError
@@ -38,9 +39,18 @@ def block_textures() -> dict[str, Texels]:
     return {f"block/{name}.png": draw() for name, draw in BLOCKS.items()}
 
 
+def figure_sheets() -> dict[str, Texels]:
+    """The skins of our scenes' people by their path within the textures."""
+    return {
+        "entity/player/traveller.png": figure_sheet(TRAVELLER),
+        "entity/player/dancer.png": figure_sheet(DANCER),
+        "entity/player/cape.png": cape_sheet(),
+    }
+
+
 def all_sheets() -> dict[str, Texels]:
     """Every texture of ours by its path within the textures."""
-    return {**banner_sheets(), **shield_sheets(), **block_textures()}
+    return {**banner_sheets(), **shield_sheets(), **block_textures(), **figure_sheets()}
 
 
 def pack_description() -> str:

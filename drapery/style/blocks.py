@@ -1,0 +1,79 @@
+"""Ground and walls of blocks: only the faces that can be seen, one model a texture."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from drapery.banner.packs import Packs
+from drapery.mesh import Array, Mesh
+from drapery.render.scene import Coat, Look, Model
+
+Cell = tuple[int, int, int]
+"""A block by its least corner [m]: x, y, z."""
+
+Cells = Mapping[Cell, str]
+
+FACES: dict[str, tuple[str, str, str]] = {
+    "grass": ("grass_block_top", "grass_block_side", "dirt"),
+    "oak_log": ("oak_log_top", "oak_log", "oak_log_top"),
+}
+"""Top, side and bottom of blocks that do not look alike from all sides."""
+
+SIDES = (
+    # Normal, upper left corner, step right, step down; of a unit cube, seen from outside.
+    ((0, 1, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1)),
+    ((0, -1, 0), (0, 0, 1), (1, 0, 0), (0, 0, -1)),
+    ((0, 0, 1), (0, 1, 1), (1, 0, 0), (0, -1, 0)),
+    ((0, 0, -1), (1, 1, 0), (-1, 0, 0), (0, -1, 0)),
+    ((1, 0, 0), (1, 1, 1), (0, 0, -1), (0, -1, 0)),
+    ((-1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)),
+)
+
+
+def blocks(cells: Cells, packs: Packs) -> tuple[Model, ...]:
+    """The visible faces of blocks named like `stone`, `oak_planks` or `grass`.
+
+    Raises PackError for a texture that cannot be read.
+    """
+    by_texture: dict[str, list[tuple[Array, Array]]] = {}
+    for cell, kind in sorted(cells.items()):
+        for normal, start, right, down in SIDES:
+            if tuple(np.add(cell, normal)) not in cells:
+                quad = _corners(np.add(cell, start), np.array(right), np.array(down))
+                sides = by_texture.setdefault(_texture(kind, normal[1]), [])
+                sides.append((quad, np.tile(np.array(normal, float), (4, 1))))
+    return tuple(
+        Model(_quads(sides), (Look((Coat(packs.texture(f"block/{texture}")),)),))
+        for texture, sides in sorted(by_texture.items())
+    )
+
+
+def plateau(width: int, depth: int, kind: str = "grass", thick: int = 1) -> dict[Cell, str]:
+    """A level piece of ground around the origin, its top at y = 0; dirt below grass."""
+    low = "dirt" if kind == "grass" else kind
+    return {
+        (x, -1 - y, z): low if y else kind
+        for x in range(-(width // 2), width - width // 2)
+        for y in range(thick)
+        for z in range(-(depth // 2), depth - depth // 2)
+    }
+
+
+def _texture(kind: str, up: int) -> str:
+    top, side, bottom = FACES.get(kind, (kind, kind, kind))
+    return {1: top, 0: side, -1: bottom}[up]
+
+
+def _corners(start: Array, right: Array, down: Array) -> Array:
+    return start + np.stack([0 * right, right, down, right + down]).astype(float)
+
+
+def _quads(sides: list[tuple[Array, Array]]) -> Mesh:
+    count = len(sides)
+    pair = np.array([[0, 2, 1], [1, 2, 3]], np.int32)
+    return Mesh(
+        np.concatenate([quad for quad, _ in sides]),
+        np.concatenate([normals for _, normals in sides]),
+        (pair + 4 * np.arange(count, dtype=np.int32)[:, None, None]).reshape(-1, 3),
+        np.tile(np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]), (count, 1)),
+    )

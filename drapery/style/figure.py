@@ -1,0 +1,83 @@
+"""A walking figure of boxes: its parts, how it is posed, and what it wears.
+
+It stands on y = 0 at the origin, faces +z, and is 32 texels of 1/16 m tall, like the game's
+people; it wears any skin of their layout, 64 x 64 texels.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from drapery.banner.packs import Packs
+from drapery.mesh import Array, Mesh
+from drapery.render.scene import Coat, Look
+from drapery.style.boxes import Box, box_mesh, join, upright
+from drapery.style.skin import box_skin
+
+TEXEL = 1.0 / 16.0
+"""Metres per texel of a figure's skin."""
+CAPE_SKIN = box_skin((0, 0), (10, 16, 1), (64, 64))
+CAPE_SIZE = (10 * TEXEL, 16 * TEXEL)
+"""Width and length of a cape [m]; it is one texel thick."""
+
+Placed = tuple[Array, Array]
+"""A rigid pose: position [m], shape [3], and rotation matrix, shape [3, 3]."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the figure: its box [texels, y down from the ground] and the joint it turns about."""
+
+    box: Box
+    joint: tuple[float, float, float]
+
+    @property
+    def centre(self) -> Array:
+        """Middle of the box at rest [m], shape [3]."""
+        return to_metres(np.array(self.box.corner) + np.array(self.box.size) / 2)
+
+    @property
+    def extent(self) -> Array:
+        """Edge lengths [m], shape [3]."""
+        return np.array(self.box.size) * TEXEL
+
+
+def to_metres(texels: Array) -> Array:
+    """A place in the model [texels, y down, z back] in the world [m, y up, z to the front]."""
+    return texels * np.array([TEXEL, -TEXEL, -TEXEL])
+
+
+PARTS: dict[str, Part] = {
+    "head": Part(Box((-4, -32, -4), (8, 8, 8), (0, 0)), (0, -24, 0)),
+    "body": Part(Box((-4, -24, -2), (8, 12, 4), (16, 16)), (0, -24, 0)),
+    "right_arm": Part(Box((-8, -24, -2), (4, 12, 4), (40, 16)), (-6, -22, 0)),
+    "left_arm": Part(Box((4, -24, -2), (4, 12, 4), (32, 48)), (6, -22, 0)),
+    "right_leg": Part(Box((-4, -12, -2), (4, 12, 4), (0, 16)), (-2, -12, 0)),
+    "left_leg": Part(Box((0, -12, -2), (4, 12, 4), (16, 48)), (2, -12, 0)),
+}
+
+
+def figure_mesh(poses: Mapping[str, Placed]) -> Mesh:
+    """The figure with each part in its pose; a part that is not named stays at rest."""
+    return join([_posed(mesh, poses.get(name)) for name, mesh in _REST.items()])
+
+
+def figure_look(skin: str, packs: Packs) -> Look:
+    """A figure's skin, or a cape, by name: `traveller`, `dancer`, `cape`. Raises PackError."""
+    return Look((Coat(packs.texture(f"entity/player/{skin}")),))
+
+
+def _posed(mesh: Mesh, pose: Placed | None) -> Mesh:
+    if pose is None:
+        return mesh
+    position, rotation = pose
+    # einsum adds in a fixed order; BLAS may not.
+    return replace(
+        mesh,
+        positions=np.einsum("ij,vj->vi", rotation, mesh.positions) + position,
+        normals=np.einsum("ij,vj->vi", rotation, mesh.normals),
+    )
+
+
+_REST = {name: upright(box_mesh(part.box), TEXEL, (0, 0, 0)) for name, part in PARTS.items()}
