@@ -18,39 +18,47 @@ if TYPE_CHECKING:
     from drapery.scenes.catalogue import Entry, Shot
 
 
-def draw(banner: Banner, **options: Unpack[Options]) -> Frame:
+def draw(banner: Banner | None = None, **options: Unpack[Options]) -> Frame:
     """Draw a banner as cloth; the options are those of `Settings`.
 
+    banner: also a shield; None for a cape or elytra, whose texture is an option.
     Raises OptionError, PackError or BackendError.
     """
     return draw_with(banner, Settings(**options))
 
 
-def draw_with(banner: Banner, settings: Settings) -> Frame:
+def draw_with(banner: Banner | None, settings: Settings) -> Frame:
     """`draw` with options that have been checked before."""
-    from drapery.scenes.banner import still
+    from drapery.scenes.staging import still
 
-    packs = open_packs(settings.packs)
+    packs = open_packs(settings.packs, format=settings.format)
     (frame,) = _drawn([still(banner, packs, settings)], packs, settings)
     return frame
 
 
 def animate(
-    banner: Banner, *, seconds: float = 4.0, fps: float = 20.0, **options: Unpack[Options]
+    banner: Banner | None = None,
+    *,
+    seconds: float = 4.0,
+    fps: float = 20.0,
+    **options: Unpack[Options],
 ) -> Animation:
     """Draw a banner waving, as a seamless loop; the options are those of `Settings`.
 
+    banner: see `draw`. What does not wave is shown from all around.
     seconds, fps: length of the loop [s] and its frames per second.
     Raises OptionError, PackError or BackendError.
     """
     return Animation(tuple(frames(banner, seconds, fps, Settings(**options))), fps)
 
 
-def frames(banner: Banner, seconds: float, fps: float, settings: Settings) -> Iterator[Frame]:
+def frames(
+    banner: Banner | None, seconds: float, fps: float, settings: Settings
+) -> Iterator[Frame]:
     """The frames of `animate`, one by one as they are drawn; see `frame_count`."""
-    from drapery.scenes.banner import loop
+    from drapery.scenes.staging import loop
 
-    packs = open_packs(settings.packs)
+    packs = open_packs(settings.packs, format=settings.format)
     count = frame_count(seconds, fps)
     return _drawn(loop(banner, packs, settings, count, fps), packs, settings)
 
@@ -84,16 +92,17 @@ def draw_face(
     banner: Banner,
     *,
     packs: Sequence[str | Path] = (),
+    format: int | None = None,
     scale: int = 8,
     side: Literal["front", "back"] = "front",
 ) -> Frame:
     """The plain face of a banner, 20 x 40 texels, each `scale` pixels wide in a 64 x 64 pack.
 
-    Raises PackError.
+    format: the pack format of the game to be, as in `Settings`. Raises PackError.
     """
     from drapery.banner.sprites import face
 
-    opened = open_packs(packs)
+    opened = open_packs(packs, format=format)
     texels = face(banner, opened, side)
     _tell(opened)
     # Packs of other sizes keep the picture's size: nearest texel at each pixel's centre.

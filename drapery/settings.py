@@ -7,8 +7,10 @@ from typing import Literal, TypedDict, get_args
 
 from drapery.errors import OptionError
 
+Kind = Literal["auto", "banner", "shield", "cape", "elytra"]
 Pose = Literal["cloth", "vanilla"]
-Placement = Literal["standing", "wall"]
+Placement = Literal["standing", "wall", "item"]
+Facing = Literal["south", "west", "north", "east"]
 LayerMode = Literal["stacked", "flat"]
 
 MAX_SIDE = 8192
@@ -16,14 +18,23 @@ MAX_SIDE = 8192
 MAX_GRID = 129
 """The most particles along one side of a flag."""
 MAX_FRAMES = 3600
+ROTATIONS = 16
+"""A standing banner turns in steps of a sixteenth."""
+MAX_FORMAT = 9999
+"""Pack formats beyond this are a slip of the finger; 1.21.11 has 75."""
 
 
 class Options(TypedDict, total=False):
     """Keyword options of `draw` and `animate`; see `Settings` for what each means."""
 
     packs: tuple[str | Path, ...] | list[str | Path]
+    format: int | None
+    kind: Kind
+    texture: str | Path | None
     pose: Pose
     placement: Placement
+    rotation: int
+    facing: Facing | None
     view: str
     size: tuple[int, int]
     grid: tuple[int, int]
@@ -41,8 +52,13 @@ class Settings:
     """Checked options. Raises OptionError, naming the option and what it may be.
 
     packs: resource packs (folder, zip or jar) laid over our own art; later ones win.
+    format: the pack format of the game to be (46 is 1.21.4); None reads each pack as its newest.
+    kind: what is drawn: `banner`, `shield`, `cape` or `elytra`; `auto` is what the design is of.
+    texture: the picture that a cape or elytra wears, as players have it: 64 x 32, or a multiple.
     pose: `cloth` is simulated; `vanilla` is the game's own stiff board.
-    placement: `standing` on a pole or hung on a `wall`.
+    placement: `standing` on a pole, hung on a `wall`, or an `item` in its slot of the inventory.
+    rotation: which way what stands is turned, in sixteenths: 0 south, 4 west, 8 north, 12 east.
+    facing: which way a banner on a wall looks; south where none is given.
     view: a named view of `drapery.render.views`: front, back, iso, gui, hero.
     size: width and height of the picture [pixels].
     grid: particles across and down the cloth.
@@ -56,8 +72,13 @@ class Settings:
     """
 
     packs: tuple[str | Path, ...] = ()
+    format: int | None = None
+    kind: Kind = "auto"
+    texture: str | Path | None = None
     pose: Pose = "cloth"
     placement: Placement = "standing"
+    rotation: int = 0
+    facing: Facing | None = None
     view: str = "front"
     size: tuple[int, int] = (512, 512)
     grid: tuple[int, int] = (5, 9)
@@ -71,8 +92,12 @@ class Settings:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "packs", tuple(self.packs))
+        if self.format is not None:
+            within("format", self.format, 1, MAX_FORMAT)
+        one_of("kind", self.kind, get_args(Kind))
         one_of("pose", self.pose, get_args(Pose))
         one_of("placement", self.placement, get_args(Placement))
+        self._check_turn()
         one_of("layers", self.layers, get_args(LayerMode))
         for side, pixels in zip(("width", "height"), self.size, strict=True):
             within(f"size ({side})", pixels, 1, MAX_SIDE, "pixels")
@@ -83,6 +108,23 @@ class Settings:
         within("seed", self.seed, 0, 2**32 - 1)
         within("thickness", self.thickness, 0, 8, "texels")
         background_colour(self.background)
+
+    def _check_turn(self) -> None:
+        within("rotation", self.rotation, 0, ROTATIONS - 1)
+        if self.facing is not None:
+            one_of("facing", self.facing, get_args(Facing))
+            if self.placement != "wall":
+                raise OptionError(f"facing {self.facing} is of banners on a wall; use rotation")
+        if self.rotation and self.placement != "standing":
+            remedy = "use facing on a wall" if self.placement == "wall" else "leave it out"
+            raise OptionError(f"rotation {self.rotation} is of what stands; {remedy}")
+
+    @property
+    def turned(self) -> float:
+        """The angle of rotation or facing [degrees]: 0 south, 90 west, 180 north, 270 east."""
+        if self.facing is not None:
+            return 90.0 * get_args(Facing).index(self.facing)
+        return self.rotation * 360.0 / ROTATIONS
 
 
 def one_of(option: str, value: str, allowed: tuple[str, ...]) -> None:

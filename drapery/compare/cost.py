@@ -9,7 +9,7 @@ from drapery.compare.variants import Variant
 from drapery.errors import OptionError
 from drapery.render.backends import backend
 from drapery.render.scene import Scene
-from drapery.scenes.banner import still
+from drapery.scenes.staging import still
 
 REPEATS = 9
 
@@ -26,7 +26,11 @@ def cost_of(variant: Variant) -> Cost:
     """Measure a variant on this machine. Raises OptionError for a finished picture."""
     if variant.banner is None or variant.settings is None:
         raise OptionError(f"{variant.label} is a finished picture; it costs nothing to draw")
-    scene = still(variant.banner, open_packs(variant.settings.packs), variant.settings)
+    scene = still(
+        variant.banner,
+        open_packs(variant.settings.packs, format=variant.settings.format),
+        variant.settings,
+    )
     draw_scene = backend(variant.settings.backend)
     draw_scene(scene)
     times = []

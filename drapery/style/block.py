@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 
 from drapery.mesh import Array, Mesh
+from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.boxes import Box, box_mesh, join, upright
-from drapery.style.extrusion import extrude
 from drapery.style.skin import box_skin
 
 Placement = Literal["standing", "wall"]
@@ -74,35 +74,17 @@ def wood(placement: Placement) -> Mesh:
 
 
 def stiff_flag(placement: Placement, phase: float, thickness: float = 1.0) -> Mesh:
-    """The game's own flag, a stiff board, at a phase 0..1 of its sway; thickness in texels."""
-    left, bottom = -FLAG_SIZE[0] / 2, -FLAG_SIZE[1]
-    right = -left
-    corners = np.array([[left, 0, 0], [right, 0, 0], [left, bottom, 0], [right, bottom, 0]])
-    board = Mesh(
-        corners,
-        np.broadcast_to([0.0, 0.0, 1.0], (4, 3)),
-        np.array([[0, 2, 1], [1, 2, 3]], np.int32),
-        np.array([[0.0, 0.0], [1, 0], [0, 1], [1, 1]]),
-    )
-    flag = extrude(board, thickness * SCALE, FLAG_SKIN)
-    return _swing(flag, sway_angle(phase), placement)
+    """The game's own flag, a stiff board, at a phase 0..1 of its sway; thickness in texels.
+
+    The flag hangs from (0, 0, 0); the pivot is 1.5 model units behind it. The model's x axis
+    stays the world's while y and z are both turned about, so the angle keeps its sense.
+    """
+    flag = stiff_board(FLAG_SIZE, thickness * SCALE, FLAG_SKIN)
+    before_pivot = moved(flag, np.array([0.0, 0.0, -_FLAG_MIDDLE * SCALE]))
+    pivot = to_world(np.array(_FLAG_PIVOT[placement], np.float64))
+    return moved(tilted(before_pivot, sway_angle(phase)), pivot)
 
 
 def sway_angle(phase: float) -> float:
     """The flag's rotation about the model's x axis at its top edge [radians]."""
     return float((-0.0125 + 0.01 * np.cos(2 * np.pi * phase)) * np.pi)
-
-
-def _swing(flag: Mesh, angle: float, placement: Placement) -> Mesh:
-    """Turn a flag about its pivot and hang it at its place.
-
-    The flag hangs from (0, 0, 0); the pivot is 1.5 model units behind it. The model's x axis
-    stays the world's while y and z are both turned about, so the angle keeps its sense.
-    """
-    cos, sin = np.cos(angle), np.sin(angle)
-    matrix = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]])
-    depth = np.array([0.0, 0.0, -_FLAG_MIDDLE * SCALE])
-    hung = np.einsum("ij,...j->...i", matrix, flag.positions + depth)
-    pivot = to_world(np.array(_FLAG_PIVOT[placement], np.float64))
-    normals = np.einsum("ij,...j->...i", matrix, flag.normals)
-    return Mesh(hung + pivot, normals, flag.triangles, flag.uvs)

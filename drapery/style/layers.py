@@ -1,30 +1,77 @@
-"""A banner's layers as looks: textured quads stacked on one another, or one composited texture.
+"""Layers as looks: textured quads stacked on one another, or one composited texture.
 
 Stacked is the game's way: every layer is drawn over the one below, tinted on the way. Flat
 composites them first and draws one texture; pictures of the two agree within 2/255.
 """
 
+from collections.abc import Callable
 from typing import Literal
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
-from drapery.banner.sprites import composite, flag_layers
+from drapery.banner.sprites import WHITE, Tinted, composite, flag_layers, shield_layers
 from drapery.render.scene import Coat, Look
+from drapery.style.body import Dress
 
 LayerMode = Literal["stacked", "flat"]
 
 
-def flag_look(banner: Banner, packs: Packs, mode: LayerMode = "stacked") -> Look:
+def flag_look(banner: Banner, packs: Packs, mode: LayerMode = "stacked", time: float = 0.0) -> Look:
     """What the flag wears: the cloth, the base dye, then the layers in order.
 
-    Raises PackError where a texture cannot be used.
+    time: for animated textures [s]. Raises PackError where a texture cannot be used.
     """
-    layers = flag_layers(banner, packs)
-    if mode == "flat":
-        return Look((Coat(composite(layers)),))
-    return Look(tuple(Coat(texels, tint) for texels, tint in layers))
+    return _look(flag_layers(banner, packs, time), mode)
 
 
 def wood_look(packs: Packs) -> Look:
     """What pole and bar wear."""
     return Look((Coat(packs.base_sheet()),))
+
+
+def flag_dress(banner: Banner, packs: Packs, mode: LayerMode) -> Dress:
+    """What the flag wears at a time. Raises PackError where a texture cannot be used."""
+    return _dress(lambda time: flag_layers(banner, packs, time), mode)
+
+
+def wood_dress(packs: Packs) -> Dress:
+    """What pole and bar wear at a time. Raises PackError."""
+    return _dress(lambda time: ((packs.base_sheet(time), WHITE),))
+
+
+def plate_dress(banner: Banner | None, packs: Packs, mode: LayerMode) -> Dress:
+    """What a shield's plate wears; None is the shield without a design. Raises PackError."""
+    return _dress(lambda time: shield_layers(banner, packs, time), mode)
+
+
+def handle_dress(banner: Banner | None, packs: Packs) -> Dress:
+    """What a shield's handle wears: the lowest sheet alone, as in the game. Raises PackError."""
+    return _dress(lambda time: shield_layers(banner, packs, time)[:1])
+
+
+def textures_period(
+    banner: Banner | None, packs: Packs, kind: Literal["banner", "shield"]
+) -> float:
+    """The longest period of the design's animated textures [s]; 0 where all are still."""
+    names = ["base", *(layer.pattern for layer in banner.layers)] if banner else []
+    return max((packs.period(name, kind) for name in names), default=0.0)
+
+
+def _dress(layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode = "stacked") -> Dress:
+    # The renderer knows what it has prepared by identity, so the same textures are the same look.
+    known: dict[tuple[int, ...], tuple[tuple[Tinted, ...], Look]] = {}
+
+    def at(time: float) -> Look:
+        worn = layers(time)
+        key = tuple(id(texels) for texels, _ in worn)
+        if key not in known:
+            known[key] = worn, _look(worn, mode)
+        return known[key][1]
+
+    return at
+
+
+def _look(layers: tuple[Tinted, ...], mode: LayerMode) -> Look:
+    if mode == "flat":
+        return Look((Coat(composite(layers)),))
+    return Look(tuple(Coat(texels, tint) for texels, tint in layers))

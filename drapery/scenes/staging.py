@@ -1,0 +1,203 @@
+"""A body before the camera: its cloth simulated or stiff, its parts beside it, the view framed.
+
+A panel of cloth is simulated in its own frame, its top edge along x through the origin, and hung
+in its place afterwards. All moments of an animation are simulated first, as one batch of meshes,
+so the camera can frame them together.
+"""
+
+import math
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import islice
+
+import numpy as np
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.cloth import Cloth, Gravity, Wind, grid, rest_state, simulate
+from drapery.mesh import Array, Mesh, vertex_normals
+from drapery.render.camera import Camera
+from drapery.render.scene import Model, Scene
+from drapery.render.views import VIEWS, frame_view, turntable
+from drapery.settings import Settings, background_colour
+from drapery.style.block import turn
+from drapery.style.body import Body, Panel
+from drapery.style.extrusion import make_shell
+from drapery.style.kinds import body_of
+
+STEP = 1.0 / 60.0
+"""The longest time step [s]: the seed's, one for each of its frames."""
+SETTLING = 8.0
+"""A loop is recorded after the cloth has hung in the wind at least this long [s]."""
+BREEZE = (0.35, 0.0, 1.0)
+"""Where the wind blows to, before all is turned: out to the front, and a little sideways."""
+
+
+def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
+    """What it looks like after it has hung in the wind for `settings.time` seconds.
+
+    design: None for a cape or elytra. Raises OptionError or PackError.
+    """
+    body = body_of(design, packs, settings)
+    if settings.pose == "vanilla":
+        cloths = [
+            _stiff(panel, settings, np.array([_phase(panel, settings.time)]))
+            for panel in body.panels
+        ]
+    else:
+        cloths = [_dress(panel, settings, _hang(panel, settings)[None]) for panel in body.panels]
+    return next(_scenes(body, settings, cloths, [settings.time]))
+
+
+def loop(
+    design: Banner | None, packs: Packs, settings: Settings, count: int, fps: float
+) -> Iterator[Scene]:
+    """`count` scenes of a seamless loop: the last is followed by the first.
+
+    The wind repeats after the loop's length; cloth has settled into that period. What does not
+    move is shown from all around. Raises OptionError or PackError.
+    """
+    body = body_of(design, packs, settings)
+    if settings.pose == "vanilla":
+        cloths = [_stiff(panel, settings, _phases(panel, count, fps)) for panel in body.panels]
+    else:
+        cloths = [
+            _dress(panel, settings, _wave(panel, settings, count, fps)) for panel in body.panels
+        ]
+    return _scenes(body, settings, cloths, texture_times(body.period, count, fps))
+
+
+def texture_times(period: float, count: int, fps: float) -> list[float]:
+    """When each frame of a loop shows its textures [s]: whole periods of theirs fill the loop.
+
+    A period longer than one and a half loops keeps its pace; then the loop's seam shows, which
+    is warned of.
+    """
+    length = count / fps
+    periods = round(length / period) if period else 0
+    if period and not periods:
+        warnings.warn(
+            f"the textures repeat after {period:g} s, the loop after {length:g} s, so its seam"
+            f" shows; use seconds {period:g}",
+            UserWarning,
+            stacklevel=2,
+        )
+    pace = periods * period / length if periods else 1.0
+    return [pace * frame / fps for frame in range(count)]
+
+
+def _scenes(
+    body: Body, settings: Settings, cloths: Sequence[Mesh], times: Sequence[float]
+) -> Iterator[Scene]:
+    """One scene for each moment of the cloths, positions [F, V, 3]; a view frames all alike."""
+    parts = [_turned(part.mesh, settings) for part in body.parts]
+    cloths = [_turned(cloth, settings) for cloth in cloths]
+    points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in (*parts, *cloths)])
+    cameras = _cameras(body, settings, points, len(times))
+    for frame, (time, camera) in enumerate(zip(times, cameras, strict=True)):
+        meshes = [*parts, *(_moment(cloth, frame) for cloth in cloths)]
+        worn = [thing.dress(time) for thing in (*body.parts, *body.panels)]
+        yield Scene(
+            tuple(Model(mesh, (look,)) for mesh, look in zip(meshes, worn, strict=True)),
+            camera,
+            settings.size,
+            body.light,
+            background_colour(settings.background),
+        )
+
+
+def _turned(mesh: Mesh, settings: Settings) -> Mesh:
+    return turn(mesh, settings.turned) if settings.turned else mesh
+
+
+def _moment(cloth: Mesh, frame: int) -> Mesh:
+    return replace(cloth, positions=cloth.positions[frame], normals=cloth.normals[frame])
+
+
+def _cameras(body: Body, settings: Settings, points: Array, count: int) -> list[Camera]:
+    if body.camera is not None:
+        return [body.camera] * count
+    aspect = settings.size[0] / settings.size[1]
+    camera = frame_view(settings.view, points, aspect)
+    if count == 1 or _moves(body, settings):
+        return [camera] * count
+    return turntable(VIEWS[settings.view], (points.min(axis=0), points.max(axis=0)), aspect, count)
+
+
+def _moves(body: Body, settings: Settings) -> bool:
+    return any(settings.pose == "cloth" or panel.sway for panel in body.panels)
+
+
+def _phase(panel: Panel, time: float) -> float:
+    return time / panel.sway if panel.sway else 0.0
+
+
+def _phases(panel: Panel, count: int, fps: float) -> Array:
+    """Phases of the game's sway, a whole number of which fills the loop, shape [count]."""
+    sways = max(1, round(_phase(panel, count / fps)))
+    phases: Array = sways * np.arange(count) / count
+    return phases
+
+
+def _stiff(panel: Panel, settings: Settings, phases: Array) -> Mesh:
+    boards = [panel.board(phase, settings.thickness) for phase in phases]
+    return replace(
+        boards[0],
+        positions=np.stack([board.positions for board in boards]),
+        normals=np.stack([board.normals for board in boards]),
+    )
+
+
+def _dress(panel: Panel, settings: Settings, positions: Array) -> Mesh:
+    """Thin cloths [F, N, 3] in their own frame -> thick textured ones in their place."""
+    cloth = _cloth(panel, settings)
+    hung = positions + panel.origin
+    normals = vertex_normals(hung, cloth.triangles)
+    shell = make_shell(cloth.triangles, cloth.uvs, panel.skin)
+    return shell.cover(hung, normals, settings.thickness * panel.texel)
+
+
+def _cloth(panel: Panel, settings: Settings) -> Cloth:
+    columns, rows = settings.grid
+    return grid(columns, rows, *panel.size, pins=panel.pins)
+
+
+def _wind(settings: Settings, period: float | None = None) -> Wind:
+    direction = np.array(BREEZE) / np.linalg.norm(BREEZE)
+    return Wind(tuple(settings.wind * direction), seed=settings.seed, period=period)
+
+
+def _hang(panel: Panel, settings: Settings) -> Array:
+    """The cloth after `time` seconds, shape [N, 3]."""
+    cloth = _cloth(panel, settings)
+    steps = math.ceil(settings.time / STEP)
+    if steps == 0:
+        return rest_state(cloth).positions[0]
+    forces = (Gravity(), _wind(settings))
+    states = simulate(cloth, forces=forces, dt=settings.time / steps, every=steps)
+    return next(islice(states, 1, None)).positions[0]
+
+
+def _wave(panel: Panel, settings: Settings, count: int, fps: float) -> Array:
+    """One period of the cloth's motion in a periodic wind, shape [count, N, 3]."""
+    period = count / fps
+    steps = math.ceil(1 / (fps * STEP))
+    forces = (Gravity(), _wind(settings, period))
+    states = simulate(_cloth(panel, settings), forces=forces, dt=1 / (fps * steps), every=steps)
+    first = math.ceil(SETTLING / period) * count
+    recorded = [state.positions[0] for state in islice(states, first, first + count + 1)]
+    return close_loop(np.stack(recorded))
+
+
+def close_loop(motion: Array) -> Array:
+    """Make a recorded motion [F + 1, ...] end where it began; returns its first F moments.
+
+    What is left of the difference between the last moment and the first is taken back evenly
+    over the loop, so no step between two moments differs from its neighbours by more than
+    1/F of it.
+    """
+    count = len(motion) - 1
+    share = np.arange(count).reshape(-1, *[1] * (motion.ndim - 1)) / count
+    closed: Array = motion[:-1] + share * (motion[0] - motion[-1])
+    return closed

@@ -1,0 +1,62 @@
+"""What is to be drawn, before it moves: stiff parts, panels of cloth, and what they wear."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from drapery.mesh import Array, Mesh
+from drapery.render.camera import Camera
+from drapery.render.light import GAME_LIGHT, Light
+from drapery.render.scene import Look
+from drapery.style.skin import Skin
+
+Dress = Callable[[float], Look]
+"""What is worn at a time [s]: one and the same look for as long as it looks the same."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A stiff piece [m] and what it wears."""
+
+    mesh: Mesh
+    dress: Dress
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """A rectangle of cloth. In its own frame its top edge runs along x through the origin.
+
+    size: width and height [m].
+    origin: where the middle of its top edge hangs [m], shape [3].
+    texel: the unit of its thickness [m].
+    skin: where its sides lie on the texture.
+    pins: what of it is held.
+    board: its stiff shape in the game, hung, at a phase 0..1 of its sway and of a thickness
+        [texels].
+    sway: the period of that sway [s]; None where the game holds it still.
+    dress: what it wears.
+    """
+
+    size: tuple[float, float]
+    origin: Array
+    texel: float
+    skin: Skin
+    pins: Literal["top", "corners"]
+    board: Callable[[float, float], Mesh]
+    sway: float | None
+    dress: Dress
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """One thing to be drawn.
+
+    period: of its animated textures [s]; 0 where they are still.
+    light: what falls on it. camera: None frames it by a named view.
+    """
+
+    parts: tuple[Part, ...] = ()
+    panels: tuple[Panel, ...] = ()
+    period: float = 0.0
+    light: Light = GAME_LIGHT
+    camera: Camera | None = None

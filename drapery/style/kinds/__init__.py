@@ -1,0 +1,49 @@
+"""The kinds of things that are drawn, each a function from what it wears to its body."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.errors import OptionError
+from drapery.settings import Placement, Settings
+from drapery.style.body import Body
+from drapery.style.kinds import banner, cape, elytra, shield
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One kind. takes: what it wears. placements: where it can be."""
+
+    build: Callable[[Banner | None, Packs, Settings], Body]
+    takes: Literal["design", "texture"]
+    placements: tuple[Placement, ...]
+
+
+KINDS: dict[str, Kind] = {
+    "banner": Kind(banner.body, "design", ("standing", "wall", "item")),
+    "shield": Kind(shield.body, "design", ("standing", "item")),
+    "cape": Kind(cape.body, "texture", ("standing",)),
+    "elytra": Kind(elytra.body, "texture", ("standing",)),
+}
+"""All kinds by name."""
+
+
+def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
+    """What is to be drawn: a design, or for capes and elytra the texture of the settings.
+
+    Raises OptionError for options that do not fit the kind, and PackError.
+    """
+    name = settings.kind
+    if name == "auto":
+        name = "banner" if design is None else design.kind
+    kind = KINDS[name]
+    if settings.placement not in kind.placements:
+        places = " or ".join(kind.placements)
+        raise OptionError(f"placement {settings.placement} is not for a {name}; use {places}")
+    if kind.takes == "texture" and design is not None:
+        raise OptionError(f"kind {name} wears no design; give its texture alone, a PNG file")
+    if kind.takes == "design" and settings.texture is not None:
+        raise OptionError(f"texture {settings.texture} is for a cape or elytra; use kind cape")
+    return kind.build(design, packs, settings)

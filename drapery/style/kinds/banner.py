@@ -1,0 +1,54 @@
+"""Banners: standing on their pole, hung on a wall, or an item in its slot."""
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.errors import OptionError
+from drapery.settings import Settings
+from drapery.style.block import (
+    FLAG_SIZE,
+    FLAG_SKIN,
+    SCALE,
+    SWAY_PERIOD,
+    Placement,
+    flag_origin,
+    stiff_flag,
+    wood,
+)
+from drapery.style.body import Body, Panel, Part
+from drapery.style.layers import flag_dress, textures_period, wood_dress
+from drapery.style.slot import BANNER_POSE, SLOT_LIGHT, in_slot, slot_camera
+
+
+def body(banner: Banner | None, packs: Packs, settings: Settings) -> Body:
+    """The wood and the flag. Raises OptionError without a design, and PackError."""
+    if banner is None:
+        raise OptionError("no design is given; write one like 'white creeper:lime border:black'")
+    if settings.placement == "item":
+        return _item(banner, packs, settings)
+    return _block(banner, packs, settings, settings.placement)
+
+
+def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placement) -> Body:
+    flag = Panel(
+        FLAG_SIZE,
+        flag_origin(placement),
+        SCALE,
+        FLAG_SKIN,
+        "top",
+        lambda phase, thickness: stiff_flag(placement, phase, thickness),
+        SWAY_PERIOD,
+        flag_dress(banner, packs, settings.layers),
+    )
+    frame = Part(wood(placement), wood_dress(packs))
+    return Body((frame,), (flag,), textures_period(banner, packs, "banner"))
+
+
+def _item(banner: Banner, packs: Packs, settings: Settings) -> Body:
+    """As the game lays it into the inventory: stiff, at phase 0 of its sway."""
+    flag = stiff_flag("standing", 0.0, settings.thickness)
+    parts = (
+        Part(in_slot(wood("standing"), BANNER_POSE), wood_dress(packs)),
+        Part(in_slot(flag, BANNER_POSE), flag_dress(banner, packs, settings.layers)),
+    )
+    period = textures_period(banner, packs, "banner")
+    return Body(parts, (), period, SLOT_LIGHT, slot_camera(settings.size))

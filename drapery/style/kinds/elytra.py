@@ -1,0 +1,60 @@
+"""Elytra: two stiff wings, folded as on one who stands still, their outer side to the front.
+
+The wings are hard, as those of a beetle, so no wind moves them.
+"""
+
+import numpy as np
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.mesh import Array, Mesh
+from drapery.render.scene import Coat, Look
+from drapery.settings import Settings
+from drapery.style.body import Body, Part
+from drapery.style.boxes import Box, box_mesh
+from drapery.style.kinds.player import SHEET, SHOULDERS, TEXEL, back_texture
+
+_LEFT_WING = Box((-10, 0, 0), (10, 20, 2), (22, 0), grown=1.0)
+_ROOT = (5.0, 0.0, 0.0)
+"""Where the left wing grows from the shoulders [texels]."""
+SPREAD = 15.0
+"""How far a folded wing stands off the back, and off the other wing [degrees]."""
+
+
+def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
+    """Both wings, cut out by their texture. Raises OptionError or PackError."""
+    look = Look((Coat(back_texture(settings, (46, 22))),), "cutout")
+    left = _left_wing()
+    return Body(tuple(Part(wing, lambda time: look) for wing in (left, _mirrored(left))))
+
+
+def _left_wing() -> Mesh:
+    """The wing as someone behind the player sees it, at the left [m]."""
+    box = box_mesh(_LEFT_WING, SHEET)
+    matrix = _folded(np.radians(SPREAD))
+    positions = np.einsum("ij,...j->...i", matrix, box.positions) + np.array(_ROOT)
+    # Normals are those of a model with y and z turned about; the turn is of one with x and y so.
+    upright = np.array([-1.0, -1.0, 1.0])
+    normals = np.einsum("ij,...j->...i", matrix, box.normals * [1, -1, -1]) * upright
+    return Mesh(positions * upright * TEXEL + np.array(SHOULDERS), normals, box.triangles, box.uvs)
+
+
+def _folded(angle: float) -> Array:
+    """The left wing's turn in the model: about x, then back about z, shape [3, 3]."""
+    cos, sin = np.cos(angle), np.sin(angle)
+    about_x = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]])
+    about_z = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
+    matrix: Array = np.einsum("ij,jk->ik", about_z, about_x)
+    return matrix
+
+
+def _mirrored(wing: Mesh) -> Mesh:
+    """The other wing: across the player's middle, its picture mirrored too."""
+    across = np.array([-1.0, 1.0, 1.0])
+    middle = np.array([2 * SHOULDERS[0], 0, 0])
+    return Mesh(
+        wing.positions * across + middle,
+        wing.normals * across,
+        np.ascontiguousarray(wing.triangles[:, ::-1]),
+        wing.uvs,
+    )

@@ -1,0 +1,60 @@
+"""What players wear on their back: the texture of capes and elytra, and where it hangs."""
+
+from pathlib import Path
+
+import numpy as np
+
+from drapery.banner.packs import MAX_PNG
+from drapery.banner.png import Texels, read_png
+from drapery.errors import OptionError
+from drapery.settings import Settings
+
+TEXEL = 0.9375 / 16.0
+"""Metres a texel: a player is drawn at 15/16 of the size of a block's texels."""
+
+SHOULDERS = (0.5, 24 * TEXEL, 0.5)
+"""The middle between the shoulders [m], over the middle of a block."""
+
+SHEET = (64, 32)
+_SHAPES = (SHEET, (46, 22), (22, 17))
+"""Sheets in use, or multiples of them: with everything, cut behind the wings, behind the cape."""
+
+
+def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
+    """The sheet of a cape and elytra, shape [32 n, 64 n, 4].
+
+    least: width and height of what must be on it [texels]. Raises OptionError or PackError.
+    """
+    if settings.texture is None:
+        raise OptionError(f"kind {settings.kind} needs a texture; give its PNG file by texture")
+    path = Path(settings.texture)
+    texels = read_png(_read(path), str(path))
+    height, width = texels.shape[:2]
+    for across, down in _SHAPES:
+        times = width // across
+        fits = (width, height) == (across * times, down * times)
+        if fits and across >= least[0] and down >= least[1]:
+            return _widened(texels, times)
+    raise OptionError(
+        f"texture {path} is {width} x {height} px and no sheet of a {settings.kind};"
+        " use 64 x 32, or a multiple of it"
+    )
+
+
+def _widened(texels: Texels, times: int) -> Texels:
+    """The sheet at its whole size, nothing where it was cut."""
+    whole = np.zeros((SHEET[1] * times, SHEET[0] * times, 4), np.uint8)
+    whole[: texels.shape[0], : texels.shape[1]] = texels
+    return whole
+
+
+def _read(path: Path) -> bytes:
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_PNG + 1)
+    except OSError as error:
+        reason = error.strerror or type(error).__name__
+        raise OptionError(f"texture {path} cannot be read ({reason}); give a PNG file") from error
+    if len(data) > MAX_PNG:
+        raise OptionError(f"texture {path} is over {MAX_PNG} bytes; shrink it")
+    return data

@@ -1,0 +1,42 @@
+"""Shields: a plate that bears the design, and a handle behind it."""
+
+from dataclasses import replace
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.mesh import Mesh
+from drapery.settings import Settings
+from drapery.style.body import Body, Part
+from drapery.style.boxes import Box, box_mesh, upright
+from drapery.style.layers import handle_dress, plate_dress, textures_period
+from drapery.style.slot import SHIELD_POSE, SLOT_LIGHT, in_slot, slot_camera
+
+TEXEL = 1.0 / 16.0
+"""Metres a texel."""
+
+_PLATE = Box((-6, -11, -2), (12, 22, 1), (0, 0))
+_HANDLE = Box((-1, -3, -1), (2, 6, 6), (26, 0))
+_STANDING = (0.5, 11 * TEXEL, 0.5)
+"""Where the model's origin is when the shield stands on the floor [m]."""
+
+
+def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
+    """The shield, its plate towards the viewer; None is one without a design.
+
+    Raises PackError.
+    """
+    worn = (
+        plate_dress(design, packs, settings.layers),
+        handle_dress(design, packs),
+    )
+    period = textures_period(design, packs, "shield")
+    if settings.placement != "item":
+        meshes = (_hung(_PLATE, _STANDING), _hung(_HANDLE, _STANDING))
+        return Body(tuple(map(Part, meshes, worn)), (), period)
+    meshes = tuple(in_slot(_hung(box, (0, 0, 0)), SHIELD_POSE) for box in (_PLATE, _HANDLE))
+    standing = Body(tuple(map(Part, meshes, worn)), (), period)
+    return replace(standing, light=SLOT_LIGHT, camera=slot_camera(settings.size))
+
+
+def _hung(box: Box, origin: tuple[float, float, float]) -> Mesh:
+    return upright(box_mesh(box), TEXEL, origin)
