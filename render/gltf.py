@@ -1,0 +1,179 @@
+"""glTF 2.0 in one binary file, moving meshes as morph targets (Khronos, glTF 2.0 specification).
+
+Written here and not by trimesh, which knows neither morph targets nor samplers: without a sampler
+a viewer blurs pixel art.
+"""
+
+import json
+import struct
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.render.camera import Camera, view_matrix
+from drapery.render.drawlist import Float32
+from drapery.render.parts import Part, Parts
+from drapery.render.png import png_bytes
+
+Json = dict[str, Any]
+
+FLOAT, UINT = 5126, 5125
+VERTICES, INDICES = 34962, 34963
+NEAREST, CLAMP_TO_EDGE = 9728, 33071
+ALPHA_MODES = {"opaque": "OPAQUE", "cutout": "MASK", "blend": "BLEND"}
+
+
+class Tree:
+    """A glTF document that grows: its JSON, and the bytes that this points into."""
+
+    def __init__(self) -> None:
+        self.json: Json = {"asset": {"version": "2.0", "generator": "drapery"}}
+        self.binary = bytearray()
+
+    def add(self, kind: str, entry: Json) -> int:
+        """Append to one of the document's lists; returns the entry's place."""
+        entries = self.json.setdefault(kind, [])
+        entries.append(entry)
+        return len(entries) - 1
+
+    def view(self, data: bytes, **more: Any) -> int:
+        """A buffer view on new bytes, aligned to four."""
+        self.binary += bytes(-len(self.binary) % 4)
+        place = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
+        self.binary += data
+        return self.add("bufferViews", place | more)
+
+    def accessor(self, values: NDArray[Any], kind: str, target: int | None = None) -> int:
+        """An accessor to an array; the file holds its least and greatest values too."""
+        code = FLOAT if values.dtype == np.float32 else UINT
+        view = self.view(values.tobytes(), **({"target": target} if target else {}))
+        flat = values.reshape(len(values), -1)
+        bounds = {"min": flat.min(axis=0).tolist(), "max": flat.max(axis=0).tolist()}
+        entry = {"bufferView": view, "componentType": code, "count": len(values), "type": kind}
+        return self.add("accessors", entry | bounds)
+
+
+def glb_bytes(parts: Parts, fps: float, camera: Camera | None, aspect: float) -> bytes:
+    """The file. Parts that move do so for one loop, `fps` frames/s; the last frame leads to the
+    first."""
+    tree = Tree()
+    texture = _texture(tree, parts)
+    materials: dict[tuple[str, bool], int] = {}
+    channels = []
+    for part in parts.parts:
+        kind = part.alpha, part.lit
+        if kind not in materials:
+            materials[kind] = tree.add("materials", _material(part, texture))
+        mesh = tree.add("meshes", _mesh(tree, part, materials[kind]))
+        node = tree.add("nodes", {"name": part.name, "mesh": mesh})
+        if len(part.positions) > 1:
+            channels.append(node)
+    if channels:
+        tree.add("animations", _animation(tree, channels, parts.frames, fps))
+    if camera is not None:
+        tree.add("nodes", _camera_node(tree, camera, aspect))
+    if any(not part.lit for part in parts.parts):
+        tree.json["extensionsUsed"] = ["KHR_materials_unlit"]
+    tree.json |= {"scene": 0, "scenes": [{"nodes": list(range(len(tree.json["nodes"])))}]}
+    return _file(tree)
+
+
+def _texture(tree: Tree, parts: Parts) -> int:
+    image = {"mimeType": "image/png", "bufferView": tree.view(png_bytes(parts.atlas))}
+    sampler = {
+        "magFilter": NEAREST,
+        "minFilter": NEAREST,
+        "wrapS": CLAMP_TO_EDGE,
+        "wrapT": CLAMP_TO_EDGE,
+    }
+    return tree.add(
+        "textures", {"source": tree.add("images", image), "sampler": tree.add("samplers", sampler)}
+    )
+
+
+def _material(part: Part, texture: int) -> Json:
+    """Matt cloth and wood, seen from both sides."""
+    surface = {
+        "baseColorTexture": {"index": texture},
+        "metallicFactor": 0.0,
+        "roughnessFactor": 1.0,
+    }
+    name = part.alpha if part.lit else f"{part.alpha}_unlit"
+    material: Json = {"name": name, "doubleSided": True, "pbrMetallicRoughness": surface}
+    if part.alpha != "opaque":
+        material["alphaMode"] = ALPHA_MODES[part.alpha]
+    if not part.lit:
+        material["extensions"] = {"KHR_materials_unlit": {}}
+    return material
+
+
+def _mesh(tree: Tree, part: Part, material: int) -> Json:
+    """The first frame as the mesh, each later one as a morph target by its difference."""
+
+    def vectors(values: Float32) -> int:
+        return tree.accessor(values, "VEC3", VERTICES)
+
+    later = range(1, len(part.positions))
+    primitive: Json = {
+        "attributes": {
+            "POSITION": vectors(part.positions[0]),
+            "NORMAL": vectors(part.normals[0]),
+            "TEXCOORD_0": tree.accessor(part.uvs, "VEC2", VERTICES),
+        },
+        "indices": tree.accessor(part.triangles.astype(np.uint32).ravel(), "SCALAR", INDICES),
+        "material": material,
+    }
+    mesh: Json = {"name": part.name, "primitives": [primitive]}
+    if later:
+        primitive["targets"] = [
+            {
+                "POSITION": vectors(part.positions[frame] - part.positions[0]),
+                "NORMAL": vectors(part.normals[frame] - part.normals[0]),
+            }
+            for frame in later
+        ]
+        mesh["weights"] = [0.0] * len(later)
+        mesh["extras"] = {"targetNames": [f"frame_{frame:04d}" for frame in later]}
+    return mesh
+
+
+def _animation(tree: Tree, nodes: list[int], frames: int, fps: float) -> Json:
+    """At key k frame k's weight is 1 and all others 0; the last key is the first frame again."""
+    weights = np.eye(frames + 1, frames, dtype=np.float32)[:, 1:]
+    times = (np.arange(frames + 1) / fps).astype(np.float32)
+    sampler = {
+        "input": tree.accessor(times, "SCALAR"),
+        "output": tree.accessor(weights.ravel(), "SCALAR"),
+        "interpolation": "LINEAR",
+    }
+    return {
+        "name": "loop",
+        "samplers": [sampler],
+        "channels": [{"sampler": 0, "target": {"node": node, "path": "weights"}} for node in nodes],
+    }
+
+
+def _camera_node(tree: Tree, camera: Camera, aspect: float) -> Json:
+    near, far = {"znear": camera.near}, {"zfar": camera.far}
+    if camera.height is None:
+        lens = {"yfov": float(np.radians(camera.fov)), "aspectRatio": aspect} | near | far
+        entry: Json = {"type": "perspective", "perspective": lens}
+    else:
+        lens = {"ymag": camera.height / 2, "xmag": camera.height / 2 * aspect} | near | far
+        entry = {"type": "orthographic", "orthographic": lens}
+    pose = np.linalg.inv(view_matrix(camera))
+    return {
+        "name": "camera",
+        "camera": tree.add("cameras", entry),
+        "matrix": pose.T.ravel().tolist(),  # column by column
+    }
+
+
+def _file(tree: Tree) -> bytes:
+    tree.json["buffers"] = [{"byteLength": len(tree.binary)}]
+    content = json.dumps(tree.json, separators=(",", ":")).encode()
+    chunks = [(b"JSON", content + b" " * (-len(content) % 4))]
+    chunks.append((b"BIN\0", bytes(tree.binary) + bytes(-len(tree.binary) % 4)))
+    body = b"".join(struct.pack("<I", len(data)) + kind + data for kind, data in chunks)
+    return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body

@@ -1,0 +1,138 @@
+"""Scenes taken apart for 3-D files: meshes in one atlas, with where they move.
+
+A 3-D file knows one texture for a surface, so the coats are laid over one another first.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import OptionError
+from drapery.mesh import Triangles
+from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
+from drapery.render.flatten import flattened
+from drapery.render.scene import Alpha, Scene, Texels
+from drapery.render.wardrobe import ALPHA_CODES, Wardrobe
+
+MAX_NUMBERS = 1 << 27
+"""The most coordinates of a 3-D file's frames; half a GiB."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """The triangles of one model that mean the same by alpha and light.
+
+    positions, normals: [m], shape [F, V, 3], one frame where it does not move.
+    triangles: shape [T, 3]. uvs: fractions of the atlas, v downwards, shape [V, 2].
+    """
+
+    name: str
+    positions: Float32
+    normals: Float32
+    triangles: Triangles
+    uvs: Float32
+    alpha: Alpha
+    lit: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """What a 3-D file holds. frames: how many moments; atlas: the texture of all parts."""
+
+    parts: tuple[Part, ...]
+    atlas: Texels
+    frames: int
+
+
+def take_apart(scenes: Iterable[Scene]) -> Parts:
+    """The parts of an animation's scenes, whose models must differ in nothing but positions.
+
+    Raises OptionError where they do, where there is nothing to write, or too much.
+    """
+    first: DrawList | None = None
+    positions, normals = [], []
+    for number, scene in enumerate(scenes):
+        drawing = draw_list(scene.models)
+        first = first or drawing
+        if not _same(first.topology, drawing.topology):
+            raise OptionError(f"frame {number} has other meshes than frame 0; animate one scene")
+        positions.append(drawing.positions)
+        normals.append(drawing.normals)
+        if len(positions) * drawing.positions.size > MAX_NUMBERS:
+            raise OptionError(
+                f"{number + 1} frames of {len(drawing.positions)} vertices are too much for a 3-D"
+                " file; use fewer frames, or a coarser grid"
+            )
+    if first is None or not len(first.topology.triangles):
+        raise OptionError("there is no mesh to write")
+    moments = np.stack(positions), np.stack(normals)
+    if not all(np.isfinite(values).all() for values in moments):
+        raise OptionError("the meshes have positions or normals that are not finite numbers")
+    return _parts(first.topology, *moments)
+
+
+def _same(one: Topology, other: Topology) -> bool:
+    return one is other or all(
+        np.array_equal(getattr(one, name), getattr(other, name))
+        for name in ("triangles", "uvs", "triangle_look", "vertex_start")
+    )
+
+
+def _parts(topology: Topology, positions: Float32, normals: Float32) -> Parts:
+    wardrobe = flattened(topology.wardrobe)
+    if (wardrobe.look_coats[:, 1] > 1).any():
+        raise OptionError(
+            "a 3-D file takes one texture for a surface, and these coats' sizes do not divide one"
+            " another, or are too many; draw them as one texture"
+        )
+    uvs = _atlas_uvs(topology, wardrobe)
+    parts = []
+    for number, (start, end) in enumerate(_spans(topology.vertex_start)):
+        inside = (topology.triangles[:, 0] >= start) & (topology.triangles[:, 0] < end)
+        for alpha, code in ALPHA_CODES.items():
+            for lit in (True, False):
+                alike = (wardrobe.look_alpha == code) & (wardrobe.look_lit == lit)
+                chosen = topology.triangles[inside & alike[topology.triangle_look]]
+                if len(chosen):
+                    name = _name(number, alpha, lit)
+                    parts.append(_part(name, positions, normals, chosen, uvs, alpha, lit))
+    return Parts(tuple(parts), wardrobe.atlas, len(positions))
+
+
+def _name(number: int, alpha: Alpha, lit: bool) -> str:
+    return f"model_{number}" + f"_{alpha}" * (alpha != "opaque") + "_unlit" * (not lit)
+
+
+def _spans(starts: NDArray[np.int64]) -> Sequence[tuple[int, int]]:
+    return list(zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True))
+
+
+def _part(
+    name: str,
+    positions: Float32,
+    normals: Float32,
+    triangles: Triangles,
+    uvs: Float32,
+    alpha: Alpha,
+    lit: bool,
+) -> Part:
+    """One part with vertices of its own; frames that are all the same become one."""
+    used, numbers = np.unique(triangles, return_inverse=True)
+    moving, turning = positions[:, used], normals[:, used]
+    if (moving == moving[:1]).all() and (turning == turning[:1]).all():
+        moving, turning = moving[:1], turning[:1]
+    own = numbers.reshape(triangles.shape).astype(np.int32)
+    return Part(name, moving, turning, own, uvs[used], alpha, lit)
+
+
+def _atlas_uvs(topology: Topology, wardrobe: Wardrobe) -> Float32:
+    """UVs as fractions of the whole atlas, shape [V, 2]."""
+    vertex_look = np.zeros(len(topology.uvs), np.int32)
+    vertex_look[topology.triangles] = topology.triangle_look[:, None]
+    rects = wardrobe.coat_rects[wardrobe.look_coats[vertex_look, 0]]
+    height, width = wardrobe.atlas.shape[:2]
+    texels = rects[:, :2] + np.clip(topology.uvs, 0, 1) * rects[:, 2:]
+    uvs: Float32 = (texels / [width, height]).astype(np.float32)
+    return uvs

@@ -1,0 +1,283 @@
+"""What is written as a 3-D file comes back as the same meshes, textures and motion."""
+
+import base64
+import io
+import json
+import struct
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image
+
+from drapery.errors import OptionError, OutputError
+from drapery.mesh import Mesh, vertex_normals
+from drapery.render.camera import Camera
+from drapery.render.export import MODEL_ENDINGS, save_model
+from drapery.render.light import UNLIT
+from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.soft import draw_scene
+
+CAMERA = Camera((0.6, 0.5, 3.0), (0.0, 0.0, 0.0))
+
+
+def texture(seed: int, size: int) -> np.ndarray:
+    texels = np.random.default_rng(seed).integers(0, 256, (size, size, 4), dtype=np.uint8)
+    texels[..., 3] = np.where(texels[..., 3] < 90, 0, 255)
+    return texels
+
+
+def sheet(bend: float, *offset: float) -> Mesh:
+    """A square of 5 x 5 vertices, bent along a sine."""
+    u, v = np.meshgrid(*[np.linspace(0, 1, 5)] * 2)
+    z = bend * np.sin(3 * u)
+    positions = np.stack([u - 0.5, 0.5 - v, z], axis=-1).reshape(-1, 3) + np.array(offset or 0.0)
+    corner = (np.arange(4)[:, None] * 5 + np.arange(4)).ravel()
+    a, b, c, d = corner, corner + 1, corner + 5, corner + 6
+    triangles = np.concatenate([np.stack([a, c, d], 1), np.stack([a, d, b], 1)]).astype(np.int32)
+    positions = positions.astype(np.float32)
+    uvs = np.stack([u, v], axis=-1).reshape(-1, 2).astype(np.float32)
+    return Mesh(positions, vertex_normals(positions, triangles), triangles, uvs)
+
+
+LOOKS = (
+    Look((Coat(texture(1, 8), (255, 90, 40)), Coat(texture(2, 16), (20, 240, 90)))),
+    Look((Coat(texture(3, 8)),), "cutout"),
+    Look((Coat(texture(4, 8)),), "blend", lit=False),
+)
+
+
+def scenes(count: int = 5) -> list[Scene]:
+    """A batch of two that waves in two looks, a still one with holes, one that shines through."""
+    still, clear = sheet(0.2, 0.5, 0, 0), sheet(0.1, 0, 0, 0.8)
+    frames = []
+    for number in range(count):
+        pair = [sheet(0.4 * np.cos(number), -0.5, y, 0) for y in (-0.6, 0.6)]
+        waving = Mesh(
+            np.stack([mesh.positions for mesh in pair]),
+            np.stack([mesh.normals for mesh in pair]),
+            pair[0].triangles,
+            pair[0].uvs,
+        )
+        models = (
+            Model(waving, LOOKS[:2], np.array([0, 1], np.int32)),
+            Model(still, LOOKS[1:2]),
+            Model(clear, LOOKS[2:]),
+        )
+        frames.append(Scene(models, CAMERA, (160, 120), UNLIT))
+    return frames
+
+
+SCENES = scenes()
+
+
+def glb(path: Path) -> tuple[dict[str, Any], bytes]:
+    """The two chunks of a binary glTF."""
+    data = path.read_bytes()
+    magic, version, length = struct.unpack_from("<4sII", data)
+    assert (magic, version, length) == (b"glTF", 2, len(data))
+    size, kind = struct.unpack_from("<I4s", data, 12)
+    assert kind == b"JSON" and size % 4 == 0
+    rest, kind = struct.unpack_from("<I4s", data, 20 + size)
+    assert kind == b"BIN\0" and rest % 4 == 0 and len(data) == 28 + size + rest
+    return json.loads(data[20 : 20 + size]), data[28 + size :]
+
+
+def values(tree: dict[str, Any], binary: bytes, number: int) -> np.ndarray:
+    accessor = tree["accessors"][number]
+    view = tree["bufferViews"][accessor["bufferView"]]
+    width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[accessor["type"]]
+    kind = {5126: np.float32, 5125: np.uint32}[accessor["componentType"]]
+    found = np.frombuffer(binary, kind, accessor["count"] * width, view["byteOffset"])
+    found = found.reshape(-1, width)
+    assert np.array_equal(found.min(axis=0), np.array(accessor["min"], kind))
+    assert np.array_equal(found.max(axis=0), np.array(accessor["max"], kind))
+    return found
+
+
+def test_the_reopened_glb_draws_the_same_picture(tmp_path: Path) -> None:
+    save_model(SCENES[0], tmp_path / "a.glb")
+    opened = trimesh.load_scene(tmp_path / "a.glb")
+    models = []
+    for name, geometry in opened.geometry.items():
+        material = geometry.visual.material
+        texels = np.asarray(material.baseColorTexture.convert("RGBA"))
+        alpha = {None: "opaque", "OPAQUE": "opaque", "MASK": "cutout", "BLEND": "blend"}
+        uvs = np.asarray(geometry.visual.uv, np.float32) * [1, -1] + [0, 1]
+        mesh = Mesh(
+            np.asarray(geometry.vertices, np.float32),
+            np.asarray(geometry.vertex_normals, np.float32),
+            np.asarray(geometry.faces, np.int32),
+            uvs.astype(np.float32),
+        )
+        look = Look((Coat(texels),), alpha[material.alphaMode], lit="unlit" not in name)
+        assert material.doubleSided
+        models.append(Model(mesh, (look,)))
+    ours = draw_scene(SCENES[0]).pixels
+    theirs = draw_scene(replace(SCENES[0], models=tuple(models))).pixels
+    assert (ours[..., 3] > 0).mean() > 0.2
+    assert (ours != theirs).any(axis=-1).mean() < 0.005
+
+
+def test_morph_targets_are_the_frames(tmp_path: Path) -> None:
+    save_model(iter(SCENES), tmp_path / "a.glb", fps=10)
+    tree, binary = glb(tmp_path / "a.glb")
+    moving = [mesh for mesh in tree["meshes"] if "weights" in mesh]
+    assert [mesh["name"] for mesh in moving] == ["model_0", "model_0_cutout"]
+    for mesh, member in zip(moving, (0, 1), strict=True):
+        (primitive,) = mesh["primitives"]
+        base = values(tree, binary, primitive["attributes"]["POSITION"])
+        assert len(mesh["weights"]) == len(primitive["targets"]) == len(SCENES) - 1
+        for scene, target in zip(SCENES[1:], primitive["targets"], strict=True):
+            moved = base + values(tree, binary, target["POSITION"])
+            wanted = scene.models[0].mesh.positions[member]
+            assert np.abs(moved - wanted).max() < 1e-6
+
+
+def test_the_animation_shows_one_frame_at_a_time_and_loops(tmp_path: Path) -> None:
+    save_model(SCENES, tmp_path / "a.glb", fps=10)
+    tree, binary = glb(tmp_path / "a.glb")
+    (animation,) = tree["animations"]
+    (sampler,) = animation["samplers"]
+    times = values(tree, binary, sampler["input"])[:, 0]
+    weights = values(tree, binary, sampler["output"]).reshape(len(times), -1)
+    assert np.allclose(times, np.arange(6) / 10)
+    assert not weights[0].any() and not weights[-1].any()
+    assert np.array_equal(weights[1:-1], np.eye(4))
+    nodes = [channel["target"]["node"] for channel in animation["channels"]]
+    assert all("weights" in tree["meshes"][tree["nodes"][node]["mesh"]] for node in nodes)
+
+
+def test_pixel_art_is_not_blurred_and_the_camera_is_ours(tmp_path: Path) -> None:
+    save_model(SCENES[0], tmp_path / "a.glb")
+    tree, _ = glb(tmp_path / "a.glb")
+    (sampler,) = tree["samplers"]
+    assert sampler["magFilter"] == sampler["minFilter"] == 9728
+    assert tree["cameras"][0]["perspective"]["yfov"] == pytest.approx(np.radians(CAMERA.fov))
+    (node,) = [node for node in tree["nodes"] if "camera" in node]
+    pose = np.array(node["matrix"]).reshape(4, 4).T
+    assert np.allclose(pose[:3, 3], CAMERA.position)
+    towards = np.subtract(CAMERA.target, CAMERA.position)
+    assert np.allclose(-pose[:3, 2], towards / np.linalg.norm(towards))
+    assert tree["extensionsUsed"] == ["KHR_materials_unlit"]
+
+
+def all_positions(scene: Scene) -> np.ndarray:
+    return np.concatenate([model.mesh.positions.reshape(-1, 3) for model in scene.models])
+
+
+def test_obj_opens_again_with_its_texture(tmp_path: Path) -> None:
+    save_model(SCENES, tmp_path / "a.obj")
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names == {"a.obj", "a.mtl", "a_texture.png"}
+    mesh = trimesh.load_mesh(tmp_path / "a.obj", process=False, maintain_order=True)
+    wanted = all_positions(SCENES[0])
+    assert len(mesh.faces) == 4 * 32
+    assert np.allclose(mesh.bounds, [wanted.min(axis=0), wanted.max(axis=0)], atol=1e-6)
+    image = np.asarray(mesh.visual.material.image.convert("RGBA"))
+    assert np.array_equal(image, np.asarray(Image.open(tmp_path / "a_texture.png")))
+    assert len(mesh.visual.uv) == len(mesh.vertices)
+
+
+def test_ply_has_the_texels_at_its_vertices(tmp_path: Path) -> None:
+    plain = np.full((4, 4, 4), (10, 200, 30, 255), np.uint8)
+    scene = replace(SCENES[0], models=(Model(sheet(0.2), (Look((Coat(plain),)),)),))
+    save_model(scene, tmp_path / "a.ply")
+    mesh = trimesh.load_mesh(tmp_path / "a.ply", process=False)
+    assert np.array_equal(np.asarray(mesh.vertices, np.float32), scene.models[0].mesh.positions)
+    assert np.array_equal(mesh.faces, scene.models[0].mesh.triangles)
+    assert (mesh.visual.vertex_colors == (10, 200, 30, 255)).all()
+    body = (tmp_path / "a.ply").read_bytes().partition(b"end_header\n")[2]
+    vertices = np.frombuffer(body, [("p", "<f4", 3), ("n", "<f4", 3), ("c", "u1", 4)], 25)
+    assert np.array_equal(vertices["n"], scene.models[0].mesh.normals)
+
+
+def test_bedrock_geometry_is_mirrored_in_sixteenths(tmp_path: Path) -> None:
+    mesh = sheet(0.3, 0.1, 0.2, 0.3)
+    scene = replace(SCENES[0], models=(Model(mesh, LOOKS[:1]),))
+    save_model(scene, tmp_path / "My Flag.geo.json")
+    (geometry,) = json.loads((tmp_path / "My Flag.geo.json").read_text())["minecraft:geometry"]
+    assert geometry["description"]["identifier"] == "geometry.my_flag"
+    (bone,) = geometry["bones"]
+    shape = bone["poly_mesh"]
+    positions = np.array(shape["positions"]) * [-1, 1, 1] / 16
+    assert np.allclose(positions, mesh.positions, atol=1e-6)
+    assert np.allclose(np.array(shape["normals"]) * [-1, 1, 1], mesh.normals, atol=1e-5)
+    polys = np.array(shape["polys"])
+    assert polys.shape == (len(mesh.triangles), 4, 3)
+    assert np.array_equal(polys[:, :3, 0], mesh.triangles)
+    assert np.array_equal(polys[:, 3], polys[:, 2])
+    width = geometry["description"]["texture_width"]
+    with Image.open(tmp_path / "My Flag_texture.png") as image:
+        assert image.size == (width, geometry["description"]["texture_height"])
+        u, v = np.array(shape["uvs"]).T
+        # The sprite lies in the sheet within a border of one texel.
+        assert np.allclose(u * image.width, 1 + 16 * mesh.uvs[:, 0], atol=1e-4)
+        assert np.allclose((1 - v) * image.height, 1 + 16 * mesh.uvs[:, 1], atol=1e-4)
+
+
+def test_blockbench_models_hold_mesh_and_texture(tmp_path: Path) -> None:
+    save_model(SCENES[0], tmp_path / "a.bbmodel")
+    model = json.loads((tmp_path / "a.bbmodel").read_text())
+    assert model["outliner"] == [element["uuid"] for element in model["elements"]]
+    assert len(set(model["outliner"])) == len(model["elements"]) == 4
+    head, _, data = model["textures"][0]["source"].partition(",")
+    assert head == "data:image/png;base64"
+    with Image.open(io.BytesIO(base64.b64decode(data))) as image:
+        assert image.size == (model["resolution"]["width"], model["resolution"]["height"])
+    still = model["elements"][2]
+    assert np.allclose(
+        np.array(list(still["vertices"].values())) / 16,
+        SCENES[0].models[1].mesh.positions,
+        atol=1e-6,
+    )
+    assert len(still["faces"]) == 32
+    for face in still["faces"].values():
+        assert set(face["uv"]) == set(face["vertices"]) <= set(still["vertices"])
+
+
+@pytest.mark.parametrize("ending", MODEL_ENDINGS)
+def test_same_scenes_same_bytes(tmp_path: Path, ending: str) -> None:
+    for run in ("one", "two"):
+        (tmp_path / run).mkdir()
+        save_model(scenes(), tmp_path / run / f"a{ending}")
+    for file in (tmp_path / "one").iterdir():
+        assert file.read_bytes() == (tmp_path / "two" / file.name).read_bytes()
+
+
+def test_bad_input_is_refused_and_leaves_nothing(tmp_path: Path) -> None:
+    with pytest.raises(OptionError, match=r"\.stl.*\.glb, \.obj"):
+        save_model(SCENES, tmp_path / "a.stl")
+    with pytest.raises(OptionError, match="ending"):
+        save_model(SCENES, tmp_path / ".glb")
+    with pytest.raises(OutputError, match="does not exist"):
+        save_model(SCENES, tmp_path / "no" / "a.glb")
+    with pytest.raises(OptionError, match="no scene"):
+        save_model([], tmp_path / "a.glb")
+    with pytest.raises(OptionError, match="no mesh"):
+        save_model(replace(SCENES[0], models=()), tmp_path / "a.glb")
+    with pytest.raises(OptionError, match="frame 1 has other meshes"):
+        save_model([SCENES[0], replace(SCENES[0], models=SCENES[0].models[:1])], tmp_path / "a.glb")
+    broken = replace(sheet(0.1), positions=np.full((25, 3), np.nan, np.float32))
+    with pytest.raises(OptionError, match="not finite"):
+        save_model(replace(SCENES[0], models=(Model(broken, LOOKS[:1]),)), tmp_path / "a.glb")
+    odd = Look((Coat(texture(1, 8)), Coat(texture(1, 12))))
+    with pytest.raises(OptionError, match="do not divide"):
+        save_model(replace(SCENES[0], models=(Model(sheet(0), (odd,)),)), tmp_path / "a.glb")
+    (tmp_path / "b.mtl").mkdir()
+    with pytest.raises(OutputError, match=r"b\.mtl: it is a folder"):
+        save_model(SCENES, tmp_path / "b.obj")
+    assert [path.name for path in tmp_path.iterdir()] == ["b.mtl"]
+
+
+def test_only_glb_asks_for_later_scenes(tmp_path: Path) -> None:
+    def made() -> Any:
+        yield SCENES[0]
+        raise AssertionError("made")
+
+    save_model(made(), tmp_path / "a.bbmodel")
+    with pytest.raises(AssertionError):
+        save_model(made(), tmp_path / "a.glb")
