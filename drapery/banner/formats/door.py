@@ -40,7 +40,7 @@ def _form(module: ModuleType, read: Callable[[str], list[Found]]) -> Form:
     return Form(module.NAME, module.TITLE, module.EXAMPLE, module.recognises, read, module.write)
 
 
-def _site(module: ModuleType, code: str) -> Form:
+def _site(module: ModuleType) -> Form:
     def write(banner: Banner) -> str:
         if banner.kind != "banner":
             raise DesignError(f"{module.SITE} edits banners, not shields: write the form 'give'")
@@ -49,26 +49,23 @@ def _site(module: ModuleType, code: str) -> Form:
 
     name = module.NAME.replace("_", "-")
     title = f"address of {module.SITE}'s editor, or its code alone"
-    return Form(name, title, code, module.recognises, single(module.parse), write)
+    return Form(name, title, module.EXAMPLE, module.recognises, single(module.parse), write)
 
 
 _TABLE = (
-    _site(planet_minecraft, "https://www.planetminecraft.com/banner/?b=2c729cmcf28"),
-    _site(needcoolshoes, "https://www.needcoolshoes.com/banner?=ealleNhEehppai"),
-    _site(
-        minecraft_tools,
-        "https://minecraft.tools/en/banner.php?color_id_0=15&shape_id_1=30&color_id_1=10",
-    ),
+    _site(planet_minecraft),
+    _site(needcoolshoes),
+    _site(minecraft_tools),
     _form(give_old, commands.read_command),
     _form(setblock, commands.read_command),
     _form(summon, commands.read_command),
     _form(item_replace, commands.read_command),
-    _form(give_legacy, commands.read_command),
     _form(block_entity, block_entity.read),
     _form(wynncraft, trees.read),
     _form(own_json, trees.read),
     _form(bedrock, trees.read),
     _form(item, trees.read),
+    _form(give_legacy, commands.read_command),
     _form(give, commands.read_command),
     _form(shorthand, single(shorthand.parse)),
 )

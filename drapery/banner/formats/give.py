@@ -20,8 +20,9 @@ EXAMPLE = (
 def recognises(text: str) -> bool:
     """Whether the text begins with a command, or with an item's id right before its components."""
     identifier, bracket, _ = text.replace("{", "[", 1).partition("[")
-    alone = bool(bracket) and (_is_item(identifier) or not identifier.strip())
-    return alone or command_of(text) is not None
+    components_alone = text.lstrip().startswith("[")
+    argument = bool(bracket) and _is_item(identifier)
+    return argument or components_alone or command_of(text) is not None
 
 
 def write(banner: Banner) -> str:
@@ -31,14 +32,12 @@ def write(banner: Banner) -> str:
 
 def argument(banner: Banner) -> str:
     """The item argument: id and components."""
-    patterns = f"banner_patterns={write_snbt(names(banner.layers))}"
-    if banner.kind == "shield":
-        base = f'base_color="{banner.base}"'
-        return (
-            f"minecraft:shield[{base},{patterns}]" if banner.layers else f"minecraft:shield[{base}]"
-        )
-    item = f"minecraft:{banner.base}_banner"
-    return f"{item}[{patterns}]" if banner.layers else item
+    shield = banner.kind == "shield"
+    components = [f'base_color="{banner.base}"'] if shield else []
+    if banner.layers:
+        components.append(f"banner_patterns={write_snbt(names(banner.layers))}")
+    item = "minecraft:shield" if shield else f"minecraft:{banner.base}_banner"
+    return f"{item}[{','.join(components)}]" if components else item
 
 
 def _is_item(word: str) -> bool:

@@ -18,7 +18,8 @@ _BREAKS = str.maketrans(dict.fromkeys(",;\r", "\n"))
 
 def recognises(text: str) -> bool:
     """Whether the text holds none of the brackets and quotes that the other forms have."""
-    return not set('{}[]"@/=').intersection(text)
+    other = text.lstrip().startswith("/") or "//" in text
+    return not other and not set('{}[]"@=').intersection(text)
 
 
 def parse(text: str) -> Banner:

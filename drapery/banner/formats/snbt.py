@@ -294,8 +294,10 @@ def _explain(error: "UnexpectedInput", text: str, line: int) -> NoReturn:
         what = f"unexpected {text[place : place + 1]!r}"
     where = _where_at(text, place, line)
     if isinstance(error, UnexpectedCharacters) and text[place : place + 1] in ("'", '"'):
-        raise DesignError(f"{where}: a quote that never ends {_excerpt(text, place)}; close it")
-    raise DesignError(f"{where}: {what} {_excerpt(text, place)}{_wanted(error)}")
+        raise DesignError(
+            f"{where}: a quote that never ends {_excerpt(text, place)}; close it"
+        ) from None
+    raise DesignError(f"{where}: {what} {_excerpt(text, place)}{_wanted(error)}") from None
 
 
 def _wanted(error: "UnexpectedInput") -> str:
@@ -312,7 +314,8 @@ def _excerpt(text: str, place: int) -> str:
     before, after = text[max(place - 20, 0) : place], text[place : place + 12]
     lead = "…" if place > 20 else ""
     trail = "…" if len(text) > place + 12 else ""
-    return f"at {lead}{before}⟨here⟩{after}{trail}".replace("\n", " ")
+    line = f"at {lead}{before}⟨here⟩{after}{trail}"
+    return "".join(c if c.isprintable() else " " for c in line)
 
 
 def _where_at(text: str, place: int, line: int) -> str:

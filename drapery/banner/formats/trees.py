@@ -75,9 +75,10 @@ def _tells_base(tag: dict[str, Tree]) -> bool:
 
 
 def _baseless(tree: dict[str, Tree]) -> Banner:
+    sample = "[…]" if get(tree, "BlockEntityTag")[1] is None else "{…}"
     raise DesignError(
         f"{next(iter(tree))}: the base dye is not told here but by the item's id:"
-        " put it before, as minecraft:red_banner[…]"
+        f" put it before, as minecraft:red_banner{sample}"
     )
 
 

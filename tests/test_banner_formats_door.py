@@ -1,0 +1,152 @@
+"""The door: files, standard input, several banners, and what stays unloaded."""
+
+import io
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import (
+    Found,
+    find_banners,
+    parse_banner,
+    parse_banners,
+    read_design,
+    read_designs,
+)
+from drapery.errors import DesignError
+
+RED, BLUE = Banner("red"), Banner("blue")
+CHEST = (
+    "/setblock ~ ~ ~ chest{Items:[{Slot:0b,id:'minecraft:red_banner',count:1},"
+    "{Slot:1b,id:'minecraft:shield',count:1},{Slot:2b,id:'minecraft:bundle',components:"
+    "{bundle_contents:[{id:'minecraft:blue_banner'}]}}]}"
+)
+
+
+def test_all_banners_of_a_text_are_found_each_with_its_place():
+    assert parse_banners(CHEST) == [
+        Found(RED, "Items[0]"),
+        Found(BLUE, "Items[2].components.bundle_contents[0]"),
+    ]
+
+
+def test_one_of_several_is_chosen_by_number():
+    assert parse_banner(CHEST, number=2) == BLUE
+    with pytest.raises(DesignError, match=r"2 banners, from 'Items\[0\]' to .* by its number"):
+        parse_banner(CHEST)
+    with pytest.raises(DesignError, match="no banner number 3: they are 1 to 2"):
+        parse_banner(CHEST, number=3)
+    assert parse_banner(CHEST.replace("blue", "red")) == RED
+
+
+def test_a_function_file_is_read_line_by_line():
+    text = (
+        "# a comment: it's free\nsay banner's\ngive @s diamond\n"
+        "/give @s red_banner\n\ngive @s blue_banner\n"
+    )
+    assert parse_banners(text) == [
+        Found(RED, "line 4 red_banner"),
+        Found(BLUE, "line 6 blue_banner"),
+    ]
+
+
+def test_a_broken_line_is_warned_of_with_its_number_and_passed_over():
+    text = "give @s red_banner\ngive @s banner[\ngive @s red_banner[banner_patterns=[5]]\n"
+    with pytest.warns(UserWarning) as caught:
+        assert parse_banner(text) == RED
+    places = [str(warning.message).split(":")[0] for warning in caught]
+    assert places == ["line 2, column 16", "line 3"]
+
+
+def test_only_broken_lines_are_an_error():
+    with pytest.raises(DesignError, match="line 2, column 17"):
+        parse_banners("give @s diamond\ngive @s banner [\ngive @s banner[\n")
+
+
+def test_a_command_may_be_broken_over_lines():
+    assert parse_banner("give @p red_banner[\n  banner_patterns = [\n  ]\n]") == RED
+
+
+def test_a_file_is_read_if_there_is_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    file = Path("my banner.txt")
+    file.write_text("white cross:red\n", "utf-8")
+    assert read_design("my banner.txt") == read_design(file) == Banner.parse("white cross:red")
+    file.write_text("white kross:red", "utf-8")
+    with pytest.raises(DesignError, match=r"^my banner.txt: layer 1 'kross:red'"):
+        read_design(file)
+
+
+def test_a_text_is_no_file_even_where_a_folder_is_called_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.chdir(tmp_path)
+    Path("red").mkdir()
+    assert read_design("red") == RED
+
+
+@pytest.mark.parametrize("name", ["gone.txt", "a/b.json", "C:\\banners\\mine.nbt"])
+def test_a_file_that_is_not_there_is_called_so(name: str):
+    with pytest.raises(DesignError, match="there is no such file"):
+        read_design(name)
+    with pytest.raises(DesignError, match=r"gone: No such file|gone: .*cannot find"):
+        read_design(Path("gone"))
+
+
+@pytest.mark.parametrize(
+    ("data", "part"),
+    [
+        (b"\xff\xff\xff\x00", "neither text nor a known file"),
+        (b"", "empty"),
+        (b"white " + b"x" * (5 << 20), "over 1048576"),
+        (b"\x1f\x8b\x08", "broken.txt"),
+    ],
+)
+def test_a_file_that_cannot_be_read_is_named(tmp_path: Path, data: bytes, part: str):
+    file = tmp_path / "broken.txt"
+    file.write_bytes(data)
+    with pytest.raises(DesignError, match=r"broken\.txt") as caught:
+        read_design(file)
+    assert part in str(caught.value) and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_encodings_of_editors(tmp_path: Path, encoding: str):
+    file = tmp_path / "banner.json"
+    file.write_bytes('{"base": "red"}'.encode(encoding))
+    assert read_design(file) == RED
+
+
+def test_a_dash_is_standard_input(monkeypatch: pytest.MonkeyPatch):
+    given = io.TextIOWrapper(io.BytesIO(b"give @s red_banner\r\n"), "utf-8")
+    monkeypatch.setattr("sys.stdin", given)
+    assert read_designs("-") == [Found(RED, "red_banner")]
+
+
+def test_block_entities_get_their_dye_from_their_block():
+    tree = {
+        "block_entities": [{"id": "minecraft:banner", "x": 1, "patterns": []}, {"id": "banner"}]
+    }
+    found = find_banners(
+        tree, "chunk", block_of=lambda entity: f"{'red' if 'x' in entity else 'blue'}_banner"
+    )
+    assert list(found) == [
+        Found(RED, "chunk.block_entities[0]"),
+        Found(BLUE, "chunk.block_entities[1]"),
+    ]
+
+
+def test_the_names_of_blocks_in_a_palette_are_no_banners():
+    assert list(find_banners({"palette": [{"Name": "minecraft:red_banner"}]})) == []
+
+
+def test_shorthand_and_json_load_no_grammar():
+    code = (
+        "import sys; from drapery.banner.formats import parse_banner;"
+        "parse_banner('white cross:red'); parse_banner('{\"base\": \"red\"}');"
+        "sys.exit(any(m in sys.modules for m in ('lark', 'nbtlib', 'numpy')))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,0 +1,211 @@
+"""What is no banner: one line that names the place and the remedy, whatever the form."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from drapery.banner.formats import FORMS, parse_banner, write_banner
+from drapery.errors import DesignError
+
+
+def fault(text: str, form: str | None = None) -> str:
+    with pytest.raises(DesignError) as caught:
+        parse_banner(text, form=form)
+    message = str(caught.value)
+    assert len(message.splitlines()) == 1 and len(message) < 400
+    message.encode("utf-8")
+    return message
+
+
+def patterns(inner: str) -> str:
+    return f"/give @p white_banner[banner_patterns=[{inner}]]"
+
+
+GOOD = '{pattern:"creeper",color:"lime"}'
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        (
+            patterns(f'{GOOD},{{pattern:"kreeper",color:"lime"}}'),
+            ["banner_patterns[1].pattern", "'kreeper'", "did you mean 'creeper'"],
+        ),
+        (
+            patterns(f'{GOOD},{GOOD},{{pattern:"cross",color:"lme"}}'),
+            ["banner_patterns[2].color", "'lme'", "did you mean 'lime'"],
+        ),
+        (patterns('{pattern:"cross"}'), ["banner_patterns[0]", "no color"]),
+        (patterns('{color:"lime"}'), ["banner_patterns[0]", "no pattern"]),
+        (patterns('"creeper"'), ["banner_patterns[0]", "'creeper' is no layer"]),
+        (patterns('{pattern:{translation_key:"x"},color:"red"}'), ["[0].pattern", "asset_id"]),
+        (patterns('{pattern:"ACME:x",color:"red"}'), ["'ACME:x'", "namespace:path"]),
+        (patterns('{pattern:"a:../../x",color:"red"}'), ["'a:../../x'", "namespace:path"]),
+        (patterns(",".join([GOOD] * 17)), ["banner_patterns", "17 layers", "at most 16"]),
+        ("white_banner[banner_patterns=5]", ["banner_patterns", "5 is no list of layers"]),
+        (
+            "/give @p banner 1 15 {BlockEntityTag:{Base:16}}",
+            ["BlockEntityTag.Base", "16", "0 to 15"],
+        ),
+        (
+            "/give @p banner 1 15 {BlockEntityTag:{Patterns:[{Pattern:cre,Color:-1}]}}",
+            ["BlockEntityTag.Patterns[0].Color", "-1", "0 to 15"],
+        ),
+        ("/give @p banner 1 15 {BlockEntityTag:5}", ["BlockEntityTag", "5", "compound"]),
+        ("/give @p white_banner creeper:lime", ["column 23", "'creeper:lime'"]),
+        (
+            "/give @p white_bannr[banner_patterns=[]]",
+            ["'white_bannr'", "did you mean 'white_banner'"],
+        ),
+        ("/give @p diamond", ["no banner", "minecraft:white_banner[banner_patterns=[…]]"]),
+        (
+            f"[banner_patterns=[{GOOD}]]",
+            ["no banner", "minecraft:white_banner[banner_patterns=[…]]"],
+        ),
+        (f"{{patterns:[{GOOD}]}}", ["base dye", "minecraft:red_banner{…}"]),
+        (f'{{"minecraft:banner_patterns":[{GOOD}]}}', ["base dye", "minecraft:red_banner[…]"]),
+        ("{BlockEntityTag:{Patterns:[]}}", ["base dye", "minecraft:red_banner{…}"]),
+        ('{id:"minecraft:stone"}', ["no banner", "minecraft:red_banner"]),
+        ("/give @p shield[damage=3]", ["plain shield", "base_color"]),
+        ('{"layers":[]}', ['no "base"']),
+        (
+            '{"base":"red","layers":[{"pattern":"cross","color":"red"},5]}',
+            ["layers[1]", "5 is no layer"],
+        ),
+        ('{"base":"red","kind":"cape"}', ["kind", "'cape'"]),
+        (
+            '{"base":"WHITE","tier":1,"layers":[{"colour":"RED","pattern":"CIRCEL"}]}',
+            ["layers[0].pattern", "'CIRCEL'", "did you mean 'circle'"],
+        ),
+        ("white creeper", ["layer 1 'creeper'", "pattern:dye"]),
+        ("white cross:red kreeper:lime", ["layer 2 'kreeper:lime'", "did you mean 'creeper'"]),
+        ("white" + " cross:red" * 17, ["17 layers", "at most 16"]),
+        ("creeper:lime", ["base dye comes first"]),
+        ("whit", ["did you mean 'white'"]),
+        ("shield", ["no base dye"]),
+        ("", ["empty"]),
+        (" \n\t", ["empty"]),
+        ("/tell @a hello", ["no form of a banner", "/give"]),
+        ("https://example.com/banner?b=1", ["no banner editor", "/give"]),
+        ("banners/mine.json", ["no such file"]),
+    ],
+)
+def test_a_fault_is_named_with_its_place_and_remedy(text: str, parts: list[str]):
+    from drapery.banner.formats import read_design
+
+    with pytest.raises(DesignError) as caught:
+        read_design(text)
+    message = str(caught.value)
+    assert [part for part in parts if part not in message] == [], message
+    assert len(message.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "expected"),
+    [
+        (patterns('{pattern:"creeper" color:"lime"}'), "line 1, column 59", "',' or '}'"),
+        (
+            patterns("{pattern:creeper,color:lime}")[:-1],
+            "column 69: the text ends too early",
+            "']'",
+        ),
+        ('{\n  "base": "red",\n  "layers": [}\n}', "line 3, column 14: unexpected '}'", "']'"),
+        (
+            '/give @p white_banner[item_name="x]',
+            "line 1, column 33: a quote that never ends",
+            "close it",
+        ),
+        ("/give @p white_banner[banner_patterns=[[X;1]]]", "line 1, column 41", "B, I and L"),
+        ("{a:foo(1)}", "line 1, column 4", "bool(1)"),
+        ('{a:"\\U99999999"}', "line 1, column 4", "is no character"),
+        ("{a:uuid('x')}", "line 1, column 4", "is no UUID"),
+        ("{}}", "line 1, column 3: unexpected '}'", "the end"),
+    ],
+)
+def test_bad_syntax_is_shown_by_line_and_column(text: str, place: str, expected: str):
+    message = fault(text)
+    assert place in message and expected in message.partition(place)[2], message
+
+
+def test_lines_of_a_long_text_are_counted():
+    assert fault("{a:1,\n\n b:[1,\n2,,]}").startswith("line 4, column 3: unexpected ','")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[" * 100_000,
+        "{a:" * 100_000,
+        '{"a":' * 100_000,
+        "[" * 100_000 + "]" * 100_000,
+        '{"a":[' * 900 + "]}" * 900,
+        "/give @p white_banner[a=" + "{b:[" * 50_000,
+        "red_banner[a=" + "[" * 50_000,
+    ],
+)
+def test_depth_is_refused_before_it_hurts(text: str):
+    message = fault(text)
+    assert "nested over 512 deep" in message
+
+
+def test_depth_within_the_limit_is_read():
+    item = '{"id":"minecraft:red_banner"}'
+    for key in ("a", '"a"'):
+        deep = f"{{{key}:" * 500 + item + "}" * 500
+        assert parse_banner(deep).base == "red"
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("[" + "1," * 200_000 + "]", "over 120000 words"),
+        ("white " + "x" * (1 << 20), "over 1048576"),
+        ("{" + " " * (1 << 20) + "}", "over 1048576"),
+        ('{a:"' + '\\"' * 400_000, "never ends"),
+        ('"' * 500_000, "no form of a banner"),
+        ("white " + "a:b " * 200_000, "200000 layers"),
+        ("white " + "x" * 900_000, "has no dye"),
+        ("white " + "x" * 900_000 + ":red", "unknown pattern"),
+        ('{"base":' + "1" * 100_000 + "}", "unknown dye"),
+        ("/give @p " + "1" * 900_000, "no banner"),
+        (" " * 1_000_000 + "x", "unknown dye"),
+        (":" * 1_000_000, "base dye"),
+    ],
+)
+def test_length_is_refused_before_it_hurts(text: str, part: str):
+    assert part in fault(text)
+
+
+@given(st.text(max_size=60))
+def test_any_text_at_all_is_a_banner_or_one_line(text: str):
+    for form in (None, "give", "item", "text"):
+        try:
+            parse_banner(text, form=form)
+        except DesignError as error:
+            assert len(str(error).splitlines()) == 1
+
+
+def test_forms_are_named_in_the_error_of_an_unknown_one():
+    with pytest.raises(DesignError, match="did you mean 'give-legacy'"):
+        write_banner(parse_banner("red"), "give_legacy")
+    with pytest.raises(DesignError, match=", ".join(FORMS)):
+        parse_banner("red", form="?")
+
+
+@pytest.mark.parametrize(
+    ("form", "design", "parts"),
+    [
+        ("give-legacy", "white flow:red", ["layer 1", "1.20.4", "'flow'"]),
+        ("give-legacy", "white cross:red acme:x:red", ["layer 2", "'acme:x'"]),
+        ("give-1.12", "white globe:red", ["layer 1", "1.12", "'globe'"]),
+        ("give-1.12", "shield white", ["shields"]),
+        ("setblock", "shield white", ["shield", "'give'"]),
+        ("bedrock", "white acme:x:red", ["layer 1", "'acme:x'"]),
+        ("wynncraft", "white acme:x:red", ["layer 1", "'acme:x'"]),
+        ("planet-minecraft", "shield white", ["shields", "'give'"]),
+    ],
+)
+def test_a_form_says_what_it_cannot_hold(form: str, design: str, parts: list[str]):
+    with pytest.raises(DesignError) as caught:
+        write_banner(parse_banner(design), form)
+    assert [part for part in parts if part not in str(caught.value)] == []
