@@ -168,10 +168,10 @@ HOSTILE = {
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_files_are_refused_soon(name: str):
     data, place = HOSTILE[name]
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(DesignError, match=place) as caught:
         read_nbt(data, "evil.nbt")
-    assert time.perf_counter() - start < 1
+    assert time.process_time() - start < 1
     assert str(caught.value).startswith("evil.nbt: ") and "\n" not in str(caught.value)
 
 

@@ -32,8 +32,8 @@ def test_a_megabyte_with_a_thousand_banners_is_read_under_a_second():
     assert len(data) > 2**20
     times = []
     for _ in range(3):
-        start = time.perf_counter()
+        start = time.process_time()
         found = [one.banner for one in find_in_bytes(data, "f")]
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     assert sorted(map(repr, found)) == sorted(map(repr, banners))
     assert min(times) < 1

@@ -10,24 +10,31 @@ from world_maker import LIME, PLAIN, RED, SHIELD
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYE_NAMES
-from drapery.banner.formats import schem, structure
+from drapery.banner.formats import mcstructure, schem, structure
 from drapery.banner.formats.binary import BINARY_FORMS
 from drapery.banner.formats.files import find_in_bytes
+from drapery.banner.formats.tree import OMINOUS
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError
 
 WRITERS = {form.name: form for form in BINARY_FORMS if form.write}
-LAYERS = st.builds(
-    Layer, st.sampled_from([*PATTERN_NAMES, "mod:rose/thorn"]), st.sampled_from(DYE_NAMES)
-)
-BANNERS = st.builds(Banner, st.sampled_from(DYE_NAMES), st.lists(LAYERS, max_size=16).map(tuple))
+DYE = st.sampled_from(DYE_NAMES)
+
+
+def banners(*patterns: str):
+    layers = st.builds(Layer, st.sampled_from(patterns), DYE)
+    return st.builds(Banner, DYE, st.lists(layers, max_size=16).map(tuple)) | st.just(OMINOUS)
+
+
+BANNERS = banners(*PATTERN_NAMES, "mod:rose/thorn")
+OF_THE_GAME = banners(*PATTERN_NAMES)
 
 
 @pytest.mark.parametrize("name", WRITERS)
 def test_every_banner_comes_back(name: str):
     form = WRITERS[name]
 
-    @given(BANNERS)
+    @given(OF_THE_GAME if name == "mcstructure" else BANNERS)
     def round_trip(banner: Banner):
         data = form.write(banner)
         assert [one.banner for one in form.read(data)] == [banner]
@@ -37,9 +44,9 @@ def test_every_banner_comes_back(name: str):
     round_trip()
 
 
-@given(st.lists(BANNERS, min_size=1, max_size=9))
+@given(st.lists(OF_THE_GAME, min_size=1, max_size=9))
 def test_many_banners_stand_in_a_row(banners: list[Banner]):
-    for write in (structure.write, schem.write):
+    for write in (structure.write, schem.write, mcstructure.write):
         found = list(find_in_bytes(write(banners), "f"))
         assert [one.banner for one in found] == banners
         assert [one.where for one in found] == [f"f block {x},0,0" for x in range(len(banners))]
@@ -66,9 +73,20 @@ def test_nbtlib_reads_what_we_write():
 def test_a_shield_is_an_item_and_no_block():
     data = WRITERS["nbt"].write(SHIELD)
     assert [one.banner for one in find_in_bytes(data, "f")] == [SHIELD]
-    for name in ("structure", "schem"):
-        with pytest.raises(DesignError, match="a shield is no block"):
+    for name in ("structure", "schem", "mcstructure"):
+        with pytest.raises(DesignError, match="shield"):
             WRITERS[name].write(SHIELD)
+
+
+def test_bedrock_has_no_patterns_of_data_packs():
+    with pytest.raises(DesignError, match="layer 1: Bedrock has no pattern 'mod:rose'"):
+        WRITERS["mcstructure"].write(Banner("red", (Layer("mod:rose", "white"),)))
+
+
+def test_bedrock_keeps_the_ominous_banner_as_a_type():
+    root = nbtlib.File.parse(io.BytesIO(mcstructure.write([OMINOUS])), "little")
+    entity = root["structure"]["palette"]["default"]["block_position_data"]["0"]
+    assert entity["block_entity_data"]["Type"] == 1
 
 
 def test_a_form_that_is_forced_must_fit():

@@ -83,7 +83,7 @@ ADDRESSES = [
     (needcoolshoes, "skinmc.net/banner/editor?=ealleNhEehppai"),
     (needcoolshoes, "needcoolshoes.com/banner?page=2&=ealleNhEehppai"),
     (minecraft_tools, f"https://minecraft.tools/en/banner.php?{PAIRS[4][1]}"),
-    (minecraft_tools, f"minecraft.tools/de/shield.php?{PAIRS[4][1]}#crafting"),
+    (minecraft_tools, f"minecraft.tools/de/banner.php?{PAIRS[4][1]}#crafting"),
 ]
 
 
@@ -154,6 +154,13 @@ def test_the_base_pair_may_carry_other_high_bits():
 
 def test_shape_zero_is_no_layer():
     assert minecraft_tools.parse("color_id_0=4&shape_id_1=0&color_id_1=0") == Banner("blue")
+
+
+def test_minecraft_tools_edits_shields_too():
+    shield = Banner("blue", (Layer("bricks", "white"),), kind="shield")
+    address = "https://minecraft.tools/en/shield.php?color_id_0=4&shape_id_1=28&color_id_1=15"
+    assert minecraft_tools.parse(address) == shield
+    assert minecraft_tools.write(shield) == address
 
 
 @pytest.mark.parametrize(

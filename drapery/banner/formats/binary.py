@@ -9,9 +9,10 @@ from drapery.banner.formats.files import find_in_bytes
 from drapery.banner.formats.form import BinaryForm
 from drapery.banner.formats.found import Found
 from drapery.banner.formats.inflate import is_compressed
+from drapery.banner.formats.item import item_object
 from drapery.banner.formats.nbt import is_nbt, read_nbt
 from drapery.banner.formats.tree import Tree
-from drapery.banner.formats.write_nbt import encode, item
+from drapery.banner.formats.write_nbt import encode
 from drapery.errors import DesignError
 
 Recognises = Callable[[dict[str, Tree]], bool]
@@ -84,6 +85,7 @@ BINARY_FORMS: tuple[BinaryForm, ...] = (
         (".mcstructure",),
         mcstructure.recognises,
         mcstructure.find,
+        lambda banner: mcstructure.write([banner]),
     ),
     BinaryForm(region.NAME, "world's region", (".mca",), _is_region, _read_region),
     BinaryForm(
@@ -92,7 +94,7 @@ BINARY_FORMS: tuple[BinaryForm, ...] = (
         (".dat", ".nbt"),
         lambda head, name: _opens_as_nbt(head),
         lambda data: find_in_bytes(data, "nbt"),
-        lambda banner: encode(item(banner)),
+        lambda banner: encode(item_object(banner)),
     ),
 )
 """Every form of bytes; a file is of the first that recognises it."""

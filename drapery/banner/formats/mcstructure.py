@@ -4,8 +4,10 @@ A structure lists its blocks by number, z fastest, then y, then x; block entitie
 that number. Banners there have their base dye, and `Type:1` is the ominous banner.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from drapery.banner.design import Banner
+from drapery.banner.formats.bedrock import block_entity
 from drapery.banner.formats.blocks import (
     OnError,
     Spot,
@@ -19,9 +21,12 @@ from drapery.banner.formats.blocks import (
 )
 from drapery.banner.formats.found import Found
 from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.write_nbt import encode
 from drapery.errors import DesignError
 
 NAME = "mcstructure"
+BLOCK_VERSION = 18_163_713
+"""1.21.40.1: the version of the block states, a byte for each number."""
 
 
 def recognises(tree: dict[str, Tree]) -> bool:
@@ -57,3 +62,29 @@ def _place(number: str, size: Spot, where: str) -> Spot:
     if not (number.isascii() and number.isdigit() and len(number) < 12 and height * length > 0):
         raise DesignError(f"{where}: {number[:12]!r} is no block's number; export the file anew")
     return int(number) // (height * length), int(number) // length % height, int(number) % length
+
+
+def write(banners: Sequence[Banner]) -> bytes:
+    """A structure of standing banners in a row to the east, facing south.
+
+    Raises DesignError for shields and the patterns of data packs, which Bedrock lacks.
+    """
+    block = {"name": "minecraft:standing_banner", "states": {"ground_sign_direction": 0}}
+    data = {
+        str(x): {"block_entity_data": block_entity(banner) | {"x": x, "y": 0, "z": 0}}
+        for x, banner in enumerate(banners)
+    }
+    palette = {"block_palette": [block | {"version": BLOCK_VERSION}], "block_position_data": data}
+    return encode(
+        {
+            "format_version": 1,
+            "size": [len(banners), 1, 1],
+            "structure": {
+                "block_indices": [[0] * len(banners), [-1] * len(banners)],
+                "entities": [],
+                "palette": {"default": palette},
+            },
+            "structure_world_origin": [0, 0, 0],
+        },
+        "little",
+    )

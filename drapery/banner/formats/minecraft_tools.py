@@ -4,6 +4,7 @@
 """
 
 import re
+from typing import Literal
 
 from drapery.banner.design import MAX_LAYERS, Banner, Layer
 from drapery.banner.formats.urls import (
@@ -42,15 +43,18 @@ def parse(text: str) -> Banner:
     Raises DesignError for gallery pages and for numbers that stand for nothing.
     """
     text = text.strip()
-    numbers = _numbers(text)
+    address = _address(text)
+    numbers = _numbers(text, address)
     shapes = sorted(key[1] for key, value in numbers.items() if key[0] == "shape" and value)
     if len(shapes) > MAX_LAYERS:
         refuse(SITE, text, f"{len(shapes)} layers, over {MAX_LAYERS}", REMEDY)
-    return Banner(_dye(text, numbers, 0), tuple(_layer(text, numbers, n) for n in shapes))
+    layers = tuple(_layer(text, numbers, n) for n in shapes)
+    kind: Literal["banner", "shield"] = "shield" if "shield" in address.path else "banner"
+    return Banner(_dye(text, numbers, 0), layers, kind)
 
 
 def write(banner: Banner) -> str:
-    """The address that opens the banner in the editor.
+    """The address that opens the banner or shield in its editor.
 
     Raises DesignError for patterns that the editor lacks: `base`, `flow`, `guster`, and those
     of data packs.
@@ -61,7 +65,7 @@ def write(banner: Banner) -> str:
             refuse_pattern(SITE, number, layer.pattern)
         shape = PATTERN_ORDER.index(layer.pattern) + 1
         query += f"&shape_id_{number}={shape}&color_id_{number}={COLOURS.index(layer.dye)}"
-    return f"https://{HOST}/en/banner.php?{query}"
+    return f"https://{HOST}/en/{banner.kind}.php?{query}"
 
 
 def _address(text: str) -> Address:
@@ -72,10 +76,10 @@ def _address(text: str) -> Address:
     return address
 
 
-def _numbers(text: str) -> dict[tuple[str, int], int]:
+def _numbers(text: str, address: Address) -> dict[tuple[str, int], int]:
     """The parameters by kind and layer."""
     numbers = {}
-    for name, value in _address(text).pairs():
+    for name, value in address.pairs():
         if match := _PARAMETER.fullmatch(name):
             numbers[match[1], int(match[2])] = _number(text, name, value)
     if not numbers:

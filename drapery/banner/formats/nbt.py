@@ -53,7 +53,7 @@ class Codec(NamedTuple):
     dtypes: dict[int, str]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Numbers:
     """An array or a long list of numbers, within the file's bytes. True, and equal to no other."""
 
@@ -61,6 +61,9 @@ class Numbers:
     start: int
     length: int
     dtype: str
+
+    def __repr__(self) -> str:
+        return f"an array of {self.length}"
 
     def array(self) -> NDArray[Any]:
         """The numbers, shape [length], not copied."""

@@ -48,19 +48,6 @@ def block_entity(banner: Banner) -> dict[str, Tree]:
     return {"id": "minecraft:banner"} | ({"patterns": layers} if layers else {})
 
 
-def item(banner: Banner) -> dict[str, Tree]:
-    """One banner or shield as an item object."""
-    components: dict[str, Tree] = {}
-    if banner.layers:
-        components["minecraft:banner_patterns"] = names(banner.layers)
-    if banner.kind == "shield":
-        components["minecraft:base_color"] = banner.base
-    name = "shield" if banner.kind == "shield" else f"{banner.base}_banner"
-    return {"id": f"minecraft:{name}", "count": 1} | (
-        {"components": components} if components else {}
-    )
-
-
 def placeable(banner: Banner) -> Banner:
     """The same banner. Raises DesignError for a shield, which cannot be placed as a block."""
     if banner.kind == "shield":
