@@ -20,13 +20,18 @@ OutOption = Annotated[
 
 def run(
     ctx: typer.Context,
-    design: o.DesignArgument,
     out: OutOption,
+    design: o.OptionalDesign = None,
     seconds: Annotated[float, typer.Option(help="Length of the loop.")] = 4.0,
     fps: Annotated[float, typer.Option(help="Frames per second.")] = 20.0,
     pack: o.PackOption = None,
+    format: o.FormatOption = None,
+    kind: o.KindOption = "auto",
+    texture: o.TextureOption = None,
     pose: o.PoseOption = "cloth",
     placement: o.PlacementOption = "standing",
+    rotation: o.RotationOption = 0,
+    facing: o.FacingOption = None,
     view: o.ViewOption = "front",
     size: o.SizeOption = "512x512",
     grid: o.GridOption = "5x9",
@@ -39,7 +44,6 @@ def run(
     backend: o.BackendOption = "auto",
 ) -> None:
     """Draw a banner waving in the wind, as a seamless loop."""
-    from drapery.banner.formats import read_design
     from drapery.pictures import frame_count, frames
     from drapery.render.encode import check_animation_target, save_animation
     from drapery.settings import Settings
@@ -47,7 +51,7 @@ def run(
     settings = Settings(**o.options_of(ctx.params))
     check_animation_target(out)
     with compile_notice():
-        drawn = frames(read_design(design), seconds, fps, settings)
+        drawn = frames(o.design_of(design), seconds, fps, settings)
         total = frame_count(seconds, fps)
         with progress("frames", total) as tick:
             save_animation(drawn, fps, out, total=total, progress=tick)

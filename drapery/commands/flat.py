@@ -16,6 +16,7 @@ def run(
     scale: Annotated[int, typer.Option(help="Pixels per texel of a 64 x 64 pack.")] = 8,
     back: Annotated[bool, typer.Option("--back", help="The other side.")] = False,
     pack: o.PackOption = None,
+    format: o.FormatOption = None,
 ) -> None:
     """Write the plain 20 x 40 face of a banner, enlarged."""
     from drapery.banner.formats import read_design
@@ -26,4 +27,6 @@ def run(
     within("scale", scale, 1, MAX_SCALE, "pixels")
     check_still_target(out)
     side = "back" if back else "front"
-    draw_face(read_design(design), packs=tuple(pack or ()), scale=scale, side=side).save(out)
+    packs = tuple(pack or ())
+    face = draw_face(read_design(design), packs=packs, format=format, scale=scale, side=side)
+    face.save(out)

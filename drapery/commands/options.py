@@ -2,11 +2,14 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
 from drapery.settings import Options, pair
+
+if TYPE_CHECKING:
+    from drapery.banner.design import Banner
 
 DesignArgument = Annotated[
     str,
@@ -16,14 +19,48 @@ DesignArgument = Annotated[
         show_default=False,
     ),
 ]
+OptionalDesign = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="DESIGN",
+        help="A banner or shield: a /give command, an item, JSON, a URL, 'white creeper:lime',"
+        " a file, or -. None for a cape, elytra or plain shield.",
+        show_default=False,
+    ),
+]
 PackOption = Annotated[
     list[Path] | None,
     typer.Option("--pack", metavar="PATH", help="Resource pack (folder, zip, jar); later wins."),
 ]
+FormatOption = Annotated[
+    int | None,
+    typer.Option(
+        "--format",
+        metavar="N",
+        help="Read packs as the game of this pack format does (46 is 1.21.4).",
+        show_default="newest",
+    ),
+]
+KindOption = Annotated[
+    str, typer.Option(help="banner, shield, cape or elytra; auto is what the design is of.")
+]
+TextureOption = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="What a cape or elytra wears: a PNG, 64 x 32 or larger."),
+]
 PoseOption = Annotated[
     str, typer.Option(help="cloth (simulated) or vanilla (the game's stiff sway).")
 ]
-PlacementOption = Annotated[str, typer.Option(help="standing or wall.")]
+PlacementOption = Annotated[
+    str, typer.Option(help="standing, wall, or item (as in the inventory).")
+]
+RotationOption = Annotated[
+    int, typer.Option(help="Turned by sixteenths: 0 south, 4 west, 8 north, 12 east.")
+]
+FacingOption = Annotated[
+    str | None,
+    typer.Option(help="On a wall: south, west, north or east.", show_default="south"),
+]
 ViewOption = Annotated[str, typer.Option(help="front, back, iso, gui or hero.")]
 SizeOption = Annotated[str, typer.Option(help="Width and height in pixels.")]
 GridOption = Annotated[str, typer.Option(help="Particles across and down the cloth.")]
@@ -42,3 +79,10 @@ def options_of(words: Mapping[str, Any]) -> Options:
     chosen = {name: value for name, value in words.items() if name in names}
     chosen |= {name: pair(name, words[name]) for name in ("size", "grid")}
     return cast(Options, chosen | {"packs": tuple(words["pack"] or ())})
+
+
+def design_of(text: str | None) -> "Banner | None":
+    """The design that a command is given, if it is given any. Raises DesignError."""
+    from drapery.banner.formats import read_design
+
+    return None if text is None else read_design(text)

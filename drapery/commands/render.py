@@ -1,4 +1,4 @@
-"""`drapery render`: one picture of a banner."""
+"""`drapery render`: one picture."""
 
 from pathlib import Path
 from typing import Annotated
@@ -15,11 +15,16 @@ OutOption = Annotated[
 
 def run(
     ctx: typer.Context,
-    design: o.DesignArgument,
     out: OutOption,
+    design: o.OptionalDesign = None,
     pack: o.PackOption = None,
+    format: o.FormatOption = None,
+    kind: o.KindOption = "auto",
+    texture: o.TextureOption = None,
     pose: o.PoseOption = "cloth",
     placement: o.PlacementOption = "standing",
+    rotation: o.RotationOption = 0,
+    facing: o.FacingOption = None,
     view: o.ViewOption = "front",
     size: o.SizeOption = "512x512",
     grid: o.GridOption = "5x9",
@@ -31,12 +36,11 @@ def run(
     background: o.BackgroundOption = "transparent",
     backend: o.BackendOption = "auto",
 ) -> None:
-    """Draw a banner as cloth and write one picture."""
-    from drapery.banner.formats import read_design
+    """Draw a banner, shield, cape or elytra and write one picture."""
     from drapery.pictures import draw
     from drapery.render.encode import check_still_target
 
     options = o.options_of(ctx.params)
     check_still_target(out)
     with compile_notice():
-        draw(read_design(design), **options).save(out)
+        draw(o.design_of(design), **options).save(out)
