@@ -70,7 +70,7 @@ def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) 
 
 @kernel
 def shorten(x: Any, links: Any) -> None:
-    """One sweep of Provot's correction: links over their longest length are pulled back to it."""
+    """Provot's correction: links over their longest length are pulled back to it, in order."""
     for s in range(links.longest.size):
         i, j = links.pairs[s, 0], links.pairs[s, 1]
         most = links.longest[s]

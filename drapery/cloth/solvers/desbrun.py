@@ -20,11 +20,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels, lanes
-from drapery.cloth.cloth import STRUCTURAL, Cloth
+from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.filters import Filter, cloth_filter
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
-from drapery.cloth.order import sweep_order
+from drapery.cloth.links import Links, limited_links
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import check_state, check_step
 from drapery.cloth.state import State
@@ -36,15 +36,6 @@ class Springs(NamedTuple):
     pairs: NDArray[np.int32]
     rest: Array
     stiffness: Array
-
-
-class Links(NamedTuple):
-    """Springs that may not grow, in the order of correction, and what each end takes of it."""
-
-    pairs: NDArray[np.int32]
-    longest: Array
-    share_i: Array
-    share_j: Array
 
 
 class Plan(NamedTuple):
@@ -83,7 +74,7 @@ class SolverDesbrun:
     """
 
     limit: float = 1.02
-    sweeps: int = 10
+    sweeps: int = 3
     threads: int | None = None
 
     def __post_init__(self) -> None:
@@ -96,7 +87,7 @@ class SolverDesbrun:
         check_step(dt, 1)
         faces, controls = wind_faces(cloth)
         springs = Springs(cloth.spring_pairs, cloth.spring_length, cloth.spring_stiffness)
-        links = limited_links(cloth, self.limit)
+        links = limited_links(cloth, self.limit, self.sweeps)
         pins = np.flatnonzero(cloth.inv_mass == 0)
         filter_ = cloth_filter(cloth, dt)
         return Memory(Plan(springs, links, faces, controls, filter_, cloth.inv_mass, pins), dt)
@@ -157,22 +148,11 @@ class SolverDesbrun:
                 targets,
                 push,
                 steps,
-                self.sweeps,
             )
 
         lanes.run_blocks(work, x.shape[1], width, lanes.thread_count(self.threads))
         time = state.time + steps * memory.dt
         return State(lanes.from_lanes(new_x), lanes.from_lanes(new_v), time)
-
-
-def limited_links(cloth: Cloth, limit: float) -> Links:
-    """The structural springs as links. Both ends share a correction by their inverse masses."""
-    chosen = sweep_order(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
-    pairs = cloth.spring_pairs[chosen]
-    w = cloth.inv_mass[pairs]
-    shares = w / w.sum(axis=1, keepdims=True)
-    longest = cloth.spring_length[chosen] * limit
-    return Links(pairs, longest, shares[:, 0].copy(), shares[:, 1].copy())
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
@@ -190,7 +170,6 @@ def _advance(
     targets: Any,
     push: Any,
     steps: Any,
-    sweeps: Any,
 ) -> None:
     """Steps of lanes first..last, a block at a time."""
     dt = x.dtype.type(numbers[0])
@@ -218,8 +197,7 @@ def _advance(
             kernels.add_uniform(g, mean, plan.inv_mass, numbers, push, start)
             kernels.move(y, g, old, dt)
             kernels.place_pins(y, old, plan.pins, targets, step, start)
-            for _ in range(sweeps):
-                kernels.shorten(y, plan.links)
+            kernels.shorten(y, plan.links)
             kernels.set_velocities(u, y, old, dt)
         kernels.give_lanes(new_x, y, start)
         kernels.give_lanes(new_v, u, start)

@@ -1,0 +1,174 @@
+"""Links: pairs of particles that may not move farther apart than a longest length.
+
+Provot (1995) shortens each overlong spring in turn, and the error travels one spring a sweep: on
+fine grids twenty sweeps are far from enough. Three things carry it farther, in this order:
+long-range attachments tie each particle to its pins by one link (Kim, Chentanez, Müller, "Long
+range attachments", SCA 2012); links over 2, 4, 8, … cells bound the distance between particles
+far apart on the cloth, coarse ones first (after Müller, "Hierarchical position based dynamics",
+VRIPHYS 2008); and the springs themselves go from the pins outwards, so that one sweep carries an
+error from the top of a hanging cloth to its free edge.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.cloth.cloth import STRUCTURAL, Cloth
+from drapery.mesh import Array
+
+FEW_PINS = 4
+"""Particles are attached to every pin if there are no more than this, else to the nearest."""
+
+
+class Links(NamedTuple):
+    """In the order of correction, with the share of it that each end takes.
+
+    pairs: [K, 2]. longest: [m], [K]. share_i, share_j: [K].
+    """
+
+    pairs: NDArray[np.int32]
+    longest: Array
+    share_i: Array
+    share_j: Array
+
+
+def limited_links(cloth: Cloth, limit: float, sweeps: int) -> Links:
+    """Links that hold a cloth's structural springs to `limit` times their rest length."""
+    if sweeps == 0:
+        return _links(cloth, np.zeros((0, 2), np.int32), np.zeros(0))
+    springs = np.flatnonzero(cloth.spring_kind == STRUCTURAL)
+    pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
+    order = _outwards(pin_distances(cloth), pairs, lengths)
+    fine = pairs[order], limit * lengths[order]
+    groups = [attachments(cloth), *_long_links(cloth, limit), *[fine] * sweeps]
+    return _links(
+        cloth,
+        np.concatenate([pairs for pairs, _ in groups]),
+        np.concatenate([longest for _, longest in groups]),
+    )
+
+
+def _links(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Links:
+    """Both ends share a correction by their inverse masses; pinned ends take none."""
+    w = cloth.inv_mass[pairs]
+    total = w.sum(axis=1)
+    free = total > 0
+    shares = w[free] / total[free, None]
+    pairs = pairs[free].astype(np.int32)
+    return Links(pairs, longest[free], shares[:, 0].copy(), shares[:, 1].copy())
+
+
+def attachments(cloth: Cloth) -> tuple[NDArray[np.int32], Array]:
+    """Pin and particle pairs [K, 2] and their distances over the cloth at rest [m], [K]."""
+    pins = np.flatnonzero(cloth.inv_mass == 0)
+    free = np.flatnonzero(cloth.inv_mass > 0)
+    if not len(pins):
+        return np.zeros((0, 2), np.int32), np.zeros(0)
+    if len(pins) <= FEW_PINS:
+        pairs = np.stack([np.repeat(pins, len(free)), np.tile(free, len(pins))], axis=1)
+    else:
+        pairs = np.stack([nearest_pins(cloth)[free], free], axis=1)
+    reach = np.empty(len(pairs))
+    for pin in np.unique(pairs[:, 0]):
+        mine = pairs[:, 0] == pin
+        reach[mine] = _reach(cloth, pin, pairs[mine, 1])
+    found = np.isfinite(reach)
+    return pairs[found].astype(np.int32), reach[found]
+
+
+def _reach(cloth: Cloth, pin: int, particles: NDArray[np.integer]) -> Array:
+    """Distance of particles from a pin over the cloth at rest [m].
+
+    Straight on a flat grid; elsewhere along the springs, which is a little too far, never too near.
+    """
+    if cloth.grid_shape is not None and _is_flat(cloth):
+        away: Array = cloth.rest_positions[particles] - cloth.rest_positions[pin]
+        lengths: Array = np.sqrt((away * away).sum(axis=1))
+        return lengths
+    return distances_from(cloth, np.arange(len(cloth.inv_mass)) == pin)[particles]
+
+
+def _is_flat(cloth: Cloth) -> bool:
+    """Whether a grid's corners and rest lengths are those of a flat rectangle."""
+    assert cloth.grid_shape is not None
+    rows, columns = cloth.grid_shape
+    x = cloth.rest_positions.reshape(rows, columns, 3)
+    across, down = x[0, -1] - x[0, 0], x[-1, 0] - x[0, 0]
+    u, v = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
+    flat = x[0, 0] + u[..., None] * across + v[..., None] * down
+    return bool(np.abs(x - flat).max() <= 1e-9 * (np.abs(across).max() + np.abs(down).max()))
+
+
+def nearest_pins(cloth: Cloth) -> NDArray[np.int64]:
+    """For each particle the number of the pin nearest at rest in a straight line, [N]."""
+    pins = np.flatnonzero(cloth.inv_mass == 0)
+    best = np.full(len(cloth.inv_mass), np.inf)
+    nearest = np.zeros(len(best), np.int64)
+    for pin in pins:
+        away = ((cloth.rest_positions - cloth.rest_positions[pin]) ** 2).sum(axis=1)
+        nearer = away < best * (1 - 1e-9)
+        best[nearer], nearest[nearer] = away[nearer], pin
+    return nearest
+
+
+def pin_distances(cloth: Cloth) -> Array:
+    """Distance of each particle from the nearest pin along the springs at rest [m], [N].
+
+    Infinite where no pin is in reach; 0 everywhere if nothing is pinned.
+    """
+    pinned = cloth.inv_mass == 0
+    return distances_from(cloth, pinned) if pinned.any() else np.zeros(len(pinned))
+
+
+def distances_from(cloth: Cloth, sources: NDArray[np.bool_]) -> Array:
+    """Distance of each particle from the nearest source along the springs at rest [m], [N].
+
+    Bellman and Ford's relaxation, all springs at once.
+    """
+    a, b = cloth.spring_pairs.T
+    distances = np.where(sources, 0.0, np.inf)
+    while True:
+        before = distances.copy()
+        np.minimum.at(distances, b, before[a] + cloth.spring_length)
+        np.minimum.at(distances, a, before[b] + cloth.spring_length)
+        if np.array_equal(before, distances):
+            return distances
+
+
+def _outwards(distances: Array, pairs: NDArray[np.int32], lengths: Array) -> NDArray[np.int64]:
+    """The order of pairs from the pins outwards; those equally far keep theirs."""
+    reach = np.where(np.isfinite(distances), distances, 0.0)[pairs].sum(axis=1)
+    # Equal distances differ in their last bits, and a grid's row must not fall apart.
+    return np.argsort(np.round(reach / lengths.min(), 3), kind="stable")
+
+
+def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
+    """Links over 2^n springs, the longest first."""
+    if cloth.grid_shape is None:
+        return []
+    index = np.arange(len(cloth.inv_mass), dtype=np.int32).reshape(cloth.grid_shape)
+    stride, groups = 2, []
+    while 2 * stride < max(cloth.grid_shape):
+        pairs = np.concatenate(
+            [
+                np.stack([index[:, :-stride].ravel(), index[:, stride:].ravel()], axis=1),
+                np.stack([index[:-stride].ravel(), index[stride:].ravel()], axis=1),
+            ]
+        )
+        lengths = _path_lengths(cloth, pairs, stride)
+        order = _outwards(pin_distances(cloth), pairs, lengths)
+        groups.append((pairs[order], limit * lengths[order]))
+        stride *= 2
+    return groups[::-1]
+
+
+def _path_lengths(cloth: Cloth, pairs: NDArray[np.int32], stride: int) -> Array:
+    """Length at rest along a grid's row or column between particles `stride` apart [m]."""
+    a, b = pairs.T
+    step = (b - a) // stride
+    x = cloth.rest_positions
+    lengths = np.zeros(len(pairs))
+    for i in range(stride):
+        lengths += np.linalg.norm(x[a + (i + 1) * step] - x[a + i * step], axis=1)
+    return lengths
