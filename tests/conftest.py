@@ -6,8 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from drapery import cli
+
+# How long one example takes is the machine's business on a shared machine, not the example's.
+settings.register_profile("shared machine", deadline=None)
+settings.load_profile("shared machine")
 
 GIVE = (
     '/give @p minecraft:white_banner[banner_patterns=[{pattern:"creeper",color:"lime"},'

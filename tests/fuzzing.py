@@ -11,6 +11,7 @@ import struct
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,17 +20,19 @@ import nbtlib
 import world_maker as make
 
 from drapery.banner.formats import (
-    minecraft_tools,
-    needcoolshoes,
-    planet_minecraft,
+    FORMS,
+    parse_banner,
+    parse_banners,
     schem,
     structure,
+    write_banner,
 )
 from drapery.banner.formats.binary import BINARY_FORMS
 from drapery.errors import DraperyError
 
 MAX_SECONDS = 1.0
 MAX_MEMORY = 200.0
+ANY_TEXT = "any text"
 GZIP = b"\x1f\x8b"
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 
@@ -361,17 +364,22 @@ def binary_readers() -> dict[str, Callable[[bytes], Iterable[Any]]]:
 
 
 def text_readers() -> dict[str, Callable[[str], Iterable[Any]]]:
-    """The reader of each form of text."""
-    return {
-        form.NAME: lambda text, form=form: [form.parse(text)]
-        for form in (planet_minecraft, needcoolshoes, minecraft_tools)
+    """The reader of each form of text, and under `any text` the door to all of them."""
+    readers: dict[str, Callable[[str], Iterable[Any]]] = {
+        name: form.read for name, form in FORMS.items()
     }
+    return readers | {ANY_TEXT: parse_banners}
 
 
 def text_samples() -> dict[str, list[str]]:
     """Sound texts of every form of text."""
-    banners = (make.LIME, make.RED, make.PLAIN)
-    return {
-        form.NAME: [form.EXAMPLE, *map(form.write, banners)]
-        for form in (planet_minecraft, needcoolshoes, minecraft_tools)
-    }
+    samples = {name: _texts(name) for name in FORMS}
+    return samples | {ANY_TEXT: [text for texts in samples.values() for text in texts]}
+
+
+def _texts(form: str) -> list[str]:
+    texts = [FORMS[form].example]
+    for design in ("red", "white creeper:lime border:black", "shield blue acme:x:red flow:lime"):
+        with suppress(DraperyError):
+            texts.append(write_banner(parse_banner(design), form))
+    return texts

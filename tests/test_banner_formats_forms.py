@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from conftest import Run
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -42,9 +43,9 @@ LACKS = {
 }
 NO_SHIELDS = {
     *("give-1.12", "setblock", "block-entity", "bedrock", "wynncraft"),
-    *("planet-minecraft", "needcoolshoes", "minecraft-tools"),
+    *("planet-minecraft", "needcoolshoes"),
 }
-NO_DATA_PACKS = {*NO_SHIELDS, "give-legacy"} - {"setblock", "block-entity"}
+NO_DATA_PACKS = {*NO_SHIELDS, "give-legacy", "minecraft-tools"} - {"setblock", "block-entity"}
 
 
 def can_hold(form: str, banner: Banner) -> bool:
@@ -208,3 +209,12 @@ def test_bukkits_diagonal_right_is_the_pattern_with_the_code_rd():
 @given(banner=BANNERS)
 def test_the_door_of_the_type_is_the_same_door(banner: Banner):
     assert Banner.parse(write_banner(banner, "give")) == banner
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_show_explains_the_example_of_every_form(form: str, drapery: Run):
+    banner = parse_banner(FORMS[form].example)
+    code, out, err = drapery("show", FORMS[form].example)
+    assert (code, err) == (0, "")
+    assert banner.base in out
+    assert [layer.pattern for layer in banner.layers if layer.pattern not in out] == []

@@ -42,7 +42,7 @@ def _form(module: ModuleType, read: Callable[[str], list[Found]]) -> Form:
 
 def _site(module: ModuleType) -> Form:
     def write(banner: Banner) -> str:
-        if banner.kind != "banner":
+        if banner.kind not in module.KINDS:
             raise DesignError(f"{module.SITE} edits banners, not shields: write the form 'give'")
         address: str = module.write(banner)
         return address

@@ -20,6 +20,7 @@ from drapery.banner.patterns import BY_CODE
 NAME = "minecraft_tools"
 TITLE = "minecraft.tools' address"
 EXAMPLE = "https://minecraft.tools/en/banner.php?color_id_0=4&shape_id_1=28&color_id_1=15"
+KINDS = ("banner", "shield")
 SITE = "minecraft.tools"
 HOST = "minecraft.tools"
 _ORDER = """

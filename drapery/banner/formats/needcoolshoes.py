@@ -20,6 +20,7 @@ from drapery.banner.patterns import BY_CODE, PATTERNS
 NAME = "needcoolshoes"
 TITLE = "NeedCoolShoes', ncrs.skin's or skinmc's address"
 EXAMPLE = "https://www.needcoolshoes.com/banner?=ealleNhEehppai"
+KINDS = ("banner",)
 SITE = "NeedCoolShoes"
 HOSTS = ("needcoolshoes.com", "needcoolershoes.com", "ncrs.skin", "skinmc.net")
 ALPHABET = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+/"

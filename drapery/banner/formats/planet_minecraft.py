@@ -17,6 +17,7 @@ from drapery.banner.formats.urls import (
 NAME = "planet_minecraft"
 TITLE = "Planet Minecraft's address"
 EXAMPLE = "https://www.planetminecraft.com/banner/?b=2c729cmcf28"
+KINDS = ("banner",)
 SITE = "Planet Minecraft"
 HOST = "planetminecraft.com"
 ALPHABET = "123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0_-"
