@@ -6,6 +6,7 @@ last, so that an animation only uploads positions and light.
 """
 
 import atexit
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -16,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.errors import OptionError
+from drapery.errors import BackendError, OptionError
 from drapery.mesh import Triangles
 from drapery.render.camera import Matrix, clip_matrix
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
@@ -41,6 +42,7 @@ class Stage:
     stacked: bool = False
     vertices: Any = None
     scene: Any = None
+    process: int = field(default_factory=os.getpid)
     blends: list[tuple[Any, Triangles]] = field(default_factory=list)
 
 
@@ -74,6 +76,11 @@ def _current() -> Iterator[Stage]:
     """The stage, its context current in this thread alone."""
     with _lock:
         stage = _stage()
+        if stage.process != os.getpid():
+            raise BackendError(
+                "OpenGL was started before this process was forked from another; start processes"
+                " by `spawn`, or use the backend soft"
+            )
         stage.platform.make_current()
         try:
             yield stage
@@ -86,14 +93,14 @@ def _stage() -> Stage:
     pyrender, platform = load_pyrender()
     from drapery.render import gl_passes
 
-    atexit.register(_close)
-    return Stage(pyrender, gl_passes, platform, gl_passes.CoatRenderer())
+    stage = Stage(pyrender, gl_passes, platform, gl_passes.CoatRenderer())
+    atexit.register(_close, stage)
+    return stage
 
 
-def _close() -> None:
+def _close(stage: Stage) -> None:
     """End OpenGL while its modules are still whole."""
-    if _stage.cache_info().currsize:
-        stage = _stage()
+    if stage.process == os.getpid():
         stage.platform.make_current()
         stage.renderer.delete()
         stage.platform.delete_context()

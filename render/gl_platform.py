@@ -9,10 +9,10 @@
 """
 
 import ctypes
-import ctypes.util
 import importlib.util
 import os
 import sys
+from collections.abc import Iterator
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -22,28 +22,33 @@ INSTALL_PYRENDER = 'pip install "drapery[gl]"'
 INSTALL_GL = "apt-get install -y --no-install-recommends libegl1 libgl1"
 
 EGL_PLATFORM_DEVICE = 0x313F
+MAX_DEVICES = 64
 
 
 class Probe(NamedTuple):
-    """Whether a way to OpenGL works, and what was found or is missing."""
+    """Whether a way to OpenGL works, what is missing if not, and on which of EGL's devices."""
 
     works: bool
-    detail: str
+    missing: str = ""
+    device: int = 0
 
 
 def probe_egl() -> Probe:
-    """Start EGL on its first device, as pyrender will. Harmless before OpenGL is imported."""
+    """The first of EGL's devices that starts, or the one that EGL_DEVICE_ID names.
+
+    A graphics card comes before software, but its driver may be there without the card.
+    """
     if not any(map(_loaded, ("libGL.so.1", "libOpenGL.so.0"))):
         return Probe(False, "libGL.so.1 is missing")
     egl = _loaded("libEGL.so.1")
     if egl is None:
         return Probe(False, "libEGL.so.1 is missing")
-    display = _first_display(egl)
-    if not display:
-        return Probe(False, "EGL offers no device")
-    if not egl.eglInitialize(ctypes.c_void_p(display), None, None):
-        return Probe(False, "EGL's first device does not start")
-    return Probe(True, "EGL starts")
+    wanted = os.environ.get("EGL_DEVICE_ID", "")
+    for number, display in enumerate(_displays(egl)):
+        starts = display and egl.eglInitialize(ctypes.c_void_p(display), None, None)
+        if starts and wanted in ("", str(number)):
+            return Probe(True, device=number)
+    return Probe(False, f"no EGL device {wanted} starts".replace("  ", " "))
 
 
 def probe_osmesa() -> Probe:
@@ -51,7 +56,7 @@ def probe_osmesa() -> Probe:
     for name in ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"):
         library = _loaded(name)
         if library is not None and hasattr(library, "OSMesaCreateContextAttribs"):
-            return Probe(True, name)
+            return Probe(True)
     return Probe(False, "libOSMesa.so.8 is missing")
 
 
@@ -69,7 +74,7 @@ def choose_platform() -> str:
         return "egl"
     if probe_osmesa().works:
         return "osmesa"
-    raise BackendError(f"there is no OpenGL for pyrender ({egl.detail}): {INSTALL_GL}")
+    raise BackendError(f"there is no OpenGL for pyrender ({egl.missing}): {INSTALL_GL}")
 
 
 def load_pyrender() -> tuple[ModuleType, Any]:
@@ -113,7 +118,7 @@ def release(platform: Any) -> None:
 def _egl_platform() -> Any:
     from pyrender.platforms import egl
 
-    return egl.EGLPlatform(1, 1, egl.get_device_by_index(int(os.environ.get("EGL_DEVICE_ID", 0))))
+    return egl.EGLPlatform(1, 1, egl.get_device_by_index(probe_egl().device))
 
 
 def _osmesa_platform() -> Any:
@@ -136,24 +141,22 @@ def _loaded(name: str) -> ctypes.CDLL | None:
         return None
 
 
-def _first_display(egl: ctypes.CDLL) -> int | None:
-    """The display of EGL's first device, or the default one where devices cannot be listed."""
-    egl.eglGetProcAddress.restype = ctypes.c_void_p
+def _displays(egl: ctypes.CDLL) -> Iterator[int | None]:
+    """The displays of EGL's devices, or the default one where devices cannot be listed."""
+    egl.eglGetProcAddress.restype = egl.eglGetDisplay.restype = ctypes.c_void_p
     query, get = (
         egl.eglGetProcAddress(name) for name in (b"eglQueryDevicesEXT", b"eglGetPlatformDisplayEXT")
     )
     if not (query and get):
-        egl.eglGetDisplay.restype = ctypes.c_void_p
-        return egl.eglGetDisplay(None)  # type: ignore[no-any-return]
-    devices, count = (ctypes.c_void_p * 1)(), ctypes.c_int()
-    list_devices = ctypes.CFUNCTYPE(
-        ctypes.c_uint, ctypes.c_int, ctypes.c_void_p * 1, ctypes.POINTER(ctypes.c_int)
-    )(query)
-    if not list_devices(1, devices, ctypes.byref(count)) or not count.value:
-        return None
-    display = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_uint, ctypes.c_void_p, ctypes.c_void_p)
-    found: int | None = display(get)(EGL_PLATFORM_DEVICE, devices[0], None)
-    return found
+        yield egl.eglGetDisplay(None)
+        return
+    pointer = ctypes.c_void_p
+    devices, count = (pointer * MAX_DEVICES)(), ctypes.c_int()
+    list_devices = ctypes.CFUNCTYPE(ctypes.c_uint, ctypes.c_int, pointer, pointer)(query)
+    display_of = ctypes.CFUNCTYPE(pointer, ctypes.c_uint, pointer, pointer)(get)
+    list_devices(MAX_DEVICES, ctypes.addressof(devices), ctypes.addressof(count))
+    for device in devices[: count.value]:
+        yield display_of(EGL_PLATFORM_DEVICE, device, None)
 
 
 def _first_line(error: Exception) -> str:

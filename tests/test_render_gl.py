@@ -221,6 +221,40 @@ def test_missing_parts_are_named_with_what_installs_them(monkeypatch: pytest.Mon
         gl_platform.load_pyrender()
 
 
+def test_the_named_device_is_the_one_that_starts(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = gl_platform.probe_egl()
+    if not first.works:
+        pytest.skip(f"EGL does not start: {first.missing}")
+    monkeypatch.setenv("EGL_DEVICE_ID", str(first.device))
+    assert gl_platform.probe_egl() == first
+    monkeypatch.setenv("EGL_DEVICE_ID", "63")
+    assert gl_platform.probe_egl().missing == "no EGL device 63 starts"
+
+
+def test_a_forked_process_is_refused() -> None:
+    child = os.fork()
+    if child == 0:
+        try:
+            gl.draw_scene(SCENES["nothing"])
+        except BackendError:
+            os._exit(7)
+        os._exit(1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
+    gl.draw_scene(SCENES["nothing"])
+
+
+def test_absurd_meshes_are_drawn_without_harm() -> None:
+    """Zero area, far aside, behind the camera, before the near plane, wider than float32."""
+    random = np.random.default_rng(9)
+    for size in (0.0, 1e-30, 1.0, 1e6, 1e20, 3e38):
+        positions = (size * random.uniform(-1, 1, (300, 3))).astype(np.float32)
+        triangles = np.arange(300, dtype=np.int32).reshape(-1, 3)
+        normals = np.tile(np.float32([0, 1, 0]), (300, 1))
+        mesh = Mesh(positions, normals, triangles, random.uniform(0, 1, (300, 2)))
+        scene = Scene((Model(mesh, (Look(COATS[:1]),)),), CAMERA, (64, 64))
+        assert gl.draw_scene(scene).pixels.shape == (64, 64, 4)
+
+
 def test_the_doctor_knows_what_works() -> None:
     reports = {report.name: report for report in doctor.backend_report()}
     assert reports["soft"].works and reports["pyrender"].works and reports["video"].works
