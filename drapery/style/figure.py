@@ -27,7 +27,7 @@ Placed = tuple[Array, Array]
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the figure: its box [texels, y down from the ground] and the joint it turns about."""
+    """A box of the figure [texels, y down, the ground at 0] and the joint that it turns about."""
 
     box: Box
     joint: tuple[float, float, float]

@@ -1,0 +1,86 @@
+"""A cape on a walking figure: thick cloth held at the shoulders, moved by back, arms and legs."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.banner.packs import open_packs
+from drapery.cloth import Cloth, Gravity, State, Wind, grid
+from drapery.cloth.colliders import rotation_about
+from drapery.mesh import Array
+from drapery.render.scene import Model, Scene
+from drapery.render.views import View, frame_points
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.gait import LOOP, Gait
+from drapery.scenes.motion import motion, placed
+from drapery.style.extrusion import make_shell
+from drapery.style.figure import CAPE_SIZE, CAPE_SKIN, TEXEL, figure_look, figure_mesh
+from drapery.style.garment import dyed, garment
+from drapery.style.stage import SKY, moved, path_ground, shadow
+
+BEHIND = View(azimuth=214, elevation=14, fov=26)
+SETTLING = LOOP
+BODY = ("body", "right_arm", "left_arm", "right_leg", "left_leg")
+PERIOD = 10
+"""Blocks after which the ground repeats: what is walked in a loop."""
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """skin: of the figure. dye: of the cape. speed: of the walk [m/s]. wind: a breeze from ahead,
+    besides [m/s]. grid: particles across and down the cape. thickness: in texels."""
+
+    skin: str = "traveller"
+    dye: str = "red"
+    speed: float = 2.5
+    wind: float = 0.5
+    grid: tuple[int, int] = (6, 9)
+    thickness: float = 1.0
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """The figure walks in place; the causeway passes below."""
+    packs = open_packs(())
+    gait, cloth = Gait(parameters.speed), cape(parameters.grid)
+    shell = make_shell(cloth.triangles, cloth.uvs, CAPE_SKIN)
+    wool = dyed(packs.texture("entity/player/cape"), parameters.dye)
+    skin, ground = figure_look(parameters.skin, packs), path_ground(24, PERIOD, packs)
+    camera = frame_points(BEHIND, _room(), shot.size[0] / shot.size[1], margin=0.1)
+    for state in walk(parameters, cloth, gait, shot):
+        models = (
+            *moved(ground, np.array([0, 0, -(gait.speed * state.time) % -PERIOD])),
+            shadow((0, 0), 0.5),
+            Model(figure_mesh(gait.poses(state.time)), (skin,)),
+            garment(shell, state.positions[0], parameters.thickness * TEXEL, wool),
+        )
+        yield Scene(models, camera, shot.size, background=SKY, samples=4)
+
+
+def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterator[State]:
+    """The cape's state at each frame, in the figure's own frame."""
+    wind = Wind((0.0, 0.0, -gait.speed - parameters.wind), seed=parameters.seed, period=LOOP)
+    return motion(
+        cloth,
+        shot,
+        forces=(Gravity(), wind),
+        colliders=gait.colliders(BODY),
+        radius=parameters.thickness * TEXEL / 2,
+        pins=gait.pins(cloth),
+        settle=SETTLING,
+    )
+
+
+def cape(shape: tuple[int, int]) -> Cloth:
+    """A cape on the figure's back, facing backwards, held by two particles at each shoulder."""
+    columns, rows = shape
+    shoulders = [0, 1, columns - 2, columns - 1]
+    cloth = grid(columns, rows, *CAPE_SIZE, pins=shoulders)
+    back = np.array([0.0, 24 * TEXEL, -2.6 * TEXEL])
+    return placed(cloth, back, rotation_about((0, 1, 0), 180))
+
+
+def _room() -> Array:
+    """What the camera frames: the figure and the cape behind it [m]."""
+    return np.array([[-0.5, 0, -0.9], [0.5, 0, 0.5], [0.5, 2, 0.4], [-0.5, 2, -0.4]])

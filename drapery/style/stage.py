@@ -1,0 +1,65 @@
+"""Where scenes are set: a plain sky, pieces of ground, and the shadow under a figure."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from drapery.banner.packs import Packs
+from drapery.mesh import Array, Mesh
+from drapery.render.scene import Coat, Look, Model
+from drapery.style.blocks import Cell, blocks
+
+SKY = (168, 204, 242, 255)
+DUSK = (58, 62, 92, 255)
+STUDIO = (226, 228, 232, 255)
+"""Backgrounds, sRGB and opaque: out of doors by day, in the evening, and for things on show."""
+
+SHADOW = 84
+"""How dark a shadow is in its middle, 0..255."""
+
+
+def path_ground(half: int, period: int, packs: Packs) -> tuple[Model, ...]:
+    """A causeway along z that repeats after `period` blocks: a path between verges of grass.
+
+    half: blocks to either side of the origin along z.
+    """
+    cells: dict[Cell, str] = {}
+    for x, z in product(range(-3, 3), range(-half, half)):
+        cells[x, -1, z] = _paving(x, z % period)
+        cells[x, -2, z] = "dirt"
+    return blocks(cells, packs)
+
+
+def _paving(x: int, z: int) -> str:
+    """What lies on the causeway: a path of two blocks' width, laid unevenly."""
+    if x not in (-1, 0):
+        return "grass"
+    kinds = ("cobblestone", "stone", "stone_bricks", "cobblestone", "stone")
+    return kinds[(3 * z + 2 * x + z * z // 3) % len(kinds)]
+
+
+def moved(models: tuple[Model, ...], by: Array) -> tuple[Model, ...]:
+    """The models elsewhere: `by` [m], shape [3]."""
+    return tuple(
+        replace(model, mesh=replace(model.mesh, positions=model.mesh.positions + by))
+        for model in models
+    )
+
+
+def shadow(centre: tuple[float, float], radius: float, height: float = 0.0) -> Model:
+    """A round shadow of whole texels on level ground; centre (x, z), radius and height [m]."""
+    across = np.arange(16) - 7.5
+    distance = np.hypot(*np.meshgrid(across, across)) / 8
+    texels = np.zeros((16, 16, 4), np.uint8)
+    # In four steps: pixel art has no soft edges.
+    texels[..., 3] = SHADOW * np.clip(np.ceil((1 - distance) * 6), 0, 4) / 4
+    x, z = centre
+    corners = np.array([[-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, 0, 1]]) * radius
+    mesh = Mesh(
+        corners + np.array([x, height + 0.004, z]),
+        np.tile(np.array([0.0, 1.0, 0.0]), (4, 1)),
+        np.array([[0, 2, 1], [1, 2, 3]], np.int32),
+        np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]),
+    )
+    return Model(mesh, (Look((Coat(texels),), "blend", lit=False),))

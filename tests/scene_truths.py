@@ -1,0 +1,38 @@
+"""What the tests of scenes share: how deep cloth is in a collider, and a scene's last picture."""
+
+from collections.abc import Sequence
+from itertools import islice
+
+import numpy as np
+
+from drapery.cloth import Cloth, State
+from drapery.cloth.colliders import Collider, probes
+from drapery.cloth.colliders.packing import distance
+from drapery.pictures import scene_frames
+from drapery.render.frame import Frame
+from drapery.scenes.catalogue import Shot, find
+
+
+def still(name: str, frames: int = 1, fps: float = 20.0, **words: str) -> Frame:
+    """The last picture of a short, small shot."""
+    scene = find(name)
+    shot = Shot((160, 160), frames, fps)
+    return next(scene_frames(scene, scene.parameters(words), shot, "soft", last=True))
+
+
+def clearance(cloth: Cloth, state: State, colliders: Sequence[Collider], order: int = 2) -> float:
+    """The least distance [m] of the thin sheet from any collider; negative inside."""
+    points = probes(cloth, order)
+    least = np.inf
+    for sheet in state.positions:
+        places = np.einsum("mc,mci->mi", points.weights, sheet[points.particles].astype(float))
+        for collider in colliders:
+            pose = collider.path(state.time)
+            own = np.einsum("ij,mi->mj", pose.rotation, places - pose.position)
+            least = min(least, *(distance(collider.packed, tuple(p), np.inf)[0] for p in own))
+    return float(least)
+
+
+def taken(states, count: int) -> list[State]:
+    """The first states of a motion."""
+    return list(islice(states, count))
