@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import STRUCTURAL, Cloth
+from drapery.cloth.order import distances_from, outwards, pin_distances
 from drapery.mesh import Array
 
 FEW_PINS = 4
@@ -39,7 +40,7 @@ def limited_links(cloth: Cloth, limit: float, sweeps: int) -> Links:
         return _links(cloth, np.zeros((0, 2), np.int32), np.zeros(0))
     springs = np.flatnonzero(cloth.spring_kind == STRUCTURAL)
     pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
-    order = _outwards(pin_distances(cloth), pairs, lengths)
+    order = outwards(pin_distances(cloth), pairs, lengths)
     fine = pairs[order], limit * lengths[order]
     groups = [attachments(cloth), *_long_links(cloth, limit), *[fine] * sweeps]
     return _links(
@@ -112,37 +113,6 @@ def nearest_pins(cloth: Cloth) -> NDArray[np.int64]:
     return nearest
 
 
-def pin_distances(cloth: Cloth) -> Array:
-    """Distance of each particle from the nearest pin along the springs at rest [m], [N].
-
-    Infinite where no pin is in reach; 0 everywhere if nothing is pinned.
-    """
-    pinned = cloth.inv_mass == 0
-    return distances_from(cloth, pinned) if pinned.any() else np.zeros(len(pinned))
-
-
-def distances_from(cloth: Cloth, sources: NDArray[np.bool_]) -> Array:
-    """Distance of each particle from the nearest source along the springs at rest [m], [N].
-
-    Bellman and Ford's relaxation, all springs at once.
-    """
-    a, b = cloth.spring_pairs.T
-    distances = np.where(sources, 0.0, np.inf)
-    while True:
-        before = distances.copy()
-        np.minimum.at(distances, b, before[a] + cloth.spring_length)
-        np.minimum.at(distances, a, before[b] + cloth.spring_length)
-        if np.array_equal(before, distances):
-            return distances
-
-
-def _outwards(distances: Array, pairs: NDArray[np.int32], lengths: Array) -> NDArray[np.int64]:
-    """The order of pairs from the pins outwards; those equally far keep theirs."""
-    reach = np.where(np.isfinite(distances), distances, 0.0)[pairs].sum(axis=1)
-    # Equal distances differ in their last bits, and a grid's row must not fall apart.
-    return np.argsort(np.round(reach / lengths.min(), 3), kind="stable")
-
-
 def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
     """Links over 2^n springs, the longest first."""
     if cloth.grid_shape is None:
@@ -157,7 +127,7 @@ def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Arr
             ]
         )
         lengths = _path_lengths(cloth, pairs, stride)
-        order = _outwards(pin_distances(cloth), pairs, lengths)
+        order = outwards(pin_distances(cloth), pairs, lengths)
         groups.append((pairs[order], limit * lengths[order]))
         stride *= 2
     return groups[::-1]
