@@ -52,7 +52,8 @@ def run(name: str, target: Target, count: int, seed: int) -> fuzzing.Tally:
     seconds = time.perf_counter() - start
     print(
         f"{name}: {tally.count} inputs in {seconds:.0f} s, slowest {tally.slowest:.3f} s,"
-        f" heaviest {tally.heaviest:.0f} MB, {len(tally.failures)} failures"
+        f" heaviest {tally.heaviest:.0f} MB, {len(tally.failures)} failures",
+        flush=True,
     )
     for outcome, number in tally.outcomes.most_common():
         print(f"  {number:7d}  {outcome}")

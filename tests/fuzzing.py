@@ -360,7 +360,7 @@ def binary_samples() -> dict[str, list[bytes]]:
 
 def binary_readers() -> dict[str, Callable[[bytes], Iterable[Any]]]:
     """The reader of each form of bytes, with all that it takes to find its banners."""
-    return {form.name: form.read for form in BINARY_FORMS}
+    return {name: form.read for name, form in BINARY_FORMS.items()}
 
 
 def text_readers() -> dict[str, Callable[[str], Iterable[Any]]]:

@@ -1,5 +1,6 @@
 """Banners in files of placed blocks, of every layout and age, each with its place."""
 
+import re
 import struct
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from hypothesis import strategies as st
 from world_maker import LIME, PLAIN, RED, SHIELD
 
 from drapery.banner.design import Banner
+from drapery.banner.formats import Found, read_design
+from drapery.banner.formats.binary import BINARY_FORMS
 from drapery.banner.formats.files import banners_in, find_in_bytes, is_binary
 from drapery.banner.formats.palettes import bits_for, packed_pieces, unpack, varint_pieces
 from drapery.banner.formats.tree import OMINOUS
@@ -349,3 +352,38 @@ def test_long_arrays_are_read_in_pieces_that_join(monkeypatch: pytest.MonkeyPatc
 
 def test_the_bits_of_an_index():
     assert [bits_for(n, 4) for n in (0, 1, 16, 17, 33, 4096)] == [4, 4, 4, 5, 6, 12]
+
+
+DOCS = Path(__file__).parents[1] / "docs" / "forms.md"
+PLAYER = {"Inventory": [make.item(RED)]}
+RED_BLOCK = {(1, 2, 3): (make.block_id(RED), make.entity(RED))}
+SAMPLES = {
+    "structure": make.nbt_file(make.structure(RED_BLOCK)),
+    "schem": make.nbt_file(make.schem(3, (6, 4, 7), RED_BLOCK)),
+    "litematic": make.nbt_file(make.litematic((6, 4, 7), (0, 0, 0), RED_BLOCK)),
+    "mcstructure": make.raw_nbt(
+        make.mcstructure((4, 3, 5), {(1, 2, 3): make.bedrock_entity(RED)}), "little"
+    ),
+    "region": make.region(
+        {(3, -1): make.chunk("1.18", {(48, 71, -9): (make.block_id(RED), make.entity(RED))})}
+    ),
+    "nbt": make.nbt_file(PLAYER),
+}
+
+
+def documented() -> list[tuple[str, str, str]]:
+    row = r"^\| `([\w.-]+)` \| .* \| `(.+)` \| ([^`]+) \|$"
+    return re.findall(row, DOCS.read_text("utf-8"), re.MULTILINE)
+
+
+@pytest.mark.parametrize(("form", "name", "where"), documented())
+def test_the_docs_say_where_a_banner_is_found(tmp_path: Path, form: str, name: str, where: str):
+    path = make.save(tmp_path / name, SAMPLES[form])
+    assert list(banners_in(path)) == [Found(RED, where)]
+    assert read_design(path) == RED
+    head = SAMPLES[form][:8192]
+    assert next(f.name for f in BINARY_FORMS.values() if f.recognises(head, name)) == form
+
+
+def test_the_docs_list_every_form_of_bytes():
+    assert [form for form, _, _ in documented()] == list(BINARY_FORMS)

@@ -17,7 +17,7 @@ from drapery.banner.formats.tree import OMINOUS
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError
 
-WRITERS = {form.name: form for form in BINARY_FORMS if form.write}
+WRITERS = {name: form for name, form in BINARY_FORMS.items() if form.write}
 DYE = st.sampled_from(DYE_NAMES)
 
 

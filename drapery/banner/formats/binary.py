@@ -55,7 +55,7 @@ def _read_region(data: bytes) -> Iterator[Found]:
     return region.find(io.BytesIO(data), "", region.NAME)
 
 
-BINARY_FORMS: tuple[BinaryForm, ...] = (
+_TABLE = (
     _nbt_form(
         structure.NAME,
         "structure block's file",
@@ -97,4 +97,6 @@ BINARY_FORMS: tuple[BinaryForm, ...] = (
         lambda banner: encode(item_object(banner)),
     ),
 )
-"""Every form of bytes; a file is of the first that recognises it."""
+
+BINARY_FORMS: dict[str, BinaryForm] = {form.name: form for form in _TABLE}
+"""Every form of bytes by name; a file is of the first that recognises it."""
