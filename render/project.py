@@ -9,23 +9,54 @@ SUBPIXEL_BITS = 8
 BEHIND, BEYOND, ASIDE, BROKEN = 1, 2, 4, 8
 """Flags of a vertex: before the near plane, past the far plane, too far aside, not finite."""
 
+NEAREST = 1 << 30
+"""Depth at the near plane; 0 at the far plane."""
+
 GUARD = float(1 << 21)
 """Corners up to so many pixels aside need no clipping: edge functions stay within 64 bits."""
 
 
+VERTEX = np.dtype(
+    [
+        ("x", np.int32),
+        ("y", np.int32),
+        ("depth", np.int32),
+        ("shade", np.float32),
+        ("u", np.float32),
+        ("v", np.float32),
+        ("inv_w", np.float64),
+    ],
+    align=True,
+)
+"""A vertex on the picture: x to the right and y down from the centre of the top left sample
+[1/256 sample], depth, brightness, texture coordinates, and 1 / w of clip space. Together, for
+what is drawn is gathered from all over."""
+
+
 @njit(cache=True, error_model="numpy", nogil=True)
 def project(
-    first, last, positions, normals, matrix, width, height, lights, ambient, diffuse, raster
+    first,
+    last,
+    positions,
+    normals,
+    uvs,
+    matrix,
+    width,
+    height,
+    lights,
+    ambient,
+    diffuse,
+    vertices,
+    flags,
 ):
-    """Project and light vertices first..last; returns the union of their flags.
+    """Project and light vertices first..last - 1; returns the union of their flags.
 
-    positions, normals: shape [V, 3], float32.
+    positions, normals: shape [V, 3], float32; uvs: shape [V, 2], float32.
     matrix: world to clip space, shape [4, 4], float64.
-    width, height: of the picture [pixels].
+    width, height: of the picture [samples].
     lights: unit vectors towards the lights, shape [L, 3]; ambient and diffuse as in `Light`.
-    raster: the results, see `Raster`.
+    vertices: the results, shape [V] of VERTEX; flags: shape [V], uint8.
     """
-    corners, depth, inv_w, shade, flags = raster
     union = 0
     for v in range(first, last):
         x = np.float64(positions[v, 0])
@@ -43,7 +74,9 @@ def project(
                 + normals[v, 2] * lights[light, 2]
             )
             factor += diffuse * max(facing, 0.0)
-        shade[v] = min(factor, 1.0)
+        inv_w = 1.0 / w
+        across = (cx * inv_w * 0.5 + 0.5) * width
+        up = (cy * inv_w * 0.5 + 0.5) * height
 
         flag = 0
         if not abs(cx) + abs(cy) + abs(cz) + abs(w) + abs(factor) < np.inf:
@@ -53,18 +86,19 @@ def project(
                 flag |= BEHIND
             if cz > w:
                 flag |= BEYOND
-            across = (cx / w * 0.5 + 0.5) * width
-            up = (cy / w * 0.5 + 0.5) * height
             if not abs(across) + abs(up) < GUARD:
                 flag |= ASIDE
-        if flag & (BEHIND | ASIDE | BROKEN) == 0:
-            # Snapped as a GL would, whose rows count upwards, then turned over; less half a pixel,
-            # so that the centre of pixel i lies at i * 256.
-            corners[v, 0] = np.int32(np.rint(across * 256.0)) - 128
-            corners[v, 1] = (height - 1) * 256 - (np.int32(np.rint(up * 256.0)) - 128)
-            # 1 at the near plane and 0 at the far: precision stays even over distance.
-            depth[v] = 0.5 - 0.5 * (cz / w)
-            inv_w[v] = 1.0 / w
+        vertex = vertices[v]
+        vertex.shade = min(factor, 1.0)
+        vertex.u = uvs[v, 0]
+        vertex.v = uvs[v, 1]
+        if flag == 0:
+            # Snapped as a GL would, whose rows count upwards, then turned over; less half a
+            # sample, so that the centre of sample i lies at i * 256.
+            vertex.x = np.int32(np.rint(across * 256.0)) - 128
+            vertex.y = (height - 1) * 256 - (np.int32(np.rint(up * 256.0)) - 128)
+            vertex.depth = np.int32(np.rint((0.5 - 0.5 * (cz * inv_w)) * NEAREST))
+            vertex.inv_w = inv_w
         flags[v] = flag
         union |= flag
     return union

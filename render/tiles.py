@@ -1,11 +1,13 @@
 """The rasteriser proper: triangles of a tile -> which is seen at each sample -> its colour.
 
-Coverage is exact: corners are whole numbers of 1/256 pixel, edge functions are 64-bit integers,
+Coverage is exact: corners are whole numbers of 1/256 sample, edge functions are 64-bit integers,
 and a sample on an edge belongs to the triangle whose left or lower edge it is, so that triangles
 that share an edge cover each sample once. (That is the top-left rule in the rows of a GL, which
-count upwards: llvmpipe covers the same samples.) A sample remembers one whole number, its depth above
-the number of its triangle; the greatest is what is seen. Of equals in depth the triangle drawn
-later wins, as under GL_LEQUAL, and no order of the work can change the picture.
+count upwards: llvmpipe covers the same samples.)
+
+A sample remembers one whole number, its depth above the number of its triangle; the greatest is
+what is seen. Of equals in depth the triangle drawn later wins, as under GL_LEQUAL, and no order
+of the work can change the picture.
 
 Perspective: with edge functions E_i, u = sum(E_i u_i / w_i) / sum(E_i / w_i); the area cancels.
 """
@@ -13,14 +15,21 @@ Perspective: with edge functions E_i, u = sum(E_i u_i / w_i) / sum(E_i / w_i); t
 import numpy as np
 from numba import njit
 
-from drapery.render.bins import TILE, TILE_BITS
+from drapery.render.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
+from drapery.render.project import NEAREST
 
-ID_BITS = 24
-ID_MASK = (1 << ID_BITS) - 1
-DEPTH_SCALE = float(1 << 61)
-"""Depth 0..1 as a whole number; what is below 2^ID_BITS of it gives way to the triangle."""
+KEY_SCALE = 1 << 31
+"""Units of a key in one of depth; those below 2^ID_BITS give way to the triangle's number."""
+
+LANES = 8
+"""Samples are tried in groups, without a branch, for the sake of vector units."""
+
+STRIDE = TILE + LANES
+LAYER = TILE * STRIDE
+"""Keys of a tile: one layer of what is solid, one for a triangle that blends."""
 
 OPAQUE, CUTOUT, BLEND = 0, 1, 2
+OPAQUE_BITS = 0xFF000000
 
 # Called by kernels only: without a door from Python each compiles in half the time.
 _inner = njit(
@@ -29,39 +38,30 @@ _inner = njit(
 
 
 @_inner
-def _floor_divide(value, step, inverse):
-    """floor(value / step) for step > 0, bounded to just outside a tile.
-
-    The quotient of two floats is off by less than one; the remainder puts it right.
-    """
-    guess = np.int64(np.floor(min(max(value * inverse, -TILE - 1.0), TILE + 1.0)))
-    rest = value - guess * step
-    if rest < 0:
-        guess -= 1
-    elif rest >= step:
-        guess += 1
-    return guess
-
-
-@_inner
 def _edge(ax, ay, bx, by):
-    """The edge function from a to b: its steps to the right and down by one pixel, its value at
-    the tile's first sample (less one where the edge is neither left nor lower), 1 / |step|."""
-    right = -(by - ay) * 256
-    down = (bx - ax) * 256
+    """The edge function from a to b: its steps to the right and down by one sample, and its value
+    at the tile's first sample; less one where the edge belongs to the triangle beyond it."""
+    right = -(by - ay) << 8
+    down = (bx - ax) << 8
     value = (by - ay) * ax - (bx - ax) * ay
     owned = by < ay or (by == ay and bx < ax)
-    return right, down, value - (not owned), 1.0 / max(abs(right), 1)
+    return right, down, value - (not owned)
 
 
 @_inner
-def _narrow(lo, hi, right, value, inverse):
-    """The part of lo..hi where value + x * right >= 0."""
-    if right > 0:
-        return max(lo, -_floor_divide(value, right, inverse)), hi
-    if right < 0:
-        return lo, min(hi, _floor_divide(value, -right, inverse))
-    return (lo, hi) if value >= 0 else (1, 0)
+def _depth_plane(ax, ay, za, bx, by, zb, cx, cy, zc, area):
+    """The keys' depth at the tile's first sample, and its steps to the right and down.
+
+    Whole numbers that may run over outside the triangle, and are right again inside.
+    """
+    scale = 1.0 / np.float64(area)
+    right = ((zb - za) * (cy - ay) - (zc - za) * (by - ay)) * scale
+    down = ((zc - za) * (bx - ax) - (zb - za) * (cx - ax)) * scale
+    if max(abs(right), abs(down)) >= NEAREST:
+        # Seen from its edge, from near to far within 1/256 sample: any depth of its own will do.
+        right = down = 0.0
+    step_right, step_down = np.int64(right * KEY_SCALE), np.int64(down * KEY_SCALE)
+    return za * KEY_SCALE - ax * step_right - ay * step_down, step_right << 8, step_down << 8
 
 
 @_inner
@@ -88,144 +88,191 @@ def _tinted(texel, red, green, blue):
     r = ((texel & 255) * red + 127) // 255
     g = (((texel >> 8) & 255) * green + 127) // 255
     b = (((texel >> 16) & 255) * blue + 127) // 255
-    return (texel & 0xFF000000) | b << 16 | g << 8 | r
+    return (texel & OPAQUE_BITS) | b << 16 | g << 8 | r
 
 
 @_inner
-def _shade(t, x0, y0, x, last, row, mesh, worn, tint, u, v, light, colours):
-    """Colours of the samples x..last in one row of the tile at x0, y0, wearing triangle t.
+def _lit(colour, red, green, blue):
+    """round(colour * light) for each channel."""
+    half = np.float32(0.5)
+    r = np.int32(np.float32(np.int32(colour & 255)) * red + half)
+    g = np.int32(np.float32(np.int32((colour >> 8) & 255)) * green + half)
+    b = np.int32(np.float32(np.int32((colour >> 16) & 255)) * blue + half)
+    return (colour & OPAQUE_BITS) | np.int64(b << 16 | g << 8 | r)
 
-    All coats are laid over one another first and lit at the end, once. Returns nothing; writes
-    colours[x..last], and u, v, light on the way.
+
+@_inner
+def _reach(low, high, count):
+    """The first and last of `count` texels that a triangle with these bounds of u or v reaches.
+
+    A sample on the triangle's very edge must not show a neighbouring part of the sheet.
     """
-    triangles, triangle_look, corners, _depth, inv_w, uvs, shade = mesh
-    look_coats, look_alpha, look_lit, coat_rects, coat_tints, atlas = worn
-    a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-    look = triangle_look[t]
-    ax, ay = np.int64(corners[a, 0]) - (x0 << 8), np.int64(corners[a, 1]) - (y0 << 8)
-    bx, by = np.int64(corners[b, 0]) - (x0 << 8), np.int64(corners[b, 1]) - (y0 << 8)
-    cx, cy = np.int64(corners[c, 0]) - (x0 << 8), np.int64(corners[c, 1]) - (y0 << 8)
-    px, py = np.int64(x) << 8, np.int64(row) << 8
-    weight_a = np.float64((cx - bx) * (py - by) - (cy - by) * (px - bx)) * inv_w[a]
-    weight_b = np.float64((ax - cx) * (py - cy) - (ay - cy) * (px - cx)) * inv_w[b]
-    weight_c = np.float64((bx - ax) * (py - ay) - (by - ay) * (px - ax)) * inv_w[c]
-    step_a = np.float64((by - cy) * 256) * inv_w[a]
-    step_b = np.float64((cy - ay) * 256) * inv_w[b]
-    step_c = np.float64((ay - by) * 256) * inv_w[c]
-    ua, ub, uc = np.float64(uvs[a, 0]), np.float64(uvs[b, 0]), np.float64(uvs[c, 0])
-    va, vb, vc = np.float64(uvs[a, 1]), np.float64(uvs[b, 1]), np.float64(uvs[c, 1])
-    sa, sb, sc = np.float64(shade[a]), np.float64(shade[b]), np.float64(shade[c])
-    w0, dw = weight_a + weight_b + weight_c, step_a + step_b + step_c
-    u0, du = weight_a * ua + weight_b * ub + weight_c * uc, step_a * ua + step_b * ub + step_c * uc
-    v0, dv = weight_a * va + weight_b * vb + weight_c * vc, step_a * va + step_b * vb + step_c * vc
-    s0, ds = weight_a * sa + weight_b * sb + weight_c * sc, step_a * sa + step_b * sb + step_c * sc
-    for k in range(last - x + 1):
-        w = 1.0 / (w0 + k * dw)
-        u[k] = (u0 + k * du) * w
-        v[k] = (v0 + k * dv) * w
-        light[k] = (s0 + k * ds) * w
-
-    u_low, u_high = min(ua, ub, uc), max(ua, ub, uc)
-    v_low, v_high = min(va, vb, vc), max(va, vb, vc)
-    first = look_coats[look, 0]
-    for coat in range(first, first + look_coats[look, 1]):
-        left, top = coat_rects[coat, 0], coat_rects[coat, 1]
-        across, down = coat_rects[coat, 2], coat_rects[coat, 3]
-        # Only texels that the triangle really reaches: a sample on its very edge must not show
-        # the neighbouring part of the sheet.
-        i_low = min(max(np.int64(u_low * across + 1e-3), 0), across - 1)
-        i_high = min(max(np.int64(np.ceil(u_high * across - 1e-3)) - 1, i_low), across - 1)
-        j_low = min(max(np.int64(v_low * down + 1e-3), 0), down - 1)
-        j_high = min(max(np.int64(np.ceil(v_high * down - 1e-3)) - 1, j_low), down - 1)
-        red = np.int64(coat_tints[coat, 0])
-        green = np.int64(coat_tints[coat, 1])
-        blue = np.int64(coat_tints[coat, 2])
-        plain = red == 255 and green == 255 and blue == 255
-        for k in range(last - x + 1):
-            i = min(max(np.int64(u[k] * across), i_low), i_high)
-            j = min(max(np.int64(v[k] * down), j_low), j_high)
-            texel = np.int64(atlas[top + j, left + i])
-            if not plain:
-                texel = _tinted(texel, red, green, blue)
-            if coat > first:
-                texel = _lay_over(texel, np.int64(colours[x + k]))
-            elif look_alpha[look] == OPAQUE:
-                texel |= 0xFF000000
-            elif look_alpha[look] == CUTOUT:
-                texel = (texel | 0xFF000000) if texel >> 31 else 0
-            colours[x + k] = texel
-
-    if look_lit[look]:
-        for k in range(last - x + 1):
-            colour = np.int64(colours[x + k])
-            red = np.int64((colour & 255) * (light[k] * tint[0]) + 0.5)
-            green = np.int64(((colour >> 8) & 255) * (light[k] * tint[1]) + 0.5)
-            blue = np.int64(((colour >> 16) & 255) * (light[k] * tint[2]) + 0.5)
-            colours[x + k] = (colour & 0xFF000000) | blue << 16 | green << 8 | red
+    first = min(max(np.int64(low * count + 1e-3), 0), count - 1)
+    last = min(max(np.int64(np.ceil(high * count - 1e-3)) - 1, first), count - 1)
+    return first, last
 
 
 @_inner
-def _cover(t, x0, y0, mesh, worn, tint, u, v, light, line, keys, colours):
-    """Draw triangle t into the tile at x0, y0: its keys, or if it blends, its colours."""
-    triangles, triangle_look, corners, depth, _inv_w, _uvs, _shade_of = mesh
-    a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-    ax, ay = np.int64(corners[a, 0]) - (x0 << 8), np.int64(corners[a, 1]) - (y0 << 8)
-    bx, by = np.int64(corners[b, 0]) - (x0 << 8), np.int64(corners[b, 1]) - (y0 << 8)
-    cx, cy = np.int64(corners[c, 0]) - (x0 << 8), np.int64(corners[c, 1]) - (y0 << 8)
-    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    if area == 0:
-        return
-    za, zb, zc = depth[a], depth[b], depth[c]
-    if area < 0:
-        bx, by, zb, cx, cy, zc = cx, cy, zc, bx, by, zb
-        area = -area
-    right_ab, down_ab, at_ab, inverse_ab = _edge(ax, ay, bx, by)
-    right_bc, down_bc, at_bc, inverse_bc = _edge(bx, by, cx, cy)
-    right_ca, down_ca, at_ca, inverse_ca = _edge(cx, cy, ax, ay)
-    scale = 1.0 / np.float64(area)
-    z_right = ((zb - za) * (cy - ay) - (zc - za) * (by - ay)) * scale
-    z_down = ((zc - za) * (bx - ax) - (zb - za) * (cx - ax)) * scale
-    z_step = np.int64(min(max(z_right * 256.0, -1.0), 1.0) * DEPTH_SCALE)
+def _cover_tile(first, last, x0, y0, records, vertices, triangles, triangle_look, worn, keys):
+    """Write the keys of records first..last - 1 in the tile at x0, y0.
 
-    left = max((min(ax, bx, cx) + 255) >> 8, 0)
-    right = min(max(ax, bx, cx) >> 8, TILE - 1)
-    mode = worn[1][triangle_look[t]]
-    for row in range(max((min(ay, by, cy) + 255) >> 8, 0), min(max(ay, by, cy) >> 8, TILE - 1) + 1):
-        lo, hi = _narrow(left, right, right_ab, at_ab + row * down_ab, inverse_ab)
-        lo, hi = _narrow(lo, hi, right_bc, at_bc + row * down_bc, inverse_bc)
-        lo, hi = _narrow(lo, hi, right_ca, at_ca + row * down_ca, inverse_ca)
-        if lo > hi:
+    Returns the bounds of the samples tried: left, right, top, bottom.
+    """
+    looks, coats, atlas = worn
+    edge_left, edge_right, edge_top, edge_bottom = TILE, -1, TILE, -1
+    for entry in range(first, last):
+        ax, ay = np.int64(records[entry, 0]) - (x0 << 8), np.int64(records[entry, 1]) - (y0 << 8)
+        bx, by = np.int64(records[entry, 2]) - (x0 << 8), np.int64(records[entry, 3]) - (y0 << 8)
+        cx, cy = np.int64(records[entry, 4]) - (x0 << 8), np.int64(records[entry, 5]) - (y0 << 8)
+        za, zb = np.int64(records[entry, 6]), np.int64(records[entry, 7])
+        zc = np.int64(records[entry, 8])
+        t = np.int64(records[entry, 9]) & ID_MASK
+        mode = records[entry, 9] >> ID_BITS
+        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        if area == 0:
             continue
-        z = za + z_right * ((lo << 8) - ax) + z_down * ((row << 8) - ay)
-        z_lo = np.int64(min(max(z, 0.0), 1.0) * DEPTH_SCALE)
-        if mode == OPAQUE:
-            for x in range(lo, hi + 1):
-                key = ((z_lo + (x - lo) * z_step) & ~ID_MASK) | (t + 1)
-                keys[row, x] = max(keys[row, x], key)
-            continue
-        _shade(t, x0, y0, lo, hi, row, mesh, worn, tint, u, v, light, line)
-        for x in range(lo, hi + 1):
-            key = (z_lo + (x - lo) * z_step) | ID_MASK
-            if mode == CUTOUT:
-                if line[x] >> 31:
-                    keys[row, x] = max(keys[row, x], (key & ~ID_MASK) | (t + 1))
-            elif key >= keys[row, x]:
-                colours[row, x] = _lay_over(np.int64(line[x]), np.int64(colours[row, x]))
+        if area < 0:
+            bx, by, zb, cx, cy, zc = cx, cy, zc, bx, by, zb
+            area = -area
+        right_ab, down_ab, at_ab = _edge(ax, ay, bx, by)
+        right_bc, down_bc, at_bc = _edge(bx, by, cx, cy)
+        right_ca, down_ca, at_ca = _edge(cx, cy, ax, ay)
+        z, step_right, step_down = _depth_plane(ax, ay, za, bx, by, zb, cx, cy, zc, area)
+
+        left = max((min(ax, bx, cx) + 255) >> 8, 0)
+        right = min(max(ax, bx, cx) >> 8, TILE - 1)
+        top = max((min(ay, by, cy) + 255) >> 8, 0)
+        bottom = min(max(ay, by, cy) >> 8, TILE - 1)
+        edge_left, edge_right = min(edge_left, left), max(edge_right, right)
+        edge_top, edge_bottom = min(edge_top, top), max(edge_bottom, bottom)
+        count = ((right - left) // LANES + 1) * LANES
+        for row in range(top, bottom + 1):
+            ab = at_ab + row * down_ab + left * right_ab
+            bc = at_bc + row * down_bc + left * right_bc
+            ca = at_ca + row * down_ca + left * right_ca
+            depth = z + row * step_down + left * step_right
+            start = row * STRIDE + left
+            if mode == OPAQUE:
+                for k in range(count):
+                    at = np.uint64(start + k)
+                    outside = (ab + k * right_ab) | (bc + k * right_bc) | (ca + k * right_ca)
+                    key = ((depth + k * step_right) & ~ID_MASK) | (t + 1)
+                    keys[at] = max(keys[at], key if outside >= 0 else np.int64(0))
+                continue
+            for k in range(count):
+                at = np.uint64(start + k)
+                outside = (ab + k * right_ab) | (bc + k * right_bc) | (ca + k * right_ca)
+                key = ((depth + k * step_right) & ~ID_MASK) | (t + 1)
+                if mode == BLEND:
+                    shown = outside >= 0 and key | ID_MASK >= keys[at]
+                    keys[at + np.uint64(LAYER)] = key if shown else np.int64(0)
+                elif outside >= 0 and key > keys[at]:
+                    coat = looks[triangle_look[t], 0]
+                    u, v = _uv_at(t, x0 + left + k, y0 + row, vertices, triangles)
+                    i = min(max(np.int64(u * coats[coat, 2]), 0), coats[coat, 2] - 1)
+                    j = min(max(np.int64(v * coats[coat, 3]), 0), coats[coat, 3] - 1)
+                    if atlas[coats[coat, 1] + j, coats[coat, 0] + i] >> 31:
+                        keys[at] = key
+    return edge_left, edge_right, edge_top, edge_bottom
 
 
 @_inner
-def _shade_seen(x0, y0, keys, mesh, worn, tint, u, v, light, colours):
-    """Colour what is seen in the tile at x0, y0, one run of the same triangle after another."""
-    for row in range(TILE):
-        x = np.int64(0)
-        while x < TILE:
-            seen = np.int64((keys[row, x] & ID_MASK) - 1)
-            last = x
-            while last + 1 < TILE and (keys[row, last + 1] & ID_MASK) - 1 == seen:
-                last += 1
-            if seen >= 0:
-                _shade(seen, x0, y0, x, last, row, mesh, worn, tint, u, v, light, colours[row])
+def _weights(t, x, y, vertices, triangles):
+    """Edge functions over w of triangle t's corners at a sample, and their steps to the right."""
+    a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]
+    ax, ay = np.int64(a.x) - (x << 8), np.int64(a.y) - (y << 8)
+    bx, by = np.int64(b.x) - (x << 8), np.int64(b.y) - (y << 8)
+    cx, cy = np.int64(c.x) - (x << 8), np.int64(c.y) - (y << 8)
+    return (
+        np.float64(bx * cy - by * cx) * a.inv_w,
+        np.float64(cx * ay - cy * ax) * b.inv_w,
+        np.float64(ax * by - ay * bx) * c.inv_w,
+        np.float64((by - cy) << 8) * a.inv_w,
+        np.float64((cy - ay) << 8) * b.inv_w,
+        np.float64((ay - by) << 8) * c.inv_w,
+    )
+
+
+@_inner
+def _uv_at(t, x, y, vertices, triangles):
+    """Texture coordinates of triangle t at one sample."""
+    a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]
+    wa, wb, wc, _, _, _ = _weights(t, x, y, vertices, triangles)
+    w = 1.0 / (wa + wb + wc)
+    return (wa * a.u + wb * b.u + wc * c.u) * w, (wa * a.v + wb * b.v + wc * c.v) * w
+
+
+@_inner
+def _shade_tile(
+    layer, bounds, x0, y0, vertices, triangles, triangle_look, worn, tint, keys, colours
+):
+    """Colour what is seen in the tile at x0, y0, one run of the same triangle after another.
+
+    layer: where the keys begin; 0 is what is solid, LAYER what is laid over it.
+    All coats are laid over one another first and lit at the end, once.
+    """
+    looks, coats, atlas = worn
+    left, right, top, bottom = bounds
+    for row in range(top, bottom + 1):
+        start = layer + row * STRIDE
+        last = left - 1
+        while last < right:
             x = last + 1
+            seen = keys[np.uint64(start + x)] & ID_MASK
+            last = x
+            while last < right and keys[np.uint64(start + last + 1)] & ID_MASK == seen:
+                last += 1
+            if seen == 0:
+                continue
+
+            t = seen - 1
+            a, b, c = (
+                vertices[triangles[t, 0]],
+                vertices[triangles[t, 1]],
+                vertices[triangles[t, 2]],
+            )
+            wa, wb, wc, da, db, dc = _weights(t, x0 + x, y0 + row, vertices, triangles)
+            w0, dw = wa + wb + wc, da + db + dc
+            u0, du = wa * a.u + wb * b.u + wc * c.u, da * a.u + db * b.u + dc * c.u
+            v0, dv = wa * a.v + wb * b.v + wc * c.v, da * a.v + db * b.v + dc * c.v
+            s0 = wa * a.shade + wb * b.shade + wc * c.shade
+            ds = da * a.shade + db * b.shade + dc * c.shade
+            u_low, u_high = min(a.u, b.u, c.u), max(a.u, b.u, c.u)
+            v_low, v_high = min(a.v, b.v, c.v), max(a.v, b.v, c.v)
+
+            look = triangle_look[t]
+            coat, end = looks[look, 0], looks[look, 0] + looks[look, 1]
+            mode, lit = looks[look, 2], looks[look, 3]
+            solid = OPAQUE_BITS if mode != BLEND else 0
+            across, down = coats[coat, 2], coats[coat, 3]
+            red, green, blue = coats[coat, 4], coats[coat, 5], coats[coat, 6]
+            plain = red & green & blue == 255
+            i_first, i_last = _reach(u_low, u_high, across)
+            j_first, j_last = _reach(v_low, v_high, down)
+            origin_x, origin_y = coats[coat, 0], coats[coat, 1]
+            for k in range(last - x + 1):
+                w = 1.0 / (w0 + k * dw)
+                u, v = (u0 + k * du) * w, (v0 + k * dv) * w
+                i = min(max(np.int64(u * across), i_first), i_last)
+                j = min(max(np.int64(v * down), j_first), j_last)
+                colour = np.int64(atlas[np.uint64(origin_y + j), np.uint64(origin_x + i)]) | solid
+                if not plain:
+                    colour = _tinted(colour, red, green, blue)
+                for upper in range(coat + 1, end):
+                    first, final = _reach(u_low, u_high, coats[upper, 2])
+                    i = coats[upper, 0] + min(max(np.int64(u * coats[upper, 2]), first), final)
+                    first, final = _reach(v_low, v_high, coats[upper, 3])
+                    j = coats[upper, 1] + min(max(np.int64(v * coats[upper, 3]), first), final)
+                    texel = np.int64(atlas[np.uint64(j), np.uint64(i)])
+                    texel = _tinted(texel, coats[upper, 4], coats[upper, 5], coats[upper, 6])
+                    colour = _lay_over(texel, colour)
+                if lit:
+                    light = np.float32((s0 + k * ds) * w)
+                    colour = _lit(colour, light * tint[0], light * tint[1], light * tint[2])
+                at = np.uint64(row * TILE + x + k)
+                if layer:
+                    colour = _lay_over(colour, np.int64(colours[at]))
+                colours[at] = colour
 
 
 @_inner
@@ -236,13 +283,12 @@ def _resolve(colours, x0, y0, grid, picture):
     for row in range(min(TILE // grid, height - y0)):
         for column in range(min(TILE // grid, width - x0)):
             if grid == 1:
-                picture[y0 + row, x0 + column] = colours[row, column]
+                picture[y0 + row, x0 + column] = colours[row * TILE + column]
                 continue
             alpha = red = green = blue = 0
             for sample in range(count):
-                colour = np.int64(
-                    colours[row * grid + sample // grid, column * grid + sample % grid]
-                )
+                line, place = row * grid + sample // grid, column * grid + sample % grid
+                colour = np.int64(colours[line * TILE + place])
                 alpha += colour >> 24
                 red += (colour >> 24) * (colour & 255)
                 green += (colour >> 24) * ((colour >> 8) & 255)
@@ -259,49 +305,43 @@ def _resolve(colours, x0, y0, grid, picture):
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def draw_tiles(
-    worker,
-    workers,
-    tiles_x,
-    top,
-    starts,
-    entries,
-    opaque,
-    mesh,
-    worn,
-    tint,
-    background,
-    grid,
-    picture,
+    worker, workers, tiles_x, first, starts, records, mesh, worn, tint, background, grid, picture
 ):
     """Draw every workers-th tile, beginning with number `worker`.
 
-    tiles_x, top: tiles across; the row of tiles at which number 0 begins.
-    starts, entries: the triangles of tile i are entries[starts[i] : starts[i + 1]].
-    opaque: triangles from this number on blend; they are drawn last, in their order.
-    mesh: triangles [T, 3], triangle_look [T], corners [V, 2], depth [V], inv_w [V], uvs [V, 2],
-        brightness [V].
-    worn: the arrays of a `Wardrobe`; its atlas as one uint32 a texel.
-    tint: the light's colour, three factors.
+    tiles_x: tiles across; first: the tile that number 0 stands for, counted row by row.
+    starts, records: the triangles of tile i are records[starts[i] : starts[i + 1]]; those that
+        blend come last and are drawn in their order.
+    mesh: vertices [V] of VERTEX, triangles [T, 3], triangle_look [T].
+    worn: looks [L, 4], a row each of first coat, count, alpha mode, lit; coats [C, 7], a row each
+        of x, y, width, height in the atlas and tint; atlas [H, W], one uint32 a texel.
+    tint: the light's colour, three factors, float32.
     background: one uint32, 0xAABBGGRR, as all colours here.
     grid: samples along a pixel's side.
     picture: shape [H, W], uint32.
     """
-    keys = np.empty((TILE, TILE), np.int64)
-    colours = np.empty((TILE, TILE), np.uint32)
-    u, v, light = np.empty(TILE), np.empty(TILE), np.empty(TILE)
-    line = np.empty(TILE, np.uint32)
+    vertices, triangles, triangle_look = mesh
+    keys = np.empty(2 * LAYER, np.int64)
+    colours = np.empty(TILE * TILE, np.uint32)
     for tile in range(worker, len(starts) - 1, workers):
-        x0, y0 = (tile % tiles_x) << TILE_BITS, (tile // tiles_x + top) << TILE_BITS
-        keys[:] = 0
+        column, line = (first + tile) % tiles_x, (first + tile) // tiles_x
+        x0, y0 = column << TILE_BITS, line << TILE_BITS
         colours[:] = background
-        shaded = False
-        # One place that covers and one that shades: the compiler copies them for each call.
-        for entry in range(starts[tile], starts[tile + 1] + 1):
-            last = entry == starts[tile + 1]
-            t = np.int64(0) if last else np.int64(entries[entry])
-            if not shaded and (last or t >= opaque):
-                _shade_seen(x0, y0, keys, mesh, worn, tint, u, v, light, colours)
-                shaded = True
-            if not last:
-                _cover(t, x0, y0, mesh, worn, tint, u, v, light, line, keys, colours)
+        keys[:LAYER] = 0
+        entry, end = starts[tile], starts[tile + 1]
+        layer = 0
+        while entry < end:
+            # All that is solid in one go, then one by one what blends.
+            until = entry
+            while until < end and records[until, 9] >> ID_BITS != BLEND:
+                until += 1
+            if until == entry:
+                until, layer = entry + 1, LAYER
+            bounds = _cover_tile(
+                entry, until, x0, y0, records, vertices, triangles, triangle_look, worn, keys
+            )
+            _shade_tile(
+                layer, bounds, x0, y0, vertices, triangles, triangle_look, worn, tint, keys, colours
+            )
+            entry = until
         _resolve(colours, x0 // grid, y0 // grid, grid, picture)
