@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.colliders.compiled import door, kernel
+from drapery.cloth.compiled import door, kernel
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
 from drapery.errors import OptionError

@@ -7,9 +7,9 @@ always lies on a face that has free space before it, so the faces between two cu
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth.colliders.compiled import kernel
 from drapery.cloth.colliders.primitives import cuboid_distance
 from drapery.cloth.colliders.vectors import Vector, norm, subtract, unit
+from drapery.cloth.compiled import kernel
 
 Grid = NDArray[np.uint8]
 HALF = (0.5, 0.5, 0.5)

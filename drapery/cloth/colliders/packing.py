@@ -5,7 +5,6 @@ from functools import singledispatch
 import numpy as np
 
 from drapery.cloth.colliders.blocks import blocks_distance
-from drapery.cloth.colliders.compiled import door
 from drapery.cloth.colliders.fields import BLOCKS, BOX, CAPSULE, PLANE, SPHERE, Field
 from drapery.cloth.colliders.primitives import (
     box_distance,
@@ -16,6 +15,7 @@ from drapery.cloth.colliders.primitives import (
 from drapery.cloth.colliders.shapes import Box, Capsule, Plane, Shape, Sphere, TriangleMesh, Voxels
 from drapery.cloth.colliders.surfaces import pack_surface, surface_distance
 from drapery.cloth.colliders.vectors import Vector, scale, subtract
+from drapery.cloth.compiled import door
 from drapery.errors import OptionError
 
 

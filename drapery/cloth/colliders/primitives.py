@@ -4,7 +4,6 @@ Each kernel takes the shape's numbers and a point in the shape's frame, and give
 negative inside, and the unit direction in which it grows fastest.
 """
 
-from drapery.cloth.colliders.compiled import kernel
 from drapery.cloth.colliders.vectors import (
     Vector,
     along,
@@ -15,6 +14,7 @@ from drapery.cloth.colliders.vectors import (
     turned_back,
     unit,
 )
+from drapery.cloth.compiled import kernel
 from drapery.mesh import Array
 
 

@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.colliders.compiled import door, kernel
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.packing import pack
 from drapery.cloth.colliders.pose import Path, Pose, still
 from drapery.cloth.colliders.shapes import Shape
 from drapery.cloth.colliders.sweep import Frame, Skin, meet
 from drapery.cloth.colliders.vectors import Vector, along, subtract
+from drapery.cloth.compiled import door, kernel
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
 from drapery.errors import OptionError

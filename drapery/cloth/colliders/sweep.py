@@ -11,7 +11,6 @@ sphere tracing, Hart 1996): the distance to the shape is a step that cannot meet
 
 from typing import NamedTuple
 
-from drapery.cloth.colliders.compiled import kernel
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.packing import distance
 from drapery.cloth.colliders.vectors import (
@@ -25,6 +24,7 @@ from drapery.cloth.colliders.vectors import (
     turned,
     turned_back,
 )
+from drapery.cloth.compiled import kernel
 from drapery.mesh import Array
 
 TOUCH = 1e-9

@@ -1,0 +1,289 @@
+"""Position based dynamics: move, then satisfy constraints by relaxation.
+
+Müller, Heidelberger, Hennix, Ratcliff, "Position based dynamics" (J. Vis. Commun. 18(2), 2007);
+before it Jakobsen, "Advanced character physics" (GDC 2001). On top, what a fine cloth needs to keep
+its size: small substeps (Macklin et al. 2019, "Small steps in physics simulation"), constraints in
+order from the pins outwards, and links of every length that may not grow (see `links`).
+
+Order 1. Stable for any step. Stiffness is not in N/m: a cloth is as stiff as its passes make it,
+and the springs' own stiffness is not read. To be chosen for cheap, hardly stretching cloth, and
+for pixel-art capes. Not to be confused with xpbd, whose compliance means the same at any dt, or
+with verlet, whose name this method often bears: there are no forces between particles here.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.cloth import kernels
+from drapery.cloth.cloth import STRUCTURAL, Cloth
+from drapery.cloth.compiled import door, kernel
+from drapery.cloth.forces import Force
+from drapery.cloth.links import Links, limited_links
+from drapery.cloth.order import outwards, pin_distances, sweep_order
+from drapery.cloth.pins import PinPath
+from drapery.cloth.solvers.base import check_step
+from drapery.cloth.solvers.rounds import (
+    MAX_SUBSTEPS,
+    Body,
+    Memory,
+    add_loads,
+    advance,
+    blow_all,
+    body_of,
+    check_count,
+    check_limit,
+    check_part,
+    movable,
+)
+from drapery.cloth.state import State
+from drapery.errors import OptionError
+from drapery.mesh import Array
+
+
+class Constraints(NamedTuple):
+    """Distances between pairs [C, 2]: at least `least` and at most `most` [m], [C]; the part of a
+    correction that each end takes."""
+
+    pairs: NDArray[np.int32]
+    least: Array
+    most: Array
+    share_i: Array
+    share_j: Array
+
+
+class Plan(NamedTuple):
+    body: Body
+    constraints: Constraints
+    links: Links
+    springs: Links
+    keep: Array
+
+
+@dataclass(frozen=True)
+class SolverPBD:
+    """See the module.
+
+    passes: of relaxation, a substep.
+    constraint: `equal` keeps distances as they are at rest; `at-most` lets them shrink: capes.
+    stiffness: part of a correction that one pass makes, for structural, shear and flexion springs.
+    order: `pins` outwards from the pins, or `given`, as the cloth lists its springs.
+    shares: `mass`, or `half`: each end that is not pinned moves half, even if the other is pinned.
+    limit: longest length of a structural spring over its rest length, seen to by `links`.
+    sweeps: over springs that are still too long, at most, at the end of a step; 0 for no links.
+    damping: rate at which all velocities decay [1/s].
+    threads: None for as many as there are processors.
+    """
+
+    passes: int = 1
+    substeps: int = 4
+    constraint: Literal["equal", "at-most"] = "equal"
+    stiffness: tuple[float, float, float] = (1.0, 0.5, 0.05)
+    order: Literal["pins", "given"] = "pins"
+    shares: Literal["mass", "half"] = "mass"
+    limit: float = 1.02
+    sweeps: int = 10
+    damping: float = 0.0
+    threads: int | None = None
+
+    def __post_init__(self) -> None:
+        check_count("passes", self.passes, 0, 1000)
+        check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
+        _check_name("constraint", self.constraint, ("equal", "at-most"))
+        _check_name("order", self.order, ("pins", "given"))
+        _check_name("shares", self.shares, ("mass", "half"))
+        if len(self.stiffness) != 3:
+            raise OptionError(f"stiffness {self.stiffness!r}: give three numbers from 0 to 1")
+        for part in self.stiffness:
+            check_part("stiffness", part)
+        check_limit(self.limit)
+        check_count("sweeps", self.sweeps, 0, 1000)
+        if not 0 <= self.damping < np.inf:
+            raise OptionError(f"damping {self.damping!r} is out of range; use a number from 0 up")
+
+    @classmethod
+    def plain(cls, passes: int = 6) -> "SolverPBD":
+        """The tutorial loop: equal structural distances in the given order, halves, no more."""
+        return cls(
+            passes=passes,
+            substeps=1,
+            stiffness=(1.0, 0.0, 0.0),
+            order="given",
+            shares="half",
+            sweeps=0,
+        )
+
+    @classmethod
+    def cape(cls, passes: int = 3, damping: float = 1.0) -> "SolverPBD":
+        """Pixel-art capes: neighbours no farther than at rest, a few passes, air resistance."""
+        return cls(
+            passes=passes,
+            substeps=1,
+            constraint="at-most",
+            stiffness=(1.0, 0.0, 0.0),
+            sweeps=0,
+            damping=damping,
+        )
+
+    def init(self, cloth: Cloth, dt: float) -> Memory:
+        check_step(dt, 1)
+        keep = np.array([1 / (1 + self.damping * dt / self.substeps)])
+        links = limited_links(cloth, self.limit, min(self.sweeps, 1))
+        plan = Plan(
+            body_of(cloth), self._constraints(cloth), links, stretched(cloth, self.limit), keep
+        )
+        return Memory(plan, dt, self.substeps)
+
+    def step(
+        self,
+        cloth: Cloth,
+        state: State,
+        memory: Memory,
+        forces: Sequence[Force],
+        dt: float,
+        *,
+        steps: int = 1,
+        pins: PinPath | None = None,
+    ) -> tuple[State, Memory]:
+        args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
+        return advance(_advance, *args, self.passes, self.sweeps), memory
+
+    def _constraints(self, cloth: Cloth) -> Constraints:
+        stiffness = np.asarray(self.stiffness, float)[cloth.spring_kind]
+        chosen = np.flatnonzero(movable(cloth) & (stiffness > 0))
+        if self.order == "pins":
+            chosen = chosen[bending_first(cloth, chosen)]
+        pairs, rest = cloth.spring_pairs[chosen], cloth.spring_length[chosen]
+        half = self.shares == "half"
+        shares = 0.5 * (cloth.inv_mass[pairs] > 0) if half else mass_shares(cloth, pairs)
+        shares = shares * stiffness[chosen, None]
+        least = rest if self.constraint == "equal" else np.zeros_like(rest)
+        return Constraints(
+            np.ascontiguousarray(pairs), least, rest, shares[:, 0].copy(), shares[:, 1].copy()
+        )
+
+
+def bending_first(cloth: Cloth, springs: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Flexion, shear, structural springs, each kind from the pins outwards: the last word is the
+    structural ones'. Places in `springs`."""
+    pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
+    order = outwards(pin_distances(cloth), pairs, lengths)
+    return order[np.argsort(-cloth.spring_kind[springs][order].astype(int), kind="stable")]
+
+
+def stretched(cloth: Cloth, limit: float) -> Links:
+    """The structural springs from the pins outwards, `limit` times their rest length long."""
+    chosen = sweep_order(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
+    pairs = cloth.spring_pairs[chosen]
+    part_i, part_j = mass_shares(cloth, pairs).T.copy()
+    return Links(pairs, cloth.spring_length[chosen] * limit, part_i, part_j)
+
+
+def mass_shares(cloth: Cloth, pairs: NDArray[np.integer]) -> Array:
+    """Parts of a correction in proportion to inverse mass, so that momentum is kept, [K, 2]."""
+    inv_mass = cloth.inv_mass[pairs]
+    shares: Array = inv_mass / inv_mass.sum(axis=1, keepdims=True)
+    return shares
+
+
+def _check_name(option: str, value: str, known: tuple[str, ...]) -> None:
+    if value not in known:
+        raise OptionError(f"{option} {value!r} is not known; use one of: {', '.join(known)}")
+
+
+@kernel
+def relax(y: Any, constraints: Any) -> None:
+    """One Gauss-Seidel pass: each pair in turn is moved to its distance."""
+    tiny = y.dtype.type(1e-30)
+    for s in range(constraints.most.size):
+        i, j = 3 * constraints.pairs[s, 0], 3 * constraints.pairs[s, 1]
+        least, most = constraints.least[s], constraints.most[s]
+        part_i, part_j = constraints.share_i[s], constraints.share_j[s]
+        for lane in range(y.shape[1]):
+            dx = y[j, lane] - y[i, lane]
+            dy = y[j + 1, lane] - y[i + 1, lane]
+            dz = y[j + 2, lane] - y[i + 2, lane]
+            d = np.sqrt(dx * dx + dy * dy + dz * dz)
+            part = (d - min(max(d, least), most)) / max(d, tiny)
+            y[i, lane] += part_i * part * dx
+            y[i + 1, lane] += part_i * part * dy
+            y[i + 2, lane] += part_i * part * dz
+            y[j, lane] -= part_j * part * dx
+            y[j + 1, lane] -= part_j * part * dy
+            y[j + 2, lane] -= part_j * part * dz
+
+
+@kernel
+def tidy(y: Any, links: Any, sweeps: Any) -> None:
+    """Sweeps until no link of any lane is too long. One more would not change a bit of a lane that
+    is done, so lanes do not depend on each other."""
+    for _ in range(sweeps):
+        if not any_too_long(y, links):
+            return
+        kernels.shorten(y, links)
+
+
+@kernel
+def any_too_long(y: Any, links: Any) -> Any:
+    for s in range(links.longest.size):
+        i, j = 3 * links.pairs[s, 0], 3 * links.pairs[s, 1]
+        most = links.longest[s] * links.longest[s]
+        for lane in range(y.shape[1]):
+            dx = y[j, lane] - y[i, lane]
+            dy = y[j + 1, lane] - y[i + 1, lane]
+            dz = y[j + 2, lane] - y[i + 2, lane]
+            if dx * dx + dy * dy + dz * dz > most:
+                return True
+    return False
+
+
+@kernel
+def damp(u: Any, keep: Any) -> None:
+    for row in range(u.shape[0]):
+        for lane in range(u.shape[1]):
+            u[row, lane] *= keep
+
+
+@door
+def _advance(
+    first: Any,
+    last: Any,
+    plan: Any,
+    batch: Any,
+    steps: Any,
+    substeps: Any,
+    passes: Any,
+    sweeps: Any,
+) -> None:
+    """Steps of lanes first..last, a block at a time."""
+    dtype, body = batch.x.dtype, plan.body
+    h = dtype.type(batch.numbers[0])
+    rows = batch.x.shape[0]
+    for start in range(first, last, batch.width):
+        lanes = min(batch.width, last - start)
+        y, u = np.empty((rows, lanes), dtype), np.empty((rows, lanes), dtype)
+        g, old = np.empty((rows, lanes), dtype), np.empty((rows, lanes), dtype)
+        wind = np.empty((3 * body.controls.size * batch.gusts.seeds.size, lanes), dtype)
+        work = np.empty((18, lanes), dtype)
+        kernels.take_lanes(y, batch.x, start)
+        kernels.take_lanes(u, batch.v, start)
+        for step in range(steps * substeps):
+            if step % substeps == 0:
+                time = batch.numbers[2] + step * batch.numbers[0]
+                blow_all(wind, y, body, batch, start, time, work)
+            kernels.take_lanes(g, u, 0)
+            damp(g, plan.keep[0])
+            add_loads(g, y, u, body, batch, wind, h, start, work)
+            kernels.move(y, g, old, h)
+            kernels.place_pins(y, old, body.pins, batch.targets, step, start)
+            for _ in range(passes):
+                relax(y, plan.constraints)
+            kernels.shorten(y, plan.links)
+            if step % substeps == substeps - 1:
+                tidy(y, plan.springs, sweeps)
+            kernels.set_velocities(u, y, old, h)
+        kernels.give_lanes(batch.new_x, y, start)
+        kernels.give_lanes(batch.new_v, u, start)

@@ -1,0 +1,261 @@
+"""What the classic solvers share: from states to lanes, through a method's kernel, and back.
+
+A method brings its plan (constant arrays) and its kernel, which steps the lanes first..last.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.cloth import kernels, lanes
+from drapery.cloth.cloth import Cloth
+from drapery.cloth.compiled import kernel
+from drapery.cloth.faces import Faces, wind_faces
+from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
+from drapery.cloth.pins import PinPath
+from drapery.cloth.solvers.base import check_state, check_step
+from drapery.cloth.state import State
+from drapery.cloth.wind import Gusts
+from drapery.errors import OptionError
+from drapery.mesh import Array
+
+MAX_SUBSTEPS = 1000
+REACH = 0.3
+"""Radians that the fastest spring may swing in a substep. Symplectic methods are stable up to 2;
+this leaves room for the limit on stretch, which gets a sweep or two a substep."""
+
+
+class Springs(NamedTuple):
+    """pairs: [S, 2]; rest: lengths [m], [S]; stiffness: [N/m], [S]."""
+
+    pairs: NDArray[np.int32]
+    rest: Array
+    stiffness: Array
+
+
+class Body(NamedTuple):
+    """What every method knows of a cloth. controls: particles where the wind is sampled."""
+
+    springs: Springs
+    faces: Faces
+    controls: NDArray[np.int32]
+    inv_mass: Array
+    pins: NDArray[np.int64]
+
+
+class Batch(NamedTuple):
+    """B cloths on the way through a kernel, lanes [3N, B].
+
+    numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
+    targets: where pins go, substep by substep; push: custom accelerations; width: of a block.
+    """
+
+    x: Array
+    v: Array
+    new_x: Array
+    new_v: Array
+    gusts: Gusts
+    numbers: Array
+    targets: Array
+    push: Array
+    width: int
+
+
+@dataclass(frozen=True, eq=False)
+class Memory:
+    """A method's plan for one cloth and step, in each floating-point type asked for."""
+
+    plan: Any
+    dt: float
+    substeps: int
+    by_type: dict[Any, Any] = field(default_factory=dict)
+
+    def of(self, dtype: Any) -> Any:
+        if dtype not in self.by_type:
+            self.by_type[dtype] = cast_all(self.plan, dtype)
+        return self.by_type[dtype]
+
+
+def cast_all(plan: Any, dtype: Any) -> Any:
+    """A named tuple, of tuples to any depth, with its floating-point arrays as `dtype`."""
+    parts = (cast_all(part, dtype) if isinstance(part, tuple) else part for part in plan)
+    return lanes.cast(type(plan)(*parts), dtype)
+
+
+def body_of(cloth: Cloth) -> Body:
+    faces, controls = wind_faces(cloth)
+    springs = Springs(cloth.spring_pairs, cloth.spring_length, cloth.spring_stiffness)
+    return Body(springs, faces, controls, cloth.inv_mass, np.flatnonzero(cloth.inv_mass == 0))
+
+
+def advance(
+    kernel: Callable[..., None],
+    cloth: Cloth,
+    state: State,
+    memory: Memory,
+    forces: Sequence[Force],
+    dt: float,
+    steps: int,
+    pins: PinPath | None,
+    threads: int | None,
+    *options: Any,
+) -> State:
+    """The state `steps` steps later. kernel: called with first, last,
+    plan, batch, steps, substeps and the options. Raises OptionError."""
+    check_step(dt, steps)
+    check_state(cloth, state)
+    if dt != memory.dt:
+        raise OptionError(f"dt {dt:g} is not the {memory.dt:g} of the memory; call init again")
+    loads = lower_forces(forces, len(state.positions))
+    at_once = 1 if loads.custom else steps
+    for _ in range(steps // at_once):
+        state = _advance(kernel, cloth, state, memory, loads, at_once, pins, threads, options)
+    return state
+
+
+def _advance(
+    kernel: Callable[..., None],
+    cloth: Cloth,
+    state: State,
+    memory: Memory,
+    loads: Loads,
+    steps: int,
+    pins: PinPath | None,
+    threads: int | None,
+    options: tuple[Any, ...],
+) -> State:
+    plan = memory.of(state.positions.dtype)
+    batch = batch_of(cloth, state, memory, loads, steps, pins)
+
+    def work(first: int, last: int) -> None:
+        kernel(first, last, plan, batch, steps, memory.substeps, *options)
+
+    lanes.run_blocks(work, len(state.positions), batch.width, lanes.thread_count(threads))
+    time = state.time + steps * memory.dt
+    return State(lanes.from_lanes(batch.new_x), lanes.from_lanes(batch.new_v), time)
+
+
+def batch_of(
+    cloth: Cloth, state: State, memory: Memory, loads: Loads, steps: int, pins: PinPath | None
+) -> Batch:
+    dtype = state.positions.dtype
+    x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
+    h, count = memory.dt / memory.substeps, int((cloth.inv_mass == 0).sum())
+    return Batch(
+        x,
+        v,
+        np.empty_like(x),
+        np.empty_like(v),
+        loads.gusts._replace(origins=loads.gusts.origins.astype(dtype)),
+        np.array([h, loads.drag, state.time, *loads.gravity]),
+        lanes.pin_targets(pins, state, h, steps * memory.substeps, count),
+        lanes.to_lanes(custom_accelerations(loads, cloth, state)),
+        lanes.block_width(len(cloth.inv_mass), dtype.itemsize),
+    )
+
+
+def explicit_substeps(cloth: Cloth, dt: float) -> int:
+    """Substeps of at most `REACH` radians of the fastest swing.
+
+    Gershgorin's circles bound the squares of the frequencies: 2/m times a particle's stiffness.
+    Raises OptionError past `MAX_SUBSTEPS`.
+    """
+    grip = np.zeros(len(cloth.inv_mass))
+    for end in range(2):
+        np.add.at(grip, cloth.spring_pairs[:, end], cloth.spring_stiffness)
+    fastest = float(np.sqrt((2 * grip * cloth.inv_mass).max(initial=0.0)))
+    substeps = max(1, int(np.ceil(dt * fastest / REACH)))
+    if substeps > MAX_SUBSTEPS:
+        raise OptionError(
+            f"stiffness {cloth.spring_stiffness.max():g} N/m needs {substeps} substeps of an "
+            f"explicit solver; use one of at most {MAX_SUBSTEPS}, softer springs or desbrun"
+        )
+    return substeps
+
+
+def chosen_substeps(wanted: int | None, cloth: Cloth, dt: float) -> int:
+    """`wanted`, or as many as an explicit method needs."""
+    return explicit_substeps(cloth, dt) if wanted is None else wanted
+
+
+def half_shares(cloth: Cloth, pairs: NDArray[np.integer]) -> Array:
+    """Of a correction half for each end, all of it if the other is pinned, [K, 2]."""
+    free = cloth.inv_mass[pairs] > 0
+    shares: Array = free / free.sum(axis=1, keepdims=True)
+    return shares
+
+
+def movable(cloth: Cloth) -> NDArray[np.bool_]:
+    """Springs that are not between two pins, [S]."""
+    return np.asarray((cloth.inv_mass[cloth.spring_pairs] > 0).any(axis=1))
+
+
+def check_count(name: str, value: int | None, least: int, most: int) -> None:
+    """Raises OptionError unless value is None or a whole number from least to most."""
+    if value is None or (isinstance(value, int | np.integer) and least <= value <= most):
+        return
+    raise OptionError(f"{name} {value!r} is out of range; use a whole number {least} to {most}")
+
+
+def check_part(name: str, value: float) -> None:
+    """Raises OptionError unless value is from 0 to 1."""
+    if not 0 <= value <= 1:
+        raise OptionError(f"{name} {value!r} is out of range; use a number from 0 to 1")
+
+
+def check_limit(limit: float) -> None:
+    """Raises OptionError unless a spring may be at least as long as it is at rest."""
+    if not 1 <= limit < np.inf:
+        raise OptionError(f"limit {limit!r} is out of range; use 1 or more")
+
+
+@kernel
+def blow_all(wind: Any, y: Any, body: Any, batch: Any, start: Any, time: Any, work: Any) -> None:
+    """All winds W at the control particles C, into wind [3CW, L]."""
+    rows = 3 * body.controls.size
+    for number in range(batch.gusts.seeds.size):
+        out = wind[number * rows : (number + 1) * rows]
+        kernels.blow(out, y, body.controls, batch.gusts, number, start, time, work)
+
+
+@kernel
+def add_loads(
+    g: Any, y: Any, u: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any, work: Any
+) -> None:
+    """g += h · acceleration by winds, gravity, pushes and drag, at places y and velocities u."""
+    rows = 3 * body.controls.size
+    for number in range(batch.gusts.seeds.size):
+        here = wind[number * rows : (number + 1) * rows]
+        pressure = batch.gusts.numbers[number, 16]
+        kernels.add_wind_velocities(g, y, u, body.faces, here, pressure, body.inv_mass, h, work)
+    fall(g, body.inv_mass, batch.numbers, batch.push, h, start)
+
+
+@kernel
+def fall(g: Any, inv_mass: Any, numbers: Any, push: Any, h: Any, start: Any) -> None:
+    """g += h (gravity + push), then drag, implicitly: the speed of a fall ends at g / drag."""
+    F = g.dtype.type
+    slow = F(1 / (1 + h * numbers[1]))
+    for row in range(g.shape[0]):
+        if inv_mass[row // 3] == 0:
+            continue
+        gain = F(h * numbers[3 + row % 3])
+        if push.size > 0:
+            for lane in range(g.shape[1]):
+                g[row, lane] += h * push[row, start + lane]
+        for lane in range(g.shape[1]):
+            g[row, lane] = (g[row, lane] + gain) * slow
+
+
+@kernel
+def kick(
+    u: Any, y: Any, g: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any, work: Any
+) -> None:
+    """u += h · acceleration by springs and loads; g is room for a copy."""
+    kernels.take_lanes(g, u, 0)
+    kernels.add_spring_velocities(g, y, body.springs, body.inv_mass, h)
+    add_loads(g, y, u, body, batch, wind, h, start, work)
+    kernels.take_lanes(u, g, 0)
