@@ -71,11 +71,11 @@ class CoatPrimitive(pyrender.Primitive):  # type: ignore[misc]
         rects, tints = (filled(GL.GL_ARRAY_BUFFER, a) for a in (self.rects, self.tints))
         self._vaid = GL.glGenVertexArrays(1)
         GL.glBindVertexArray(self._vaid)
-        attribute(0, 4, GL.GL_FLOAT, self.vertices.moving)
-        attribute(1, 2, GL.GL_FLOAT, self.vertices.uvs)
-        attribute(2, 4, GL.GL_UNSIGNED_SHORT, rects)
-        attribute(3, 4, GL.GL_UNSIGNED_SHORT, self.vertices.base_rects)
-        attribute(4, 4, GL.GL_UNSIGNED_BYTE, tints)
+        attribute(0, 4, self.vertices.moving)
+        attribute(1, 2, self.vertices.uvs)
+        whole_attribute(2, 2, rects)
+        whole_attribute(3, 2, self.vertices.base_rects)
+        whole_attribute(4, 1, tints)
         self._buffers = [rects, tints, filled(GL.GL_ELEMENT_ARRAY_BUFFER, self.triangles)]
         GL.glBindVertexArray(0)
 
@@ -96,10 +96,18 @@ def filled(target: int, values: NDArray[Any], usage: int = GL.GL_STATIC_DRAW) ->
     return buffer
 
 
-def attribute(location: int, size: int, kind: int, buffer: int) -> None:
+def attribute(location: int, size: int, buffer: int) -> None:
+    """Floats for each vertex."""
     GL.glBindBuffer(GL.GL_ARRAY_BUFFER, buffer)
     GL.glEnableVertexAttribArray(location)
-    GL.glVertexAttribPointer(location, size, kind, GL.GL_FALSE, 0, ctypes.c_void_p(0))
+    GL.glVertexAttribPointer(location, size, GL.GL_FLOAT, GL.GL_FALSE, 0, ctypes.c_void_p(0))
+
+
+def whole_attribute(location: int, size: int, buffer: int) -> None:
+    """32-bit whole numbers for each vertex; smaller ones lie in them, the first lowest."""
+    GL.glBindBuffer(GL.GL_ARRAY_BUFFER, buffer)
+    GL.glEnableVertexAttribArray(location)
+    GL.glVertexAttribIPointer(location, size, GL.GL_UNSIGNED_INT, 0, ctypes.c_void_p(0))
 
 
 class CoatRenderer(pyrender.Renderer):  # type: ignore[misc]

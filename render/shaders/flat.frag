@@ -1,32 +1,32 @@
 #version 330 core
 
-in vec2 uv;
-in float light;
-flat in vec4 rect;
-flat in vec4 base;
-flat in vec4 tint;
+in vec3 uv_light;
+flat in uvec4 rects;
+flat in uint tint;
 
 uniform sampler2D atlas;
 uniform vec3 light_tint;
 
 out vec4 colour; // premultiplied, so that blending keeps the alpha of a transparent picture right
 
-const int CUTOUT = 1, SOLID = 2, UNLIT = 4; // bits of tint.w
+const uint CUTOUT = 1u, SOLID = 2u, UNLIT = 4u; // bits of the tint's last byte
 
-vec4 texel(vec4 place)
+vec4 texel(uvec2 rect)
 {
-    vec2 inside = clamp(floor(uv * place.zw), vec2(0.0), place.zw - 1.0);
-    return texelFetch(atlas, ivec2(place.xy + inside), 0);
+    ivec2 corner = ivec2(rect.x & 0xFFFFu, rect.x >> 16), size = ivec2(rect.y & 0xFFFFu, rect.y >> 16);
+    ivec2 inside = clamp(ivec2(floor(uv_light.xy * vec2(size))), ivec2(0), size - 1);
+    return texelFetch(atlas, corner + inside, 0);
 }
 
 void main()
 {
-    int kind = int(tint.w);
-    if ((kind & CUTOUT) != 0 && texel(base).a < 0.5)
+    uint kind = tint >> 24;
+    if ((kind & CUTOUT) != 0u && texel(rects.zw).a < 0.5)
         discard;
-    vec4 coat = texel(rect);
-    float alpha = (kind & SOLID) != 0 ? 1.0 : coat.a;
-    vec3 shine = (kind & UNLIT) != 0 ? vec3(1.0) : light * light_tint;
-    vec3 dyed = floor(coat.rgb * tint.rgb + 0.5) / 255.0;
+    vec4 coat = texel(rects.xy);
+    float alpha = (kind & SOLID) != 0u ? 1.0 : coat.a;
+    vec3 shine = (kind & UNLIT) != 0u ? vec3(1.0) : uv_light.z * light_tint;
+    vec3 dye = vec3(tint & 0xFFu, tint >> 8 & 0xFFu, tint >> 16 & 0xFFu);
+    vec3 dyed = floor(coat.rgb * dye + 0.5) / 255.0;
     colour = vec4(dyed * shine * alpha, alpha);
 }

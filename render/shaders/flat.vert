@@ -3,24 +3,20 @@
 
 layout(location = 0) in vec4 position_light; // [m]; w is the light's factor
 layout(location = 1) in vec2 sprite_uv;      // fractions of the sprite
-layout(location = 2) in vec4 coat_rect;      // x, y, width, height in the atlas [texels]
-layout(location = 3) in vec4 base_rect;      // the same for the lowest coat
-layout(location = 4) in vec4 coat_tint;      // 0..255; w holds the bits of flat.frag
+layout(location = 2) in uvec2 coat_rect;     // x | y << 16, width | height << 16 [texels]
+layout(location = 3) in uvec2 base_rect;     // the same for the lowest coat
+layout(location = 4) in uint coat_tint;      // a byte each: red, green, blue, bits of flat.frag
 
 uniform mat4 P;
 
-out vec2 uv;
-out float light;
-flat out vec4 rect;
-flat out vec4 base;
-flat out vec4 tint;
+out vec3 uv_light;
+flat out uvec4 rects; // few values between the shaders: llvmpipe sets up each for every triangle
+flat out uint tint;
 
 void main()
 {
     gl_Position = P * vec4(position_light.xyz, 1.0);
-    uv = sprite_uv;
-    light = position_light.w;
-    rect = coat_rect;
-    base = base_rect;
+    uv_light = vec3(sprite_uv, position_light.w);
+    rects = uvec4(coat_rect, base_rect);
     tint = coat_tint;
 }
