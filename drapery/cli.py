@@ -5,7 +5,19 @@ import sys
 import typer
 from typer.exceptions import TyperException
 
-from drapery.commands import animate, compare, doctor, flat, golden, layers, render, scene, show
+from drapery.commands import (
+    animate,
+    compare,
+    doctor,
+    flat,
+    golden,
+    layers,
+    packs,
+    render,
+    scene,
+    sheet,
+    show,
+)
 from drapery.commands.notices import adopt_warnings, say
 from drapery.errors import DraperyError
 
@@ -23,10 +35,12 @@ for name, command in {
     "compare": compare,
     "layers": layers,
     "scene": scene,
+    "packs": packs,
     "doctor": doctor,
 }.items():
     app.command(name)(command.run)
 app.add_typer(golden.app, name="golden")
+app.add_typer(sheet.app, name="sheet")
 
 
 def main() -> None:

@@ -3,6 +3,7 @@
 import warnings
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Unpack
 
@@ -10,9 +11,9 @@ import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
-from drapery.render.frame import Animation, Frame
+from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.scene import Scene
-from drapery.settings import MAX_FRAMES, MAX_SIDE, Options, Settings, within
+from drapery.settings import MAX_FRAMES, MAX_SIDE, ROTATIONS, Options, Settings, within
 
 if TYPE_CHECKING:
     from drapery.scenes.catalogue import Entry, Shot
@@ -34,6 +35,23 @@ def draw_with(banner: Banner | None, settings: Settings) -> Frame:
     packs = open_packs(settings.packs, format=settings.format)
     (frame,) = _drawn([still(banner, packs, settings)], packs, settings)
     return frame
+
+
+def draw_rotations(banner: Banner | None, settings: Settings) -> list[Frame]:
+    """All sixteen rotations, as one camera sees them.
+
+    Raises OptionError, PackError or BackendError.
+    """
+    from drapery.render.views import frame_view
+    from drapery.scenes.staging import still
+
+    packs = open_packs(settings.packs, format=settings.format)
+    turned = [replace(settings, rotation=rotation) for rotation in range(ROTATIONS)]
+    scenes = [still(banner, packs, each) for each in turned]
+    meshes = [model.mesh for scene in scenes for model in scene.models]
+    points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])
+    camera = frame_view(settings.view, points, settings.size[0] / settings.size[1])
+    return list(_drawn([replace(scene, camera=camera) for scene in scenes], packs, settings))
 
 
 def animate(
@@ -100,15 +118,26 @@ def draw_face(
 
     format: the pack format of the game to be, as in `Settings`. Raises PackError.
     """
+    opened = open_packs(packs, format=format)
+    pixels = face_pixels(banner, opened, scale, side)
+    tell(opened)
+    return Frame(pixels)
+
+
+def face_pixels(
+    banner: Banner, packs: Packs, scale: int, side: Literal["front", "back"] = "front"
+) -> Pixels:
+    """The plain face, shape [40 scale, 20 scale, 4], whatever the packs' sizes.
+
+    Raises PackError.
+    """
     from drapery.banner.sprites import face
 
-    opened = open_packs(packs, format=format)
-    texels = face(banner, opened, side)
-    _tell(opened)
+    texels = face(banner, packs, side)
     # Packs of other sizes keep the picture's size: nearest texel at each pixel's centre.
     down = (np.arange(40 * scale) * 2 + 1) * texels.shape[0] // (80 * scale)
     across = (np.arange(20 * scale) * 2 + 1) * texels.shape[1] // (40 * scale)
-    return Frame(np.ascontiguousarray(texels[down][:, across]))
+    return np.ascontiguousarray(texels[down][:, across])
 
 
 def _drawn(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterator[Frame]:
@@ -118,10 +147,10 @@ def _drawn(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterato
     for number, scene in enumerate(scenes):
         yield draw_scene(scene)
         if number == 0:
-            _tell(packs)
+            tell(packs)
 
 
-def _tell(packs: Packs) -> None:
+def tell(packs: Packs) -> None:
     """Warn of what a pack lacks, once it has been asked for."""
     for line in packs.warnings():
         warnings.warn(line, UserWarning, stacklevel=4)

@@ -71,7 +71,7 @@ class Settings:
     backend: `auto`, `soft`, `pyrender`, or one that an installed package adds.
     """
 
-    packs: tuple[str | Path, ...] = ()
+    packs: tuple[str | Path, ...] | list[str | Path] = ()
     format: int | None = None
     kind: Kind = "auto"
     texture: str | Path | None = None

@@ -1,6 +1,7 @@
 """Contact sheets: labelled pictures in rows on paper."""
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
@@ -8,7 +9,9 @@ from PIL import Image, ImageDraw, ImageFont
 from drapery.render.frame import Frame, Pixels
 
 GAP = 8
-LABEL_HEIGHT = 20
+LINE_HEIGHT = 16
+LEAST_LABEL = 100
+"""Labels are broken into lines no narrower than this [pixels]."""
 PAPER = (246, 246, 244, 255)
 INK = (40, 40, 44, 255)
 CHECKER = (224, 214)
@@ -18,15 +21,38 @@ def strip(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) ->
     """Labelled pictures in rows on paper."""
     columns = columns or len(pictures)
     rows = -(-len(pictures) // columns)
-    cell_w = max(_label_width(label, picture) for label, picture in pictures) + GAP
-    cell_h = max(picture.shape[0] for _, picture in pictures) + LABEL_HEIGHT + GAP
+    width, height = _largest([picture for _, picture in pictures])
+    labels = [_lines(label, max(width, LEAST_LABEL)) for label, _ in pictures]
+    above = LINE_HEIGHT * max(map(len, labels)) + 4
+    cell_w = max(width, *map(_width, labels)) + GAP
+    cell_h = height + above + GAP
     sheet = Image.new("RGBA", (columns * cell_w + GAP, rows * cell_h + GAP), PAPER)
-    pen = ImageDraw.Draw(sheet)
-    for place, (label, picture) in enumerate(pictures):
+    for place, (lines, (_, picture)) in enumerate(zip(labels, pictures, strict=True)):
         row, column = divmod(place, columns)
         x, y = GAP + column * cell_w, GAP + row * cell_h
-        pen.text((x, y), label, fill=INK, font=_font())
-        sheet.paste(Image.fromarray(on_checker(picture)), (x, y + LABEL_HEIGHT))
+        _write(sheet, lines, x, y + above - 4 - LINE_HEIGHT * len(lines))
+        sheet.paste(Image.fromarray(on_checker(picture)), (x, y + above))
+    return Frame(np.asarray(sheet))
+
+
+def table(across: Sequence[str], down: Sequence[str], pictures: Sequence[Pixels]) -> Frame:
+    """Pictures row by row on paper, with a heading over each column and before each row."""
+    width, height = _largest(pictures)
+    names, heads = [_lines(name, 2 * LEAST_LABEL) for name in down], [_lines(h, 1) for h in across]
+    left = max(map(_width, names)) + 2 * GAP
+    top = LINE_HEIGHT * max(map(len, heads)) + 2 * GAP
+    cell_w = max(width, *map(_width, heads)) + GAP
+    cell_h = max(height, LINE_HEIGHT * max(map(len, names))) + GAP
+    size = left + len(across) * cell_w, top + len(down) * cell_h
+    sheet = Image.new("RGBA", size, PAPER)
+    for column, lines in enumerate(heads):
+        _write(sheet, lines, left + column * cell_w, top - LINE_HEIGHT * len(lines) - 4)
+    for row, lines in enumerate(names):
+        _write(sheet, lines, GAP, top + row * cell_h)
+    for place, picture in enumerate(pictures):
+        row, column = divmod(place, len(across))
+        corner = left + column * cell_w, top + row * cell_h
+        sheet.paste(Image.fromarray(on_checker(picture)), corner)
     return Frame(np.asarray(sheet))
 
 
@@ -59,9 +85,30 @@ def enlarge(pixels: Pixels, scale: int) -> Pixels:
     return pixels.repeat(scale, axis=0).repeat(scale, axis=1)
 
 
+def _largest(pictures: Sequence[Pixels]) -> tuple[int, int]:
+    return max(p.shape[1] for p in pictures), max(p.shape[0] for p in pictures)
+
+
+@cache
 def _font() -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
     return ImageFont.load_default(size=13)
 
 
-def _label_width(label: str, picture: Pixels) -> int:
-    return max(picture.shape[1], int(_font().getlength(label)) + 1)
+def _lines(label: str, width: int) -> list[str]:
+    """A label broken after blanks and underscores into lines of at most so many pixels."""
+    lines = [""]
+    for word in label.replace(" ", " \n").replace("_", "_\n").split("\n"):
+        if lines[-1] and _width([lines[-1] + word]) > width:
+            lines.append("")
+        lines[-1] += word
+    return lines
+
+
+def _width(lines: Sequence[str]) -> int:
+    return max(int(_font().getlength(line.rstrip())) + 1 for line in lines)
+
+
+def _write(sheet: Image.Image, lines: Sequence[str], x: int, y: int) -> None:
+    pen = ImageDraw.Draw(sheet)
+    for number, line in enumerate(lines):
+        pen.text((x, y + LINE_HEIGHT * number), line, fill=INK, font=_font())

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
 from pack_maker import (
     BANNER,
     CREEPER,
@@ -15,7 +14,6 @@ from pack_maker import (
     zip_pack,
 )
 
-from drapery.banner.contact import contact_sheet
 from drapery.banner.design import Banner, Layer
 from drapery.banner.pack_contents import describe_packs
 from drapery.banner.packs import open_packs
@@ -47,16 +45,6 @@ def test_a_report_says_what_a_pack_has_lacks_and_overrides(tmp_path: Path) -> No
     assert report.format == 46 and report.overlays == ("new",) and report.description == "a test"
     (problem,) = report.problems
     assert "flower.png is not a PNG file" in problem
-
-
-def test_the_contact_sheet_shows_every_pattern(tmp_path: Path) -> None:
-    plain_sheet = contact_sheet(open_packs())
-    assert plain_sheet.shape == (4 * 174, 11 * 96, 4) and (plain_sheet[..., 3] == 255).all()
-    path = folder_pack(tmp_path, {CREEPER: plain(255, 255, 255, 255, side=128)})
-    changed = (contact_sheet(open_packs([path])) != plain_sheet).any(axis=2)
-    number = PATTERN_NAMES.index("creeper")
-    rows, columns = np.nonzero(changed)
-    assert set(rows // 174 * 11 + columns // 96) == {number}
 
 
 def test_the_real_pack_renders_front_back_and_edges(real_pack: Path) -> None:

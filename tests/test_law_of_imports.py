@@ -26,7 +26,8 @@ LAW: dict[str, set[str]] = {
     "drapery.scenes": {"errors", "mesh", "settings", "cloth", "banner", "style", "render"},
     "drapery.pictures": {"errors", "mesh", "settings", "banner", "render", "scenes"},
     "drapery.compare": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
-    "drapery.sheets": {"errors", "settings", "banner", "render", "pictures"},
+    "drapery.sheets": {"errors", "settings", "banner", "render", "pictures", "compare"},
+    "drapery.beet": {"errors", "banner", "testing"},
     "drapery.testing": {"errors", "settings", "banner", "render", "pictures", "compare"},
 }
 TOP_FLOOR = {"drapery.cli", "drapery.commands", "drapery.__main__", "drapery"}

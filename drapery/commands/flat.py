@@ -1,7 +1,7 @@
 """`drapery flat`: the plain face of a banner, as banner sites show it."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -26,7 +26,7 @@ def run(
 
     within("scale", scale, 1, MAX_SCALE, "pixels")
     check_still_target(out)
-    side = "back" if back else "front"
+    side: Literal["front", "back"] = "back" if back else "front"
     packs = tuple(pack or ())
     face = draw_face(read_design(design), packs=packs, format=format, scale=scale, side=side)
     face.save(out)

@@ -34,7 +34,8 @@ def run(
     from drapery.banner.packs import open_packs
     from drapery.pictures import draw_exploded
     from drapery.settings import Settings, pair
-    from drapery.sheets import steps_sheet
+    from drapery.sheets.faces import steps_sheet
+    from drapery.sheets.sheet import check_sheet_target
 
     settings = Settings(
         packs=tuple(pack or ()),
@@ -43,6 +44,8 @@ def run(
         background=background,
         backend=backend,
     )
+    if steps is not None:
+        check_sheet_target(steps)
     banner, packs = read_design(design), open_packs(settings.packs)
     _tell_steps(banner)
     _tell_hidden(banner, packs)

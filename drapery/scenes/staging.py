@@ -94,12 +94,12 @@ def _scenes(
     parts = [_turned(part.mesh, settings) for part in body.parts]
     cloths = [_turned(cloth, settings) for cloth in cloths]
     points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in (*parts, *cloths)])
+    dresses = [part.dress for part in body.parts] + [panel.dress for panel in body.panels]
     cameras = _cameras(body, settings, points, len(times))
     for frame, (time, camera) in enumerate(zip(times, cameras, strict=True)):
         meshes = [*parts, *(_moment(cloth, frame) for cloth in cloths)]
-        worn = [thing.dress(time) for thing in (*body.parts, *body.panels)]
         yield Scene(
-            tuple(Model(mesh, (look,)) for mesh, look in zip(meshes, worn, strict=True)),
+            tuple(Model(mesh, (at(time),)) for mesh, at in zip(meshes, dresses, strict=True)),
             camera,
             settings.size,
             body.light,
@@ -173,10 +173,12 @@ def _hang(panel: Panel, settings: Settings) -> Array:
     cloth = _cloth(panel, settings)
     steps = math.ceil(settings.time / STEP)
     if steps == 0:
-        return rest_state(cloth).positions[0]
+        rest: Array = rest_state(cloth).positions[0]
+        return rest
     forces = (Gravity(), _wind(settings))
     states = simulate(cloth, forces=forces, dt=settings.time / steps, every=steps)
-    return next(islice(states, 1, None)).positions[0]
+    hung: Array = next(islice(states, 1, None)).positions[0]
+    return hung
 
 
 def _wave(panel: Panel, settings: Settings, count: int, fps: float) -> Array:

@@ -1,7 +1,5 @@
 """Shields: a plate that bears the design, and a handle behind it."""
 
-from dataclasses import replace
-
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.mesh import Mesh
@@ -25,17 +23,14 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
 
     Raises PackError.
     """
-    worn = (
-        plate_dress(design, packs, settings.layers),
-        handle_dress(design, packs),
-    )
+    worn = (plate_dress(design, packs, settings.layers), handle_dress(design, packs))
     period = textures_period(design, packs, "shield")
-    if settings.placement != "item":
-        meshes = (_hung(_PLATE, _STANDING), _hung(_HANDLE, _STANDING))
-        return Body(tuple(map(Part, meshes, worn)), (), period)
-    meshes = tuple(in_slot(_hung(box, (0, 0, 0)), SHIELD_POSE) for box in (_PLATE, _HANDLE))
-    standing = Body(tuple(map(Part, meshes, worn)), (), period)
-    return replace(standing, light=SLOT_LIGHT, camera=slot_camera(settings.size))
+    if settings.placement == "item":
+        plate, handle = (in_slot(_hung(box, (0, 0, 0)), SHIELD_POSE) for box in (_PLATE, _HANDLE))
+        parts = tuple(map(Part, (plate, handle), worn))
+        return Body(parts, (), period, SLOT_LIGHT, slot_camera(settings.size))
+    plate, handle = (_hung(box, _STANDING) for box in (_PLATE, _HANDLE))
+    return Body(tuple(map(Part, (plate, handle), worn)), (), period)
 
 
 def _hung(box: Box, origin: tuple[float, float, float]) -> Mesh:

@@ -1,0 +1,73 @@
+"""`drapery packs`: what packs have, lack and override, and what is wrong with them."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from drapery.commands import options as o
+
+if TYPE_CHECKING:
+    from drapery.banner.pack_contents import PackReport
+
+
+def run(
+    packs: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="PATH...",
+            help="Resource packs (folders, zips, jars); later ones win.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        Path | None,
+        typer.Option("-o", "--out", metavar="FILE", help="All their patterns, as .png or .html."),
+    ] = None,
+    format: o.FormatOption = None,
+) -> None:
+    """Say what packs have, lack and override; exit code 1 if something in them is broken."""
+    from drapery.banner.pack_contents import describe_packs
+    from drapery.banner.packs import open_packs
+    from drapery.settings import Settings
+    from drapery.sheets.faces import contents_sheet
+    from drapery.sheets.sheet import check_sheet_target
+
+    Settings(format=format)
+    if out is not None:
+        check_sheet_target(out)
+    reports = describe_packs(packs, format=format)
+    print("\n\n".join("\n".join(_lines(report)) for report in reports))
+    if out is not None:
+        contents_sheet(open_packs(packs, format=format)).save(out)
+    raise typer.Exit(1 if any(report.problems for report in reports) else 0)
+
+
+def _lines(report: "PackReport") -> list[str]:
+    """The report as text: a line for each thing that there is to say."""
+    sizes = ", ".join(f"{count} of {side} x {side} px" for side, count in report.sides)
+    facts = {
+        "description": report.description,
+        "format": "unknown" if report.format is None else str(report.format),
+        "overlays": ", ".join(report.overlays),
+        "patterns": f"{len(report.has)} of {len(report.has) + len(report.lacks)}",
+        "lacks": ", ".join(report.lacks) if report.has else "",
+        "adds": ", ".join(report.added),
+        "for shields": f"{len(report.shields)} patterns" if report.shields else "",
+        "bases": ", ".join(report.bases) or "none",
+        "sheets": sizes,
+        "animated": ", ".join(report.animated),
+        "normal maps": ", ".join(report.normal_maps),
+        "specular maps": ", ".join(report.specular_maps),
+        "overrides": _overridden(report),
+    }
+    lines = [f"  {name:13} {' '.join(text.split())}" for name, text in facts.items() if text]
+    return [report.label, *lines, *(f"  problem       {line}" for line in report.problems)]
+
+
+def _overridden(report: "PackReport") -> str:
+    """The patterns that it hides, by the pack that they are of."""
+    hidden: dict[str, list[str]] = {}
+    for pattern, label in report.overrides:
+        hidden.setdefault(label, []).append(pattern)
+    return "; ".join(f"{', '.join(names)} of {label}" for label, names in hidden.items())

@@ -1,0 +1,136 @@
+"""`drapery sheet`: many labelled pictures on one sheet."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice
+
+app = typer.Typer(
+    help="Write a sheet of many labelled pictures, as .png or .html.", no_args_is_help=True
+)
+
+SheetOption = Annotated[
+    Path, typer.Option("-o", "--out", metavar="FILE", help="The sheet: .png, or .html in one file.")
+]
+MAX_SCALE = 32
+
+
+@app.command("patterns")
+def write_patterns(
+    out: SheetOption,
+    base: Annotated[str, typer.Option(help="Dye of the cloth.")] = "white",
+    dyes: Annotated[
+        str, typer.Option(help="Dyes of the patterns: all, or a list with commas.")
+    ] = "all",
+    back: Annotated[bool, typer.Option("--back", help="The other side.")] = False,
+    scale: Annotated[int, typer.Option(help="Pixels per texel of a 64 x 64 pack.")] = 3,
+    pack: o.PackOption = None,
+    format: o.FormatOption = None,
+) -> None:
+    """All patterns in all dyes."""
+    from drapery.banner.names import dye_name
+    from drapery.banner.packs import open_packs
+    from drapery.pictures import tell
+    from drapery.settings import Settings
+    from drapery.sheets.faces import patterns_sheet
+    from drapery.sheets.sheet import check_sheet_target
+
+    _check_scale(scale)
+    check_sheet_target(out)
+    Settings(format=format)
+    packs = open_packs(tuple(pack or ()), format=format)
+    side: Literal["front", "back"] = "back" if back else "front"
+    sheet = patterns_sheet(packs, dye_name(base), _dyes(dyes), side=side, scale=scale)
+    tell(packs)
+    sheet.save(out)
+
+
+@app.command("rotations")
+def write_rotations(
+    ctx: typer.Context,
+    out: SheetOption,
+    design: o.OptionalDesign = None,
+    pack: o.PackOption = None,
+    format: o.FormatOption = None,
+    kind: o.KindOption = "auto",
+    texture: o.TextureOption = None,
+    pose: o.PoseOption = "cloth",
+    view: o.ViewOption = "hero",
+    size: Annotated[str, typer.Option(help="Size of each picture in pixels.")] = "144x192",
+    grid: o.GridOption = "5x9",
+    wind: o.WindOption = 4.0,
+    time: o.TimeOption = 3.0,
+    seed: o.SeedOption = 0,
+    layers: o.LayersOption = "stacked",
+    thickness: o.ThicknessOption = 1.0,
+    background: o.BackgroundOption = "transparent",
+    backend: o.BackendOption = "auto",
+) -> None:
+    """One thing in all sixteen rotations."""
+    from drapery.settings import Settings
+    from drapery.sheets.drawn import rotations_sheet
+    from drapery.sheets.sheet import check_sheet_target
+
+    settings = Settings(**o.options_of(ctx.params))
+    check_sheet_target(out)
+    with compile_notice():
+        rotations_sheet(o.design_of(design), settings).save(out)
+
+
+@app.command("packs")
+def write_packs(
+    design: o.DesignArgument,
+    packs: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="PATH...", help="Resource packs, each shown alone.", show_default=False
+        ),
+    ],
+    out: SheetOption,
+    format: o.FormatOption = None,
+    flat: Annotated[bool, typer.Option("--flat", help="Plain faces instead of cloth.")] = False,
+    scale: Annotated[int, typer.Option(help="Pixels per texel of a plain face.")] = 8,
+    view: o.ViewOption = "hero",
+    size: Annotated[str, typer.Option(help="Size of each picture in pixels.")] = "256x320",
+    wind: o.WindOption = 4.0,
+    background: o.BackgroundOption = "transparent",
+    backend: o.BackendOption = "auto",
+) -> None:
+    """One design over our own art and over each of many packs."""
+    from drapery.banner.formats import read_design
+    from drapery.settings import Settings, pair
+    from drapery.sheets.drawn import packs_sheet
+    from drapery.sheets.sheet import check_sheet_target
+
+    _check_scale(scale)
+    check_sheet_target(out)
+    settings = Settings(
+        format=format,
+        view=view,
+        size=pair("size", size),
+        wind=wind,
+        background=background,
+        backend=backend,
+    )
+    with compile_notice():
+        faces = scale if flat else None
+        packs_sheet(read_design(design), packs, settings, scale=faces).save(out)
+
+
+def _check_scale(scale: int) -> None:
+    from drapery.settings import within
+
+    within("scale", scale, 1, MAX_SCALE, "pixels")
+
+
+def _dyes(text: str) -> tuple[str, ...]:
+    """Dyes from a list with commas, or all. Raises DesignError."""
+    from drapery.banner.dyes import DYE_NAMES
+    from drapery.banner.names import dye_name
+
+    if text == "all":
+        return DYE_NAMES
+    return tuple(dict.fromkeys(dye_name(name.strip()) for name in text.split(",")))

@@ -1,0 +1,1 @@
+"""Sheets of many labelled pictures: patterns, rotations, packs, the loom's steps."""

@@ -1,0 +1,96 @@
+"""Sheets of plain faces: all patterns in their dyes, a pack's contents, the loom's steps."""
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+
+from drapery.banner.design import Banner, Layer
+from drapery.banner.loom import steps
+from drapery.banner.packs import Packs
+from drapery.errors import OptionError, PackError
+from drapery.pictures import face_pixels
+from drapery.render.frame import Pixels
+from drapery.sheets.sheet import Cell, Sheet
+
+MAX_FACES = 2000
+
+Side = Literal["front", "back"]
+
+
+def patterns_sheet(
+    packs: Packs, base: str, dyes: Sequence[str], *, side: Side = "front", scale: int = 3
+) -> Sheet:
+    """Every pattern of the packs in every one of these dyes, on a base.
+
+    A pattern whose file is broken is an empty cell that says so. Raises OptionError for more
+    than 2000 faces.
+    """
+    patterns = packs.patterns()
+    count = len(patterns) * len(dyes)
+    if count > MAX_FACES:
+        raise OptionError(f"{count} faces are too many for a sheet of {MAX_FACES}; use fewer dyes")
+    cells = tuple(
+        _pattern_cell(packs, base, Layer(pattern, dye), side, scale)
+        for pattern in patterns
+        for dye in dyes
+    )
+    title = f"{len(patterns)} patterns on {_words(base)}"
+    if len(dyes) == 1:
+        return Sheet(f"{title}, in {_words(dyes[0])}", cells, min(11, len(cells)))
+    names = tuple(map(_short, patterns))
+    return Sheet(title, cells, len(dyes), tuple(map(_words, dyes)), names)
+
+
+def contents_sheet(packs: Packs, *, base: str = "white", dye: str = "black") -> Sheet:
+    """Every pattern of a stack of packs, and which of the packs it is from."""
+    sheet = patterns_sheet(packs, base, (dye,))
+    cells = tuple(
+        Cell(f"{_short(pattern)} {_origin(packs, pattern)}".rstrip(), cell.pixels)
+        for pattern, cell in zip(packs.patterns(), sheet.cells, strict=True)
+    )
+    return Sheet(" over ".join(pack.label for pack in packs.packs[::-1]), cells, sheet.columns)
+
+
+def steps_sheet(banner: Banner, packs: Packs) -> Sheet:
+    """The banner after each step at the loom, with the dye and the pattern to use."""
+    made = [(f"base, {banner.base}", Banner(banner.base))]
+    made += [(f"{step.layer.pattern}, {step.layer.dye}", step.banner) for step in steps(banner)]
+    cells = tuple(
+        Cell(f"{number}. {name}", face_pixels(until, packs, 4))
+        for number, (name, until) in enumerate(made)
+    )
+    return Sheet("The loom's steps", cells, min(len(cells), 6))
+
+
+def _pattern_cell(packs: Packs, base: str, layer: Layer, side: Side, scale: int) -> Cell:
+    label = f"{_short(layer.pattern)}, {_words(layer.dye)}"
+    try:
+        return Cell(label, face_pixels(Banner(base, (layer,)), packs, scale, side))
+    except PackError:
+        return Cell(f"{label} (broken)", _nothing(scale))
+
+
+def _nothing(scale: int) -> Pixels:
+    return np.zeros((40 * scale, 20 * scale, 4), np.uint8)
+
+
+def _origin(packs: Packs, pattern: str) -> str:
+    """Nothing for the topmost pack; else in brackets what is meant."""
+    try:
+        level = packs.level(pattern)
+    except PackError:
+        return "(broken)"
+    if level is None:
+        return "(missing)"
+    if level == len(packs.packs) - 1:
+        return ""
+    return f"({packs.packs[level].label if level else 'ours'})"
+
+
+def _short(pattern: str) -> str:
+    return pattern.removeprefix("minecraft:")
+
+
+def _words(dye: str) -> str:
+    return dye.replace("_", " ")

@@ -1,0 +1,55 @@
+"""Labelled pictures together, written as one picture or as a page that holds them all."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from drapery.render.contact import strip, table
+from drapery.render.frame import Frame, Pixels
+
+
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """One picture and what it is."""
+
+    label: str
+    pixels: Pixels
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """Pictures of one size in rows.
+
+    columns: pictures in a row. across, down: headings of columns and rows, which then take the
+    labels' place; both or neither.
+    """
+
+    title: str
+    cells: tuple[Cell, ...]
+    columns: int
+    across: tuple[str, ...] = ()
+    down: tuple[str, ...] = ()
+
+    def frame(self) -> Frame:
+        """The sheet as one picture."""
+        if self.across:
+            return table(self.across, self.down, [cell.pixels for cell in self.cells])
+        return strip([(cell.label, cell.pixels) for cell in self.cells], self.columns)
+
+    def save(self, path: str | Path) -> None:
+        """Write it as .png, or as .html that needs no other file. Raises OutputError."""
+        target = Path(path)
+        if target.suffix.lower() == ".html":
+            from drapery.compare.report import write_text
+            from drapery.sheets.page import html_page
+
+            write_text(target, html_page(self))
+        else:
+            self.frame().save(target)
+
+
+def check_sheet_target(path: Path) -> None:
+    """Refuse a sheet's target before the work, where its ending tells. Raises OutputError."""
+    if path.suffix.lower() != ".html":
+        from drapery.render.encode import check_still_target
+
+        check_still_target(path)
