@@ -128,6 +128,11 @@ def mutate_bytes(rng: random.Random, samples: Sequence[bytes]) -> bytes:
     return _changed(rng, data, samples)
 
 
+def unwrapped(sample: bytes) -> bytes:
+    """A sample without its compression."""
+    return gzip.decompress(sample) if sample[:2] == GZIP else sample
+
+
 def _with_other_tree(rng: random.Random, data: bytes) -> bytes:
     """The file with changed tags, written anew, so that the reader gets past the bytes."""
     if data[:2] == GZIP:
@@ -147,12 +152,14 @@ def _chunk_nbt(region: bytes, number: int) -> bytes:
 
 
 def _changed_nbt(rng: random.Random, raw: bytes, order: str) -> bytes:
-    root = nbtlib.File.parse(io.BytesIO(raw), order)
+    # A file is the one entry of a compound, without the tag that would close the compound.
+    file = nbtlib.Compound.parse(io.BytesIO(raw + b"\0"), order)
+    (root,) = file.values()
     for _ in range(rng.randint(1, 8)):
         _change_tag(rng, root)
     out = io.BytesIO()
-    root.write(out, order)
-    return out.getvalue()
+    file.write(out, order)
+    return out.getvalue()[:-1]
 
 
 def _change_tag(rng: random.Random, root: nbtlib.Compound) -> None:

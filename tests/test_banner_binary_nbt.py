@@ -23,8 +23,9 @@ HEAD = b"\x0a\0\0"
 
 def encode(root: nbtlib.Compound, order: str = "big", name: str = "") -> bytes:
     out = io.BytesIO()
-    nbtlib.File(root, root_name=name).write(out, byteorder=order)
-    return out.getvalue()
+    # A file is the one entry of a compound, without the tag that would close the compound.
+    nbtlib.Compound({name: root}).write(out, order)
+    return out.getvalue()[:-1]
 
 
 def plain(tree):

@@ -1,12 +1,11 @@
 """What we write as bytes: nbtlib reads it as the game would, and it comes back to itself."""
 
-import io
 
 import nbtlib
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from world_maker import LIME, PLAIN, RED, SHIELD
+from world_maker import LIME, PLAIN, RED, SHIELD, parse_nbt
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYE_NAMES
@@ -58,14 +57,14 @@ def test_the_same_banners_are_the_same_bytes():
 
 
 def test_nbtlib_reads_what_we_write():
-    root = nbtlib.File.load(io.BytesIO(structure.write([RED, PLAIN])), gzipped=True)
+    root = parse_nbt(structure.write([RED, PLAIN]))
     assert root["size"] == [2, 1, 1]
     assert root["palette"][1] == {
         "Name": "minecraft:blue_banner",
         "Properties": {"rotation": "0"},
     }
     assert root["blocks"][0]["nbt"]["patterns"][0] == {"pattern": "creeper", "color": "yellow"}
-    box = nbtlib.File.load(io.BytesIO(schem.write([RED, PLAIN])), gzipped=True)["Schematic"]
+    box = parse_nbt(schem.write([RED, PLAIN]))["Schematic"]
     assert (box["Width"], type(box["Width"])) == (2, nbtlib.Short)
     assert list(box["Blocks"]["Data"]) == [0, 1]
 
@@ -84,7 +83,7 @@ def test_bedrock_has_no_patterns_of_data_packs():
 
 
 def test_bedrock_keeps_the_ominous_banner_as_a_type():
-    root = nbtlib.File.parse(io.BytesIO(mcstructure.write([OMINOUS])), "little")
+    root = parse_nbt(mcstructure.write([OMINOUS]), "little")
     entity = root["structure"]["palette"]["default"]["block_position_data"]["0"]
     assert entity["block_entity_data"]["Type"] == 1
 

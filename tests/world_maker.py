@@ -32,8 +32,16 @@ def tag(tree):
 
 def raw_nbt(tree: dict, order: str = "big", name: str = "") -> bytes:
     out = io.BytesIO()
-    nbtlib.File(tag(tree), root_name=name).write(out, byteorder=order)
-    return out.getvalue()
+    # A file is the one entry of a compound, without the tag that would close the compound.
+    nbtlib.Compound({name: tag(tree)}).write(out, order)
+    return out.getvalue()[:-1]
+
+
+def parse_nbt(data: bytes, order: str = "big") -> Compound:
+    """The root of a file, by nbtlib."""
+    raw = gzip.decompress(data) if data[:2] == b"\x1f\x8b" else data
+    (root,) = Compound.parse(io.BytesIO(raw + b"\0"), order).values()
+    return root
 
 
 def nbt_file(tree: dict, name: str = "") -> bytes:

@@ -20,12 +20,14 @@ def encode(tree: dict[str, Tree], order: Literal["big", "little"] = "big") -> by
 
     Ints are written as TAG_Int and bools as TAG_Byte; nbtlib's own tags stay what they are.
     """
-    from nbtlib import File
+    from nbtlib import Compound
 
     raw = io.BytesIO()
-    File(tag(tree)).write(raw, byteorder=order)
+    Compound({"": tag(tree)}).write(raw, order)
+    # A file is the one entry of a compound, without the tag that would close the compound.
+    data = raw.getvalue()[:-1]
     # The time stays out of the header, so that equal trees are equal files.
-    return gzip.compress(raw.getvalue(), mtime=0) if order == "big" else raw.getvalue()
+    return gzip.compress(data, mtime=0) if order == "big" else data
 
 
 def tag(tree: Tree) -> "Base":

@@ -1,0 +1,112 @@
+"""A beet plugin: previews of a project's banner patterns, and a failed build when they change.
+
+In `beet.json`:
+
+    {"pipeline": ["drapery.beet"], "meta": {"drapery": {"goldens": "goldens"}}}
+"""
+
+import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from zipfile import ZipFile
+
+from beet import BannerPattern, Context, ErrorMessage, PluginOptions, configurable
+from beet.library.base import Pack
+
+from drapery.banner.patterns import PATTERNS
+from drapery.errors import DraperyError
+from drapery.testing.case_check import check_cases, update_cases
+from drapery.testing.cases import Case, CaseFile
+from drapery.testing.failures import clear, write_report
+
+BANNER_TEXTURES = "minecraft:entity/banner/"
+
+
+class DraperyOptions(PluginOptions):
+    """What `meta.drapery` may say.
+
+    previews: folder for a picture of each pattern. goldens: folder of pictures that must not
+    change; none are checked without it. update: write the goldens anew instead of checking.
+    base, dye: dyes of the banner and of the pattern. designs: more banners to draw, by name.
+    """
+
+    previews: str = "previews"
+    goldens: str | None = None
+    update: bool = False
+    report: str = "drapery-report"
+    base: str = "white"
+    dye: str = "black"
+    size: tuple[int, int] = (128, 160)
+    view: str = "front"
+    designs: dict[str, str] = {}  # noqa: RUF012 - a model of pydantic copies its defaults
+
+
+def beet_default(ctx: Context) -> None:
+    """The plugin, with the options of `meta.drapery`."""
+    ctx.require(drapery)
+
+
+@configurable("drapery", validator=DraperyOptions)
+def drapery(ctx: Context, opts: DraperyOptions) -> None:
+    """Draw the project's patterns; raise ErrorMessage where one is no longer as its golden."""
+    folder = Path(ctx.directory)
+    try:
+        with TemporaryDirectory() as kept:
+            packs = _save_packs(ctx, Path(kept))
+            cases = _cases(ctx, opts, packs)
+            if cases:
+                _write_previews(cases, opts, folder)
+                _hold_goldens(cases, opts, folder)
+    except DraperyError as error:
+        raise ErrorMessage(str(error)) from None
+
+
+def pattern_ids(ctx: Context) -> list[str]:
+    """Patterns that the project adds, and those of the game that it draws anew."""
+    added = list(ctx.data[BannerPattern])
+    textures = (name.removeprefix(BANNER_TEXTURES) for name in ctx.assets.textures)
+    return sorted({*added, *(name for name in textures if name in PATTERNS)})
+
+
+def _save_packs(ctx: Context, folder: Path) -> tuple[str, ...]:
+    paths = folder / "assets.zip", folder / "data.zip"
+    packs: tuple[Pack, Pack] = (ctx.assets, ctx.data)
+    for pack, path in zip(packs, paths, strict=True):
+        with ZipFile(path, "w") as file:
+            pack.dump(file)
+    return tuple(map(str, paths))
+
+
+def _cases(ctx: Context, opts: DraperyOptions, packs: tuple[str, ...]) -> tuple[Case, ...]:
+    designs = {name: f"{opts.base} {name}:{opts.dye}" for name in pattern_ids(ctx)} | opts.designs
+    return tuple(
+        Case(
+            name=re.sub(r"[^A-Za-z0-9._-]", "-", name),
+            design=design,
+            packs=packs,
+            size=opts.size,
+            view=opts.view,
+        )
+        for name, design in designs.items()
+    )
+
+
+def _write_previews(cases: tuple[Case, ...], opts: DraperyOptions, folder: Path) -> None:
+    for _ in update_cases(CaseFile(goldens=opts.previews, case=cases), folder):
+        pass
+
+
+def _hold_goldens(cases: tuple[Case, ...], opts: DraperyOptions, folder: Path) -> None:
+    if opts.goldens is None:
+        return
+    file = CaseFile(goldens=opts.goldens, case=cases)
+    if opts.update:
+        list(update_cases(file, folder))
+        return
+    report = folder / opts.report
+    clear(report)
+    faults = [o for o in check_cases(file, folder, report) if o.fault is not None]
+    if faults:
+        page = write_report(report)
+        lines = "; ".join(f"{o.name}: {o.fault}" for o in faults[:5])
+        raise ErrorMessage(f"{len(faults)} banner pictures changed ({lines}); see {page}")
