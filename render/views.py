@@ -8,9 +8,6 @@ from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.camera import Camera, Vector
 
-Bounds = tuple[Array, Array]
-"""Least and greatest corner of a box [m], shape [3] each."""
-
 
 @dataclass(frozen=True)
 class View:
@@ -48,20 +45,40 @@ def frame_view(name: str, points: Array, aspect: float, margin: float = 0.05) ->
     return frame_points(VIEWS[name], points, aspect, margin)
 
 
-def turntable(view: View, bounds: Bounds, aspect: float, frames: int) -> list[Camera]:
-    """One camera a frame, once around the box; all of it stays in the picture."""
-    turns = [replace(view, azimuth=view.azimuth + 360 * k / frames) for k in range(frames)]
-    cameras = [frame_box(turn, bounds, aspect) for turn in turns]
-    if view.fov is None:
-        height = max(camera.height or 0.0 for camera in cameras)
-        return [replace(camera, height=height) for camera in cameras]
-    away = max(_length(camera) for camera in cameras)
-    return [_at_distance(camera, away) for camera in cameras]
+def turntable(view: View, points: Array, aspect: float, frames: int) -> list[Camera]:
+    """One camera a frame, once around points [..., 3]; all stay in the picture.
+
+    The turn is about the upright axis through their middle; it begins where the view looks from.
+    Raises OptionError for points that are not finite.
+    """
+    points = points.reshape(-1, 3).astype(np.float64)
+    axis = (points.min(axis=0) + points.max(axis=0)) / 2
+    radius = np.hypot(points[:, 0] - axis[0], points[:, 2] - axis[2])
+    # What the points sweep looks the same from all around, so one framing serves all frames.
+    swept = [axis + _ring(angle, radius, points[:, 1] - axis[1]) for angle in range(0, 360, 15)]
+    first = frame_points(view, np.concatenate(swept), aspect)
+    return [_turned(first, axis, 360.0 * frame / frames) for frame in range(frames)]
 
 
-def frame_box(view: View, bounds: Bounds, aspect: float, margin: float = 0.05) -> Camera:
-    """A camera in the view's direction that shows the box as large as the margin allows."""
-    return frame_points(view, _corners(bounds), aspect, margin)
+def _ring(degrees: float, radius: Array, height: Array) -> Array:
+    angle = np.radians(degrees)
+    return np.stack([radius * np.sin(angle), height, radius * np.cos(angle)], axis=-1)
+
+
+def _turned(camera: Camera, axis: Array, degrees: float) -> Camera:
+    """The camera carried around an upright axis, counter-clockwise seen from above."""
+    sin, cos = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+
+    def turn(vector: Array) -> Vector:
+        x, y, z = vector
+        return float(cos * x + sin * z), float(y), float(cos * z - sin * x)
+
+    return replace(
+        camera,
+        position=_vector(np.add(axis, turn(np.subtract(camera.position, axis)))),
+        target=_vector(np.add(axis, turn(np.subtract(camera.target, axis)))),
+        up=turn(np.asarray(camera.up)),
+    )
 
 
 def frame_points(view: View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
@@ -99,12 +116,6 @@ def _fit(across: Array, depth: Array, tan: float) -> tuple[float, float]:
     return (high + low) / 2, (high - low) / (2 * tan)
 
 
-def _corners(bounds: Bounds) -> Array:
-    picks = (np.arange(8)[:, None] >> np.arange(3)) & 1
-    corners: Array = np.where(picks, bounds[1], bounds[0]).astype(np.float64)
-    return corners
-
-
 def _axes(view: View) -> tuple[Array, Array, Array]:
     """Unit vectors from the subject to the camera, and to the right and the top of the picture."""
     azimuth, elevation = np.radians(view.azimuth), np.radians(view.elevation)
@@ -133,17 +144,3 @@ def _camera(
 
 def _vector(values: Array) -> Vector:
     return float(values[0]), float(values[1]), float(values[2])
-
-
-def _length(camera: Camera) -> float:
-    return float(np.linalg.norm(np.subtract(camera.position, camera.target)))
-
-
-def _at_distance(camera: Camera, away: float) -> Camera:
-    now = _length(camera)
-    offset = np.subtract(camera.position, camera.target) * (away / now)
-    return replace(
-        camera,
-        position=_vector(np.add(camera.target, offset)),
-        far=camera.far + away - now,
-    )

@@ -122,7 +122,7 @@ def _cameras(body: Body, settings: Settings, points: Array, count: int) -> list[
     camera = frame_view(settings.view, points, aspect)
     if count == 1 or _moves(body, settings):
         return [camera] * count
-    return turntable(VIEWS[settings.view], (points.min(axis=0), points.max(axis=0)), aspect, count)
+    return turntable(VIEWS[settings.view], points, aspect, count)
 
 
 def _moves(body: Body, settings: Settings) -> bool:
