@@ -160,6 +160,8 @@ def test_depth_within_the_limit_is_read():
     [
         ("[" + "1," * 200_000 + "]", "over 120000 words"),
         ("white " + "x" * (1 << 20), "over 1048576"),
+        ("give @s red_banner\n" * 20_001, "over 20000"),
+        ("give @s " + "a " * 119_000, "no banner"),
         ("{" + " " * (1 << 20) + "}", "over 1048576"),
         ('{a:"' + '\\"' * 400_000, "never ends"),
         ('"' * 500_000, "no form of a banner"),

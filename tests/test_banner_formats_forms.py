@@ -218,3 +218,9 @@ def test_show_explains_the_example_of_every_form(form: str, drapery: Run):
     assert (code, err) == (0, "")
     assert banner.base in out
     assert [layer.pattern for layer in banner.layers if layer.pattern not in out] == []
+
+
+def test_who_says_wynncraft_means_bukkits_names():
+    text = '{"base":"white","layers":[{"color":"red","pattern":"diagonal_right"}]}'
+    assert parse_banner(text) == shorthand("white rud:red")
+    assert parse_banner(text, form="wynncraft") == shorthand("white rd:red")

@@ -117,7 +117,7 @@ def _nearest(parts: list[Part]) -> str:
     import difflib
 
     known = [f"{dye}_banner" for dye in DYES] + ["shield"]
-    for part in parts:
+    for part in parts[:20]:
         if isinstance(part, str) and len(part) < 60:
             close = difflib.get_close_matches(bare(part), known, 1, 0.7)
             if close:

@@ -33,6 +33,9 @@ from drapery.banner.formats.snbt import MAX_TEXT
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
+MAX_COMMANDS = 20_000
+"""In one text, a line each."""
+
 _HEAD = 8192
 
 
@@ -61,7 +64,7 @@ _TABLE = (
     _form(summon, commands.read_command),
     _form(item_replace, commands.read_command),
     _form(block_entity, block_entity.read),
-    _form(wynncraft, trees.read),
+    _form(wynncraft, trees.read_wynncraft),
     _form(own_json, trees.read),
     _form(bedrock, trees.read),
     _form(item, trees.read),
@@ -190,6 +193,8 @@ def _command_lines(text: str) -> list[tuple[int, str]]:
 
 def _all_lines(lines: list[tuple[int, str]]) -> list[Found]:
     """The banners of all commands; what is broken is passed over while others are whole."""
+    if len(lines) > MAX_COMMANDS:
+        raise DesignError(f"the text has {len(lines)} commands, over {MAX_COMMANDS}: split it")
     found: list[Found] = []
     errors: list[DesignError] = []
     for number, line in lines:
@@ -199,9 +204,14 @@ def _all_lines(lines: list[tuple[int, str]]) -> list[Found]:
             read = commands.read_command(line, line=number)
             found += [Found(f.banner, f"line {number} {f.where}") for f in read]
         except DesignError as error:
-            place = "" if str(error).startswith("line ") else f"line {number}: "
-            errors.append(DesignError(f"{place}{error}"))
+            errors.append(DesignError(_with_line(str(error), number)))
     return _despite(found, errors, "the commands hold no banner: paste a /give command")
+
+
+def _with_line(message: str, number: int) -> str:
+    if message.startswith("line "):
+        return message
+    return f"line {number}{', ' if message.startswith('column ') else ': '}{message}"
 
 
 def _despite(found: list[Found], errors: list[DesignError], nothing: str) -> list[Found]:

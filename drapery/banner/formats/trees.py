@@ -22,9 +22,18 @@ def recognises(text: str) -> bool:
     return lists or text.startswith("{") or DATA_ANSWER in text[:200]
 
 
-def read(text: str, *, line: int = 1) -> list[Found]:
+def read(text: str) -> list[Found]:
     """All banners of the tree. Raises DesignError with the place, also where there is none."""
-    tree = read_text(text, line=line)
+    return _all(read_text(text))
+
+
+def read_wynncraft(text: str) -> list[Found]:
+    """As `read`, but a design in JSON is surely Wynncraft's, so that its names are Bukkit's."""
+    tree = read_text(text)
+    return [Found(wynncraft.from_tree(tree))] if wynncraft.may_be(tree) else _all(tree)
+
+
+def _all(tree: Tree) -> list[Found]:
     found = list(_found(tree))
     if not found:
         raise DesignError(
@@ -33,18 +42,14 @@ def read(text: str, *, line: int = 1) -> list[Found]:
     return found
 
 
-def read_text(text: str, *, line: int = 1) -> Tree:
+def read_text(text: str) -> Tree:
     """The tree of a text, by JSON where it is that, else by SNBT."""
     start = max(text.find("{"), 0) if DATA_ANSWER in text[:200] else 0
     if start == 0 and len(text) <= MAX_TEXT:
         with suppress(ValueError, RecursionError):
             return json.loads(text)
-    return _snbt(text, start, line)
-
-
-def _snbt(text: str, start: int, line: int) -> Tree:
     # Spaces for what the game says before, so that columns stay those of the text.
-    return parse_snbt(" " * start + text[start:], line=line)
+    return parse_snbt(" " * start + text[start:])
 
 
 def _found(tree: Tree) -> Iterator[Found]:

@@ -32,6 +32,13 @@ def matches(tree: Tree) -> bool:
     return _is_design(inner) or _is_design(tree)
 
 
+def may_be(tree: Tree) -> bool:
+    """Whether a tree can be read as this form by somebody who knows that it is."""
+    if not isinstance(tree, dict) or "id" in tree:
+        return False
+    return "base" in tree or isinstance(tree.get("banner"), dict)
+
+
 def _is_design(tree: Tree) -> bool:
     if not isinstance(tree, dict) or "base" not in tree:
         return False
@@ -43,7 +50,7 @@ def _is_design(tree: Tree) -> bool:
 
 def from_tree(tree: dict[str, Tree], at: str = "") -> Banner:
     """The banner of the JSON's tree. Raises DesignError naming the place."""
-    if not _is_design(tree) and isinstance(tree.get("banner"), dict):
+    if "base" not in tree and isinstance(tree.get("banner"), dict):
         tree, at = tree["banner"], under(at, "banner")
     layers = tree.get("layers", [])
     if not isinstance(layers, list):
