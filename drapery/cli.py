@@ -12,6 +12,7 @@ from drapery.commands import (
     flat,
     golden,
     layers,
+    model,
     packs,
     render,
     scene,
@@ -35,6 +36,7 @@ for name, command in {
     "compare": compare,
     "layers": layers,
     "scene": scene,
+    "model": model,
     "packs": packs,
     "doctor": doctor,
 }.items():
