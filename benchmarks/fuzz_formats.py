@@ -8,6 +8,7 @@ With `--atheris FORM`, atheris (if installed) drives the changes by coverage ins
 
 import argparse
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
@@ -75,15 +76,19 @@ def drive_by_coverage(target: Target, arguments: list[str]) -> None:
     binary = target.mutate is fuzzing.mutate_bytes
 
     def one_input(data: bytes) -> None:
-        given = data if binary else atheris.FuzzedDataProvider(data).ConsumeUnicode(len(data))
+        given = data if binary else data.decode("utf-8", "replace")
         tally = fuzzing.Tally()
         fuzzing.judge(target.read, given, tally)
         if tally.failures:
             raise AssertionError(tally.failures[0][1])
 
     atheris.instrument_all()
-    atheris.Setup([sys.argv[0], *arguments], one_input)
-    atheris.Fuzz()
+    with tempfile.TemporaryDirectory() as corpus:
+        for number, sample in enumerate(target.samples):
+            data = fuzzing.unwrapped(sample) if binary else sample.encode()
+            Path(corpus, str(number)).write_bytes(data)
+        atheris.Setup([sys.argv[0], *arguments, corpus], one_input)
+        atheris.Fuzz()
 
 
 def main() -> int:

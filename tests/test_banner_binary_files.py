@@ -2,6 +2,8 @@
 
 import re
 import struct
+import time
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -267,6 +269,33 @@ def test_files_that_are_none_are_refused_by_name(
 ):
     with pytest.raises(DesignError, match=place):
         list(banners_in(make.save(tmp_path / name, data)))
+
+
+def test_a_bedrock_world_is_told_what_to_do(tmp_path: Path):
+    make.save(tmp_path / "db" / "CURRENT", b"MANIFEST-000001")
+    with pytest.raises(DesignError, match=r"world of Bedrock Edition.*structure block"):
+        list(banners_in(tmp_path))
+
+
+def test_a_bomb_in_every_chunk_goes_off_in_none(tmp_path: Path):
+    bomb = zlib.compress(make.raw_nbt({"a": "x"}) + bytes(15 * 2**20), 9)
+    chunk = struct.pack(">IB", len(bomb) + 1, 2) + bomb
+    region = make.region({(n, z): chunk for n in range(32) for z in range(4)})
+    path = make.save(tmp_path / "r.0.0.mca", region)
+    errors: list[DesignError] = []
+    start = time.process_time()
+    assert list(banners_in(path, errors.append)) == []
+    assert time.process_time() - start < 1
+    assert len(errors) == 1 and "MiB unpacked" in str(errors[0])
+
+
+def test_a_schematic_of_nothing_but_banners_is_too_much():
+    size = (2000, 1, 1000)
+    tree = make.schem(2, (1, 1, 1), {(0, 0, 0): (make.block_id(RED), None)}, padding=0)
+    sides = {"Width": make.Short(size[0]), "Length": make.Short(size[2])}
+    tree |= sides | {"BlockData": make.ByteArray([0] * size[0] * size[2])}
+    with pytest.raises(DesignError, match="over 100000 banners"):
+        found(make.nbt_file(tree))
 
 
 def test_folders_that_are_no_world_and_missing_paths_are_refused(tmp_path: Path):

@@ -100,6 +100,11 @@ def _refusal(head: bytes) -> str:
 
 
 def _in_world(folder: Path, on_error: OnError) -> Iterator[Found]:
+    if (folder / "db" / "CURRENT").exists():
+        raise DesignError(
+            f"{folder}: a world of Bedrock Edition, which is not read;"
+            " save what you want with a structure block and give the .mcstructure"
+        )
     found = False
     for path in _world_files(folder):
         found = True

@@ -34,10 +34,10 @@ def pick(
     for first, values in pieces:
         here = wanted[np.searchsorted(wanted, first) : np.searchsorted(wanted, first + len(values))]
         hits = np.flatnonzero(np.isin(values, kinds)) if len(kinds) else kinds
+        if len(picked) + len(here) + len(hits) > MAX_PICKED:
+            raise DesignError(f"{where}: over {MAX_PICKED} banners; cut a smaller piece out of it")
         for offset in (here - first).tolist() + hits.tolist():
             picked[first + offset] = int(values[offset])
-        if len(picked) > MAX_PICKED:
-            raise DesignError(f"{where}: over {MAX_PICKED} banners; cut a smaller piece out of it")
     return picked
 
 

@@ -5,6 +5,7 @@ number. A chunk opens with its length and the kind of its compression; the kind'
 that the chunk is too large and has its own file, `c.<x>.<z>.mcc`.
 """
 
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,8 +24,9 @@ SIDE = 32
 MAX_CHUNK = 16 * 2**20
 """Bytes of an unpacked chunk; most are under 300 KiB."""
 
-MAX_REGION = 2**30
-"""Bytes of all unpacked chunks of a file, so that a bomb cannot hide in each."""
+MAX_RATIO = 100
+"""How many times a file all its chunks may unpack to, so that a bomb cannot hide in each of
+them. A chunk takes a sector at least, and one of air unpacks to some twenty sectors."""
 
 KINDS = {1: "gzip", 2: "zlib", 3: "none", 4: "LZ4", 127: "one of a mod's own"}
 _OWN_FILE = 0x80
@@ -62,20 +64,21 @@ def find(
     chunks too large for a region lie.
     """
     corner = _corner(name)
-    left = MAX_REGION
+    limit = max(MAX_CHUNK, MAX_RATIO * file.seek(0, os.SEEK_END))
+    unpacked = file.seek(0)
     head = file.read(SECTOR)
     for number in _listed(head, where, on_error):
         x, z = corner[0] + number % SIDE, corner[1] + number // SIDE
         at = f"{where} chunk {x},{z}"
         try:
             data = _unpacked(file, _place(head, number), folder, f"c.{x}.{z}.mcc", at)
-            left -= len(data)
-            check_size(MAX_REGION - left, where, MAX_REGION)
+            unpacked += len(data)
+            check_size(unpacked, where, limit)
             if any(word in data for word in _WORDS):
                 yield from chunk.find(read_nbt(data, at), at, on_error)
         except DesignError as error:
             on_error(error)
-        if left < 0:
+        if unpacked > limit:
             return
 
 
