@@ -11,7 +11,7 @@ from drapery.render.views import frame_view
 from drapery.settings import Settings, background_colour
 from drapery.style.block import FLAG_SIZE, FLAG_SKIN
 
-GAP = 0.35
+GAP = 0.6
 """Distance between two layers [m]."""
 
 
