@@ -38,12 +38,50 @@ def vertex_normals(positions: Array, triangles: Triangles) -> Array:
 
     A vertex without area around it gets (0, 0, 1), never NaN.
     """
-    faces = face_normals(positions, triangles)
-    by_vertex = np.zeros((positions.shape[-2], *positions.shape[:-2], 3), positions.dtype)
-    for corner in range(3):
-        # np.add.at adds in index order, so the same input gives the same bits.
-        np.add.at(by_vertex, triangles[:, corner], np.moveaxis(faces, -2, 0))
-    sums = np.moveaxis(by_vertex, 0, -2)
-    lengths = np.linalg.norm(sums, axis=-1, keepdims=True)
+    points = _planes(positions)
+    a, b, c = ([plane[triangles[:, corner]] for plane in points] for corner in range(3))
+    faces = _cross(
+        [q - p for p, q in zip(a, b, strict=True)], [q - p for p, q in zip(a, c, strict=True)]
+    )
+    around = _faces_around(triangles, positions.shape[-2])
+    sums = [_sum_of_rows(plane, around) for plane in faces]
+    lengths = np.sqrt(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2])
     flat = lengths < np.finfo(positions.dtype).tiny ** 0.5
-    return np.where(flat, np.array([0, 0, 1], positions.dtype), sums / np.where(flat, 1, lengths))
+    safe = np.where(flat, 1, lengths)
+    unit = [np.where(flat, z, plane / safe) for plane, z in zip(sums, (0, 0, 1), strict=True)]
+    by_vertex = np.stack(unit, axis=-1).reshape(positions.shape[-2], *positions.shape[:-2], 3)
+    return np.ascontiguousarray(np.moveaxis(by_vertex, 0, -2))
+
+
+def _planes(positions: Array) -> list[Array]:
+    """x, y and z of [..., V, 3], each [V, batch]: whole batches in one row, as processors like."""
+    count = positions.shape[-2]
+    return [np.moveaxis(positions[..., axis], -1, 0).reshape(count, -1) for axis in range(3)]
+
+
+def _cross(u: list[Array], v: list[Array]) -> list[Array]:
+    return [
+        u[1] * v[2] - u[2] * v[1],
+        u[2] * v[0] - u[0] * v[2],
+        u[0] * v[1] - u[1] * v[0],
+    ]
+
+
+def _faces_around(triangles: Triangles, count: int) -> NDArray[np.intp]:
+    """The triangles at each vertex, shape [V, most], filled up with the number T of no triangle."""
+    corners = triangles.T.reshape(-1)
+    order = np.argsort(corners, kind="stable")
+    degrees = np.bincount(corners, minlength=count)
+    place = np.arange(len(order)) - (np.cumsum(degrees) - degrees)[corners[order]]
+    around = np.full((count, max(1, degrees.max(initial=0))), len(triangles))
+    around[corners[order], place] = order % max(1, len(triangles))
+    return around
+
+
+def _sum_of_rows(rows: Array, around: NDArray[np.intp]) -> Array:
+    """Sums of the rows [T, batch] named for each vertex, added in their order."""
+    padded = np.concatenate([rows, np.zeros_like(rows, shape=(1, rows.shape[1]))])
+    total: Array = padded[around[:, 0]]
+    for column in around.T[1:]:
+        total = total + padded[column]
+    return total

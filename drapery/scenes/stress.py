@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.banner.design import Banner, Layer
-from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.packs import open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.cloth import Gravity, Wind, grid, rest_state, simulate
@@ -18,7 +18,14 @@ from drapery.scenes.catalogue import Shot
 from drapery.style.block import FLAG_SIZE, FLAG_SKIN, SCALE
 from drapery.style.extrusion import make_shell
 from drapery.style.layers import flag_look
+from drapery.style.stage import SKY
 
+RAINBOW = (
+    *("red", "orange", "yellow", "lime", "green", "cyan", "light_blue", "blue"),
+    *("purple", "magenta", "pink"),
+)
+VARIANTS = 6
+"""Different banners in each colour of the rainbow."""
 CORNER = View(azimuth=32, elevation=20, fov=32)
 
 
@@ -26,14 +33,12 @@ CORNER = View(azimuth=32, elevation=20, fov=32)
 class Parameters:
     """side: banners along each edge of the cube. spacing: between them [m]. wind: [m/s].
 
-    designs: how many different banners. layers: patterns on each. settle: time before the first
-    picture [s].
+    layers: patterns on each banner. settle: time before the first picture [s].
     """
 
     side: int = 17
-    spacing: tuple[float, float, float] = (1.1, 2.0, 1.1)
+    spacing: tuple[float, float, float] = (1.9, 1.9, 1.9)
     wind: float = 5.0
-    designs: int = 64
     layers: int = 4
     settle: float = 3.0
     seed: int = 0
@@ -45,12 +50,12 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     places = _places(parameters)
     shell = make_shell(cloth.triangles, cloth.uvs, FLAG_SKIN)
     looks = _looks(parameters)
-    look_index = (np.arange(len(places)) % len(looks)).astype(np.int32)
+    look_index = _bands(parameters.side)
     camera = frame_points(CORNER, places[:, None] + _room(), shot.size[0] / shot.size[1])
     for positions in _motion(parameters, shot, places):
         hung = (positions + places[:, None]).astype(np.float32)
         mesh = shell.cover(hung, vertex_normals(hung, cloth.triangles), SCALE)
-        yield Scene((Model(mesh, looks, look_index),), camera, shot.size)
+        yield Scene((Model(mesh, looks, look_index),), camera, shot.size, background=SKY, samples=4)
 
 
 def _motion(parameters: Parameters, shot: Shot, places: Array) -> Iterator[Array]:
@@ -80,16 +85,29 @@ def _room() -> Array:
     return np.stack([low, high])
 
 
+def _bands(side: int) -> NDArray[np.int32]:
+    """Which look each banner wears, shape [side³]: colours change from corner to corner."""
+    x, y, z = np.indices((side, side, side)).reshape(3, -1)
+    band = (x + side - 1 - y + z) * len(RAINBOW) // (3 * side - 2)
+    return (VARIANTS * band + (x + 2 * y + z) % VARIANTS).astype(np.int32)
+
+
 def _looks(parameters: Parameters) -> tuple[Look, ...]:
+    """VARIANTS looks in each colour of the rainbow."""
     random = np.random.default_rng(parameters.seed)
     packs = open_packs(())
     return tuple(
-        flag_look(_any_banner(random, parameters.layers), packs) for _ in range(parameters.designs)
+        flag_look(_any_banner(dye, random, parameters.layers), packs)
+        for dye in RAINBOW
+        for _ in range(VARIANTS)
     )
 
 
-def _any_banner(random: np.random.Generator, layers: int) -> Banner:
-    dyes = random.choice(DYE_NAMES, layers + 1)
+def _any_banner(base: str, random: np.random.Generator, layers: int) -> Banner:
+    """Random patterns in the colours beside the base's own, the last in black or white."""
+    place = RAINBOW.index(base)
+    near = [RAINBOW[(place + step) % len(RAINBOW)] for step in (-1, 1, -2, 2)]
+    dyes = [*(near[step % 4] for step in range(layers - 1)), random.choice(["white", "black"])]
     patterns = random.choice(PATTERN_NAMES[1:], layers)
-    pairs = zip(patterns, dyes[1:], strict=True)
-    return Banner(str(dyes[0]), tuple(Layer(str(p), str(d)) for p, d in pairs))
+    pairs = zip(patterns, dyes, strict=False)
+    return Banner(base, tuple(Layer(str(p), str(d)) for p, d in pairs))

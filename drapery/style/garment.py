@@ -1,5 +1,8 @@
 """Thick, textured cloth of any cut."""
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drapery.banner.dyes import DYES
 from drapery.errors import OptionError
 from drapery.mesh import Array, vertex_normals
@@ -7,10 +10,19 @@ from drapery.render.scene import Coat, Look, Model, Texels
 from drapery.style.extrusion import Shell
 
 
-def garment(shell: Shell, sheet: Array, thickness: float, look: Look) -> Model:
-    """A cloth as it is worn: its thin sheet [..., N, 3] made `thickness` [m] thick."""
+def garment(
+    shell: Shell,
+    sheet: Array,
+    thickness: float,
+    *looks: Look,
+    index: NDArray[np.int32] | None = None,
+) -> Model:
+    """A cloth, or a batch of them, as it is worn: the thin sheet made thick.
+
+    sheet: [..., N, 3]; thickness: [m]; looks, index: as in `Model`.
+    """
     normals = vertex_normals(sheet, shell.sheet)
-    return Model(shell.cover(sheet, normals, thickness), (look,))
+    return Model(shell.cover(sheet, normals, thickness), looks, index)
 
 
 def dyed(texels: Texels, dye: str) -> Look:

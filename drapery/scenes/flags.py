@@ -1,0 +1,79 @@
+"""Banner blocks in a scene: their flags, simulated as one batch in the scene's own space."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.cloth import Cloth, State, grid
+from drapery.mesh import Mesh
+from drapery.render.scene import Look, Model
+from drapery.style.block import FLAG_SIZE, FLAG_SKIN, SCALE, Placement, flag_origin, turn, wood
+from drapery.style.board import moved
+from drapery.style.extrusion import Shell, make_shell
+from drapery.style.garment import garment
+from drapery.style.layers import flag_look, wood_look
+
+
+@dataclass(frozen=True)
+class Stand:
+    """A banner block. cell: least corner of its block [m]; facing: degrees, 0 south, 90 west."""
+
+    cell: tuple[float, float, float]
+    placement: Placement = "standing"
+    facing: float = 0.0
+
+
+def flag_cloth(shape: tuple[int, int]) -> Cloth:
+    """The flag of a banner, hanging from y = 0: particles across and down."""
+    return grid(*shape, *FLAG_SIZE)
+
+
+def flag_shell(cloth: Cloth) -> Shell:
+    """How a flag's thick, textured shell follows the flag."""
+    return make_shell(cloth.triangles, cloth.uvs, FLAG_SKIN)
+
+
+def hung(cloth: Cloth, stands: Sequence[Stand]) -> State:
+    """All flags at rest, each at its block, shape [B, N, 3]."""
+    sheets = [_at(_sheet(cloth, stand), stand).positions for stand in stands]
+    positions = np.stack(sheets)
+    return State(positions, np.zeros_like(positions))
+
+
+def wooden(stands: Sequence[Stand], packs: Packs) -> Model:
+    """Poles and bars, all blocks of one placement."""
+    meshes = [_at(wood(stand.placement), stand) for stand in stands]
+    mesh = Mesh(
+        np.stack([mesh.positions for mesh in meshes]),
+        np.stack([mesh.normals for mesh in meshes]),
+        meshes[0].triangles,
+        meshes[0].uvs,
+    )
+    return Model(mesh, (wood_look(packs),))
+
+
+def flag_looks(designs: Sequence[str], packs: Packs) -> tuple[Look, ...]:
+    """What flags of these designs wear. Raises FormatError or PackError."""
+    return tuple(flag_look(Banner.parse(design), packs) for design in designs)
+
+
+def flags(shell: Shell, state: State, looks: tuple[Look, ...], thickness: float = 1.0) -> Model:
+    """The flags of a state; the looks go round. thickness: in texels.
+
+    Give every frame the same looks: the renderer knows by identity what it has prepared.
+    """
+    index = np.arange(len(state.positions), dtype=np.int32) % len(looks)
+    return garment(shell, state.positions, thickness * SCALE, *looks, index=index)
+
+
+def _sheet(cloth: Cloth, stand: Stand) -> Mesh:
+    rest = cloth.rest_positions
+    hanging = Mesh(rest, np.zeros_like(rest), cloth.triangles, cloth.uvs)
+    return moved(hanging, flag_origin(stand.placement))
+
+
+def _at(mesh: Mesh, stand: Stand) -> Mesh:
+    return moved(turn(mesh, stand.facing), np.array(stand.cell, float))
