@@ -41,7 +41,7 @@ def test_each_centre_is_judged_as_by_counting_crossings(
         for pair in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
             (x0, y0), (x1, y1) = sorted(pair, key=lambda corner: corner[1])
             if (y0 <= y) != (y1 <= y):
-                crossings += bool(x >= x0 + (y - y0) * (x1 - x0) / (y1 - y0))
+                crossings += bool((x - x0) * (y1 - y0) >= (y - y0) * (x1 - x0))
         assert mask[row, column] == bool(crossings % 2)
 
 

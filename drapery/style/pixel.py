@@ -48,7 +48,6 @@ def fill_polygon(polygon: Array, width: int, height: int) -> Mask:
         (x0, y0), (x1, y1) = (start, end) if start[1] <= end[1] else (end, start)
         # Half-open in y: an edge counts for the rows at its upper end but not at its lower.
         crosses = (y0 <= y) != (y1 <= y)
-        if y0 != y1:
-            inside ^= crosses & (x >= x0 + (y - y0) * (x1 - x0) / (y1 - y0))
+        inside ^= crosses & ((x - x0) * (y1 - y0) >= (y - y0) * (x1 - x0))
     mask[top:bottom, left:right] = inside
     return mask

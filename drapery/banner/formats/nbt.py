@@ -15,7 +15,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.banner.formats.inflate import inflate
+from drapery.banner.formats.compression import inflate
 from drapery.banner.formats.tree import Tree
 from drapery.errors import DesignError
 

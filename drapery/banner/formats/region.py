@@ -14,7 +14,7 @@ from typing import BinaryIO
 from drapery.banner.formats import chunk
 from drapery.banner.formats.blocks import OnError, raise_error
 from drapery.banner.formats.found import Found
-from drapery.banner.formats.inflate import check_size, inflate
+from drapery.banner.formats.compression import check_size, inflate
 from drapery.banner.formats.nbt import read_nbt
 from drapery.errors import DesignError
 
@@ -42,7 +42,7 @@ def recognises(head: bytes, size: int) -> bool:
     head: at least the first sector. Region files have no mark of their own, but every chunk
     that they list must lie inside them and behind the two sectors of the header.
     """
-    if size == 0 or size < 2 * SECTOR or len(head) < SECTOR:
+    if size < 2 * SECTOR or len(head) < SECTOR:
         return False
     places = [_place(head, n) for n in range(SIDE * SIDE)]
     used = [(first, count) for first, count in places if first or count]
