@@ -66,20 +66,17 @@ def project(
         cy = matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z + matrix[1, 3]
         cz = matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z + matrix[2, 3]
         w = matrix[3, 0] * x + matrix[3, 1] * y + matrix[3, 2] * z + matrix[3, 3]
+        nx, ny, nz = normals[v, 0], normals[v, 1], normals[v, 2]
         factor = np.float64(ambient)
         for light in range(len(lights)):
-            facing = (
-                normals[v, 0] * lights[light, 0]
-                + normals[v, 1] * lights[light, 1]
-                + normals[v, 2] * lights[light, 2]
-            )
+            facing = nx * lights[light, 0] + ny * lights[light, 1] + nz * lights[light, 2]
             factor += diffuse * max(facing, 0.0)
         inv_w = 1.0 / w
         across = (cx * inv_w * 0.5 + 0.5) * width
         up = (cy * inv_w * 0.5 + 0.5) * height
 
         flag = 0
-        if not abs(cx) + abs(cy) + abs(cz) + abs(w) + abs(factor) < np.inf:
+        if not abs(cx) + abs(cy) + abs(cz) + abs(w) + abs(nx) + abs(ny) + abs(nz) < np.inf:
             flag = BROKEN
         else:
             if cz + w < 0 or w <= 0:
