@@ -31,22 +31,24 @@ def patterns_sheet(
     if count > MAX_FACES:
         raise OptionError(f"{count} faces are too many for a sheet of {MAX_FACES}; use fewer dyes")
     cells = tuple(
-        _pattern_cell(packs, base, Layer(pattern, dye), side, scale)
+        _pattern_cell(packs, Banner(base, (Layer(pattern, dye),)), len(dyes) > 1, side, scale)
         for pattern in patterns
         for dye in dyes
     )
-    title = f"{len(patterns)} patterns on {_words(base)}"
-    if len(dyes) == 1:
-        return Sheet(f"{title}, in {_words(dyes[0])}", cells, min(11, len(cells)))
-    names = tuple(map(_short, patterns))
-    return Sheet(title, cells, len(dyes), tuple(map(_words, dyes)), names)
+    title, names = f"{len(patterns)} patterns on {_words(base)}", tuple(map(_short, patterns))
+    if len(dyes) > 1:
+        return Sheet(title, cells, len(dyes), tuple(map(_words, dyes)), names)
+    return Sheet(f"{title}, in {_words(dyes[0])}", cells, min(11, len(cells)))
 
 
 def contents_sheet(packs: Packs, *, base: str = "white", dye: str = "black") -> Sheet:
-    """Every pattern of a stack of packs, and which of the packs it is from."""
+    """Every pattern of a stack of packs, and which of the packs it is from.
+
+    Raises OptionError for more than 2000 patterns.
+    """
     sheet = patterns_sheet(packs, base, (dye,))
     cells = tuple(
-        Cell(f"{_short(pattern)} {_origin(packs, pattern)}".rstrip(), cell.pixels)
+        Cell(f"{cell.label} {_origin(packs, pattern)}".rstrip(), cell.pixels)
         for pattern, cell in zip(packs.patterns(), sheet.cells, strict=True)
     )
     return Sheet(" over ".join(pack.label for pack in packs.packs[::-1]), cells, sheet.columns)
@@ -63,10 +65,11 @@ def steps_sheet(banner: Banner, packs: Packs) -> Sheet:
     return Sheet("The loom's steps", cells, min(len(cells), 6))
 
 
-def _pattern_cell(packs: Packs, base: str, layer: Layer, side: Side, scale: int) -> Cell:
-    label = f"{_short(layer.pattern)}, {_words(layer.dye)}"
+def _pattern_cell(packs: Packs, banner: Banner, with_dye: bool, side: Side, scale: int) -> Cell:
+    (layer,) = banner.layers
+    label = _short(layer.pattern) + (f", {_words(layer.dye)}" if with_dye else "")
     try:
-        return Cell(label, face_pixels(Banner(base, (layer,)), packs, scale, side))
+        return Cell(label, face_pixels(banner, packs, scale, side))
     except PackError:
         return Cell(f"{label} (broken)", _nothing(scale))
 
@@ -80,7 +83,7 @@ def _origin(packs: Packs, pattern: str) -> str:
     try:
         level = packs.level(pattern)
     except PackError:
-        return "(broken)"
+        return ""
     if level is None:
         return "(missing)"
     if level == len(packs.packs) - 1:

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from drapery.render.contact import strip, table
+from drapery.render.encode import check_still_target
 from drapery.render.frame import Frame, Pixels
+from drapery.render.output import check_writable
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +50,8 @@ class Sheet:
 
 
 def check_sheet_target(path: Path) -> None:
-    """Refuse a sheet's target before the work, where its ending tells. Raises OutputError."""
-    if path.suffix.lower() != ".html":
-        from drapery.render.encode import check_still_target
-
+    """Refuse a sheet's target before the work. Raises OptionError or OutputError."""
+    if path.suffix.lower() == ".html":
+        check_writable(path)
+    else:
         check_still_target(path)

@@ -45,5 +45,5 @@ def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     if kind.takes == "texture" and design is not None:
         raise OptionError(f"kind {name} wears no design; give its texture alone, a PNG file")
     if kind.takes == "design" and settings.texture is not None:
-        raise OptionError(f"texture {settings.texture} is for a cape or elytra; use kind cape")
+        raise OptionError("texture is for a cape or elytra; use kind cape, or leave it out")
     return kind.build(design, packs, settings)

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from drapery.banner.names import shown
+from drapery.banner.pack_checks import reason
 from drapery.banner.packs import MAX_PNG
 from drapery.banner.png import Texels, read_png
 from drapery.errors import OptionError
@@ -28,7 +30,8 @@ def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
     if settings.texture is None:
         raise OptionError(f"kind {settings.kind} needs a texture; give its PNG file by texture")
     path = Path(settings.texture)
-    texels = read_png(_read(path), str(path))
+    name = f"texture {shown(str(path), 200)}"
+    texels = read_png(_read(path, name), name)
     height, width = texels.shape[:2]
     for across, down in _SHAPES:
         times = width // across
@@ -36,7 +39,7 @@ def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
         if fits and across >= least[0] and down >= least[1]:
             return _widened(texels, times)
     raise OptionError(
-        f"texture {path} is {width} x {height} px and no sheet of a {settings.kind};"
+        f"{name} is {width} x {height} px and no sheet of a {settings.kind};"
         " use 64 x 32, or a multiple of it"
     )
 
@@ -48,13 +51,12 @@ def _widened(texels: Texels, times: int) -> Texels:
     return whole
 
 
-def _read(path: Path) -> bytes:
+def _read(path: Path, name: str) -> bytes:
     try:
         with path.open("rb") as file:
             data = file.read(MAX_PNG + 1)
-    except OSError as error:
-        reason = error.strerror or type(error).__name__
-        raise OptionError(f"texture {path} cannot be read ({reason}); give a PNG file") from error
+    except (OSError, ValueError) as error:
+        raise OptionError(f"{name} cannot be read ({reason(error)}); give a PNG file") from error
     if len(data) > MAX_PNG:
-        raise OptionError(f"texture {path} is over {MAX_PNG} bytes; shrink it")
+        raise OptionError(f"{name} is over {MAX_PNG} bytes; shrink it")
     return data
