@@ -62,7 +62,7 @@ def run(
 ) -> None:
     """Hold pictures against the first; exit code 0 same, 1 different, 2 bad input."""
     from drapery.compare.comparison import compare_variants
-    from drapery.compare.variants import variants
+    from drapery.compare.variants import draw_variants
     from drapery.settings import Settings, within
 
     within("tolerance", tolerance, 0, 255)
@@ -71,7 +71,7 @@ def run(
     words = ctx.params | {"layers": modes[0], "backend": backends[0]}
     settings = Settings(**o.options_of(words))
     with compile_notice():
-        chosen = variants(subjects, settings, modes, backends)
+        chosen = draw_variants(subjects, settings, modes, backends)
         pairs = compare_variants(chosen, perceptual=perceptual)
         costs = {v.label: _cost(v) for v in chosen} if cost else {}
     for pair in pairs:

@@ -42,7 +42,7 @@ class Variant:
         return 0 if self.banner is None else len(self.banner.layers)
 
 
-def variants(
+def draw_variants(
     subjects: Sequence[str],
     settings: Settings,
     layer_modes: Sequence[str] = (),
