@@ -22,6 +22,8 @@ def run(
     ctx: typer.Context,
     out: OutOption,
     design: o.OptionalDesign = None,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
     seconds: Annotated[float, typer.Option(help="Length of the loop.")] = 4.0,
     fps: Annotated[float, typer.Option(help="Frames per second.")] = 20.0,
     pack: o.PackOption = None,
@@ -51,7 +53,7 @@ def run(
     settings = Settings(**o.options_of(ctx.params))
     check_animation_target(out)
     with compile_notice():
-        drawn = frames(o.design_of(design), seconds, fps, settings)
+        drawn = frames(o.design_of(ctx.params), seconds, fps, settings)
         total = frame_count(seconds, fps)
         with progress("frames", total) as tick:
             save_animation(drawn, fps, out, total=total, progress=tick)

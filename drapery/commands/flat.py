@@ -14,6 +14,8 @@ def run(
     design: o.DesignArgument,
     out: Annotated[Path, typer.Option("-o", "--out", metavar="FILE", help="The picture to write.")],
     scale: Annotated[int, typer.Option(help="Pixels per texel of a 64 x 64 pack.")] = 8,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
     back: Annotated[bool, typer.Option("--back", help="The other side.")] = False,
     pack: o.PackOption = None,
     format: o.FormatOption = None,
@@ -28,5 +30,6 @@ def run(
     check_still_target(out)
     side: Literal["front", "back"] = "back" if back else "front"
     packs = tuple(pack or ())
-    face = draw_face(read_design(design), packs=packs, format=format, scale=scale, side=side)
+    banner = read_design(design, form=form, number=number)
+    face = draw_face(banner, packs=packs, format=format, scale=scale, side=side)
     face.save(out)

@@ -23,6 +23,8 @@ def run(
         Path | None,
         typer.Option(metavar="FILE", help="The strip of the loom's steps, as a picture."),
     ] = None,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
     pack: o.PackOption = None,
     view: o.ViewOption = "iso",
     size: o.SizeOption = "768x512",
@@ -46,7 +48,8 @@ def run(
     )
     if steps is not None:
         check_sheet_target(steps)
-    banner, packs = read_design(design), open_packs(settings.packs)
+    banner = read_design(design, form=form, number=number)
+    packs = open_packs(settings.packs)
     _tell_steps(banner)
     _tell_hidden(banner, packs)
     with compile_notice():

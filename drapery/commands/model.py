@@ -22,6 +22,8 @@ def run(
     ctx: typer.Context,
     out: OutOption,
     design: o.OptionalDesign = None,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
     seconds: Annotated[float, typer.Option(help="Length of the loop; 0 for one pose.")] = 4.0,
     fps: Annotated[float, typer.Option(help="Frames per second.")] = 20.0,
     pack: o.PackOption = None,
@@ -49,7 +51,7 @@ def run(
     settings = Settings(**o.options_of(ctx.params | {"size": "512x512"}))
     moves = check_model_target(out) == ".glb" and seconds != 0
     packs = open_packs(settings.packs, format=settings.format)
-    banner = o.design_of(design)
+    banner = o.design_of(ctx.params)
     with compile_notice():
         if moves:
             scenes = loop(banner, packs, settings, frame_count(seconds, fps), fps)

@@ -28,6 +28,14 @@ OptionalDesign = Annotated[
         show_default=False,
     ),
 ]
+FromOption = Annotated[
+    str | None,
+    typer.Option("--from", metavar="FORM", help="The form of DESIGN; it is told by itself."),
+]
+NumberOption = Annotated[
+    int | None,
+    typer.Option(metavar="N", help="Which banner, from 1, where DESIGN holds several."),
+]
 PackOption = Annotated[
     list[Path] | None,
     typer.Option("--pack", metavar="PATH", help="Resource pack (folder, zip, jar); later wins."),
@@ -81,8 +89,11 @@ def options_of(words: Mapping[str, Any]) -> Options:
     return cast(Options, chosen | {"packs": tuple(words["pack"] or ())})
 
 
-def design_of(text: str | None) -> "Banner | None":
+def design_of(words: Mapping[str, Any]) -> "Banner | None":
     """The design that a command is given, if it is given any. Raises DesignError."""
     from drapery.banner.formats import read_design
 
-    return None if text is None else read_design(text)
+    text = words["design"]
+    if text is None:
+        return None
+    return read_design(text, form=words["form"], number=words["number"])

@@ -17,6 +17,8 @@ def run(
     ctx: typer.Context,
     out: OutOption,
     design: o.OptionalDesign = None,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
     pack: o.PackOption = None,
     format: o.FormatOption = None,
     kind: o.KindOption = "auto",
@@ -43,4 +45,4 @@ def run(
     options = o.options_of(ctx.params)
     check_still_target(out)
     with compile_notice():
-        draw(o.design_of(design), **options).save(out)
+        draw(o.design_of(ctx.params), **options).save(out)

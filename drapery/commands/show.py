@@ -12,19 +12,27 @@ if TYPE_CHECKING:
 
 def run(
     design: o.DesignArgument,
-    form: Annotated[
+    written: Annotated[
         str | None,
-        typer.Option("--as", metavar="FORM", help="Write it as: json, give, give-legacy, text."),
+        typer.Option("--as", metavar="FORM", help="Write it as json, give, give-legacy, text, ..."),
     ] = None,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
 ) -> None:
-    """Say what was understood of a banner, or convert it to another form."""
-    from drapery.banner.formats import read_design, write_banner
+    """Say what was understood of one banner or many, or write them in another form."""
+    from drapery.banner.formats import read_designs, write_banner
+    from drapery.banner.formats.door import pick
 
-    banner = read_design(design)
-    if form is None:
+    found = read_designs(design, form=form)
+    banners = [pick(found, number)] if number is not None else [one.banner for one in found]
+    if written is not None:
+        for banner in banners:
+            print(write_banner(banner, written))
+        return
+    for place, banner in zip((one.where for one in found), banners, strict=False):
+        if len(banners) > 1:
+            print(place)
         _explain(banner)
-    else:
-        print(write_banner(banner, form))
 
 
 def _explain(banner: "Banner") -> None:
