@@ -1,12 +1,13 @@
 """Typed by hand: `white creeper:lime border:black`, or as the game's tooltip says it.
 
 The base dye comes first, then layers from the lowest to the highest, each `pattern:dye` or, where
-commas or lines part them, also `Lime Creeper Charge`. `shield` before the base makes a shield.
+commas or lines part them, also `Lime Creeper Charge`. `shield` before the base makes a shield;
+`ominous banner` is the illagers'.
 """
 
 from drapery.banner.design import Banner, Layer
-from drapery.banner.formats.tree import base_of, check_count
-from drapery.banner.names import dye_name, is_dye, pattern_id, shown
+from drapery.banner.formats.tree import OMINOUS, base_of, check_count
+from drapery.banner.names import dye_name, is_dye, pattern_id, plain, shown
 from drapery.errors import DesignError
 
 NAME = "text"
@@ -24,6 +25,8 @@ def recognises(text: str) -> bool:
 
 def parse(text: str) -> Banner:
     """Read the shorthand. Raises DesignError naming the layer, counted from 1."""
+    if plain(text) in ("ominous", "ominous_banner"):
+        return OMINOUS
     pieces = [words for line in text.translate(_BREAKS).split("\n") if (words := _words(line))]
     if not pieces:
         raise DesignError(f"the text is empty: write a base dye and layers, as {EXAMPLE!r}")
