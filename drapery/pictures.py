@@ -96,6 +96,7 @@ def scene_frames(
     Raises OptionError or BackendError.
     """
     from drapery.render.backends import backend as backend_named
+    from drapery.scenes.panels import drawn
 
     for side in shot.size:
         within("size", side, 1, MAX_SIDE, "pixels")
@@ -103,7 +104,7 @@ def scene_frames(
     pictures = scene.play(parameters, shot)
     if last:
         pictures = iter([*deque(pictures, maxlen=1)])
-    return (p if isinstance(p, Frame) else draw_scene(p) for p in pictures)
+    return (drawn(picture, draw_scene) for picture in pictures)
 
 
 def draw_face(

@@ -33,7 +33,7 @@ def test_a_foot_goes_back_as_far_as_the_ground() -> None:
 
 def test_a_cape_stays_on_and_out_of_the_body() -> None:
     parameters, gait = cape.Parameters(), Gait()
-    cloth = cape.cape(parameters.grid)
+    cloth = cape.cape_cloth(parameters.grid)
     for state in cape.walk(parameters, cloth, gait, STRIDE):
         pins = gait.pins(cloth)(state.time)
         np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)
@@ -43,7 +43,7 @@ def test_a_cape_stays_on_and_out_of_the_body() -> None:
 
 
 def test_a_walk_in_a_cape_ends_as_it_began() -> None:
-    cloth, loop = cape.cape((6, 9)), Shot((64, 64), 81, 20.0)
+    cloth, loop = cape.cape_cloth((6, 9)), Shot((64, 64), 81, 20.0)
     states = list(cape.walk(cape.Parameters(), cloth, Gait(), loop))
     apart = np.abs(states[-1].positions - states[0].positions).max()
     step = np.abs(states[1].positions - states[0].positions).max()

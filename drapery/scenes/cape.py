@@ -43,7 +43,7 @@ class Parameters:
 def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     """The figure walks in place; the causeway passes below."""
     packs = open_packs(())
-    gait, cloth = Gait(parameters.speed), cape(parameters.grid)
+    gait, cloth = Gait(parameters.speed), cape_cloth(parameters.grid)
     shell = make_shell(cloth.triangles, cloth.uvs, CAPE_SKIN)
     wool = dyed(packs.texture("entity/player/cape"), parameters.dye)
     skin, ground = figure_look(parameters.skin, packs), path_ground(24, PERIOD, packs)
@@ -72,7 +72,7 @@ def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterat
     )
 
 
-def cape(shape: tuple[int, int]) -> Cloth:
+def cape_cloth(shape: tuple[int, int]) -> Cloth:
     """A cape on the figure's back, facing backwards, held by two particles at each shoulder."""
     columns, rows = shape
     shoulders = [0, 1, columns - 2, columns - 1]

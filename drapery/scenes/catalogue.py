@@ -6,18 +6,14 @@ shot)` yields one picture for each frame of the shot. The module's first line sa
 
 import pkgutil
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import dataclass, fields
 from importlib import import_module
 from types import ModuleType
 from typing import Any
 
 import drapery.scenes
 from drapery.errors import OptionError
-from drapery.render.frame import Frame
-from drapery.render.scene import Scene
-
-Picture = Scene | Frame
-"""What a scene yields: something to be drawn, or a picture of pixels as it is."""
+from drapery.scenes.panels import Picture
 
 
 @dataclass(frozen=True)
@@ -79,8 +75,7 @@ def _read(kind: type[Any], words: Mapping[str, str], scene: str) -> Any:
             raise OptionError(
                 f"scene {scene} has no parameter {word!r}; it has: {', '.join(known)}"
             )
-        default = field.default if field.default is not MISSING else field.default_factory()  # type: ignore[misc]
-        given[field.name] = _value(word, text, default)
+        given[field.name] = _value(word, text, field.default)
     return kind(**given)
 
 
