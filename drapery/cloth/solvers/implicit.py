@@ -272,6 +272,21 @@ def solve(
 
 
 @kernel
+def keep_momentum(dv: Any, r: Any, mass: Any) -> None:
+    """Give a free cloth as a whole what the search left over: the residual's sum over the mass."""
+    total = 0.0
+    for particle in range(mass.size):
+        total += mass[particle]
+    for axis in range(3):
+        for lane in range(dv.shape[1]):
+            left = 0.0
+            for particle in range(mass.size):
+                left += r[3 * particle + axis, lane]
+            for particle in range(mass.size):
+                dv[3 * particle + axis, lane] += dv.dtype.type(left / total)
+
+
+@kernel
 def lead_pins(
     dv: Any, y: Any, u: Any, pins: Any, targets: Any, step: Any, start: Any, h: Any
 ) -> None:
@@ -327,6 +342,8 @@ def _advance(
             linearise(blocks, b, y, u, springs, damping, h)
             lead_pins(dv, y, u, body.pins, batch.targets, step, start, h)
             solve(dv, b, plan.mass, blocks, springs, iterations, tolerance, room)
+            if body.pins.size == 0:
+                keep_momentum(dv, b, plan.mass)
             for row in range(rows):
                 for lane in range(lanes):
                     u[row, lane] += dv[row, lane]
