@@ -6,6 +6,7 @@ from drapery.cloth.forces import Drag, Force, Gravity
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import Solver
 from drapery.cloth.solvers.desbrun import SolverDesbrun
+from drapery.cloth.solvers.xpbd import SolverXPBD
 from drapery.cloth.state import State, rest_state
 from drapery.cloth.stepping import simulate
 from drapery.cloth.wind import Wind
@@ -21,6 +22,7 @@ __all__ = [
     "PinPath",
     "Solver",
     "SolverDesbrun",
+    "SolverXPBD",
     "State",
     "Wind",
     "grid",

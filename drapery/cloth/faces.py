@@ -1,4 +1,4 @@
-"""What the wind presses on: a cloth's faces, and the few particles at which the wind is sampled."""
+"""What the wind presses on: the area that each particle carries, and where the wind is sampled."""
 
 from typing import NamedTuple
 
@@ -13,66 +13,56 @@ SAMPLE_SPACING = 0.9
 
 
 class Faces(NamedTuple):
-    """F faces of four corners, the last two of a triangle's the same.
+    """Each particle's share of the faces around it, as a vector along their averaged normal.
 
-    corners: particles, [F, 4]. shares: of the face's force that each corner takes, [F, 4].
-    controls: numbers of the wind samples around the face, [F, 4]; weights: theirs, [F, 4].
+    The vector area of particle i is the sum of share · (b - a) x (d - c) over the sides
+    (a, b, c, d) numbered begin[i] to begin[i + 1].
+    sides: particles, [E, 4]. shares: [E]. begin: [N + 1].
+    controls: numbers of the wind samples around each particle, [N, 4]; weights: theirs, [N, 4].
     """
 
-    corners: NDArray[np.int32]
+    sides: NDArray[np.int32]
     shares: Array
+    begin: NDArray[np.int64]
     controls: NDArray[np.int32]
     weights: Array
 
 
 def wind_faces(cloth: Cloth) -> tuple[Faces, NDArray[np.int32]]:
-    """The faces, and the particles [C] at which the wind is sampled.
+    """The areas, and the particles [C] at which the wind is sampled.
 
-    A grid's cells are quads with the wind interpolated between a few particles; any other
-    cloth has triangles with a sample at every particle.
+    On a grid a particle's area spans the middles of the cells around it, and the wind is
+    interpolated between a few particles; on any other cloth it is a third of the triangles
+    around the particle, and the wind is sampled at every particle.
     """
-    if cloth.grid_shape is None:
-        a, b, c = cloth.triangles.T
-        corners = np.stack([a, b, c, a], axis=1)
-        shares = np.tile([1 / 3, 1 / 3, 1 / 3, 0.0], (len(corners), 1))
-        return Faces(corners, shares, corners, shares), np.arange(
-            len(cloth.rest_positions), dtype=np.int32
-        )
-    return _grid_faces(cloth, *cloth.grid_shape)
+    if cloth.grid_shape is not None:
+        return _grid_faces(cloth, *cloth.grid_shape)
+    count = len(cloth.rest_positions)
+    corners = np.concatenate([np.roll(cloth.triangles, turn, axis=1) for turn in range(3)])
+    corners = corners[np.argsort(corners[:, 0], kind="stable")]
+    a, b, c = corners.T
+    begin = np.searchsorted(a, np.arange(count + 1))
+    sides = np.stack([a, b, a, c], axis=1)
+    every = np.arange(count, dtype=np.int32)
+    weights = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
+    shares = np.full(len(sides), 1 / 6)
+    return Faces(sides, shares, begin, np.repeat(every[:, None], 4, axis=1), weights), every
 
 
 def _grid_faces(cloth: Cloth, rows: int, columns: int) -> tuple[Faces, NDArray[np.int32]]:
     index = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
-    quads = [index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]]
-    corners = np.stack(quads, axis=-1).reshape(-1, 4)
+    padded = np.pad(index, 1, mode="edge")
+    left, right = padded[1:-1, :-2], padded[1:-1, 2:]
+    above, below = padded[:-2, 1:-1], padded[2:, 1:-1]
+    # Facing +z: from left to right, then upwards.
+    sides = np.stack([left, right, below, above], axis=-1).reshape(-1, 4)
     rest = cloth.rest_positions.reshape(rows, columns, 3)
-    down = _samples(np.linalg.norm(rest[-1, 0] - rest[0, 0]), rows)
-    across = _samples(np.linalg.norm(rest[0, -1] - rest[0, 0]), columns)
-    above, low = _between(down, rows)
-    left, right = _between(across, columns)
-    size = len(across)
-    controls = np.stack(
-        [
-            above[:, None] * size + left,
-            (above + 1)[:, None] * size + left,
-            (above + 1)[:, None] * size + left + 1,
-            above[:, None] * size + left + 1,
-        ],
-        axis=-1,
-    )
-    weights = np.stack(
-        [
-            np.outer(1 - low, 1 - right),
-            np.outer(low, 1 - right),
-            np.outer(low, right),
-            np.outer(1 - low, right),
-        ],
-        axis=-1,
-    )
-    shares = np.full((len(corners), 4), 0.25)
-    samples = index[np.ix_(down, across)].ravel()
-    flat_controls = controls.reshape(-1, 4).astype(np.int32)
-    return Faces(corners, shares, flat_controls, weights.reshape(-1, 4)), samples
+    down = _samples(float(np.linalg.norm(rest[-1, 0] - rest[0, 0])), rows)
+    across = _samples(float(np.linalg.norm(rest[0, -1] - rest[0, 0])), columns)
+    controls, weights = _bilinear(_between(down, rows), _between(across, columns), len(across))
+    begin = np.arange(rows * columns + 1)
+    shares = np.full(len(sides), 0.25)
+    return Faces(sides, shares, begin, controls, weights), index[np.ix_(down, across)].ravel()
 
 
 def _samples(length: float, count: int) -> NDArray[np.int64]:
@@ -82,7 +72,19 @@ def _samples(length: float, count: int) -> NDArray[np.int64]:
 
 
 def _between(samples: NDArray[np.int64], count: int) -> tuple[NDArray[np.int64], Array]:
-    """For the middle of each cell: the sample before it, and its share of the way to the next."""
-    middles = np.arange(count - 1) + 0.5
-    before = np.searchsorted(samples, middles) - 1
-    return before, (middles - samples[before]) / (samples[before + 1] - samples[before])
+    """For each of `count` lines: the sample at or before it, and the next one's weight."""
+    lines = np.arange(count)
+    before = np.minimum(np.searchsorted(samples, lines, side="right"), len(samples) - 1) - 1
+    return before, (lines - samples[before]) / (samples[before + 1] - samples[before])
+
+
+def _bilinear(
+    down: tuple[NDArray[np.int64], Array], across: tuple[NDArray[np.int64], Array], width: int
+) -> tuple[NDArray[np.int32], Array]:
+    """The four samples around each particle of a grid, and their weights, [N, 4] each."""
+    (above, low), (left, right) = down, across
+    first = above[:, None] * width + left
+    controls = np.stack([first, first + 1, first + width, first + width + 1], axis=-1)
+    parts = [(1 - low, 1 - right), (1 - low, right), (low, 1 - right), (low, right)]
+    weights = np.stack([np.outer(a, b) for a, b in parts], axis=-1)
+    return controls.reshape(-1, 4).astype(np.int32), weights.reshape(-1, 4)

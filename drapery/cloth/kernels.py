@@ -185,40 +185,48 @@ def blow(
 
 @kernel
 def add_wind_velocities(
-    g: Any, x: Any, v: Any, faces: Any, wind: Any, pressure: Any, inv_mass: Any, dt: Any, u: Any
+    g: Any, x: Any, v: Any, faces: Any, wind: Any, pressure: Any, inv_mass: Any, dt: Any, work: Any
 ) -> None:
     """g += dt/m · F of one wind, whose velocity at the control particles is `wind` [3C, L].
 
-    A face's corners a, b, c, d share its force; its vector area is (c - a) x (d - b) / 2. A
-    triangle is a face whose d is a. u: work, [3 or more, L].
+    v may be g. work: [9 or more, L].
     """
-    half_pressure = x.dtype.type(pressure / 2)
     tiny = x.dtype.type(1e-30)
-    for f in range(faces.corners.shape[0]):
-        for row in range(3 * faces.corners.shape[1]):
-            corner, axis = row // 3, row % 3
-            wind_at, weight = wind[3 * faces.controls[f, corner] + axis], faces.weights[f, corner]
-            v_at, share = v[3 * faces.corners[f, corner] + axis], faces.shares[f, corner]
-            keep = x.dtype.type(corner > 0)
+    part, normal, force = work[0], work[3:6], work[6:9]
+    for i in range(inv_mass.size):
+        if inv_mass[i] == 0:
+            continue
+        for side in range(faces.begin[i], faces.begin[i + 1]):
+            a, b = 3 * faces.sides[side, 0], 3 * faces.sides[side, 1]
+            c, d = 3 * faces.sides[side, 2], 3 * faces.sides[side, 3]
+            share, keep = faces.shares[side], x.dtype.type(side > faces.begin[i])
             for lane in range(x.shape[1]):
-                u[axis, lane] = keep * u[axis, lane] + (weight * wind_at[lane] - share * v_at[lane])
-        a, b = 3 * faces.corners[f, 0], 3 * faces.corners[f, 1]
-        c, d = 3 * faces.corners[f, 2], 3 * faces.corners[f, 3]
+                px, qx = x[b, lane] - x[a, lane], x[d, lane] - x[c, lane]
+                py, qy = x[b + 1, lane] - x[a + 1, lane], x[d + 1, lane] - x[c + 1, lane]
+                pz, qz = x[b + 2, lane] - x[a + 2, lane], x[d + 2, lane] - x[c + 2, lane]
+                normal[0, lane] = keep * normal[0, lane] + share * (py * qz - pz * qy)
+                normal[1, lane] = keep * normal[1, lane] + share * (pz * qx - px * qz)
+                normal[2, lane] = keep * normal[2, lane] + share * (px * qy - py * qx)
+        p, q = 3 * faces.controls[i, 0], 3 * faces.controls[i, 1]
+        r, s = 3 * faces.controls[i, 2], 3 * faces.controls[i, 3]
+        wp, wq, wr, ws = faces.weights[i]
+        for axis in range(normal.shape[0]):
+            for lane in range(x.shape[1]):
+                force[axis, lane] = (
+                    (wp * wind[p + axis, lane] + wq * wind[q + axis, lane])
+                    + (wr * wind[r + axis, lane] + ws * wind[s + axis, lane])
+                    - v[3 * i + axis, lane]
+                )
+        push = x.dtype.type(dt * inv_mass[i] * pressure)
+        # Two loops: with more rows at once the compiler gives up telling them apart.
         for lane in range(x.shape[1]):
-            px, qx = x[c, lane] - x[a, lane], x[d, lane] - x[b, lane]
-            py, qy = x[c + 1, lane] - x[a + 1, lane], x[d + 1, lane] - x[b + 1, lane]
-            pz, qz = x[c + 2, lane] - x[a + 2, lane], x[d + 2, lane] - x[b + 2, lane]
-            nx, ny, nz = py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx
+            nx, ny, nz = normal[0, lane], normal[1, lane], normal[2, lane]
             area = np.sqrt(nx * nx + ny * ny + nz * nz) + tiny
-            head_on = nx * u[0, lane] + ny * u[1, lane] + nz * u[2, lane]
-            push = half_pressure * head_on / area
-            u[0, lane], u[1, lane], u[2, lane] = push * nx, push * ny, push * nz
-        for row in range(3 * faces.corners.shape[1]):
-            corner, axis = row // 3, row % 3
-            at = faces.corners[f, corner]
-            part = dt * inv_mass[at] * faces.shares[f, corner]
+            head_on = nx * force[0, lane] + ny * force[1, lane] + nz * force[2, lane]
+            part[lane] = push * head_on / area
+        for axis in range(normal.shape[0]):
             for lane in range(x.shape[1]):
-                g[3 * at + axis, lane] += part * u[axis, lane]
+                g[3 * i + axis, lane] += part[lane] * normal[axis, lane]
 
 
 @kernel
@@ -322,8 +330,8 @@ def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any)
 @kernel
 def set_velocities(v: Any, x: Any, old: Any, dt: Any) -> None:
     """v = (x - old) / dt, flushed to 0 below STILL."""
-    still, none = x.dtype.type(STILL), x.dtype.type(0)
+    still, none, rate = x.dtype.type(STILL), x.dtype.type(0), x.dtype.type(1 / dt)
     for row in range(x.shape[0]):
         for lane in range(x.shape[1]):
-            speed = (x[row, lane] - old[row, lane]) / dt
+            speed = (x[row, lane] - old[row, lane]) * rate
             v[row, lane] = speed if abs(speed) >= still else none

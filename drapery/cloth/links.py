@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.order import distances_from, outwards, pin_distances
+from drapery.cloth.order import across_then_outwards, distances_from, outwards, pin_distances
 from drapery.mesh import Array
 
 FEW_PINS = 4
@@ -38,10 +38,9 @@ def limited_links(cloth: Cloth, limit: float, sweeps: int) -> Links:
     """Links that hold a cloth's structural springs to `limit` times their rest length."""
     if sweeps == 0:
         return _links(cloth, np.zeros((0, 2), np.int32), np.zeros(0))
-    springs = np.flatnonzero(cloth.spring_kind == STRUCTURAL)
+    springs = across_then_outwards(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
     pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
-    order = outwards(pin_distances(cloth), pairs, lengths)
-    fine = pairs[order], limit * lengths[order]
+    fine = pairs, limit * lengths
     groups = [attachments(cloth), *_long_links(cloth, limit), *[fine] * sweeps]
     return _links(
         cloth,

@@ -42,6 +42,19 @@ def outwards(distances: Array, pairs: NDArray[np.int32], lengths: Array) -> NDAr
     return np.argsort(np.round(reach / max(lengths.min(initial=np.inf), 1e-12), 3), kind="stable")
 
 
+def across_then_outwards(cloth: Cloth, springs: NDArray[np.integer]) -> NDArray[np.integer]:
+    """These springs [S]: first those across the way from the pins, then those along it, outwards.
+
+    Mixed, row by row, they make projections without a limit unstable on fine grids.
+    """
+    distances = pin_distances(cloth)
+    pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
+    order = outwards(distances, pairs, lengths)
+    finite = np.where(np.isfinite(distances), distances, 0.0)
+    along = np.abs(finite[pairs[:, 1]] - finite[pairs[:, 0]]) > 0.5 * lengths
+    return springs[np.concatenate([order[~along[order]], order[along[order]]])]
+
+
 def sweep_order(cloth: Cloth, springs: NDArray[np.integer]) -> NDArray[np.integer]:
     """These springs [S'] from the pins outwards; springs between two pins are left out."""
     pairs = cloth.spring_pairs[springs]

@@ -1,0 +1,239 @@
+"""Extended position based dynamics in small steps.
+
+Macklin, Müller, Chentanez, "XPBD: position-based simulation of compliant constrained dynamics"
+(MIG 2016), and Macklin et al., "Small steps in physics simulation" (SCA 2019): n substeps of one
+iteration are better than one step of n. First order. Stable at any stiffness; damps little, less
+with more substeps. To be chosen for cloth that hardly stretches, for fine grids, and wherever
+motion must stay lively. Not to be confused with position based dynamics (pbd), whose stiffness
+depends on the step.
+
+A spring of rest length l is the constraint (d² - l²) / (d² + l²) · d = 0, which is d - l to second
+order and needs no square root (Jakobsen, "Advanced character physics", GDC 2001). With one
+iteration a substep its multiplier starts from 0 (2016, eq. 18): Δλ = -C / (w_i + w_j + α / h²).
+
+Soft springs act once a step, each kind in one of the substeps, with the impulse of the whole step
+(α / (h dt) in place of α / h²): as in multiple time stepping (Tuckerman, Berne, Martyna 1992), the
+short steps are spent on what is stiff. So do wind and other loads, but for gravity. Long range
+attachments (`drapery.cloth.links`) keep coarse errors from having to travel spring by spring.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.cloth import kernels
+from drapery.cloth.cloth import Cloth
+from drapery.cloth.compiled import door, kernel
+from drapery.cloth.forces import Force
+from drapery.cloth.links import Links, attachments
+from drapery.cloth.order import across_then_outwards
+from drapery.cloth.pins import PinPath
+from drapery.cloth.solvers.base import check_step
+from drapery.cloth.solvers.rounds import Body, Memory, advance, body_of, check_count
+from drapery.cloth.state import State
+from drapery.errors import OptionError
+from drapery.mesh import Array
+
+MAX_SUBSTEPS = 1000
+
+
+class Constraints(NamedTuple):
+    """Springs in the order in which they are solved; those of substep n are begin[n] ... .
+
+    pairs: [K, 2]. square: rest lengths squared [m²], [K]. share_i, share_j: w / (w_i + w_j + α~).
+    begin: [substeps + 1].
+    """
+
+    pairs: NDArray[np.int32]
+    square: Array
+    share_i: Array
+    share_j: Array
+    begin: NDArray[np.int64]
+
+
+class Plan(NamedTuple):
+    body: Body
+    constraints: Constraints
+    links: Links
+
+
+@dataclass(frozen=True)
+class SolverXPBD:
+    """See the module.
+
+    substeps: of each step; None for as many as the grid's fineness needs.
+    compliance: of structural, shear and flexion springs [m/N]; None is each spring's own, the
+        inverse of its stiffness. Structural ones do not stretch by default.
+    attach: whether long range attachments hold particles to their pins.
+    threads: None for as many as there are processors.
+    """
+
+    substeps: int | None = None
+    compliance: tuple[float | None, float | None, float | None] = (0.0, None, None)
+    attach: bool = True
+    threads: int | None = None
+
+    def __post_init__(self) -> None:
+        check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
+        for value in self.compliance:
+            if value is not None and not 0 <= value < np.inf:
+                raise OptionError(f"compliance {value!r} is out of range; use 0 or more [m/N]")
+
+    def init(self, cloth: Cloth, dt: float) -> Memory:
+        check_step(dt, 1)
+        substeps = self.substeps or enough_substeps(cloth)
+        constraints = solved_springs(cloth, self._compliances(cloth), dt, substeps)
+        return Memory(Plan(body_of(cloth), constraints, self._links(cloth)), dt, substeps)
+
+    def step(
+        self,
+        cloth: Cloth,
+        state: State,
+        memory: Memory,
+        forces: Sequence[Force],
+        dt: float,
+        *,
+        steps: int = 1,
+        pins: PinPath | None = None,
+    ) -> tuple[State, Memory]:
+        args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
+        return advance(_advance, *args), memory
+
+    def _compliances(self, cloth: Cloth) -> Array:
+        own = 1 / cloth.spring_stiffness
+        for kind, value in enumerate(self.compliance):
+            if value is not None:
+                own[cloth.spring_kind == kind] = value
+        return own
+
+    def _links(self, cloth: Cloth) -> Links:
+        pairs, reach = attachments(cloth) if self.attach else (np.zeros((0, 2), np.int32), [])
+        ones = np.ones(len(pairs))
+        return Links(pairs, np.asarray(reach, float), 0 * ones, ones)
+
+
+def enough_substeps(cloth: Cloth) -> int:
+    """Substeps at which a hanging grid stretches a few per cent at most in a strong wind."""
+    return max(3, -(-max(cloth.grid_shape or (40,)) // 3))
+
+
+def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> Constraints:
+    """Each substep's springs in order: all stiff ones, and its part of the soft."""
+    h = dt / substeps
+    a, b = cloth.spring_pairs.T
+    w = cloth.inv_mass[cloth.spring_pairs]
+    # Soft: a full step's pull moves the ends by less than half of the spring's strain.
+    soft = (compliance > dt**2 * w.sum(axis=1)) & (w.sum(axis=1) > 0)
+    stiff = ~soft & (w.sum(axis=1) > 0)
+    turn = np.zeros(len(a), np.int64)
+    turn[soft] = np.arange(int(soft.sum())) * substeps // max(1, int(soft.sum()))
+    chosen, begin = [], [0]
+    for substep in range(substeps):
+        springs = np.flatnonzero(stiff | (soft & (turn == substep)))
+        chosen.append(across_then_outwards(cloth, springs))
+        begin.append(begin[-1] + len(springs))
+    order = np.concatenate(chosen)
+    step = np.where(soft, h * dt, h * h)
+    shares = w / (w.sum(axis=1) + compliance / step + ~(soft | stiff))[:, None]
+    return Constraints(
+        cloth.spring_pairs[order],
+        cloth.spring_length[order] ** 2,
+        shares[order, 0],
+        shares[order, 1],
+        np.array(begin),
+    )
+
+
+@kernel
+def solve(x: Any, constraints: Any, substep: Any) -> None:
+    """One substep's constraints, one after another."""
+    for s in range(constraints.begin[substep], constraints.begin[substep + 1]):
+        i, j = 3 * constraints.pairs[s, 0], 3 * constraints.pairs[s, 1]
+        rest = constraints.square[s]
+        part_i, part_j = constraints.share_i[s], constraints.share_j[s]
+        for lane in range(x.shape[1]):
+            dx = x[j, lane] - x[i, lane]
+            dy = x[j + 1, lane] - x[i + 1, lane]
+            dz = x[j + 2, lane] - x[i + 2, lane]
+            square = dx * dx + dy * dy + dz * dz
+            strain = (square - rest) / (square + rest)
+            to_i, to_j = part_i * strain, part_j * strain
+            x[i, lane] += to_i * dx
+            x[i + 1, lane] += to_i * dy
+            x[i + 2, lane] += to_i * dz
+            x[j, lane] -= to_j * dx
+            x[j + 1, lane] -= to_j * dy
+            x[j + 2, lane] -= to_j * dz
+
+
+@kernel
+def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -> None:
+    """x goes on as fast as in the last substep, or at first with v, and falls; old is x before."""
+    F = x.dtype.type
+    h = F(numbers[0])
+    for row in range(x.shape[0]):
+        fall = F(numbers[0] * numbers[0] * numbers[3 + row % 3])
+        if inv_mass[row // 3] == 0:
+            fall = F(0)
+        if substep == 0:
+            for lane in range(x.shape[1]):
+                here = x[row, lane]
+                x[row, lane] = here + (h * v[row, lane] + fall)
+                old[row, lane] = here
+        else:
+            for lane in range(x.shape[1]):
+                here = x[row, lane]
+                x[row, lane] = here + ((here - old[row, lane]) + fall)
+                old[row, lane] = here
+
+
+@kernel
+def add_pushes(u: Any, inv_mass: Any, numbers: Any, push: Any, dt: Any, start: Any) -> None:
+    """u += dt push, then drag over dt, implicitly: see `kernels.add_uniform`."""
+    slow = u.dtype.type(1 / (1 + dt * numbers[1]))
+    for row in range(u.shape[0]):
+        if push.size > 0 and inv_mass[row // 3] > 0:
+            for lane in range(u.shape[1]):
+                u[row, lane] += dt * push[row, start + lane]
+        if numbers[1] > 0:
+            for lane in range(u.shape[1]):
+                u[row, lane] *= slow
+
+
+@door
+def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps: int) -> None:
+    """Steps of lanes first..last, a block at a time."""
+    body, dtype = plan.body, batch.x.dtype
+    h = dtype.type(batch.numbers[0])
+    dt = dtype.type(batch.numbers[0] * substeps)
+    rows, width = batch.x.shape[0], min(batch.width, last - first)
+    y, u = np.empty((rows, width), dtype), np.empty((rows, width), dtype)
+    old = np.empty((rows, width), dtype)
+    wind = np.empty((3 * body.controls.size, width), dtype)
+    work = np.empty((18, width), dtype)
+    for block in range(first, last, width):
+        # The last block overlaps the one before, so that all have one width.
+        start = min(block, last - width)
+        kernels.take_lanes(y, batch.x, start)
+        kernels.take_lanes(u, batch.v, start)
+        for step in range(steps):
+            time = batch.numbers[2] + step * substeps * batch.numbers[0]
+            for number in range(batch.gusts.seeds.size):
+                kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
+                pressure = batch.gusts.numbers[number, 16]
+                kernels.add_wind_velocities(
+                    u, y, u, body.faces, wind, pressure, body.inv_mass, dt, work
+                )
+            add_pushes(u, body.inv_mass, batch.numbers, batch.push, dt, start)
+            for substep in range(substeps):
+                drift(y, old, u, body.inv_mass, batch.numbers, substep)
+                turn = step * substeps + substep
+                kernels.place_pins(y, old, body.pins, batch.targets, turn, start)
+                solve(y, plan.constraints, substep)
+                kernels.shorten(y, plan.links)
+            kernels.set_velocities(u, y, old, h)
+        kernels.give_lanes(batch.new_x, y, start)
+        kernels.give_lanes(batch.new_v, u, start)
