@@ -159,7 +159,7 @@ def tell(packs: Packs) -> None:
 
 def draw_exploded(banner: Banner, packs: Packs, settings: Settings) -> Frame:
     """The banner's layers drawn apart along the normal. Raises PackError or BackendError."""
-    from drapery.scenes.exploded import exploded
+    from drapery.scenes.exploded import apart
 
-    (frame,) = _drawn([exploded(banner, packs, settings)], packs, settings)
+    (frame,) = _drawn([apart(banner, packs, settings)], packs, settings)
     return frame

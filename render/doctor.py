@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from drapery.errors import BackendError
 from drapery.render.backends import backend, backend_names
-from drapery.render.gl_platform import INSTALL_GL, INSTALL_PYRENDER
+from drapery.render.gl.platform import INSTALL_GL, INSTALL_PYRENDER
 
 TIMEOUT = 60  # seconds
 DESCRIBE_GL = "from drapery.render.gl import describe; print(describe())"

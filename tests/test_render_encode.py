@@ -12,10 +12,10 @@ import pytest
 from PIL import Image, ImageSequence
 
 from drapery.errors import BackendError, OptionError, OutputError
-from drapery.render.delays import delays
 from drapery.render.encode import save_animation, save_frame
+from drapery.render.encode.delays import delays
+from drapery.render.encode.palette import ColourTable, median_cut, reduced
 from drapery.render.frame import Animation, Frame
-from drapery.render.palette import ColourTable, median_cut, reduced
 
 ANIMATED = ["a.gif", "a.apng", "a.png", "a.webp", "a.mp4", "a.webm", "a.sheet.png", "frames/"]
 LOSSLESS = ["a.apng", "a.png", "a.webp"]

@@ -14,8 +14,9 @@ import pytest
 
 from drapery.errors import BackendError, OptionError
 from drapery.mesh import Mesh, vertex_normals
-from drapery.render import doctor, gl, gl_platform, soft
+from drapery.render import doctor, gl, soft
 from drapery.render.camera import Camera
+from drapery.render.gl import platform as gl_platform
 from drapery.render.light import Light
 from drapery.render.scene import Coat, Look, Model, Scene
 

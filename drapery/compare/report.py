@@ -71,7 +71,7 @@ def html_report(title: str, summary: str, entries: list[Entry]) -> str:
 
 def write_text(path: Path, text: str) -> None:
     """Write a text file whole or not at all. Raises OutputError."""
-    from drapery.render.output import replacing
+    from drapery.render.encode.output import replacing
 
     with replacing(path) as beside:
         beside.write_text(text, encoding="utf-8")

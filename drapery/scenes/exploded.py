@@ -15,7 +15,7 @@ GAP = 0.6
 """Distance between two layers [m]."""
 
 
-def exploded(banner: Banner, packs: Packs, settings: Settings) -> Scene:
+def apart(banner: Banner, packs: Packs, settings: Settings) -> Scene:
     """The layers in a row, the lowest at the back. Raises PackError."""
     cloth, base, *layers = flag_layers(banner, packs)
     # Cloth and base dye are one sheet: nobody sees the cloth alone.

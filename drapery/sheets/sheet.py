@@ -5,8 +5,8 @@ from pathlib import Path
 
 from drapery.render.contact import strip, table
 from drapery.render.encode import check_still_target
+from drapery.render.encode.output import check_writable
 from drapery.render.frame import Frame, Pixels
-from drapery.render.output import check_writable
 
 
 @dataclass(frozen=True, eq=False)

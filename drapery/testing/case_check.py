@@ -8,8 +8,8 @@ from drapery.banner.design import Banner
 from drapery.banner.formats import read_design
 from drapery.banner.packs import open_packs
 from drapery.pictures import draw
+from drapery.render.encode.output import replacing
 from drapery.render.frame import Frame
-from drapery.render.output import replacing
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.explain import LayerNote, explain, layer_notes
 from drapery.testing.failures import keep_failure

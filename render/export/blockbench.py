@@ -14,8 +14,8 @@ from uuid import NAMESPACE_URL, uuid5
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.render.parts import Part, Parts
-from drapery.render.png import png_bytes
+from drapery.render.encode.png import png_bytes
+from drapery.render.export.parts import Part, Parts
 
 UNITS = 16  # per block
 

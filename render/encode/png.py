@@ -13,8 +13,8 @@ from typing import BinaryIO
 
 from PIL import Image
 
-from drapery.render.ahead import encode_ahead
-from drapery.render.changes import Patch, changed_patch, with_previous
+from drapery.render.encode.ahead import encode_ahead
+from drapery.render.encode.changes import Patch, changed_patch, with_previous
 from drapery.render.frame import Frame, Pixels
 
 STILL_LEVEL = 6

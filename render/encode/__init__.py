@@ -21,9 +21,9 @@ from pathlib import Path
 from typing import BinaryIO
 
 from drapery.errors import OptionError
+from drapery.render.encode.output import check_writable, replacing
+from drapery.render.encode.palette import Matte
 from drapery.render.frame import Frame
-from drapery.render.output import check_writable, replacing
-from drapery.render.palette import Matte
 
 Progress = Callable[[int, int | None], None]
 Writer = Callable[[BinaryIO, Iterable[Frame]], None]
@@ -43,7 +43,7 @@ def save_frame(frame: Frame, path: str | Path, *, matte: Matte | None = None) ->
     ending = check_still_target(path)
     with replacing(path) as partial_file, partial_file.open("wb") as file:
         if ending == ".gif":
-            from drapery.render.gif import write_gif
+            from drapery.render.encode.gif import write_gif
 
             write_gif(file, [frame], 1, matte)
         else:
@@ -90,7 +90,7 @@ def check_animation_target(path: str | Path) -> str:
     """
     folder, path = str(path).endswith(("/", "\\")), Path(path)
     if folder or path.is_dir() or not path.suffix:
-        from drapery.render.sequence import check_folder
+        from drapery.render.encode.sequence import check_folder
 
         check_folder(path)
         return "/"
@@ -127,25 +127,25 @@ def _checked(
 
 def _still_bytes(frame: Frame, ending: str) -> bytes:
     if ending == ".webp":
-        from drapery.render.webp import webp_bytes
+        from drapery.render.encode.webp import webp_bytes
 
         return webp_bytes(frame.pixels)
-    from drapery.render.png import png_bytes
+    from drapery.render.encode.png import png_bytes
 
     return png_bytes(frame.pixels)
 
 
 def _write(kind: str, path: Path, frames: Iterator[Frame], fps: float, matte: Matte | None) -> None:
     if kind == "/":
-        from drapery.render.sequence import write_sequence
+        from drapery.render.encode.sequence import write_sequence
 
         write_sequence(path, frames)
     elif kind == ".sheet.png":
-        from drapery.render.sheet import write_sheet
+        from drapery.render.encode.sheet import write_sheet
 
         write_sheet(path, list(frames), fps)
     elif kind in (".mp4", ".webm"):
-        from drapery.render.video import load_av, write_video
+        from drapery.render.encode.video import load_av, write_video
 
         load_av()
         with replacing(path) as unfinished:
@@ -157,13 +157,13 @@ def _write(kind: str, path: Path, frames: Iterator[Frame], fps: float, matte: Ma
 
 def _writer(kind: str, fps: float, matte: Matte | None) -> Writer:
     if kind == ".gif":
-        from drapery.render.gif import write_gif
+        from drapery.render.encode.gif import write_gif
 
         return partial(write_gif, fps=fps, matte=matte)
     if kind == ".webp":
-        from drapery.render.webp import write_webp
+        from drapery.render.encode.webp import write_webp
 
         return partial(write_webp, fps=fps)
-    from drapery.render.png import write_apng
+    from drapery.render.encode.png import write_apng
 
     return partial(write_apng, fps=fps)

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from PIL import GifImagePlugin, Image
 
 from drapery.errors import OptionError
-from drapery.render.ahead import encode_ahead
-from drapery.render.changes import Patch, bounding_box, changed_patch, cut, with_previous
-from drapery.render.delays import delays
+from drapery.render.encode.ahead import encode_ahead
+from drapery.render.encode.changes import Patch, bounding_box, changed_patch, cut, with_previous
+from drapery.render.encode.delays import delays
+from drapery.render.encode.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
 from drapery.render.frame import Frame
-from drapery.render.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
 
 MAX_FPS = 50
 KEEP, CLEAR = 1, 2  # what a viewer does with a frame before it shows the next

@@ -11,9 +11,9 @@ from typing import BinaryIO
 
 from PIL import Image
 
-from drapery.render.ahead import encode_ahead
-from drapery.render.changes import Patch, changed_patch, with_previous
-from drapery.render.delays import delays
+from drapery.render.encode.ahead import encode_ahead
+from drapery.render.encode.changes import Patch, changed_patch, with_previous
+from drapery.render.encode.delays import delays
 from drapery.render.frame import Frame, Pixels
 
 ANIMATED_WITH_ALPHA = 0x12

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from drapery.errors import BackendError, OutputError
-from drapery.render.ahead import encode_ahead
+from drapery.render.encode.ahead import encode_ahead
+from drapery.render.encode.palette import Matte, over_matte
 from drapery.render.frame import Frame, Pixels
-from drapery.render.palette import Matte, over_matte
 
 WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from drapery.errors import OutputError
-from drapery.render.delays import delays
+from drapery.render.encode.delays import delays
+from drapery.render.encode.output import replacing
+from drapery.render.encode.png import png_bytes
 from drapery.render.frame import Frame, Pixels
-from drapery.render.output import replacing
-from drapery.render.png import png_bytes
 
 MAX_SIDE = 16_384  # the largest texture that common graphics hardware takes
 

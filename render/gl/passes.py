@@ -1,4 +1,4 @@
-"""pyrender's renderer, taught ordered coats. Import it only after `gl_platform.load_pyrender`.
+"""pyrender's renderer, taught ordered coats. Import it only after `platform.load_pyrender`.
 
 One primitive draws one coat of every triangle that has it, in the order of the coats; the depth
 test is GL_LEQUAL, so that an upper coat lies on the lower one. All primitives of a mesh share the

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from drapery.render.camera import Camera, view_matrix
 from drapery.render.drawlist import Float32
-from drapery.render.parts import Part, Parts
-from drapery.render.png import png_bytes
+from drapery.render.encode.png import png_bytes
+from drapery.render.export.parts import Part, Parts
 
 Json = dict[str, Any]
 

@@ -1,6 +1,6 @@
 """Pictures by OpenGL, through pyrender: a graphics card where EGL finds one, else Mesa's llvmpipe.
 
-The obstacles of starting it are met in gl_platform, those of drawing in gl_passes. One renderer
+The obstacles of starting it are met in `platform`, those of drawing in `passes`. One renderer
 lives as long as the process, for deleting one ends OpenGL for all; it keeps the topology it drew
 last, so that an animation only uploads positions and light.
 """
@@ -23,7 +23,7 @@ from drapery.render.camera import Matrix, clip_matrix
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
 from drapery.render.flatten import flattened
 from drapery.render.frame import Frame, Pixels
-from drapery.render.gl_platform import load_pyrender, release
+from drapery.render.gl.platform import load_pyrender, release
 from drapery.render.scene import Scene
 from drapery.render.wardrobe import BLEND, CUTOUT, Wardrobe
 
@@ -91,9 +91,9 @@ def _current() -> Iterator[Stage]:
 @cache
 def _stage() -> Stage:
     pyrender, platform = load_pyrender()
-    from drapery.render import gl_passes
+    from drapery.render.gl import passes
 
-    stage = Stage(pyrender, gl_passes, platform, gl_passes.CoatRenderer())
+    stage = Stage(pyrender, passes, platform, passes.CoatRenderer())
     atexit.register(_close, stage)
     return stage
 

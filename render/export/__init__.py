@@ -20,9 +20,9 @@ import numpy as np
 
 from drapery.errors import OptionError
 from drapery.render.encode import check_fps
-from drapery.render.output import check_writable, replacing
-from drapery.render.parts import Part, Parts, take_apart
-from drapery.render.png import png_bytes
+from drapery.render.encode.output import check_writable, replacing
+from drapery.render.encode.png import png_bytes
+from drapery.render.export.parts import Part, Parts, take_apart
 from drapery.render.scene import Scene, Texels
 
 Files = dict[str, bytes]
@@ -68,7 +68,7 @@ def _write(path: Path, files: Files) -> None:
 
 
 def _glb(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
-    from drapery.render.gltf import glb_bytes
+    from drapery.render.export.gltf import glb_bytes
 
     width, height = scene.size
     return {f"{name}.glb": glb_bytes(parts, fps, scene.camera, width / height)}
@@ -117,13 +117,13 @@ def _ply(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
 
 
 def _bbmodel(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
-    from drapery.render.blockbench import bbmodel_text
+    from drapery.render.export.blockbench import bbmodel_text
 
     return {f"{name}.bbmodel": bbmodel_text(parts, name).encode()}
 
 
 def _bedrock(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
-    from drapery.render.blockbench import bedrock_text
+    from drapery.render.export.blockbench import bedrock_text
 
     texture = f"{name}_texture.png"
     return {

@@ -12,10 +12,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from drapery.errors import OutputError
-from drapery.render.ahead import encode_ahead
+from drapery.render.encode.ahead import encode_ahead
+from drapery.render.encode.output import check_writable, explained, partial_path
+from drapery.render.encode.png import FRAME_LEVEL, png_bytes
 from drapery.render.frame import Frame
-from drapery.render.output import check_writable, explained, partial_path
-from drapery.render.png import FRAME_LEVEL, png_bytes
 
 FRAME_NAME = re.compile(r"frame_\d{4,}\.png")
 
