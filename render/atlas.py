@@ -70,7 +70,7 @@ def _grids(
     top = right = 0
     for kind in kinds[::-1]:
         (members,) = np.nonzero((sizes == kind).all(axis=1))
-        columns = min(int(width // kind[0]), len(members))
+        columns = min(-(-width // int(kind[0])), len(members))
         row, column = np.divmod(np.arange(len(members)), columns)
         corners[members, 0] = column * kind[0]
         corners[members, 1] = top + row * kind[1]

@@ -1,6 +1,6 @@
 """How bright a surface is: a factor that multiplies its colour."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,5 +41,31 @@ class Light:
 GAME_LIGHT = Light(((0.2, 1.0, -0.7), (-0.2, 1.0, 0.7)), 0.4, 0.6)
 """The two lights of the game's world."""
 
+GLIMMER = 0.04
+"""What is seen where no light falls at all."""
+
 UNLIT = Light((), 1.0, 0.0)
 """Full brightness everywhere: the plain colours of the texture."""
+
+
+def lit_at(light: Light, block: int, sky: int, daylight: float = 1.0) -> Light:
+    """A light as it is where the world's light has these levels.
+
+    block, sky: light levels 0..15 of torches and of the sky, as the game counts them.
+    daylight: 1 at noon, 0 at night.
+    A level falls off as l / (4 - 3 l) for l = level / 15; torches are warm, a night sky is blue.
+    The levels' two colours add up, to no more than 1, and never to less than a glimmer.
+    """
+    torch, above = (level / 15 / (4 - 3 * level / 15) for level in (block, sky))
+    warm = (torch, torch * (0.64 + 0.36 * torch), torch * (0.4 + 0.6 * torch * torch))
+    night = 0.25 + 0.75 * daylight
+    pale = (
+        above * night * (0.5 + 0.5 * daylight),
+        above * night * (0.6 + 0.4 * daylight),
+        above * night,
+    )
+    red, green, blue = (
+        factor * min(1.0, max(GLIMMER, a + b))
+        for factor, a, b in zip(light.tint, warm, pale, strict=True)
+    )
+    return replace(light, tint=(red, green, blue))

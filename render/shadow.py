@@ -1,0 +1,93 @@
+"""A contact shadow: where things stand on, or hang close over, a floor, it is darker.
+
+The things are drawn from below, four times, each time up to twice as high: what is close to the
+floor is in all four pictures and darkens most. Their average, blurred, is a veil on the floor.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.mesh import Array, Mesh
+from drapery.render.camera import Camera
+from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.soft import draw_scene
+
+RESOLUTION = 16
+"""Texels a metre: those of a block."""
+MAX_TEXELS = 1024
+"""The longest side of a shadow; over wider scenes its texels grow."""
+LIFT = 0.002
+"""A shadow lies this high above its floor [m]."""
+BLURS = 2
+
+
+def contact_shadow(
+    models: Sequence[Model], floor: float, reach: float = 1.0, strength: float = 0.5
+) -> Model:
+    """A veil on the floor at this height [m] under models.
+
+    reach: up to how high above the floor a thing has a shadow [m].
+    strength: how dark it is where all of the reach is filled, 0..1.
+    """
+    points = np.concatenate([model.mesh.positions.reshape(-1, 3) for model in models])
+    low, high = points[:, [0, 2]].min(axis=0), points[:, [0, 2]].max(axis=0)
+    scale = min(RESOLUTION, (MAX_TEXELS - 8) / max(float((high - low).max()), 1e-6))
+    size = np.ceil((high - low) * scale).astype(int) + 8
+    middle = (low + high) / 2
+    heights = reach / 2.0 ** np.arange(4)
+    shares = [_covered(models, floor, height, middle, size, scale) for height in heights]
+    alpha = np.mean(shares, axis=0)
+    for _ in range(BLURS):
+        alpha = _blurred(alpha)
+    texels = np.zeros((*alpha.shape, 4), np.uint8)
+    texels[..., 3] = np.rint(alpha * strength * 255)
+    return Model(
+        _floor(middle, size / scale, floor + LIFT), (Look((Coat(texels),), "blend", False),)
+    )
+
+
+def _covered(
+    models: Sequence[Model],
+    floor: float,
+    height: float,
+    middle: Array,
+    size: NDArray[np.intp],
+    scale: float,
+) -> Array:
+    """Which texels have something above them up to this height, shape [H, W]; 0 or 1."""
+    x, z = (float(at) for at in middle)
+    below = Camera(
+        (x, floor - 1, z),
+        (x, floor, z),
+        up=(0, 0, 1),
+        height=float(size[1] / scale),
+        near=1.0,
+        far=1 + height,
+    )
+    picture = draw_scene(Scene(tuple(models), below, (int(size[0]), int(size[1]))))
+    # From below, with +z at the top, +x is to the right; rows of the texture run along +z.
+    return (picture.pixels[::-1, :, 3] > 0).astype(np.float64)
+
+
+def _blurred(alpha: Array) -> Array:
+    """A weighted mean of each texel and its neighbours, 1 2 1 along both sides."""
+    for axis in (0, 1):
+        padded = np.pad(alpha, [(1, 1) if axis == side else (0, 0) for side in (0, 1)])
+        count = alpha.shape[axis]
+        left, here, right = (
+            padded.take(range(start, start + count), axis=axis) for start in range(3)
+        )
+        alpha = (left + 2 * here + right) / 4
+    return alpha
+
+
+def _floor(middle: Array, extent: Array, height: float) -> Mesh:
+    (x0, z0), (x1, z1) = middle - extent / 2, middle + extent / 2
+    positions = np.array(
+        [(x0, height, z0), (x1, height, z0), (x0, height, z1), (x1, height, z1)], np.float32
+    )
+    normals = np.tile(np.array([0, 1, 0], np.float32), (4, 1))
+    uvs = np.array([(0, 0), (1, 0), (0, 1), (1, 1)], np.float64)
+    return Mesh(positions, normals, np.array([(0, 2, 1), (1, 2, 3)], np.int32), uvs)

@@ -1,0 +1,49 @@
+"""Renderers by name, and those that others add."""
+
+from importlib.metadata import EntryPoint
+
+import numpy as np
+import pytest
+
+from drapery.errors import BackendError
+from drapery.render import backends
+from drapery.render.frame import Frame
+from drapery.render.scene import Scene
+from drapery.render.soft import draw_scene
+
+
+def blank(scene: Scene) -> Frame:
+    return Frame(np.zeros((scene.size[1], scene.size[0], 4), np.uint8))
+
+
+@pytest.fixture
+def added(monkeypatch: pytest.MonkeyPatch) -> None:
+    points = [
+        EntryPoint("blank", f"{__name__}:blank", backends.GROUP),
+        EntryPoint("broken", "no_such_module:draw", backends.GROUP),
+        EntryPoint("soft", "no_such_module:draw", backends.GROUP),
+    ]
+    monkeypatch.setattr(backends, "entry_points", lambda group: points)
+
+
+def test_auto_is_our_own_rasteriser() -> None:
+    assert backends.backend("auto") is backends.backend("soft") is draw_scene
+
+
+def test_an_installed_package_adds_one(added: None) -> None:
+    assert backends.backend("blank") is blank
+    assert backends.backend_names() == ["soft", "pyrender", "blank", "broken"]
+
+
+def test_nobody_takes_the_place_of_ours(added: None) -> None:
+    assert backends.backend("soft") is draw_scene
+
+
+def test_one_that_cannot_be_loaded_says_whose_it_is(added: None) -> None:
+    with pytest.raises(BackendError, match="'broken' of no_such_module:draw cannot be loaded"):
+        backends.backend("broken")
+
+
+def test_a_name_that_is_none() -> None:
+    with pytest.raises(BackendError, match="'vulkan' is not known; use one of: auto, soft, pyr"):
+        backends.backend("vulkan")
