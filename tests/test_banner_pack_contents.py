@@ -15,8 +15,8 @@ from pack_maker import (
 )
 
 from drapery.banner.design import Banner, Layer
-from drapery.banner.pack_contents import describe_packs
 from drapery.banner.packs import open_packs
+from drapery.banner.packs.contents import describe_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 from pack_maker import BANNER, CREEPER, folder_pack, mcmeta, plain, zip_pack
 
-from drapery.banner.pack_checks import MAX_FILES
-from drapery.banner.packs import MAX_PNG, open_packs
+from drapery.banner.packs.checks import MAX_FILES
+from drapery.banner.packs.stack import MAX_PNG, open_packs
 from drapery.errors import PackError
 
 SOUND = {"pack.mcmeta": mcmeta(), CREEPER: plain(1, 0, 0, 255)}

@@ -8,7 +8,7 @@ import pytest
 from pack_maker import noise, png
 from PIL import Image
 
-from drapery.banner.png import MAX_SIDE, png_size, read_png
+from drapery.banner.packs.png import MAX_SIDE, png_size, read_png
 from drapery.errors import PackError
 
 GREY, GREY_ALPHA, COLOUR, PALETTE, COLOUR_ALPHA = 0, 4, 2, 3, 6

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
-from drapery.banner.png import Texels
+from drapery.banner.packs.png import Texels
 
 Tint = tuple[int, int, int]
 Tinted = tuple[Texels, Tint]

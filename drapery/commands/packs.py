@@ -8,7 +8,7 @@ import typer
 from drapery.commands import options as o
 
 if TYPE_CHECKING:
-    from drapery.banner.pack_contents import PackReport
+    from drapery.banner.packs.contents import PackReport
 
 
 def run(
@@ -27,8 +27,8 @@ def run(
     format: o.FormatOption = None,
 ) -> None:
     """Say what packs have, lack and override; exit code 1 if something in them is broken."""
-    from drapery.banner.pack_contents import describe_packs
     from drapery.banner.packs import open_packs
+    from drapery.banner.packs.contents import describe_packs
     from drapery.settings import Settings
     from drapery.sheets.faces import contents_sheet
     from drapery.sheets.sheet import check_sheet_target

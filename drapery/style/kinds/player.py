@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from drapery.banner.names import shown
-from drapery.banner.pack_checks import reason
-from drapery.banner.packs import MAX_PNG
-from drapery.banner.png import Texels, read_png
+from drapery.banner.packs.checks import reason
+from drapery.banner.packs.png import Texels, read_png
+from drapery.banner.packs.stack import MAX_PNG
 from drapery.errors import OptionError
 from drapery.settings import Settings
 

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from drapery.banner.pack_filters import Filter, parse_filter
+from drapery.banner.packs.filters import Filter, parse_filter
 from drapery.errors import PackError
 
 Format = tuple[float, float]

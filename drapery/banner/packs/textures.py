@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from drapery.banner.pack_meta import read_json
-from drapery.banner.png import Texels
+from drapery.banner.packs.meta import read_json
+from drapery.banner.packs.png import Texels
 from drapery.errors import PackError
 
 TICKS_PER_SECOND = 20

@@ -9,14 +9,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from drapery.banner.pack import Pack, added_patterns, open_pack
-from drapery.banner.pack_folders import OwnArt
-from drapery.banner.pack_meta import MAX_JSON, read_json
-from drapery.banner.patterns import PATTERN_NAMES
-from drapery.banner.png import Texels, read_png
-from drapery.banner.sprite_sources import Directory, SpriteSource, parse_atlas, textures_of
-from drapery.banner.texture_ids import full_id, is_id, split_id, texture_file
-from drapery.banner.textures import (
+from drapery.banner.packs.folders import OwnArt
+from drapery.banner.packs.meta import MAX_JSON, read_json
+from drapery.banner.packs.pack import Pack, added_patterns, open_pack
+from drapery.banner.packs.png import Texels, read_png
+from drapery.banner.packs.sprite_sources import Directory, SpriteSource, parse_atlas, textures_of
+from drapery.banner.packs.texture_ids import full_id, is_id, split_id, texture_file
+from drapery.banner.packs.textures import (
     Texture,
     animated,
     check_sheet,
@@ -25,6 +24,7 @@ from drapery.banner.textures import (
     is_mask,
     looks_like_mask,
 )
+from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
 
 Kind = Literal["banner", "shield"]

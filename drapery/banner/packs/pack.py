@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from drapery.banner.pack_meta import MAX_JSON, PackMeta, parse_meta, parse_version
-from drapery.banner.pack_sources import Source, open_source
+from drapery.banner.packs.meta import MAX_JSON, PackMeta, parse_meta, parse_version
+from drapery.banner.packs.sources import Source, open_source
+from drapery.banner.packs.texture_ids import is_id
 from drapery.banner.patterns import PATTERN_NAMES
-from drapery.banner.texture_ids import is_id
 
 
 @dataclass(frozen=True, eq=False)

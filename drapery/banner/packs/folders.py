@@ -7,7 +7,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
-from drapery.banner.pack_checks import LITTER, MAX_FILES, ROOTS, listed, reason, within
+from drapery.banner.packs.checks import LITTER, MAX_FILES, ROOTS, listed, reason, within
 from drapery.errors import PackError
 
 

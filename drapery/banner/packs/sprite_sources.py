@@ -8,9 +8,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from drapery.banner.pack_filters import Filter, parse_filter
-from drapery.banner.pack_meta import read_json
-from drapery.banner.texture_ids import full_id, split_id
+from drapery.banner.packs.filters import Filter, parse_filter
+from drapery.banner.packs.meta import read_json
+from drapery.banner.packs.texture_ids import full_id, split_id
 from drapery.errors import PackError
 
 _MAX_SOURCES = 4096

@@ -7,9 +7,9 @@ handed on. Names are those of the pack's root: `assets/minecraft/textures/…`, 
 from pathlib import Path
 from typing import Protocol
 
-from drapery.banner.pack_checks import reason
-from drapery.banner.pack_folders import open_folder
-from drapery.banner.pack_zips import open_zip
+from drapery.banner.packs.checks import reason
+from drapery.banner.packs.folders import open_folder
+from drapery.banner.packs.zips import open_zip
 from drapery.errors import PackError
 
 

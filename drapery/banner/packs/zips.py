@@ -8,7 +8,7 @@ from pathlib import Path
 from stat import S_ISLNK
 from typing import TYPE_CHECKING
 
-from drapery.banner.pack_checks import LITTER, MAX_FILES, ROOTS, listed, reason, within
+from drapery.banner.packs.checks import LITTER, MAX_FILES, ROOTS, listed, reason, within
 from drapery.errors import PackError
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.banner.pack import Pack, added_patterns
-from drapery.banner.packs import Base, Kind, Packs, open_packs
+from drapery.banner.packs.pack import Pack, added_patterns
+from drapery.banner.packs.stack import Base, Kind, Packs, open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
 
