@@ -42,6 +42,7 @@ class Options(TypedDict, total=False):
     time: float
     seed: int
     layers: LayerMode
+    pbr: bool
     thickness: float
     background: str
     backend: str
@@ -66,6 +67,8 @@ class Settings:
     time: how long the cloth has hung in the wind when the picture is taken [s].
     seed: which gusts blow.
     layers: `stacked` quads, as in the game, or one `flat` composite.
+    pbr: whether the packs' LabPBR maps count. `soft` lights every texel by its own normal,
+        `pyrender` by roughness, metal and glow as well.
     thickness: of the cloth, in texels of the flag (1/24 m); 0 is a bare sheet.
     background: `transparent` or `#rrggbb`.
     backend: `auto`, `soft`, `pyrender`, or one that an installed package adds.
@@ -86,6 +89,7 @@ class Settings:
     time: float = 3.0
     seed: int = 0
     layers: LayerMode = "stacked"
+    pbr: bool = False
     thickness: float = 1.0
     background: str = "transparent"
     backend: str = "auto"
@@ -99,6 +103,8 @@ class Settings:
         one_of("placement", self.placement, get_args(Placement))
         self._check_turn()
         one_of("layers", self.layers, get_args(LayerMode))
+        if self.pbr and self.layers == "flat":
+            raise OptionError("pbr needs each layer's own maps; use layers stacked")
         for side, pixels in zip(("width", "height"), self.size, strict=True):
             within(f"size ({side})", pixels, 1, MAX_SIDE, "pixels")
         for side, count in zip(("columns", "rows"), self.grid, strict=True):

@@ -22,10 +22,13 @@ class Coat:
 
     A texel becomes round(texel * tint / 255) per channel and is laid over what is below by its
     8-bit alpha a: round((a * src + (255 - a) * dst) / 255).
+    normal, specular: LabPBR maps of the same sheet, of any size; None is a smooth, dull surface.
     """
 
     texels: Texels
     tint: tuple[int, int, int] = (255, 255, 255)
+    normal: Texels | None = None
+    specular: Texels | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,6 +20,7 @@ from drapery.render.drawlist import Float32, Topology, topology
 from drapery.render.flatten import flattened
 from drapery.render.frame import Frame
 from drapery.render.project import BROKEN, NEAREST, VERTEX, project
+from drapery.render.relief import relieved
 from drapery.render.scene import Scene
 from drapery.render.tiles import draw_tiles
 from drapery.render.wardrobe import BLEND, Wardrobe
@@ -64,6 +65,7 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
 
     Raises OptionError for sizes, textures or meshes that cannot be drawn.
     """
+    scene = relieved(scene)
     grid = _grid(scene)
     workers = threads or worker_count()
     constant = topology(scene.models)

@@ -41,6 +41,7 @@ def run(
     time: o.TimeOption = 3.0,
     seed: o.SeedOption = 0,
     layers: o.LayersOption = "stacked",
+    pbr: o.PbrOption = False,
     thickness: o.ThicknessOption = 1.0,
     background: o.BackgroundOption = "transparent",
     backend: o.BackendOption = "auto",

@@ -76,6 +76,9 @@ WindOption = Annotated[float, typer.Option(help="Mean wind speed in m/s.")]
 TimeOption = Annotated[float, typer.Option(help="Seconds the cloth has hung in the wind.")]
 SeedOption = Annotated[int, typer.Option(help="Which gusts blow.")]
 LayersOption = Annotated[str, typer.Option(help="stacked (as in the game) or flat (composited).")]
+PbrOption = Annotated[
+    bool, typer.Option("--pbr", help="Light by the packs' LabPBR maps (_n and _s).")
+]
 ThicknessOption = Annotated[float, typer.Option(help="Thickness of the cloth in texels.")]
 BackgroundOption = Annotated[str, typer.Option(help="transparent or #rrggbb.")]
 BackendOption = Annotated[str, typer.Option(help="auto, soft or pyrender.")]

@@ -11,7 +11,9 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import WHITE, Tinted, composite, flag_layers, shield_layers
 from drapery.render.scene import Coat, Look
+from drapery.settings import Settings
 from drapery.style.body import Dress
+from drapery.style.maps import Maps, design_maps
 
 LayerMode = Literal["stacked", "flat"]
 
@@ -29,24 +31,28 @@ def wood_look(packs: Packs) -> Look:
     return Look((Coat(packs.base_sheet()),))
 
 
-def flag_dress(banner: Banner, packs: Packs, mode: LayerMode) -> Dress:
+def flag_dress(banner: Banner, packs: Packs, settings: Settings) -> Dress:
     """What the flag wears at a time. Raises PackError where a texture cannot be used."""
-    return _dress(lambda time: flag_layers(banner, packs, time), mode)
+    maps = design_maps(banner, packs, "banner") if settings.pbr else ()
+    return _dress(lambda time: flag_layers(banner, packs, time), settings.layers, maps)
 
 
-def wood_dress(packs: Packs) -> Dress:
+def wood_dress(packs: Packs, settings: Settings) -> Dress:
     """What pole and bar wear at a time. Raises PackError."""
-    return _dress(lambda time: ((packs.base_sheet(time), WHITE),))
+    maps = design_maps(Banner(), packs, "banner")[:1] if settings.pbr else ()
+    return _dress(lambda time: ((packs.base_sheet(time), WHITE),), "stacked", maps)
 
 
-def plate_dress(banner: Banner | None, packs: Packs, mode: LayerMode) -> Dress:
+def plate_dress(design: Banner | None, packs: Packs, settings: Settings) -> Dress:
     """What a shield's plate wears; None is the shield without a design. Raises PackError."""
-    return _dress(lambda time: shield_layers(banner, packs, time), mode)
+    maps = design_maps(design, packs, "shield") if settings.pbr else ()
+    return _dress(lambda time: shield_layers(design, packs, time), settings.layers, maps)
 
 
-def handle_dress(banner: Banner | None, packs: Packs) -> Dress:
+def handle_dress(design: Banner | None, packs: Packs, settings: Settings) -> Dress:
     """What a shield's handle wears: the lowest sheet alone, as in the game. Raises PackError."""
-    return _dress(lambda time: shield_layers(banner, packs, time)[:1])
+    maps = design_maps(design, packs, "shield")[:1] if settings.pbr else ()
+    return _dress(lambda time: shield_layers(design, packs, time)[:1], "stacked", maps)
 
 
 def textures_period(
@@ -57,7 +63,9 @@ def textures_period(
     return max((packs.period(name, kind) for name in names), default=0.0)
 
 
-def _dress(layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode = "stacked") -> Dress:
+def _dress(
+    layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode, maps: tuple[Maps, ...] = ()
+) -> Dress:
     # The renderer knows what it has prepared by identity, so the same textures are the same look.
     known: dict[tuple[int, ...], tuple[tuple[Tinted, ...], Look]] = {}
 
@@ -65,13 +73,14 @@ def _dress(layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode = "sta
         worn = layers(time)
         key = tuple(id(texels) for texels, _ in worn)
         if key not in known:
-            known[key] = worn, _look(worn, mode)
+            known[key] = worn, _look(worn, mode, maps)
         return known[key][1]
 
     return at
 
 
-def _look(layers: tuple[Tinted, ...], mode: LayerMode) -> Look:
+def _look(layers: tuple[Tinted, ...], mode: LayerMode, maps: tuple[Maps, ...] = ()) -> Look:
     if mode == "flat":
         return Look((Coat(composite(layers)),))
-    return Look(tuple(Coat(texels, tint) for texels, tint in layers))
+    beside = maps or (Maps(),) * len(layers)
+    return Look(tuple(Coat(*layer, *found) for layer, found in zip(layers, beside, strict=True)))

@@ -37,9 +37,9 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
         "top",
         lambda phase, thickness: stiff_flag(placement, phase, thickness),
         SWAY_PERIOD,
-        flag_dress(banner, packs, settings.layers),
+        flag_dress(banner, packs, settings),
     )
-    frame = Part(wood(placement), wood_dress(packs))
+    frame = Part(wood(placement), wood_dress(packs, settings))
     return Body((frame,), (flag,), textures_period(banner, packs, "banner"))
 
 
@@ -47,8 +47,8 @@ def _item(banner: Banner, packs: Packs, settings: Settings) -> Body:
     """As the game lays it into the inventory: stiff, at phase 0 of its sway."""
     flag = stiff_flag("standing", 0.0, settings.thickness)
     parts = (
-        Part(in_slot(wood("standing"), BANNER_POSE), wood_dress(packs)),
-        Part(in_slot(flag, BANNER_POSE), flag_dress(banner, packs, settings.layers)),
+        Part(in_slot(wood("standing"), BANNER_POSE), wood_dress(packs, settings)),
+        Part(in_slot(flag, BANNER_POSE), flag_dress(banner, packs, settings)),
     )
     period = textures_period(banner, packs, "banner")
     return Body(parts, (), period, SLOT_LIGHT, slot_camera(settings.size))

@@ -23,7 +23,7 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
 
     Raises PackError.
     """
-    worn = (plate_dress(design, packs, settings.layers), handle_dress(design, packs))
+    worn = (plate_dress(design, packs, settings), handle_dress(design, packs, settings))
     period = textures_period(design, packs, "shield")
     if settings.placement == "item":
         plate, handle = (in_slot(_hung(box, (0, 0, 0)), SHIELD_POSE) for box in (_PLATE, _HANDLE))

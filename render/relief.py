@@ -1,0 +1,234 @@
+"""Normal maps: every texel is lit by a normal of its own, before anything is drawn.
+
+Textures are sampled to the nearest texel, so light worked out once a texel is all that a picture
+can show of a normal map, and every backend draws it alike. A texel's place on the surface is that
+of its middle in texture space: the mesh is laid out flat by its UVs, as in Heckbert, "Survey of
+texture mapping" (1986); its normal there, bent by the map, meets the scene's light. Each part of
+a sheet is worn once by a mesh; where triangles share texels, the last of them lights these.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.mesh import Array, Mesh, Triangles
+from drapery.render.flatten import lay_over
+from drapery.render.light import Light
+from drapery.render.recent import Recent
+from drapery.render.scene import Coat, Look, Model, Scene, Texels
+
+SLACK = 1e-9
+"""A texel's middle on a triangle's edge belongs to it, whichever way its corners were rounded."""
+
+
+def relieved(scene: Scene) -> Scene:
+    """The scene with the light of surfaces that have normal maps in their textures.
+
+    A scene without such maps is returned as it is.
+    """
+    if not any(_has_relief(look) for model in scene.models for look in model.looks):
+        return scene
+    return replace(scene, models=tuple(_relieved(model, scene.light) for model in scene.models))
+
+
+def _has_relief(look: Look) -> bool:
+    return look.lit and any(coat.normal is not None for coat in look.coats)
+
+
+def _relieved(model: Model, light: Light) -> Model:
+    if not any(map(_has_relief, model.looks)):
+        return model
+    mesh = model.mesh
+    if mesh.positions.ndim == 2:
+        return replace(model, looks=tuple(_lit(look, mesh, light) for look in model.looks))
+    members = [
+        replace(mesh, positions=positions, normals=normals)
+        for positions, normals in zip(mesh.positions, mesh.normals, strict=True)
+    ]
+    index = np.zeros(len(members), np.int32) if model.look_index is None else model.look_index
+    looks = tuple(
+        _lit(model.looks[place], member, light)
+        for place, member in zip(index, members, strict=True)
+    )
+    return Model(mesh, looks, np.arange(len(members), dtype=np.int32))
+
+
+def _lit(look: Look, mesh: Mesh, light: Light) -> Look:
+    if not _has_relief(look):
+        return look
+    relief = _reliefs.get((look,), None, lambda: _relief(look))
+    layout = _layouts.get(
+        (mesh.triangles, mesh.uvs),
+        relief.bends.shape,
+        lambda: _layout(mesh.triangles, mesh.uvs, relief.bends.shape[:2]),
+    )
+    factors = np.ones(relief.bends.shape, np.float32)
+    factors[layout.rows, layout.columns] = _light(relief, layout, mesh, light)
+    texels = relief.texels.copy()
+    texels[..., :3] = texels[..., :3] * factors + np.float32(0.5)
+    return Look((Coat(texels),), look.alpha, lit=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Relief:
+    """A look's coats as one.
+
+    texels: tinted, shape [H, W, 4]. bends: the normal's x (to the right on the sheet), y (down)
+    and z (out of it), shape [H, W, 3]. open: how much of the ambient light comes in, shape [H, W].
+    """
+
+    texels: Texels
+    bends: Array
+    open: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Which texels a mesh wears.
+
+    rows, columns: of K texels. triangle: on which their middles lie, shape [K]. weights: of its
+    corners there, shape [K, 3]. inverse: UV edges to texture axes, shape [T, 2, 2].
+    """
+
+    rows: NDArray[np.intp]
+    columns: NDArray[np.intp]
+    triangle: NDArray[np.int32]
+    weights: Array
+    inverse: Array
+
+
+_reliefs: Recent[Relief] = Recent(16)
+_layouts: Recent[Layout] = Recent(16)
+
+
+def _relief(look: Look) -> Relief:
+    """The coats over one another. A coat without a map leaves the relief below as it is."""
+    maps = [coat.normal for coat in look.coats if coat.normal is not None]
+    sizes = np.array([t.shape[:2] for t in [*(coat.texels for coat in look.coats), *maps]])
+    height, width = sizes.max(axis=0)
+    texels = _tinted(look.coats[0], (height, width))
+    if look.alpha == "opaque":
+        texels[..., 3] = 255
+    values = np.zeros((height, width, 4), np.float32)
+    values[..., 2:] = 1.0
+    for number, coat in enumerate(look.coats):
+        top = _tinted(coat, (height, width))
+        if number:
+            texels = lay_over(top, texels)
+        if coat.normal is not None:
+            share = top[..., 3:] / np.float32(255) if number else np.float32(1)
+            values += share * (_decoded(_sized(coat.normal, (height, width))) - values)
+    return Relief(texels, _unit(values[..., :3]), values[..., 3])
+
+
+def _decoded(texels: Texels) -> Array:
+    """LabPBR's normal map as x, y, z and openness, shape [H, W, 4].
+
+    Red and green are x and y, 128 is none, and green points down the sheet; blue is how open the
+    texel is to ambient light (shaderLABS, "LabPBR material standard" 1.3).
+    """
+    xy = np.maximum((texels[..., :2].astype(np.float32) - 128) / 127, -1)
+    z = np.sqrt(np.maximum(1 - (xy * xy).sum(axis=-1, keepdims=True), 0))
+    return np.concatenate([xy, z, texels[..., 2:3] / np.float32(255)], axis=-1)
+
+
+def _tinted(coat: Coat, size: tuple[int, int]) -> Texels:
+    texels = _sized(coat.texels, size)
+    tint = np.array(coat.tint, np.uint16)
+    texels[..., :3] = (texels[..., :3] * tint + 127) // 255
+    return texels
+
+
+def _sized(texels: Texels, size: tuple[int, int]) -> Texels:
+    """A copy at another size, by nearest sampling at the new texels' middles."""
+    rows, columns = (
+        (2 * np.arange(new) + 1) * old // (2 * new)
+        for new, old in zip(size, texels.shape[:2], strict=True)
+    )
+    return texels[rows[:, None], columns]
+
+
+def _layout(triangles: Triangles, uvs: Array, size: tuple[int, int]) -> Layout:
+    height, width = size
+    # Texel (i, j) has its middle at the whole number (i, j).
+    corners = (uvs.astype(np.float64) * (width, height) - 0.5)[triangles]
+    of_texel = np.full((height, width), -1, np.int32)
+    weights = np.zeros((height, width, 3))
+    for number, triangle in enumerate(corners):
+        low = np.maximum(np.ceil(triangle.min(axis=0) - SLACK), 0).astype(int)
+        high = np.minimum(np.floor(triangle.max(axis=0) + SLACK), (width - 1, height - 1))
+        window = tuple(slice(a, int(b) + 1) for a, b in zip(low[::-1], high[::-1], strict=True))
+        found, inside = _within(triangle, low, of_texel[window].shape)
+        of_texel[window][inside] = number
+        weights[window][inside] = found[inside]
+    _spread(of_texel, weights)
+    rows, columns = np.nonzero(of_texel >= 0)
+    worn = of_texel[rows, columns]
+    return Layout(rows, columns, worn, weights[rows, columns], _inverse(uvs[triangles]))
+
+
+def _within(
+    triangle: Array, low: NDArray[np.int64], shape: tuple[int, ...]
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Weights of a triangle's corners [3, 2] at the whole points from `low`; which are inside."""
+    a, b, c = triangle
+    area = _cross(b - a, c - a)
+    rows, columns = np.indices(shape)
+    points = np.stack([columns + low[0], rows + low[1]], axis=-1)
+    if area == 0:
+        return np.zeros((*shape, 3)), np.zeros(shape, np.bool_)
+    parts = [_cross(q - p, points - p) / area for p, q in ((b, c), (c, a), (a, b))]
+    weights = np.stack(parts, axis=-1)
+    return weights, (weights >= -SLACK).all(axis=-1)
+
+
+def _spread(of_texel: NDArray[np.int32], weights: Array) -> None:
+    """Texels that a mesh only touches, its edge before their middle, are lit as a neighbour is."""
+    for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
+        beside = np.roll(of_texel, step, axis)
+        edge = np.zeros(of_texel.shape, np.bool_)
+        edge[tuple(slice(None) if k != axis else (0 if step > 0 else -1) for k in (0, 1))] = True
+        fill = (of_texel < 0) & (beside >= 0) & ~edge
+        weights[fill] = np.roll(weights, step, axis)[fill]
+        of_texel[fill] = beside[fill]
+
+
+def _inverse(corners: Array) -> Array:
+    """What makes texture axes of a triangle's edges: the inverse of its UV edges, [T, 2, 2]."""
+    (a, b), (c, d) = np.moveaxis(corners[:, 1:] - corners[:, :1], 0, -1)
+    area = a * d - b * c
+    sound = np.where(area == 0, 1, area)
+    inverse = np.stack([np.stack([d, -b], axis=-1), np.stack([-c, a], axis=-1)], axis=-2)
+    return inverse / sound[:, None, None]
+
+
+def _light(relief: Relief, layout: Layout, mesh: Mesh, light: Light) -> Array:
+    """The factors for red, green and blue at each texel worn, shape [K, 3]."""
+    used = mesh.triangles[layout.triangle]
+    normals = _unit(np.sum(mesh.normals[used] * layout.weights[..., None], axis=1))
+    edges = mesh.positions[mesh.triangles[:, 1:]] - mesh.positions[mesh.triangles[:, :1]]
+    # dP/du and dP/dv, shape [T, 2, 3], then square to the normal, shape [K, 3] each.
+    axes = np.sum(layout.inverse[..., None] * edges[:, None], axis=2)[layout.triangle]
+    right = _unit(axes[:, 0] - normals * np.sum(normals * axes[:, 0], axis=1, keepdims=True))
+    down = np.cross(normals, right)
+    down *= np.where(np.sum(down * axes[:, 1], axis=1, keepdims=True) < 0, -1, 1)
+    x, y, z = np.moveaxis(relief.bends[layout.rows, layout.columns], -1, 0)[..., None]
+    bent = _unit(x * right + y * down + z * normals)
+    openness = relief.open[layout.rows, layout.columns]
+    total = openness * light.ambient
+    for unit in light.unit_directions():
+        total = total + light.diffuse * np.maximum(np.sum(bent * unit, axis=1), 0)
+    factors: Array = np.minimum(total, 1)[:, None] * np.array(light.tint)
+    return factors.astype(np.float32)
+
+
+def _cross(a: Array, b: Array) -> Array:
+    cross: Array = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return cross
+
+
+def _unit(vectors: Array) -> Array:
+    lengths = np.sqrt(np.sum(vectors * vectors, axis=-1, keepdims=True))
+    unit: Array = vectors / np.where(lengths == 0, 1, lengths)
+    return unit
