@@ -53,6 +53,8 @@ def write_rotations(
     ctx: typer.Context,
     out: SheetOption,
     design: o.OptionalDesign = None,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
     pack: o.PackOption = None,
     format: o.FormatOption = None,
     kind: o.KindOption = "auto",
@@ -77,7 +79,7 @@ def write_rotations(
     settings = Settings(**o.options_of(ctx.params))
     check_sheet_target(out)
     with compile_notice():
-        rotations_sheet(o.design_of(design), settings).save(out)
+        rotations_sheet(o.design_of(ctx.params), settings).save(out)
 
 
 @app.command("packs")
