@@ -5,16 +5,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
+from drapery.banner.packs import Packs, open_packs
 from drapery.cloth import Cloth, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.mesh import Array
-from drapery.render.scene import Model, Scene
+from drapery.render.camera import Camera
+from drapery.render.scene import Look, Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
 from drapery.scenes.motion import motion, placed
-from drapery.style.extrusion import make_shell
+from drapery.style.extrusion import Shell, make_shell
 from drapery.style.figure import CAPE_SIZE, CAPE_SKIN, TEXEL, figure_look, figure_mesh
 from drapery.style.garment import dyed, garment
 from drapery.style.stage import SKY, moved, path_ground, shadow
@@ -44,18 +45,41 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     """The figure walks in place; the causeway passes below."""
     packs = open_packs(())
     gait, cloth = Gait(parameters.speed), cape_cloth(parameters.grid)
-    shell = make_shell(cloth.triangles, cloth.uvs, CAPE_SKIN)
-    wool = dyed(packs.texture("entity/player/cape"), parameters.dye)
-    skin, ground = figure_look(parameters.skin, packs), path_ground(24, PERIOD, packs)
-    camera = frame_points(BEHIND, _room(), shot.size[0] / shot.size[1], margin=0.1)
+    shell, wool = cape_shell(cloth), dyed(packs.texture("entity/player/cape"), parameters.dye)
+    skin, causeway = figure_look(parameters.skin, packs), ground(packs)
     for state in walk(parameters, cloth, gait, shot):
         models = (
-            *moved(ground, np.array([0, 0, -(gait.speed * state.time) % -PERIOD])),
-            shadow((0, 0), 0.5),
-            Model(figure_mesh(gait.poses(state.time)), (skin,)),
-            garment(shell, state.positions[0], parameters.thickness * TEXEL, wool),
+            *walker(gait, state.time, skin, causeway),
+            worn(shell, state, parameters.thickness, wool),
         )
-        yield Scene(models, camera, shot.size, background=SKY, samples=4)
+        yield Scene(models, camera(shot.size), shot.size, background=SKY, samples=4)
+
+
+def worn(shell: Shell, state: State, thickness: float, wool: Look) -> Model:
+    """The cape of a state; its thickness in texels."""
+    return garment(shell, state.positions[0], thickness * TEXEL, wool)
+
+
+def walker(gait: Gait, time: float, skin: Look, causeway: tuple[Model, ...]) -> tuple[Model, ...]:
+    """The figure at a time of its walk, over ground that passes below."""
+    passed = np.array([0.0, 0.0, -(gait.speed * time % PERIOD)])
+    figure = Model(figure_mesh(gait.poses(time)), (skin,))
+    return (*moved(causeway, passed), shadow((0, 0), 0.5), figure)
+
+
+def ground(packs: Packs) -> tuple[Model, ...]:
+    """What a figure walks on."""
+    return path_ground(24, PERIOD, packs)
+
+
+def cape_shell(cloth: Cloth) -> Shell:
+    """How a thick cape follows the cloth."""
+    return make_shell(cloth.triangles, cloth.uvs, CAPE_SKIN)
+
+
+def camera(size: tuple[int, int]) -> Camera:
+    """From behind, for figures that walk."""
+    return frame_points(BEHIND, _room(), size[0] / size[1], margin=0.1)
 
 
 def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterator[State]:

@@ -65,7 +65,8 @@ def _texture(kind: str, up: int) -> str:
 
 
 def _corners(start: Array, right: Array, down: Array) -> Array:
-    return start + np.stack([0 * right, right, down, right + down]).astype(float)
+    corners: Array = start + np.stack([0 * right, right, down, right + down]).astype(float)
+    return corners
 
 
 def _quads(sides: list[tuple[Array, Array]]) -> Mesh:

@@ -45,7 +45,8 @@ class Part:
 
 def to_metres(texels: Array) -> Array:
     """A place in the model [texels, y down, z back] in the world [m, y up, z to the front]."""
-    return texels * np.array([TEXEL, -TEXEL, -TEXEL])
+    metres: Array = texels * np.array([TEXEL, -TEXEL, -TEXEL])
+    return metres
 
 
 PARTS: dict[str, Part] = {

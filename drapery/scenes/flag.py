@@ -1,0 +1,115 @@
+"""A flag on a tower, seen from afar: few bend points are enough for much wind."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.banner.packs import Packs, open_packs
+from drapery.cloth import Cloth, Drag, Gravity, State, Wind, grid
+from drapery.cloth.colliders import rotation_about
+from drapery.render.camera import Camera
+from drapery.render.scene import Model, Scene
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.flags import flag_looks, flag_shell
+from drapery.scenes.motion import motion, placed
+from drapery.style.block import FLAG_SIZE, SCALE
+from drapery.style.blocks import Cell, blocks
+from drapery.style.boxes import Box, box_mesh, upright
+from drapery.style.garment import garment
+from drapery.style.layers import wood_look
+from drapery.style.stage import SKY
+
+LOOP = 4.0
+GROWN = 2.2
+"""The flag is a banner so much larger, its top edge at the pole."""
+TOWER, POLE = 5, 6.0
+"""Height of the tower [blocks] and of the pole on it [m]."""
+BUNTING = (10.0, 4.0, 0.6)
+"""Stiffness of the flag's springs [N/m]: it must not crumple at its end."""
+FRICTION = 1.8
+"""How readily the air along the flag takes it with it [1/s]: wind alone presses only on faces."""
+FOOT = np.array([0.0, TOWER + 1.0, 0.0])
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """design: of a banner that lies on its side. wind: [m/s]. grid: across and along the flag."""
+
+    design: str = "white stripe_left:red stripe_right:red rhombus:yellow circle:red"
+    wind: float = 9.0
+    grid: tuple[int, int] = (4, 7)
+    thickness: float = 1.0
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """The tower on its hill; only the flag moves."""
+    packs = open_packs(())
+    cloth = banner_on_its_side(parameters.grid)
+    shell, looks = flag_shell(cloth), flag_looks((parameters.design,), packs)
+    still = (*blocks(_hill(), packs), _pole(packs))
+    for state in flown(parameters, cloth, shot):
+        sheet = state.positions[0]
+        flag = garment(shell, sheet, parameters.thickness * SCALE * GROWN, *looks)
+        yield Scene((*still, flag), _camera(), shot.size, background=SKY, samples=4)
+
+
+def banner_on_its_side(shape: tuple[int, int]) -> Cloth:
+    """The flag, its hoist along the top of the pole."""
+    width, height = FLAG_SIZE
+    cloth = grid(*shape, width * GROWN, height * GROWN, stiffness=BUNTING)
+    top = FOOT + np.array([0.1, POLE - 0.1 - width * GROWN / 2, 0.0])
+    return placed(cloth, top, rotation_about((0, 0, 1), 90))
+
+
+def flown(parameters: Parameters, cloth: Cloth, shot: Shot) -> Iterator[State]:
+    """The flag at each frame, in a wind from the left."""
+    velocity = (0.97 * parameters.wind, 0.0, 0.24 * parameters.wind)
+    wind = Wind(velocity, gusts=0.7, gust_size=2.5, seed=parameters.seed, period=LOOP)
+    # Friction in moving air, rate (wind - v), is a steady push and drag in still air.
+    push = Gravity((FRICTION * velocity[0], 0.0, FRICTION * velocity[2]))
+    forces = (Gravity(), wind, push, Drag(FRICTION))
+    return motion(cloth, shot, forces=forces, settle=LOOP)
+
+
+def _pole(packs: Packs) -> Model:
+    """A banner's own pole, longer and thicker."""
+    pole = box_mesh(Box((-1, -42, -1), (2, 42, 2), (44, 0)))
+    standing = upright(pole, POLE / 42, (FOOT[0], FOOT[1], FOOT[2]))
+    return Model(standing, (wood_look(packs),))
+
+
+def _hill() -> dict[Cell, str]:
+    cells: dict[Cell, str] = {}
+    for x in range(-9, 9):
+        for z in range(-9, 9):
+            radius = max(2.0, np.hypot(x + 0.5, z + 0.5) + 0.7 * ((x * 7 + z * 5) % 3 - 1))
+            height = min(0, 1 - int(radius // 3.4))
+            for y in range(-3, height - 1):
+                cells[x, y, z] = "dirt"
+            if height > -3:
+                cells[x, height - 1, z] = "grass"
+    cells.update(_tower())
+    return cells
+
+
+def _tower() -> dict[Cell, str]:
+    """A keep with battlements; older stone shows here and there."""
+    cells: dict[Cell, str] = {}
+    for x in range(-2, 2):
+        for z in range(-2, 2):
+            for y in range(TOWER + 1):
+                old = (5 * x + 3 * y + 7 * z) % 4 == 0
+                cells[x, y, z] = "cobblestone" if old else "stone_bricks"
+    for x in range(-3, 3):
+        for z in range(-3, 3):
+            if x in (-3, 2) or z in (-3, 2):
+                cells[x, TOWER, z] = "stone_bricks"
+                if (x + z) % 2 == 0:
+                    cells[x, TOWER + 1, z] = "stone_bricks"
+    return cells
+
+
+def _camera() -> Camera:
+    return Camera((15.0, 7.5, 36.0), (1.0, 6.3, 0.0), fov=22, near=5, far=90)

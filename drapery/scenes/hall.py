@@ -1,0 +1,134 @@
+"""A hall of 32 banners on its walls: a breeze, and a gust that passes through."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.banner.packs import open_packs
+from drapery.cloth import Cloth, Gravity, State, Wind
+from drapery.cloth.colliders import Collider, Plane
+from drapery.cloth.exact import sine_of_turns
+from drapery.mesh import Array
+from drapery.render.camera import Camera
+from drapery.render.light import Light
+from drapery.render.scene import Scene
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.flags import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
+from drapery.scenes.motion import motion
+from drapery.style.block import SCALE
+from drapery.style.blocks import Cell, blocks
+
+WIDTH, HEIGHT, BAYS = 4, 4, 16
+"""Of the hall [blocks]: wall to wall, floor to beam, and banners along each wall."""
+BAY = 2
+"""Length of a bay [blocks]: a banner, then a pillar."""
+TORCHLIGHT = Light(((0.3, 1.0, 0.5), (-0.3, 0.4, 1.0)), 0.42, 0.6, (1.0, 0.96, 0.88))
+DESIGNS = (
+    "red stripe_center:yellow border:black",
+    "black skull:white curly_border:gray",
+    "blue cross:white rhombus:light_blue",
+    "green half_horizontal_bottom:lime flower:yellow border:green",
+    "purple triangles_top:magenta circle:white",
+    "white creeper:green border:gray",
+    "orange gradient:red globe:brown",
+    "cyan small_stripes:light_blue stripe_middle:white border:blue",
+)
+
+
+@dataclass(frozen=True)
+class Gust:
+    """A gust that runs down the hall: it lifts the banners off the walls and sets them fluttering.
+
+    start: when it enters [s]; speed: [m/s]; length: from its front to its end [m];
+    strength: the acceleration in its middle [m/s²].
+    """
+
+    start: float = 0.3
+    speed: float = 11.0
+    length: float = 14.0
+    strength: float = 6.0
+
+    def acceleration(self, cloth: Cloth, state: State) -> Array:
+        """[m/s²], shape [B, N, 3]. The hall runs along -z."""
+        x, depth = state.positions[..., 0], -state.positions[..., 2]
+        front = (state.time - self.start) * self.speed
+        inside = 2 * (front - depth) / self.length - 1
+        swell = np.maximum(0, 1 - inside * inside) ** 2
+        flutter = 0.6 + 0.4 * sine_of_turns(0.35 * depth - 2.1 * state.time)
+        push = self.strength * swell * flutter
+        return np.stack([-np.sign(x) * push, 0.15 * push, -0.6 * push], axis=-1)
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """breeze: along the hall [m/s]. gust: its strength [m/s²]. grid: of each flag."""
+
+    breeze: float = 1.5
+    gust: float = 6.0
+    grid: tuple[int, int] = (5, 9)
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """Seen from the door."""
+    packs = open_packs(())
+    cloth = flag_cloth(parameters.grid)
+    shell, looks = flag_shell(cloth), flag_looks(DESIGNS, packs)
+    still = (*blocks(_walls(), packs), wooden(stands(), packs))
+    for state in blown(parameters, cloth, shot):
+        models = (*still, flags(shell, state, looks))
+        yield Scene(models, _camera(), shot.size, TORCHLIGHT, (206, 226, 246, 255), samples=4)
+
+
+def blown(parameters: Parameters, cloth: Cloth, shot: Shot) -> Iterator[State]:
+    """All flags at each frame."""
+    breeze = Wind((0.0, 0.0, -parameters.breeze), gusts=0.5, seed=parameters.seed)
+    return motion(
+        cloth,
+        shot,
+        forces=(Gravity(), breeze, Gust(strength=parameters.gust)),
+        start=hung(cloth, stands()),
+        colliders=walls(),
+        radius=SCALE / 2,
+        step=1 / 60,
+        order=1,
+    )
+
+
+def stands() -> tuple[Stand, ...]:
+    """Every second block of both walls bears a banner that looks into the hall."""
+    places = [(side, -BAY * bay - 1.0) for bay in range(BAYS) for side in (-1, 1)]
+    half = WIDTH / 2
+    return tuple(
+        Stand((-half if side < 0 else half - 1, 1.9, z), "wall", 270.0 if side < 0 else 90.0)
+        for side, z in places
+    )
+
+
+def walls() -> tuple[Collider, ...]:
+    """What the banners hang against."""
+    return tuple(
+        Collider(Plane(np.array([side * WIDTH / 2, 0, 0]), np.array([-side, 0, 0])))
+        for side in (-1.0, 1.0)
+    )
+
+
+def _walls() -> dict[Cell, str]:
+    half, length = WIDTH // 2, BAY * BAYS + 1
+    cells: dict[Cell, str] = {}
+    for z in range(-length, 1):
+        for x in range(-half, half):
+            carpet = x in (-1, 0)
+            cells[x, -1, z] = "spruce_planks" if carpet else "stone"
+        for y in range(HEIGHT):
+            wall = "stone_bricks" if z % BAY else "oak_log"
+            cells[-half - 1, y, z] = cells[half, y, z] = wall if y else "cobblestone"
+        if z % BAY == 0:
+            for x in range(-half, half):
+                cells[x, HEIGHT, z] = "oak_planks"
+    return cells
+
+
+def _camera() -> Camera:
+    return Camera((1.1, 1.9, 1.6), (-1.0, 1.75, -6.0), fov=58, near=0.1, far=80)

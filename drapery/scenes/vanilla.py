@@ -1,0 +1,95 @@
+"""The game's own stiff banner and cape, and the same as cloth beside them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.banner.packs import Packs, open_packs
+from drapery.cloth import Gravity, Wind
+from drapery.mesh import Array
+from drapery.render.scene import Model, Scene
+from drapery.render.views import View, frame_points
+from drapery.scenes import cape
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.flags import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
+from drapery.scenes.gait import LOOP, Gait
+from drapery.scenes.motion import motion
+from drapery.scenes.panels import Panels, panel_size
+from drapery.style.block import stiff_flag
+from drapery.style.blocks import blocks, plateau
+from drapery.style.board import moved
+from drapery.style.figure import figure_look
+from drapery.style.garment import dyed
+from drapery.style.stage import SKY, shadow
+from drapery.style.sway import cape_lean, stiff_cape, sway_phase
+
+STAND = Stand((-0.5, 0, -0.5))
+SIDE_ON = View(azimuth=38, elevation=10, fov=26)
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """design: of the banner. dye: of the cape. speed: of the walk [m/s]. wind: at the banner
+    [m/s]. block: where the banner stands in its world, for the phase of its sway."""
+
+    design: str = "white creeper:lime border:black"
+    dye: str = "red"
+    speed: float = 2.5
+    wind: float = 5.0
+    block: tuple[int, int, int] = (0, 0, 0)
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
+    """Banners above, capes below; the game's on the left."""
+    packs = open_packs(())
+    rows = (_banners(parameters, packs, shot), _capes(parameters, packs, shot))
+    for above, below in zip(*rows, strict=True):
+        yield Panels((*above, *below), ("the game's", "as cloth", "the game's", "as cloth"))
+
+
+def _banners(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple[Scene, Scene]]:
+    size = panel_size(shot.size, 2, 2)
+    still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wooden((STAND,), packs))
+    cloth, looks = flag_cloth((5, 9)), flag_looks((parameters.design,), packs)
+    shell = flag_shell(cloth)
+    camera = frame_points(SIDE_ON, _banner_room(), size[0] / size[1], margin=0.06)
+    velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
+    forces = (Gravity(), Wind(velocity, gusts=0.5, seed=parameters.seed, period=LOOP))
+    start = hung(cloth, (STAND,))
+    states = motion(cloth, shot, forces=forces, start=start, settle=2 * LOOP, step=1 / 60)
+    for frame, state in enumerate(states):
+        board = stiff_flag("standing", sway_phase(parameters.block, frame / shot.fps))
+        stiff = Model(moved(board, np.array(STAND.cell)), looks)
+        soft = flags(shell, state, looks)
+        left, right = (
+            Scene((*still, flag), camera, size, background=SKY, samples=4) for flag in (stiff, soft)
+        )
+        yield left, right
+
+
+def _capes(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple[Scene, Scene]]:
+    size = panel_size(shot.size, 2, 2)
+    worn = cape.Parameters(dye=parameters.dye, speed=parameters.speed, seed=parameters.seed)
+    gait, cloth = Gait(parameters.speed), cape.cape_cloth(worn.grid)
+    shell, wool = cape.cape_shell(cloth), dyed(packs.texture("entity/player/cape"), worn.dye)
+    skin, ground = figure_look(worn.skin, packs), cape.ground(packs)
+    camera = cape.camera(size)
+    for frame, state in enumerate(cape.walk(worn, cloth, gait, shot)):
+        stiff = Model(stiff_cape(cape_lean(parameters.speed, frame / shot.fps)), (wool,))
+        lifted = moved(stiff.mesh, np.array([0, gait.lift(state.time), 0]))
+        soft = cape.worn(shell, state, 1.0, wool)
+        walker = cape.walker(gait, state.time, skin, ground)
+        left, right = (
+            Scene((*walker, back), camera, size, background=SKY, samples=4)
+            for back in (Model(lifted, stiff.looks), soft)
+        )
+        yield left, right
+
+
+def _banner_room() -> Array:
+    """What the camera frames: the banner and the ground below it [m]."""
+    return np.array(
+        [[x, y, z] for x in (-0.9, 0.9) for y, z in ((-0.5, 0.9), (1.95, 0), (0, -0.9))]
+    )

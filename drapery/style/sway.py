@@ -1,0 +1,42 @@
+"""How the game itself moves what looks like cloth: stiff boards that sway and lag behind."""
+
+import numpy as np
+
+from drapery.mesh import Mesh
+from drapery.style.board import moved, stiff_board, tilted
+from drapery.style.figure import CAPE_SIZE, CAPE_SKIN, TEXEL
+
+TICKS_PER_SECOND = 20
+SWAY_TICKS = 100
+
+LEAN, MOST_LEAN = 6.0, 81.0
+"""Of a cape on one who stands, and at the highest speed [degrees]."""
+LAG_TICKS = 3.0
+"""A cape's place goes a quarter of its way to the player in each tick: 1/4 (d + v) = v, d = 3 v."""
+LEAN_PER_LAG = 50.0
+"""[degrees/m]"""
+BOB, BOB_PER_METRE = 3.2, 3.6
+"""A walk shakes a cape by so many degrees; [radians of the shake per metre walked]."""
+
+
+def sway_phase(block: tuple[int, int, int], time: float) -> float:
+    """Phase 0..1 of a banner's sway: at a whole block, after a game time [s]."""
+    x, y, z = block
+    ticks = time * TICKS_PER_SECOND
+    whole = int(np.floor(ticks + 1e-9))
+    return ((7 * x + 9 * y + 13 * z + whole) % SWAY_TICKS + ticks - whole) / SWAY_TICKS
+
+
+def cape_lean(speed: float, time: float) -> float:
+    """How far a cape stands off the back of one who walks steadily [m/s] [degrees]."""
+    lag = LAG_TICKS * speed / TICKS_PER_SECOND
+    bob = BOB * min(1.0, speed / 2.0) * np.sin(BOB_PER_METRE * speed * time)
+    return float(min(LEAN + LEAN_PER_LAG * lag, MOST_LEAN) + bob)
+
+
+def stiff_cape(lean: float) -> Mesh:
+    """The game's cape on the back of our figure, its foot lifted by `lean` [degrees]."""
+    board = tilted(stiff_board(CAPE_SIZE, TEXEL, CAPE_SKIN), -np.radians(lean))
+    about = np.array([-1.0, 1.0, -1.0])
+    turned = Mesh(board.positions * about, board.normals * about, board.triangles, board.uvs)
+    return moved(turned, np.array([0.0, 24 * TEXEL, -2.5 * TEXEL]))
