@@ -146,7 +146,8 @@ def _sized(texels: Texels, size: tuple[int, int]) -> Texels:
         (2 * np.arange(new) + 1) * old // (2 * new)
         for new, old in zip(size, texels.shape[:2], strict=True)
     )
-    return texels[rows[:, None], columns]
+    sized: Texels = texels[rows[:, None], columns]
+    return sized
 
 
 def _layout(triangles: Triangles, uvs: Array, size: tuple[int, int]) -> Layout:
@@ -179,8 +180,9 @@ def _within(
     if area == 0:
         return np.zeros((*shape, 3)), np.zeros(shape, np.bool_)
     parts = [_cross(q - p, points - p) / area for p, q in ((b, c), (c, a), (a, b))]
-    weights = np.stack(parts, axis=-1)
-    return weights, (weights >= -SLACK).all(axis=-1)
+    weights: Array = np.stack(parts, axis=-1)
+    inside: NDArray[np.bool_] = np.min(weights, axis=-1) >= -SLACK
+    return weights, inside
 
 
 def _spread(of_texel: NDArray[np.int32], weights: Array) -> None:
