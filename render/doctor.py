@@ -36,8 +36,12 @@ def _soft() -> BackendReport:
 def _pyrender() -> BackendReport:
     """OpenGL is started in a process of its own: a driver may crash, or hang."""
     try:
+        # -P: a checkout in the current folder is not the package as it is installed.
         child = subprocess.run(
-            [sys.executable, "-c", DESCRIBE_GL], capture_output=True, text=True, timeout=TIMEOUT
+            [sys.executable, "-P", "-c", DESCRIBE_GL],
+            capture_output=True,
+            text=True,
+            timeout=TIMEOUT,
         )
     except subprocess.TimeoutExpired:
         return BackendReport("pyrender", False, f"OpenGL hangs for {TIMEOUT} s", INSTALL_GL)

@@ -186,3 +186,12 @@ def test_help_does_not_wait_for_the_kernels() -> None:
         "assert 'numba' not in sys.modules and 'numpy' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+
+
+def test_doctor_tells_the_whole_remedy(drapery: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    from drapery.render import doctor
+
+    report = [doctor.BackendReport("video", False, "no PyAV", 'pip install "drapery[video]"')]
+    monkeypatch.setattr(doctor, "backend_report", lambda: report)
+    code, out, _ = drapery("doctor")
+    assert code == 0 and 'to mend it: pip install "drapery[video]"' in out

@@ -7,6 +7,7 @@ from importlib.metadata import version
 def run() -> None:
     """Say what works on this machine and, where something does not, the line that mends it."""
     from rich.console import Console
+    from rich.markup import escape
 
     from drapery.render.doctor import backend_report
 
@@ -16,6 +17,6 @@ def run() -> None:
         console.print(f"  {name} {version(name)}")
     for backend in backend_report():
         mark = "[green]works[/]" if backend.works else "[yellow]does not work[/]"
-        console.print(f"backend {backend.name}: {mark} ({backend.detail})")
+        console.print(f"backend {backend.name}: {mark} ({escape(backend.detail)})", soft_wrap=True)
         if backend.remedy:
-            console.print(f"  to mend it: {backend.remedy}")
+            console.print(f"  to mend it: {escape(backend.remedy)}", soft_wrap=True)
