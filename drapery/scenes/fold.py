@@ -1,0 +1,74 @@
+"""The paper's spring force as printed folds a banner in on itself; with the right sign it hangs.
+
+Desbrun, Schröder, Barr 1999, section 3.2, prints the force on i as k (|x_i - x_j| - l) times the
+unit vector from j to i: a stretched spring then pushes its ends further apart, and a compressed
+one pulls them together.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from drapery.cloth import Cloth, Gravity, Solver, SolverDesbrun, State, Wind
+from drapery.cloth.solvers.rounds import Memory
+from drapery.render.scene import Scene
+from drapery.render.views import View, frame_points
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.flags import flag_cloth
+from drapery.scenes.motion import motion
+from drapery.scenes.panels import Panels, panel_size
+from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
+from drapery.style.block import FLAG_SIZE
+
+SIDE_ON = View(azimuth=30, elevation=6, fov=26)
+RIGHT, WRONG = paper((222, 234, 220)), paper((246, 222, 216))
+
+
+class SolverMisprinted(SolverDesbrun):
+    """The method with the sign of its internal force as the paper prints it."""
+
+    def init(self, cloth: Cloth, dt: float) -> Memory:
+        memory = super().init(cloth, dt)
+        body = memory.plan.body
+        wrong = body.springs._replace(stiffness=-body.springs.stiffness)
+        return replace(memory, plan=memory.plan._replace(body=body._replace(springs=wrong)))
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """grid: particles across and down. wind: [m/s]."""
+
+    grid: tuple[int, int] = (5, 9)
+    wind: float = 3.0
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
+    """The printed sign on the left."""
+    size, cloth = panel_size(shot.size, 2), flag_cloth(parameters.grid)
+    high, wide = FLAG_SIZE[1], 0.75 * FLAG_SIZE[0]
+    room = np.array([[x, y, z] for x in (-wide, wide) for y in (0.1, -high) for z in (-0.2, 0.5)])
+    camera = frame_points(SIDE_ON, room, size[0] / size[1], margin=0.06)
+    ways = ((SolverMisprinted(), WRONG), (SolverDesbrun(), RIGHT))
+    motions = [hanging(parameters, cloth, solver, shot) for solver, _ in ways]
+    for states in zip(*motions, strict=True):
+        pictures = tuple(
+            Scene(
+                wired(cloth, state.positions[0], camera, size[1], look),
+                camera,
+                size,
+                DAYLIGHT,
+                PAPER,
+                samples=4,
+            )
+            for state, (_, look) in zip(states, ways, strict=True)
+        )
+        yield Panels(pictures, ("as printed", "right sign"))
+
+
+def hanging(parameters: Parameters, cloth: Cloth, solver: Solver, shot: Shot) -> Iterator[State]:
+    """A flag from rest in a light wind."""
+    velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
+    forces = (Gravity(), Wind(velocity, seed=parameters.seed))
+    return motion(cloth, shot, solver=solver, forces=forces, step=1 / 60)

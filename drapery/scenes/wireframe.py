@@ -1,0 +1,60 @@
+"""Banners of larger grids as wireframes."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain
+
+import numpy as np
+
+from drapery.cloth import Cloth, Gravity, State, Wind
+from drapery.render.scene import Scene
+from drapery.render.views import View, frame_points
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.flags import flag_cloth
+from drapery.scenes.motion import motion, placed
+from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
+from drapery.style.block import FLAG_SIZE
+
+LOOP = 4.0
+SIDE_ON = View(azimuth=30, elevation=4, fov=26)
+FILL = paper((236, 233, 224))
+SPACING = 1.1
+"""From one banner to the next [m]."""
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """left, right: particles across and down. wind: [m/s]. springs: all of them, by kind:
+    structural dark, shear orange, flexion green."""
+
+    left: tuple[int, int] = (9, 17)
+    right: tuple[int, int] = (17, 33)
+    wind: float = 6.0
+    springs: bool = False
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """Two flags beside each other."""
+    shapes = (parameters.left, parameters.right)
+    cloths = [
+        placed(flag_cloth(shape), np.array([SPACING * place, 0, 0]))
+        for place, shape in enumerate(shapes)
+    ]
+    motions = [_waving(parameters, cloth, shot) for cloth in cloths]
+    room = np.array(
+        [[x, y, z] for x in (-0.6, 1.5) for y in (0.05, -FLAG_SIZE[1]) for z in (0, 0.75)]
+    )
+    camera = frame_points(SIDE_ON, room, shot.size[0] / shot.size[1], margin=0.04)
+    for states in zip(*motions, strict=True):
+        models = chain.from_iterable(
+            wired(cloth, state.positions[0], camera, shot.size[1], FILL, parameters.springs)
+            for cloth, state in zip(cloths, states, strict=True)
+        )
+        yield Scene(tuple(models), camera, shot.size, DAYLIGHT, PAPER, samples=4)
+
+
+def _waving(parameters: Parameters, cloth: Cloth, shot: Shot) -> Iterator[State]:
+    velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
+    wind = Wind(velocity, gusts=0.5, gust_size=1.0, seed=parameters.seed, period=LOOP)
+    return motion(cloth, shot, forces=(Gravity(), wind), settle=2 * LOOP, step=1 / 60)

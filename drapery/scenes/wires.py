@@ -1,0 +1,44 @@
+"""Cloth shown as its grid: faces pale, edges and pins drawn."""
+
+import numpy as np
+
+from drapery.cloth import Cloth
+from drapery.mesh import Array, Mesh, vertex_normals
+from drapery.render.camera import Camera
+from drapery.render.debug import edges_model, pins_model, springs_model
+from drapery.render.light import Light
+from drapery.render.scene import Coat, Look, Model
+
+PAPER = (246, 246, 244, 255)
+DAYLIGHT = Light(((0.4, 0.9, 0.7), (-0.6, 0.3, 0.4)), 0.62, 0.4)
+"""Softer than the game's: folds show, and no face is dark."""
+LINE = 1.25
+"""Width of an edge [pixels]."""
+
+
+def paper(colour: tuple[int, int, int]) -> Look:
+    """One plain colour."""
+    return Look((Coat(np.array([[[*colour, 255]]], np.uint8)),))
+
+
+def wired(
+    cloth: Cloth,
+    positions: Array,
+    camera: Camera,
+    height: int,
+    look: Look | None = None,
+    springs: bool = False,
+) -> tuple[Model, ...]:
+    """A cloth's edges, or all its springs by kind, and its pins; its faces in a look.
+
+    positions: [N, 3]; height: of the picture [pixels].
+    """
+    normals = vertex_normals(positions, cloth.triangles)
+    sheet = Mesh(positions, normals, cloth.triangles, cloth.uvs)
+    lines = (
+        springs_model(positions, cloth.spring_pairs, cloth.spring_kind, camera, height, LINE)
+        if springs
+        else edges_model(sheet, camera, height, width=LINE)
+    )
+    faces = () if look is None else (Model(sheet, (look,)),)
+    return (*faces, lines, pins_model(positions, cloth.inv_mass, camera, height))
