@@ -1,7 +1,6 @@
-"""A tree of boxes over triangles, laid out so that a walk needs no stack.
+"""A tree of boxes over triangles: median splits, nodes in depth-first order.
 
-Nodes stand in depth-first order. A walk goes to the next node, or jumps to `escape` when a node's
-box cannot matter (Smits 1998, "Efficiency issues for ray tracing", the skip pointer).
+So a node's first half is the next node, and its second half is where the first one's nodes end.
 """
 
 from typing import NamedTuple
@@ -17,8 +16,8 @@ LEAF = 4
 
 class Tree(NamedTuple):
     """order: triangle indices, shape [T]; boxes: low and high corners, shape [M, 2, 3];
-    links: escape, first, last of each node, shape [M, 3] (first == last for inner nodes);
-    roots: the first node of each part and the end of all, shape [P + 1].
+    links: of each node, the end of its nodes and its first triangle and their end, shape [M, 3]
+    (inner nodes have none: both are 0); roots: the first node of each part, shape [P].
     """
 
     order: NDArray[np.int32]
@@ -49,10 +48,10 @@ def build_tree(corners: Array, part: NDArray[np.int32]) -> Tree:
                 grow(half)
         links[node][0] = len(boxes)
 
-    roots = [0]
+    roots = []
     for number in range(int(part.max()) + 1):
-        grow(np.flatnonzero(part == number))
         roots.append(len(boxes))
+        grow(np.flatnonzero(part == number))
     return Tree(
         np.concatenate(order).astype(np.int32),
         np.array(boxes),

@@ -22,7 +22,7 @@ class Field(NamedTuple):
     Blocks have filled: 1 where there is a cube, shape [I, J, K].
     Surfaces have, triangles in the tree's order, corners [m], shape [T, 3, 3]; normals:
     pseudonormals, shape [T, 7, 3]; boxes [M, 2, 3] and links [M, 3], see `bvh.Tree`; parts: first
-    node, end and whether solid, shape [P, 3].
+    node and whether solid, shape [P, 2].
     """
 
     kind: int

@@ -7,6 +7,7 @@ along the pseudonormal of the face, edge or vertex on which that point lies.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.cloth.colliders.bvh import build_tree
 from drapery.cloth.colliders.fields import SURFACE, Field
@@ -17,12 +18,14 @@ from drapery.mesh import Array, Triangles, face_normals
 
 FACE, EDGE_AB, EDGE_BC, EDGE_CA, AT_A, AT_B, AT_C = range(7)
 """Where on a triangle a nearest point lies; also the place of its pseudonormal."""
+DEPTH = 64
+"""Room for a walk down the tree: halves of at most a million triangles are 20 deep."""
 
 
 def pack_surface(mesh: TriangleMesh) -> Field:
     tree = build_tree(mesh.vertices[mesh.triangles], mesh.part)
     triangles = mesh.triangles[tree.order]
-    parts = np.stack([tree.roots[:-1], tree.roots[1:], mesh.solid], axis=1)
+    parts = np.stack([tree.roots, mesh.solid], axis=1)
     return Field(
         SURFACE,
         np.zeros(0),
@@ -87,12 +90,12 @@ def surface_distance(field: Field, p: Vector, limit: float) -> tuple[float, Vect
     """The union of the parts: the least distance. Beyond `limit` [m] the answer is `limit`."""
     best, normal = limit, (0.0, 1.0, 0.0)
     for part in range(len(field.parts)):
-        first, end, solid = field.parts[part]
+        first, solid = field.parts[part]
         apart = _box_square(field.boxes[first], p)
         if apart < limit * limit:
             # Inside the part's box a far surface still tells inside from outside.
             reach = np.inf if solid and apart == 0 else limit
-            d, n = _part_distance(field, first, end, solid, p, reach)
+            d, n = _part_distance(field, first, solid, p, reach)
             if d < best:
                 best, normal = d, n
     return best, normal
@@ -100,23 +103,41 @@ def surface_distance(field: Field, p: Vector, limit: float) -> tuple[float, Vect
 
 @kernel
 def _part_distance(
-    field: Field, first: int, end: int, solid: int, p: Vector, limit: float
+    field: Field, first: int, solid: int, p: Vector, limit: float
 ) -> tuple[float, Vector]:
     square, at, region, closest = limit * limit, -1, 0, p
-    node = first
-    while node < end:
-        if _box_square(field.boxes[node], p) >= square:
-            node = field.links[node, 0]
+    nodes, apart = np.empty(DEPTH, np.int32), np.empty(DEPTH)
+    nodes[0], apart[0], waiting = first, 0.0, 1
+    while waiting > 0:
+        waiting -= 1
+        node = nodes[waiting]
+        if apart[waiting] >= square:
+            continue
+        if field.links[node, 1] == field.links[node, 2]:
+            waiting = _wait(nodes, apart, waiting, field, node, p)
             continue
         for triangle in range(field.links[node, 1], field.links[node, 2]):
             c, r = closest_on_triangle(field.corners[triangle], p)
             arm = subtract(p, c)
             if dot(arm, arm) < square:
                 square, at, region, closest = dot(arm, arm), triangle, r, c
-        node += 1
     if at < 0:
         return limit, (0.0, 1.0, 0.0)
     return _with_sign(row(field.normals[at], region), subtract(p, closest), solid)
+
+
+@kernel
+def _wait(
+    nodes: NDArray[np.int32], apart: Array, waiting: int, field: Field, node: int, p: Vector
+) -> int:
+    """Put a node's halves on the stack, the nearer one on top; the new height of the stack."""
+    near, far = node + 1, field.links[node + 1, 0]
+    near_apart, far_apart = _box_square(field.boxes[near], p), _box_square(field.boxes[far], p)
+    if far_apart < near_apart:
+        near, far, near_apart, far_apart = far, near, far_apart, near_apart
+    nodes[waiting], apart[waiting] = far, far_apart
+    nodes[waiting + 1], apart[waiting + 1] = near, near_apart
+    return waiting + 2
 
 
 @kernel
