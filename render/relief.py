@@ -27,17 +27,17 @@ def relieved(scene: Scene) -> Scene:
 
     A scene without such maps is returned as it is.
     """
-    if not any(_has_relief(look) for model in scene.models for look in model.looks):
+    if not any(_is_bent(look) for model in scene.models for look in model.looks):
         return scene
     return replace(scene, models=tuple(_relieved(model, scene.light) for model in scene.models))
 
 
-def _has_relief(look: Look) -> bool:
+def _is_bent(look: Look) -> bool:
     return look.lit and any(coat.normal is not None for coat in look.coats)
 
 
 def _relieved(model: Model, light: Light) -> Model:
-    if not any(map(_has_relief, model.looks)):
+    if not any(map(_is_bent, model.looks)):
         return model
     mesh = model.mesh
     if mesh.positions.ndim == 2:
@@ -55,9 +55,9 @@ def _relieved(model: Model, light: Light) -> Model:
 
 
 def _lit(look: Look, mesh: Mesh, light: Light) -> Look:
-    if not _has_relief(look):
+    if not _is_bent(look):
         return look
-    relief = _reliefs.get((look,), None, lambda: _relief(look))
+    relief = relief_of(look)
     layout = _layouts.get(
         (mesh.triangles, mesh.uvs),
         relief.bends.shape,
@@ -76,11 +76,13 @@ class Relief:
 
     texels: tinted, shape [H, W, 4]. bends: the normal's x (to the right on the sheet), y (down)
     and z (out of it), shape [H, W, 3]. open: how much of the ambient light comes in, shape [H, W].
+    matter: roughness, metal and glow, 0..1 each, shape [H, W, 3].
     """
 
     texels: Texels
     bends: Array
     open: Array
+    matter: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,27 +104,39 @@ _reliefs: Recent[Relief] = Recent(16)
 _layouts: Recent[Layout] = Recent(16)
 
 
+def relief_of(look: Look) -> Relief:
+    """The look's coats and their maps as one; those of the last few looks are kept."""
+    return _reliefs.get((look,), None, lambda: _relief(look))
+
+
+def has_relief(scene: Scene) -> bool:
+    """Whether a normal or specular map is worn anywhere in the scene."""
+    coats = (coat for model in scene.models for look in model.looks for coat in look.coats)
+    return any(coat.normal is not None or coat.specular is not None for coat in coats)
+
+
 def _relief(look: Look) -> Relief:
-    """The coats over one another. A coat without a map leaves the relief below as it is."""
-    maps = [coat.normal for coat in look.coats if coat.normal is not None]
-    sizes = np.array([t.shape[:2] for t in [*(coat.texels for coat in look.coats), *maps]])
-    height, width = sizes.max(axis=0)
-    texels = _tinted(look.coats[0], (height, width))
+    """A coat without a map leaves what the maps below say as it is."""
+    sheets = [(coat.texels, coat.normal, coat.specular) for coat in look.coats]
+    sizes = [sheet.shape[:2] for coat in sheets for sheet in coat if sheet is not None]
+    size = max(height for height, _ in sizes), max(width for _, width in sizes)
+    texels = _tinted(look.coats[0], size)
     if look.alpha == "opaque":
         texels[..., 3] = 255
-    values = np.zeros((height, width, 4), np.float32)
-    values[..., 2:] = 1.0
+    bends, matter = np.zeros((*size, 4), np.float32), np.zeros((*size, 3), np.float32)
+    bends[..., 2:] = matter[..., 0] = 1.0
     for number, coat in enumerate(look.coats):
-        top = _tinted(coat, (height, width))
-        if number:
-            texels = lay_over(top, texels)
+        top = _tinted(coat, size)
+        share = top[..., 3:] / np.float32(255) if number else np.float32(1)
+        texels = lay_over(top, texels) if number else texels
         if coat.normal is not None:
-            share = top[..., 3:] / np.float32(255) if number else np.float32(1)
-            values += share * (_decoded(_sized(coat.normal, (height, width))) - values)
-    return Relief(texels, _unit(values[..., :3]), values[..., 3])
+            bends += share * (_bends(_sized(coat.normal, size)) - bends)
+        if coat.specular is not None:
+            matter += share * (_matter(_sized(coat.specular, size)) - matter)
+    return Relief(texels, _unit(bends[..., :3]), bends[..., 3], matter)
 
 
-def _decoded(texels: Texels) -> Array:
+def _bends(texels: Texels) -> Array:
     """LabPBR's normal map as x, y, z and openness, shape [H, W, 4].
 
     Red and green are x and y, 128 is none, and green points down the sheet; blue is how open the
@@ -131,6 +145,16 @@ def _decoded(texels: Texels) -> Array:
     xy = np.maximum((texels[..., :2].astype(np.float32) - 128) / 127, -1)
     z = np.sqrt(np.maximum(1 - (xy * xy).sum(axis=-1, keepdims=True), 0))
     return np.concatenate([xy, z, texels[..., 2:3] / np.float32(255)], axis=-1)
+
+
+def _matter(texels: Texels) -> Array:
+    """LabPBR's specular map as roughness, metal and glow, shape [H, W, 3].
+
+    Red is smoothness as it is perceived, green from 230 on is metal, alpha up to 254 is glow.
+    """
+    smooth, metal, glow = (texels[..., channel].astype(np.float32) for channel in (0, 1, 3))
+    parts = [1 - smooth / 255, np.where(metal >= 230, 1, 0), np.where(glow < 255, glow / 254, 0)]
+    return np.stack(parts, axis=-1).astype(np.float32)
 
 
 def _tinted(coat: Coat, size: tuple[int, int]) -> Texels:

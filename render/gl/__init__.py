@@ -24,6 +24,7 @@ from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
 from drapery.render.flatten import flattened
 from drapery.render.frame import Frame, Pixels
 from drapery.render.gl.platform import load_pyrender, release
+from drapery.render.relief import has_relief
 from drapery.render.scene import Scene
 from drapery.render.wardrobe import BLEND, CUTOUT, Wardrobe
 
@@ -44,6 +45,7 @@ class Stage:
     scene: Any = None
     process: int = field(default_factory=os.getpid)
     blends: list[tuple[Any, Triangles]] = field(default_factory=list)
+    materials: Any = None
 
 
 _lock = Lock()
@@ -58,9 +60,20 @@ def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
     drawing = draw_list(scene.models)
     with _current() as stage:
         _check(stage, scene, drawing)
+        if has_relief(scene):
+            return _draw_materials(stage, scene)
         if stage.topology is not drawing.topology or stage.stacked != stacked:
             _set_up(stage, drawing.topology, stacked)
         samples = _draw(stage, scene, drawing)
+    return Frame(resolved(samples, round(scene.samples**0.5)))
+
+
+def _draw_materials(stage: Stage, scene: Scene) -> Frame:
+    from drapery.render.gl.material import MaterialRenderer, draw_materials
+
+    if stage.materials is None:
+        stage.materials = MaterialRenderer(1, 1)
+    samples = draw_materials(stage.materials, scene)
     return Frame(resolved(samples, round(scene.samples**0.5)))
 
 
@@ -102,6 +115,8 @@ def _close(stage: Stage) -> None:
     """End OpenGL while its modules are still whole."""
     if stage.process == os.getpid():
         stage.platform.make_current()
+        if stage.materials is not None:
+            stage.materials.delete()
         stage.renderer.delete()
         stage.platform.delete_context()
 
