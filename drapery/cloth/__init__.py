@@ -1,9 +1,11 @@
 """The simulation core. Knows nothing of Minecraft, textures or pixels."""
 
-from drapery.cloth.builders import grid, max_stretch
+from drapery.cloth.builders import grid, max_stretch, strip
 from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
 from drapery.cloth.forces import Drag, Force, Gravity
-from drapery.cloth.pins import PinPath
+from drapery.cloth.meshes import disc, from_mesh, from_triangles
+from drapery.cloth.pins import PinPath, carried
+from drapery.cloth.sewing import Seam, sew
 from drapery.cloth.solvers.base import Solver
 from drapery.cloth.solvers.desbrun import SolverDesbrun
 from drapery.cloth.solvers.xpbd import SolverXPBD
@@ -20,13 +22,20 @@ __all__ = [
     "Force",
     "Gravity",
     "PinPath",
+    "Seam",
     "Solver",
     "SolverDesbrun",
     "SolverXPBD",
     "State",
     "Wind",
+    "carried",
+    "disc",
+    "from_mesh",
+    "from_triangles",
     "grid",
     "max_stretch",
     "rest_state",
+    "sew",
     "simulate",
+    "strip",
 ]

@@ -39,8 +39,9 @@ def grid(
     for name, count in (("columns", columns), ("rows", rows)):
         if count < 2:
             raise OptionError(f"grid {name} {count} is too few; use at least 2")
-    if columns * rows > MAX_PARTICLES:
-        raise OptionError(f"grid {columns}x{rows} has over {MAX_PARTICLES} particles; use fewer")
+    check_particles("grid", columns * rows)
+    for name, size in (("width", width), ("height", height), ("density", density)):
+        check_positive(f"grid {name}", size)
     across, down = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
     uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
     rest = np.zeros((rows * columns, 3))
@@ -55,12 +56,72 @@ def grid(
         inv_mass=inv_mass,
         spring_pairs=pairs,
         spring_length=np.linalg.norm(rest[pairs[:, 1]] - rest[pairs[:, 0]], axis=1),
-        spring_stiffness=np.asarray(stiffness, float)[kinds],
+        spring_stiffness=kind_stiffness(stiffness)[kinds],
         spring_kind=kinds,
         triangles=_grid_triangles(rows, columns),
         uvs=uvs,
         grid_shape=(rows, columns),
     )
+
+
+def strip(
+    count: int,
+    length: float,
+    *,
+    pins: Pins = (0,),
+    density: float = DENSITY,
+    stiffness: tuple[float, float, float] = STIFFNESS,
+) -> Cloth:
+    """A line of particles along +x from the origin: a ribbon, a rope, a chain. It has no faces, so
+    no wind.
+
+    count: particles; length: [m]; density: [kg/m]; otherwise as `grid`. Raises OptionError.
+    """
+    if count < 2:
+        raise OptionError(f"strip count {count} is too few; use at least 2 particles")
+    check_particles("strip", count)
+    for name, size in (("length", length), ("density", density)):
+        check_positive(f"strip {name}", size)
+    along = np.linspace(0, 1, count)
+    rest = np.zeros((count, 3))
+    rest[:, 0] = along * length
+    inv_mass = np.full(count, count / (density * length))
+    inv_mass[pinned_particles(pins, rest, None)] = 0.0
+    index = np.arange(count, dtype=np.int32)
+    near = np.stack([index[:-1], index[1:]], axis=1)
+    far = np.stack([index[:-2], index[2:]], axis=1)
+    pairs = np.concatenate([near, far])
+    kinds = np.repeat(np.array([STRUCTURAL, FLEXION], np.uint8), [len(near), len(far)])
+    return Cloth(
+        rest_positions=rest,
+        inv_mass=inv_mass,
+        spring_pairs=pairs,
+        spring_length=np.linalg.norm(rest[pairs[:, 1]] - rest[pairs[:, 0]], axis=1),
+        spring_stiffness=kind_stiffness(stiffness)[kinds],
+        spring_kind=kinds,
+        triangles=np.zeros((0, 3), np.int32),
+        uvs=np.stack([along, np.full(count, 0.5)], axis=1),
+    )
+
+
+def check_particles(name: str, count: int) -> None:
+    """Raises OptionError for more particles than anyone can want."""
+    if count > MAX_PARTICLES:
+        raise OptionError(f"{name} has {count} particles; use at most {MAX_PARTICLES}")
+
+
+def check_positive(name: str, value: float) -> None:
+    """Raises OptionError unless value is a finite number over 0."""
+    if not (np.isfinite(value) and value > 0):
+        raise OptionError(f"{name} {value!r} is out of range; use a number over 0")
+
+
+def kind_stiffness(stiffness: tuple[float, float, float]) -> Array:
+    """Structural, shear and flexion stiffness [N/m] as an array. Raises OptionError."""
+    values = np.asarray(stiffness, float)
+    if values.shape != (3,):
+        raise OptionError(f"stiffness {stiffness!r} must be three numbers [N/m], one for each kind")
+    return values
 
 
 def _grid_springs(rows: int, columns: int) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:

@@ -5,10 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
 
 STRUCTURAL, SHEAR, FLEXION = 0, 1, 2
 """The kinds of spring: between neighbours, across a cell, and over two cells (Provot 1995)."""
+
+MOST = 1e9
+"""The greatest length [m] and stiffness [N/m] of a spring; single precision can hold no more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,3 +40,47 @@ class Cloth:
     triangles: Triangles
     uvs: Array
     grid_shape: tuple[int, int] | None = None
+
+    def __post_init__(self) -> None:
+        _check_particles(self)
+        _check_springs(self)
+        for name in ("triangles", "spring_pairs"):
+            numbers = getattr(self, name)
+            if numbers.size and not (numbers.min() >= 0 and numbers.max() < len(self.inv_mass)):
+                last = len(self.inv_mass) - 1
+                raise OptionError(f"cloth {name} name particles outside 0 to {last}")
+        if self.grid_shape is not None and np.prod(self.grid_shape) != len(self.inv_mass):
+            raise OptionError(f"cloth grid_shape {self.grid_shape} does not fit its particles")
+
+
+def _check_particles(cloth: Cloth) -> None:
+    count = len(cloth.inv_mass)
+    shapes = {"rest_positions": (count, 3), "inv_mass": (count,), "uvs": (count, 2)}
+    for name, shape in shapes.items():
+        values = getattr(cloth, name)
+        if values.shape != shape:
+            raise OptionError(f"cloth {name} have shape {values.shape}; use {shape}")
+        if not np.isfinite(values).all():
+            raise OptionError(f"cloth {name} hold NaN or infinity; give finite numbers")
+    if count == 0 or (cloth.inv_mass < 0).any():
+        raise OptionError("cloth inv_mass must be 0 (pinned) or more, for at least one particle")
+
+
+def _check_springs(cloth: Cloth) -> None:
+    count = len(cloth.spring_pairs)
+    for name in ("spring_length", "spring_stiffness", "spring_kind"):
+        values = getattr(cloth, name)
+        if values.shape != (count,):
+            raise OptionError(f"cloth {name} have shape {values.shape}; use {(count,)}")
+    for name, unit in (("spring_length", "m"), ("spring_stiffness", "N/m")):
+        values = getattr(cloth, name)
+        wrong = np.flatnonzero(~((values > 0) & (values <= MOST)))
+        if name == "spring_stiffness":
+            wrong = wrong[values[wrong] != 0]
+        if wrong.size:
+            spring = int(wrong[0])
+            a, b = cloth.spring_pairs[spring]
+            raise OptionError(
+                f"cloth {name} of spring {spring} ({a} to {b}) is {values[spring]:g} {unit}; "
+                f"use a number over 0 and up to {MOST:g}"
+            )

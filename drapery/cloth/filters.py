@@ -1,4 +1,4 @@
-"""The filter of Desbrun 1999, W = (I - dt² M⁻¹ H)⁻¹.
+"""The filter of Desbrun 1999, W = (I - dt² M⁻¹ H)⁻¹, in the cheapest form for each cloth.
 
 H is the springs' linear Hessian: H_ij = k_ij, H_ii = -sum_j k_ij. Pinned particles have no
 inverse mass, so their rows of W are those of the identity. A free cloth's rows each sum to 1.
@@ -12,6 +12,14 @@ from numpy.typing import NDArray
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.exact import inverse, sine_of_turns
 from drapery.mesh import Array
+
+LARGEST = 1 << 20
+"""Numbers in a separable filter's matrices, beyond which they are kept as factors."""
+
+DENSE = 400
+"""Most particles of an irregular cloth whose filter is a whole matrix."""
+MANY_PINS = 64
+"""Most pins beside a whole top row that a grid's separable filter takes."""
 
 
 class Filter(NamedTuple):
@@ -28,25 +36,97 @@ class Filter(NamedTuple):
     release: Array
 
 
-def cloth_filter(cloth: Cloth, dt: float) -> Filter:
+class BandFilter(NamedTuple):
+    """u = W g as the solution of (M - dt² H) u = M g for the F free particles.
+
+    The matrix is L D Lᵀ with particles in an order [F] that keeps it within a narrow band.
+    lower: L[i, i - back + k] at [i, k], shape [F, back]. inverse: of D, [F]. mass: [F].
+    """
+
+    order: NDArray[np.int64]
+    lower: Array
+    inverse: Array
+    mass: Array
+
+
+def cloth_filter(cloth: Cloth, dt: float) -> Filter | BandFilter:
     """The cheapest filter for this cloth."""
-    if _is_regular(cloth):
+    columns = cloth.grid_shape[1] if cloth.grid_shape else 0
+    pins = np.flatnonzero(cloth.inv_mass == 0)
+    hangs = np.array_equal(pins, np.arange(columns))
+    if _is_regular(cloth) and (hangs or len(pins) <= MANY_PINS):
         return separable_filter(cloth, dt)
+    if len(cloth.inv_mass) > DENSE:
+        return band_filter(cloth, dt)
     W = dense_filter(cloth, dt)
-    products = np.array([[0, len(W), 0, 1, 0]])
-    return Filter(W.ravel(), products, np.zeros((len(W), 0)))
+    return Filter(W.ravel(), np.array([[0, len(W), 0, 1, 0]]), np.zeros((len(W), 0)))
+
+
+def hessian(cloth: Cloth) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
+    """Rows, columns and values [N/m] of H; entries at the same place add up."""
+    a, b = cloth.spring_pairs.T.astype(np.int64)
+    k = cloth.spring_stiffness
+    return (
+        np.concatenate([a, b, a, b]),
+        np.concatenate([b, a, a, b]),
+        np.concatenate([k, k, -k, -k]),
+    )
 
 
 def dense_filter(cloth: Cloth, dt: float) -> Array:
     """W [N, N], for any cloth."""
     count = len(cloth.inv_mass)
-    a, b = cloth.spring_pairs.T
     H = np.zeros((count, count))
-    np.add.at(H, (a, b), cloth.spring_stiffness)
-    np.add.at(H, (b, a), cloth.spring_stiffness)
-    np.add.at(H, (a, a), -cloth.spring_stiffness)
-    np.add.at(H, (b, b), -cloth.spring_stiffness)
+    rows, columns, values = hessian(cloth)
+    np.add.at(H, (rows, columns), values)
     return inverse(np.eye(count) - dt**2 * cloth.inv_mass[:, None] * H)
+
+
+def band_filter(cloth: Cloth, dt: float) -> BandFilter:
+    """W for a cloth of any topology and size; the order is that of Cuthill and McKee (1969)."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+    free = np.flatnonzero(cloth.inv_mass > 0)
+    number = np.full(len(cloth.inv_mass), -1)
+    number[free] = np.arange(len(free))
+    rows, columns, values = hessian(cloth)
+    inside = (number[rows] >= 0) & (number[columns] >= 0)
+    rows, columns, values = number[rows[inside]], number[columns[inside]], values[inside]
+    graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(free),) * 2).tocsr()
+    order = reverse_cuthill_mckee(graph, symmetric_mode=True)
+    place = np.empty(len(free), np.int64)
+    place[order] = np.arange(len(free))
+    rows, columns = place[rows], place[columns]
+    back = int((rows - columns).max(initial=1))
+    band = np.zeros((len(free), back + 1))
+    low = rows >= columns
+    np.add.at(band, (rows[low], back - rows[low] + columns[low]), -(dt**2) * values[low])
+    mass = 1 / cloth.inv_mass[free[order]]
+    band[:, back] += mass
+    lower, pivots = _ldl(band)
+    return BandFilter(free[order].astype(np.int64), lower, 1 / pivots, mass)
+
+
+def _ldl(band: Array) -> tuple[Array, Array]:
+    """L D Lᵀ of a positive definite band matrix, [F, back + 1] with the diagonal last."""
+    count, back = band.shape[0], band.shape[1] - 1
+    lower, pivots = np.zeros((count, back)), np.zeros(count)
+    reach = np.arange(back)
+    padded = np.concatenate([band, np.zeros((back, back + 1))])
+    for i in range(count):
+        pivots[i] = padded[i, back]
+        # Column i of the matrix below the diagonal lies on a diagonal of the band.
+        below = padded[i + 1 + reach, back - 1 - reach]
+        factors = below / pivots[i]
+        for j in range(back):
+            if factors[j] != 0:
+                row = i + 1 + j
+                if row < count:
+                    lower[row, back - 1 - j] = factors[j]
+                # row `row` loses factors[j] times the part of the column up to its own diagonal.
+                padded[row, back - j : back + 1] -= factors[j] * below[: j + 1]
+    return lower, pivots
 
 
 def separable_filter(cloth: Cloth, dt: float) -> Filter:
@@ -62,30 +142,49 @@ def separable_filter(cloth: Cloth, dt: float) -> Filter:
     rows, columns = cloth.grid_shape
     pins = np.flatnonzero(cloth.inv_mass == 0)
     hangs = np.array_equal(pins, np.arange(columns))
-    V, r = _hanging(rows - 1) if hangs else _free(rows)
+    V, down_rows = _hanging(rows - 1) if hangs else _free(rows)
     U, c = _free(columns)
-    r = r[:, None]
+    r = down_rows[:, None]
     k = [_stiffness(cloth, kind) for kind in range(3)]
     H = k[0] * (r + c) + k[1] * (r * c + 2 * r + 2 * c) + k[2] * (r * r + 4 * r + c * c + 4 * c)
     spectrum = 1 / (1 - dt**2 * cloth.inv_mass.max() * H)
-    # One matrix a wave: V diag(spectrum[:, wave]) Vᵀ, summed without BLAS.
-    down = (V[None, :, None, :] * V[None, None] * spectrum.T[:, None, None]).sum(-1)
-    first, size = columns * hangs, columns * columns
-    lines = [(0, columns, first + row * columns, 1, 0) for row in range(len(V))]
-    lines += [(2 * size + c * len(V) ** 2, len(V), first + c, columns, 1) for c in range(columns)]
-    lines += [(size, columns, first + row * columns, 1, 0) for row in range(len(V))]
+    matrices, products = _products(V, U, spectrum, columns * int(hangs))
     release = np.zeros((rows * columns, 0))
     if not hangs and len(pins):
-        release = _release(down, U, pins)
-    matrices = np.concatenate([U.T.ravel(), U.ravel(), down.ravel()])
-    return Filter(matrices, np.array(lines), release)
+        release = _release(V, U, spectrum, pins)
+    return Filter(matrices, products, release)
 
 
-def _release(down: Array, U: Array, pins: NDArray[np.int64]) -> Array:
-    """-W[:, pins] W[pins, pins]⁻¹: forces at the pins that hold them still."""
-    row, column = np.divmod(pins, len(U))
-    waves = down[:, :, row] * U[column].T[:, None, :]
-    W = (waves[:, :, None, :] * U.T[:, None, :, None]).sum(0).reshape(-1, len(pins))
+def _products(V: Array, U: Array, spectrum: Array, first: int) -> tuple[Array, NDArray[np.int64]]:
+    """Matrices and products: to the waves of each row, filter each wave's column, and back."""
+    rows, columns = spectrum.shape
+    size = columns * columns
+    starts = first + columns * np.arange(rows)
+    into = [(0, columns, start, 1, 0) for start in starts]
+    back = [(size, columns, start, 1, 0) for start in starts]
+    if rows * rows * columns <= LARGEST:
+        # One matrix a wave, V diag(spectrum[:, wave]) Vᵀ, summed without BLAS.
+        down = (V[None, :, None, :] * V[None, None] * spectrum.T[:, None, None]).sum(-1)
+        lines = [(2 * size + c * rows * rows, rows, first + c, columns, 1) for c in range(columns)]
+        matrices = [U.T, U, down]
+    else:
+        place = 2 * size + 2 * rows * rows
+        lines = [(2 * size, rows, first + c, columns, 1) for c in range(columns)]
+        lines += [(place + i, 1, first + i, 1, 0) for i in range(rows * columns)]
+        lines += [(2 * size + rows * rows, rows, first + c, columns, 1) for c in range(columns)]
+        matrices = [U.T, U, V.T, V, spectrum]
+    return np.concatenate([part.ravel() for part in matrices]), np.array([*into, *lines, *back])
+
+
+def _release(V: Array, U: Array, spectrum: Array, pins: NDArray[np.int64]) -> Array:
+    """-W[:, pins] W[pins, pins]⁻¹, [N, P]: forces at the pins that hold them still."""
+    columns = []
+    for pin in pins:
+        row, column = divmod(int(pin), len(U))
+        waves = spectrum * V[row][:, None] * U[column]
+        down = (V[:, :, None] * waves[None]).sum(1)
+        columns.append((down[:, None] * U[None]).sum(-1).ravel())
+    W = np.stack(columns, axis=1)
     release: Array = -(W[:, :, None] * inverse(W[pins])[None]).sum(1)
     return release
 

@@ -10,9 +10,12 @@ axes have a bound that the compiler does not know, or it would unroll them and t
 from typing import Any
 
 import numpy as np
-from numba import njit
+from numba.extending import overload
 
 from drapery.cloth import exact
+from drapery.cloth.compiled import kernel
+from drapery.cloth.filters import BandFilter
+from drapery.cloth.spin import NoSpin
 from drapery.cloth.wind import CROSSWIND
 
 TINY = 1e-6
@@ -23,8 +26,6 @@ GUST_RMS = 0.1836
 """Rms of gradient noise whose gradients are uniform in [-1, 1]³, measured over 10⁷ points."""
 ALONG, ACROSS, UP = CROSSWIND
 
-kernel = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
-"""For what only other kernels call: part of their callers' cache, never called from Python."""
 sine_of_turns = kernel(exact.sine_of_turns)
 
 
@@ -249,8 +250,26 @@ def subtract_frame(g: Any, v: Any, mean: Any) -> None:
             g[row, lane] = v[row, lane] - mean[row % 3, lane]
 
 
-@kernel
 def filter_velocities(both: Any, filter: Any, pins: Any) -> None:
+    """both[1] = W both[0], pins at 0; both [2, 3N, L], of which both[0] is spoilt.
+
+    By the filter's form: `filters.Filter` or `filters.BandFilter`.
+    """
+
+
+@overload(filter_velocities, inline="always")
+def _filter_velocities(both: Any, filter: Any, pins: Any) -> Any:
+    by_band = filter.instance_class is BandFilter
+    chosen = filter_by_band if by_band else filter_by_products
+
+    def implementation(both: Any, filter: Any, pins: Any) -> None:
+        chosen(both, filter, pins)
+
+    return implementation
+
+
+@kernel
+def filter_by_products(both: Any, filter: Any, pins: Any) -> None:
     """both[1] = W both[0], pins at 0; both [2, 3N, L], of which both[0] is spoilt. See `Filter`."""
     for row in range(3 * pins.size):
         for lane in range(both.shape[2]):
@@ -284,6 +303,118 @@ def filter_velocities(both: Any, filter: Any, pins: Any) -> None:
             part = filter.release[row // 3, p]
             for lane in range(both.shape[2]):
                 both[1, row, lane] += part * both[0, 3 * p + row % 3, lane]
+
+
+@kernel
+def filter_by_band(both: Any, filter: Any, pins: Any) -> None:
+    """Forward and backward substitution; see `filters.BandFilter`."""
+    free, back = filter.lower.shape
+    for row in range(3 * pins.size):
+        for lane in range(both.shape[2]):
+            both[1, 3 * pins[row // 3] + row % 3, lane] = 0
+    for row in range(3 * free):
+        i, axis = row // 3, row % 3
+        to, at = both[1, 3 * filter.order[i] + axis], both[0, 3 * filter.order[i] + axis]
+        for lane in range(to.size):
+            to[lane] = filter.mass[i] * at[lane]
+        for k in range(max(0, back - i), back):
+            part = filter.lower[i, k]
+            if part != 0:
+                other = both[1, 3 * filter.order[i - back + k] + axis]
+                for lane in range(to.size):
+                    to[lane] -= part * other[lane]
+    for row in range(3 * free - 1, -1, -1):
+        i, axis = row // 3, row % 3
+        to = both[1, 3 * filter.order[i] + axis]
+        for lane in range(to.size):
+            to[lane] *= filter.inverse[i]
+        for below in range(i + 1, min(free, i + back + 1)):
+            part = filter.lower[below, back - below + i]
+            if part != 0:
+                # Rows below are solved already: L' takes their share from this one.
+                other = both[1, 3 * filter.order[below] + axis]
+                for lane in range(to.size):
+                    to[lane] -= part * other[lane]
+
+
+def keep_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
+    """Take from g the angular momentum that the filter has added to v; see `spin.Spin`."""
+
+
+@overload(keep_spin, inline="always")
+def _keep_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> Any:
+    chosen = leave_spin if spin.instance_class is NoSpin else subtract_spin
+
+    def implementation(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
+        chosen(g, x, v, spin, work)
+
+    return implementation
+
+
+@kernel
+def leave_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
+    """For cloths with pins."""
+
+
+@kernel
+def subtract_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
+    """work: [12 or more, L]."""
+    F = x.dtype.type
+    for row in range(12):
+        for lane in range(x.shape[1]):
+            work[row, lane] = F(0)
+    middle, gain = work[0:3], work[3:6]
+    for row in range(x.shape[0]):
+        part = F(spin.mass[row // 3] / spin.total)
+        for lane in range(x.shape[1]):
+            middle[row % 3, lane] += part * x[row, lane]
+    for i in range(spin.mass.size):
+        m = spin.mass[i]
+        for lane in range(x.shape[1]):
+            rx = x[3 * i, lane] - middle[0, lane]
+            ry = x[3 * i + 1, lane] - middle[1, lane]
+            rz = x[3 * i + 2, lane] - middle[2, lane]
+            dx = g[3 * i, lane] - v[3 * i, lane]
+            dy = g[3 * i + 1, lane] - v[3 * i + 1, lane]
+            dz = g[3 * i + 2, lane] - v[3 * i + 2, lane]
+            gain[0, lane] += m * (ry * dz - rz * dy)
+            gain[1, lane] += m * (rz * dx - rx * dz)
+            gain[2, lane] += m * (rx * dy - ry * dx)
+            work[6, lane] += m * (ry * ry + rz * rz)
+            work[7, lane] += m * (rz * rz + rx * rx)
+            work[8, lane] += m * (rx * rx + ry * ry)
+            work[9, lane] -= m * rx * ry
+            work[10, lane] -= m * ry * rz
+            work[11, lane] -= m * rz * rx
+    if spin.exact:
+        for lane in range(x.shape[1]):
+            turn_rate(gain, work, lane)
+    for i in range(spin.mass.size):
+        # Exact: v -= ω x r. The paper: v -= dt/m L x r, where dt/m stands for 1/I.
+        part = F(1 if spin.exact else spin.dt / spin.mass[i])
+        for lane in range(x.shape[1]):
+            rx = part * (x[3 * i, lane] - middle[0, lane])
+            ry = part * (x[3 * i + 1, lane] - middle[1, lane])
+            rz = part * (x[3 * i + 2, lane] - middle[2, lane])
+            g[3 * i, lane] -= gain[1, lane] * rz - gain[2, lane] * ry
+            g[3 * i + 1, lane] -= gain[2, lane] * rx - gain[0, lane] * rz
+            g[3 * i + 2, lane] -= gain[0, lane] * ry - gain[1, lane] * rx
+
+
+@kernel
+def turn_rate(gain: Any, work: Any, lane: Any) -> None:
+    """gain = I⁻¹ gain by Cramer's rule; 0 where the particles lie on a line and I is singular."""
+    a, b, c = work[6, lane], work[7, lane], work[8, lane]
+    d, e, f = work[9, lane], work[10, lane], work[11, lane]
+    p, q, r = b * c - e * e, e * f - c * d, d * e - b * f
+    s, t, u = a * c - f * f, d * f - a * e, a * b - d * d
+    size = a * p + d * q + f * r
+    x, y, z = gain[0, lane], gain[1, lane], gain[2, lane]
+    singular = size <= gain.dtype.type(1e-5) * a * b * c
+    rate = gain.dtype.type(0) if singular else gain.dtype.type(1) / size
+    gain[0, lane] = (p * x + q * y + r * z) * rate
+    gain[1, lane] = (q * x + s * y + t * z) * rate
+    gain[2, lane] = (r * x + t * y + u * z) * rate
 
 
 @kernel

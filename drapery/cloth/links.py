@@ -21,6 +21,9 @@ from drapery.mesh import Array
 FEW_PINS = 4
 """Particles are attached to every pin if there are no more than this, else to the nearest."""
 
+MOST_LEVELS = 16
+"""The longest links go over 2^16 springs."""
+
 
 class Links(NamedTuple):
     """In the order of correction, with the share of it that each end takes.
@@ -86,7 +89,8 @@ def _reach(cloth: Cloth, pin: int, particles: NDArray[np.integer]) -> Array:
         away: Array = cloth.rest_positions[particles] - cloth.rest_positions[pin]
         lengths: Array = np.sqrt((away * away).sum(axis=1))
         return lengths
-    return distances_from(cloth, np.arange(len(cloth.inv_mass)) == pin)[particles]
+    along: Array = distances_from(cloth, np.arange(len(cloth.inv_mass)) == pin)[particles]
+    return along
 
 
 def _is_flat(cloth: Cloth) -> bool:
@@ -115,7 +119,7 @@ def nearest_pins(cloth: Cloth) -> NDArray[np.int64]:
 def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
     """Links over 2^n springs, the longest first."""
     if cloth.grid_shape is None:
-        return []
+        return _ancestor_links(cloth, limit)
     index = np.arange(len(cloth.inv_mass), dtype=np.int32).reshape(cloth.grid_shape)
     stride, groups = 2, []
     while 2 * stride < max(cloth.grid_shape):
@@ -130,6 +134,34 @@ def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Arr
         groups.append((pairs[order], limit * lengths[order]))
         stride *= 2
     return groups[::-1]
+
+
+def _ancestor_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
+    """The same towards the pins of any cloth: from each particle 2^n springs up the shortest way."""
+    distances = pin_distances(cloth)
+    above = _next_towards_pins(cloth, distances)
+    groups = []
+    while True:
+        above = above[above]
+        below = np.flatnonzero((cloth.inv_mass[above] > 0) & np.isfinite(distances))
+        if not len(below) or len(groups) == MOST_LEVELS:
+            return groups[::-1]
+        below = below[np.argsort(distances[below], kind="stable")]
+        pairs = np.stack([above[below], below], axis=1).astype(np.int32)
+        groups.append((pairs, limit * (distances[below] - distances[above[below]])))
+
+
+def _next_towards_pins(cloth: Cloth, distances: Array) -> NDArray[np.int64]:
+    """For each particle its neighbour on the shortest way to a pin, [N]; pins have themselves."""
+    a, b = np.concatenate([cloth.spring_pairs, cloth.spring_pairs[:, ::-1]]).T
+    lengths = np.tile(cloth.spring_length, 2)
+    shortest = np.isfinite(distances[a]) & (distances[a] + lengths <= distances[b] * (1 + 1e-12))
+    towards = np.arange(len(distances))
+    # In reverse, so that the first spring of several wins.
+    towards[b[shortest][::-1]] = a[shortest][::-1]
+    pinned = np.flatnonzero(cloth.inv_mass == 0)
+    towards[pinned] = pinned
+    return towards
 
 
 def _path_lengths(cloth: Cloth, pairs: NDArray[np.int32], stride: int) -> Array:

@@ -52,7 +52,10 @@ def across_then_outwards(cloth: Cloth, springs: NDArray[np.integer]) -> NDArray[
     order = outwards(distances, pairs, lengths)
     finite = np.where(np.isfinite(distances), distances, 0.0)
     along = np.abs(finite[pairs[:, 1]] - finite[pairs[:, 0]]) > 0.5 * lengths
-    return springs[np.concatenate([order[~along[order]], order[along[order]]])]
+    chosen: NDArray[np.integer] = springs[
+        np.concatenate([order[~along[order]], order[along[order]]])
+    ]
+    return chosen
 
 
 def sweep_order(cloth: Cloth, springs: NDArray[np.integer]) -> NDArray[np.integer]:
@@ -60,4 +63,5 @@ def sweep_order(cloth: Cloth, springs: NDArray[np.integer]) -> NDArray[np.intege
     pairs = cloth.spring_pairs[springs]
     order = outwards(pin_distances(cloth), pairs, cloth.spring_length[springs])
     movable = (cloth.inv_mass[pairs] > 0).any(axis=1)
-    return springs[order[movable[order]]]
+    chosen: NDArray[np.integer] = springs[order[movable[order]]]
+    return chosen

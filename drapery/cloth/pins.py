@@ -18,6 +18,8 @@ PinPath = Callable[[float], Array]
 
 The order is that of the particles' numbers.
 """
+PosePath = Callable[[float], tuple[Array, Array]]
+"""Rotation [3, 3] and translation [m], [3], of a rigid body at a time [s]."""
 
 
 def pinned_particles(
@@ -36,7 +38,8 @@ def pinned_particles(
         mask = np.asarray(pins(rest))
         if mask.shape != (len(rest),) or mask.dtype != np.bool_:
             raise OptionError(f"pins predicate must return {len(rest)} booleans, one a particle")
-        return np.flatnonzero(mask)
+        chosen: NDArray[np.int64] = np.flatnonzero(mask)
+        return chosen
     return _numbered(np.asarray(pins), len(rest))
 
 
@@ -60,12 +63,30 @@ def _named(name: str, rest: Array, grid_shape: tuple[int, int] | None) -> NDArra
     if name == "top":
         heights = rest[:, 1]
         slack = 1e-6 * float(np.ptp(rest, axis=0).max())
-        return np.flatnonzero(heights >= heights.max() - slack)
+        top: NDArray[np.int64] = np.flatnonzero(heights >= heights.max() - slack)
+        return top
     if name not in ("corners", "three-corners", "four-corners"):
         known = "none, top, corners, three-corners, four-corners"
         raise OptionError(f"pins {name!r} is not known; use one of: {known}")
     if grid_shape is None:
         raise OptionError(f"pins {name!r} needs a grid; give particle numbers or a predicate")
     rows, columns = grid_shape
-    corners = [0, columns - 1, (rows - 1) * columns, rows * columns - 1]
-    return np.array(corners[: {"corners": 2, "three-corners": 3, "four-corners": 4}[name]])
+    count = {"corners": 2, "three-corners": 3, "four-corners": 4}[name]
+    return np.array([0, columns - 1, (rows - 1) * columns, rows * columns - 1], np.int64)[:count]
+
+
+def carried(cloth_positions: Array, pinned: NDArray[np.integer], pose: PosePath) -> PinPath:
+    """A path on which the pins [P] of positions [N, 3] ride a rigid body.
+
+    pose: rotation [3, 3] and translation [m] [3] of the body at a time [s]; the identity and 0
+    leave the pins where the positions have them.
+    """
+    places = cloth_positions[pinned]
+
+    def path(time: float) -> Array:
+        rotation, translation = pose(time)
+        # Summed in a fixed order: a BLAS product's bits differ between machines.
+        turned: Array = (places[:, None, :] * np.asarray(rotation)[None]).sum(axis=-1)
+        return turned + np.asarray(translation)
+
+    return path

@@ -55,5 +55,6 @@ def check_state(cloth: Cloth, state: State) -> None:
         values = getattr(state, name)
         if values.ndim != 3 or values.shape[1:] != expected:
             raise OptionError(f"state {name} have shape {values.shape}; use [B, {expected[0]}, 3]")
-        if not np.isfinite(values).all():
+        # A sum is finite if all are, and far quicker than asking each.
+        if not np.isfinite(values.sum(dtype=values.dtype)) and not np.isfinite(values).all():
             raise OptionError(f"state {name} hold NaN or infinity; give finite numbers")

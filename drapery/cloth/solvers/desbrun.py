@@ -20,7 +20,7 @@ import numpy as np
 from drapery.cloth import kernels
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door
-from drapery.cloth.filters import Filter, cloth_filter
+from drapery.cloth.filters import BandFilter, Filter, cloth_filter
 from drapery.cloth.forces import Force
 from drapery.cloth.links import Links, limited_links
 from drapery.cloth.pins import PinPath
@@ -33,13 +33,16 @@ from drapery.cloth.solvers.rounds import (
     check_count,
     check_limit,
 )
+from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
 from drapery.cloth.state import State
+from drapery.errors import OptionError
 
 
 class Plan(NamedTuple):
     body: Body
-    filter: Filter
+    filter: Filter | BandFilter
     links: Links
+    spin: Spin | NoSpin
 
 
 @dataclass(frozen=True)
@@ -47,21 +50,26 @@ class SolverDesbrun:
     """See the module.
 
     limit: a spring's longest length over its rest length. sweeps: of the correction, a step.
+    angular: how a free cloth's angular momentum is corrected, see `drapery.cloth.spin`.
     threads: None for as many as there are processors.
     """
 
     limit: float = 1.02
     sweeps: int = 3
+    angular: Correction = "exact"
     threads: int | None = None
 
     def __post_init__(self) -> None:
+        if self.angular not in ("exact", "paper", "none"):
+            raise OptionError(f"angular {self.angular!r} is not known; use exact, paper or none")
         check_limit(self.limit)
         check_count("sweeps", self.sweeps, 0, 1000)
 
     def init(self, cloth: Cloth, dt: float) -> Memory:
         check_step(dt, 1)
         links = limited_links(cloth, self.limit, self.sweeps)
-        return Memory(Plan(body_of(cloth), cloth_filter(cloth, dt), links), dt, 1)
+        spin = spin_correction(cloth, dt, self.angular)
+        return Memory(Plan(body_of(cloth), cloth_filter(cloth, dt), links, spin), dt, 1)
 
     def step(
         self,
@@ -100,6 +108,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.subtract_frame(both[0], u, mean)
             kernels.add_spring_velocities(both[0], y, body.springs, body.inv_mass, dt)
             kernels.filter_velocities(both, plan.filter, body.pins)
+            kernels.keep_spin(g, y, u, plan.spin, work)
             for number in range(batch.gusts.seeds.size):
                 kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
                 pressure = batch.gusts.numbers[number, 16]

@@ -1,0 +1,121 @@
+"""Several cloths sewn into one."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.cloth.cloth import Cloth
+from drapery.errors import OptionError
+
+
+class Seam(NamedTuple):
+    """Particles of one cloth that become the same as particles of another, pair by pair.
+
+    first, second: which cloths. first_particles, second_particles: their particles, [K] each.
+    """
+
+    first: int
+    first_particles: Sequence[int] | NDArray[np.integer]
+    second: int
+    second_particles: Sequence[int] | NDArray[np.integer]
+
+
+def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
+    """One cloth of several, in their order, with the particles of each seam made one.
+
+    A sewn particle has the mean rest position and the sum of the masses; it is pinned if any of
+    its parts is, and has the first one's UVs. Springs keep their lengths; of two springs that
+    come to join the same particles the first stays. Raises OptionError.
+    """
+    if not cloths:
+        raise OptionError("nothing to sew: give at least one cloth")
+    starts = np.cumsum([0, *(len(cloth.inv_mass) for cloth in cloths)])
+    number = _merged(int(starts[-1]), _pairs(cloths, starts, seams))
+    count = int(number.max()) + 1
+    places = np.concatenate([cloth.rest_positions for cloth in cloths])
+    rest = np.zeros((count, 3))
+    np.add.at(rest, number, places)
+    rest /= np.bincount(number, minlength=count)[:, None]
+    first = np.full(count, len(number))
+    np.minimum.at(first, number, np.arange(len(number)))
+    pairs, kept = _sewn_springs(cloths, starts, number)
+    return Cloth(
+        rest_positions=rest,
+        inv_mass=_sewn_masses(np.concatenate([cloth.inv_mass for cloth in cloths]), number, count),
+        spring_pairs=pairs,
+        spring_length=np.concatenate([cloth.spring_length for cloth in cloths])[kept],
+        spring_stiffness=np.concatenate([cloth.spring_stiffness for cloth in cloths])[kept],
+        spring_kind=np.concatenate([cloth.spring_kind for cloth in cloths])[kept],
+        triangles=_sewn_triangles(cloths, starts, number),
+        uvs=np.concatenate([cloth.uvs for cloth in cloths])[first],
+    )
+
+
+def _pairs(
+    cloths: Sequence[Cloth], starts: NDArray[np.int64], seams: Sequence[Seam]
+) -> NDArray[np.int64]:
+    """Pairs of particles of all cloths that become one, [K, 2]."""
+    pairs = [np.zeros((0, 2), np.int64)]
+    for place, seam in enumerate(seams):
+        sides = []
+        for cloth, particles in ((seam.first, seam.first_particles), (seam[2], seam[3])):
+            if not 0 <= cloth < len(cloths):
+                raise OptionError(f"seam {place} names cloth {cloth}; use 0 to {len(cloths) - 1}")
+            chosen, most = np.asarray(particles), len(cloths[cloth].inv_mass) - 1
+            if chosen.size and (chosen.min() < 0 or chosen.max() > most):
+                raise OptionError(f"seam {place} names particles outside 0 to {most}")
+            sides.append(chosen + starts[cloth])
+        if len(sides[0]) != len(sides[1]):
+            raise OptionError(f"seam {place} joins {len(sides[0])} to {len(sides[1])} particles")
+        pairs.append(np.stack(sides, axis=1))
+    return np.concatenate(pairs)
+
+
+def _merged(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
+    """New numbers of `count` particles whose pairs are made one, in the order of the first."""
+    least = np.arange(count)
+    while True:
+        before = least.copy()
+        for a, b in (pairs.T, pairs.T[::-1]):
+            np.minimum.at(least, b, least[a])
+        least = least[least]
+        if np.array_equal(before, least):
+            return np.unique(least, return_inverse=True)[1].astype(np.int64)
+
+
+def _sewn_masses(
+    inv_mass: NDArray[np.floating], number: NDArray[np.int64], count: int
+) -> NDArray[np.floating]:
+    free = inv_mass > 0
+    masses, pinned = np.zeros(count), np.zeros(count, bool)
+    np.add.at(masses, number[free], 1 / inv_mass[free])
+    pinned[number[~free]] = True
+    return np.where(pinned, 0.0, 1 / np.where(pinned | (masses == 0), 1.0, masses))
+
+
+def _sewn_springs(
+    cloths: Sequence[Cloth], starts: NDArray[np.int64], number: NDArray[np.int64]
+) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """Pairs in new numbers, and which of all springs they are."""
+    pairs = number[
+        np.concatenate(
+            [cloth.spring_pairs + start for cloth, start in zip(cloths, starts, strict=False)]
+        )
+    ]
+    ordered = np.sort(pairs, axis=1)
+    _, first = np.unique(ordered, axis=0, return_index=True)
+    kept = np.sort(first)
+    kept = kept[pairs[kept, 0] != pairs[kept, 1]]
+    return pairs[kept].astype(np.int32), kept
+
+
+def _sewn_triangles(
+    cloths: Sequence[Cloth], starts: NDArray[np.int64], number: NDArray[np.int64]
+) -> NDArray[np.int32]:
+    faces = np.concatenate(
+        [cloth.triangles + start for cloth, start in zip(cloths, starts, strict=False)]
+    )
+    sewn: NDArray[np.int32] = number[faces].astype(np.int32)
+    return sewn

@@ -1,0 +1,37 @@
+"""Desbrun's second correction (1999, section 3.3): the filter may not make a free cloth turn.
+
+Internal forces have no net torque, filtered ones have some. The paper takes dt/m in place of the
+inverse of the moment of inertia, which undoes part of it, and for hundreds of particles too much;
+the exact correction solves the 3 x 3 inertia for the rotation that undoes all. A cloth with pins
+has none: its pins' torque is no error.
+"""
+
+from typing import Literal, NamedTuple
+
+from drapery.cloth.cloth import Cloth
+from drapery.mesh import Array
+
+Correction = Literal["exact", "paper", "none"]
+
+
+class Spin(NamedTuple):
+    """mass: [kg], [N]; total: of them; dt: the step [s]."""
+
+    mass: Array
+    total: float
+    dt: float
+    exact: bool
+
+
+class NoSpin(NamedTuple):
+    """No correction; compiled away."""
+
+    unused: int = 0
+
+
+def spin_correction(cloth: Cloth, dt: float, correction: Correction) -> Spin | NoSpin:
+    """The correction for a cloth without pins; none for one with."""
+    if correction == "none" or (cloth.inv_mass == 0).any():
+        return NoSpin()
+    mass = 1.0 / cloth.inv_mass
+    return Spin(mass, float(mass.sum()), dt, correction == "exact")
