@@ -22,7 +22,7 @@ from drapery.render.frame import Frame
 from drapery.render.project import BROKEN, NEAREST, VERTEX, project
 from drapery.render.relief import relieved
 from drapery.render.scene import Scene
-from drapery.render.tiles import draw_tiles
+from drapery.render.tiles import FULL_LIGHT, draw_tiles
 from drapery.render.wardrobe import BLEND, Wardrobe
 from drapery.render.workers import share_out, worker_count
 
@@ -225,9 +225,9 @@ def _draw(
     picture: NDArray[np.uint32],
 ) -> None:
     mesh = raster.vertices, raster.triangles, raster.triangle_look
-    worn = tables.looks, tables.coats, tables.atlas
+    worn = tables.looks, tables.coats, tables.atlas.reshape(-1), tables.atlas.shape[1]
     background = np.array(scene.background, np.uint8).view(np.uint32)[0]
-    tint = np.array(scene.light.tint, np.float32)
+    tint = np.rint(np.array(scene.light.tint) * FULL_LIGHT).astype(np.int64)
     tiles_x, tiles_y = (-(-side * grid // TILE) for side in scene.size)
     ranges = [(0, tiles_x * tiles_y)]
     while ranges:
@@ -253,7 +253,8 @@ def _draw(
                 tint,
                 background,
                 grid,
-                picture,
+                scene.size,
+                picture.reshape(-1),
             )
 
         share_out(run, workers)

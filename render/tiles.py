@@ -31,6 +31,10 @@ LAYER = TILE * STRIDE
 OPAQUE, CUTOUT, BLEND = 0, 1, 2
 OPAQUE_BITS = 0xFF000000
 
+LIGHT_BITS = 24
+FULL_LIGHT = 1 << LIGHT_BITS
+"""Light is multiplied in whole numbers, which is faster than turning colours to floats and back."""
+
 # Called by kernels only: without a door from Python each compiles in half the time.
 _inner = njit(
     cache=True, error_model="numpy", nogil=True, no_cpython_wrapper=True, no_cfunc_wrapper=True
@@ -92,13 +96,13 @@ def _tinted(texel, red, green, blue):
 
 
 @_inner
-def _lit(colour, red, green, blue):
-    """round(colour * light) for each channel."""
-    half = np.float32(0.5)
-    r = np.int32(np.float32(np.int32(colour & 255)) * red + half)
-    g = np.int32(np.float32(np.int32((colour >> 8) & 255)) * green + half)
-    b = np.int32(np.float32(np.int32((colour >> 16) & 255)) * blue + half)
-    return (colour & OPAQUE_BITS) | np.int64(b << 16 | g << 8 | r)
+def _lit(colour, light, tint):
+    """round(colour * light * tint) for each channel; light and tint in units of 1 / FULL_LIGHT."""
+    half = FULL_LIGHT >> 1
+    r = ((colour & 255) * (light * tint[0] >> LIGHT_BITS) + half) >> LIGHT_BITS
+    g = (((colour >> 8) & 255) * (light * tint[1] >> LIGHT_BITS) + half) >> LIGHT_BITS
+    b = (((colour >> 16) & 255) * (light * tint[2] >> LIGHT_BITS) + half) >> LIGHT_BITS
+    return (colour & OPAQUE_BITS) | b << 16 | g << 8 | r
 
 
 @_inner
@@ -118,7 +122,7 @@ def _cover_tile(first, last, x0, y0, records, vertices, triangles, triangle_look
 
     Returns the bounds of the samples tried: left, right, top, bottom.
     """
-    looks, coats, atlas = worn
+    looks, coats, atlas, wide = worn
     edge_left, edge_right, edge_top, edge_bottom = TILE, -1, TILE, -1
     for entry in range(first, last):
         ax, ay = np.int64(records[entry, 0]) - (x0 << 8), np.int64(records[entry, 1]) - (y0 << 8)
@@ -171,7 +175,7 @@ def _cover_tile(first, last, x0, y0, records, vertices, triangles, triangle_look
                     u, v = _uv_at(t, x0 + left + k, y0 + row, vertices, triangles)
                     i = min(max(np.int64(u * coats[coat, 2]), 0), coats[coat, 2] - 1)
                     j = min(max(np.int64(v * coats[coat, 3]), 0), coats[coat, 3] - 1)
-                    if atlas[coats[coat, 1] + j, coats[coat, 0] + i] >> 31:
+                    if atlas[(coats[coat, 1] + j) * wide + coats[coat, 0] + i] >> 31:
                         keys[at] = key
     return edge_left, edge_right, edge_top, edge_bottom
 
@@ -204,14 +208,17 @@ def _uv_at(t, x, y, vertices, triangles):
 
 @_inner
 def _shade_tile(
-    layer, bounds, x0, y0, vertices, triangles, triangle_look, worn, tint, keys, colours
+    layer, bounds, x0, y0, vertices, triangles, triangle_look, worn, tint, keys, colours, scratch
 ):
     """Colour what is seen in the tile at x0, y0, one run of the same triangle after another.
 
     layer: where the keys begin; 0 is what is solid, LAYER what is laid over it.
-    All coats are laid over one another first and lit at the end, once.
+    scratch: u, v, light, place in the atlas and colour of each sample of a run.
+    All coats are laid over one another first and lit at the end, once. Each step is a loop of its
+    own over whole groups of samples, so that it can be done for a group at once.
     """
-    looks, coats, atlas = worn
+    looks, coats, atlas, wide = worn
+    u, v, light, place, shown = scratch
     left, right, top, bottom = bounds
     for row in range(top, bottom + 1):
         start = layer + row * STRIDE
@@ -235,56 +242,83 @@ def _shade_tile(
             w0, dw = wa + wb + wc, da + db + dc
             u0, du = wa * a.u + wb * b.u + wc * c.u, da * a.u + db * b.u + dc * c.u
             v0, dv = wa * a.v + wb * b.v + wc * c.v, da * a.v + db * b.v + dc * c.v
-            s0 = wa * a.shade + wb * b.shade + wc * c.shade
-            ds = da * a.shade + db * b.shade + dc * c.shade
+            s0 = (wa * a.shade + wb * b.shade + wc * c.shade) * FULL_LIGHT
+            ds = (da * a.shade + db * b.shade + dc * c.shade) * FULL_LIGHT
             u_low, u_high = min(a.u, b.u, c.u), max(a.u, b.u, c.u)
             v_low, v_high = min(a.v, b.v, c.v), max(a.v, b.v, c.v)
 
             look = triangle_look[t]
-            coat, end = looks[look, 0], looks[look, 0] + looks[look, 1]
-            mode, lit = looks[look, 2], looks[look, 3]
-            solid = OPAQUE_BITS if mode != BLEND else 0
-            across, down = coats[coat, 2], coats[coat, 3]
+            coat, coats_end = looks[look, 0], looks[look, 0] + looks[look, 1]
+            solid = np.uint32(OPAQUE_BITS if looks[look, 2] != BLEND else 0)
+            across, down = np.float64(coats[coat, 2]), np.float64(coats[coat, 3])
+            i_first, i_last = _reach(u_low, u_high, coats[coat, 2])
+            j_first, j_last = _reach(v_low, v_high, coats[coat, 3])
+            i_low, i_high = np.float64(i_first), np.float64(i_last)
+            j_low, j_high = np.float64(j_first), np.float64(j_last)
+            origin = coats[coat, 1] * wide + coats[coat, 0]
+            count = last - x + 1
+            whole = ((count - 1) // LANES + 1) * LANES
+            for k in range(whole):
+                at = np.float64(k)
+                w = 1.0 / (w0 + at * dw)
+                su, sv = (u0 + at * du) * w, (v0 + at * dv) * w
+                u[np.uint64(k)], v[np.uint64(k)] = su, sv
+                light[np.uint64(k)] = np.int32((s0 + at * ds) * w)
+                i = np.int32(min(max(su * across, i_low), i_high))
+                j = np.int32(min(max(sv * down, j_low), j_high))
+                place[np.uint64(k)] = origin + j * wide + i
+            for k in range(count):
+                shown[np.uint64(k)] = atlas[np.uint64(place[np.uint64(k)])] | solid
+
             red, green, blue = coats[coat, 4], coats[coat, 5], coats[coat, 6]
-            plain = red & green & blue == 255
-            i_first, i_last = _reach(u_low, u_high, across)
-            j_first, j_last = _reach(v_low, v_high, down)
-            origin_x, origin_y = coats[coat, 0], coats[coat, 1]
-            for k in range(last - x + 1):
-                w = 1.0 / (w0 + k * dw)
-                u, v = (u0 + k * du) * w, (v0 + k * dv) * w
-                i = min(max(np.int64(u * across), i_first), i_last)
-                j = min(max(np.int64(v * down), j_first), j_last)
-                colour = np.int64(atlas[np.uint64(origin_y + j), np.uint64(origin_x + i)]) | solid
-                if not plain:
-                    colour = _tinted(colour, red, green, blue)
-                for upper in range(coat + 1, end):
-                    first, final = _reach(u_low, u_high, coats[upper, 2])
-                    i = coats[upper, 0] + min(max(np.int64(u * coats[upper, 2]), first), final)
-                    first, final = _reach(v_low, v_high, coats[upper, 3])
-                    j = coats[upper, 1] + min(max(np.int64(v * coats[upper, 3]), first), final)
-                    texel = np.int64(atlas[np.uint64(j), np.uint64(i)])
-                    texel = _tinted(texel, coats[upper, 4], coats[upper, 5], coats[upper, 6])
-                    colour = _lay_over(texel, colour)
-                if lit:
-                    light = np.float32((s0 + k * ds) * w)
-                    colour = _lit(colour, light * tint[0], light * tint[1], light * tint[2])
-                at = np.uint64(row * TILE + x + k)
-                if layer:
-                    colour = _lay_over(colour, np.int64(colours[at]))
-                colours[at] = colour
+            if red & green & blue != 255 or coats_end - coat > 1:
+                for k in range(count):
+                    colour = _tinted(np.int64(shown[k]), red, green, blue)
+                    for upper in range(coat + 1, coats_end):
+                        first, final = _reach(u_low, u_high, coats[upper, 2])
+                        i = coats[upper, 0] + min(
+                            max(np.int64(u[k] * coats[upper, 2]), first), final
+                        )
+                        first, final = _reach(v_low, v_high, coats[upper, 3])
+                        j = coats[upper, 1] + min(
+                            max(np.int64(v[k] * coats[upper, 3]), first), final
+                        )
+                        texel = np.int64(atlas[np.uint64(j * wide + i)])
+                        texel = _tinted(texel, coats[upper, 4], coats[upper, 5], coats[upper, 6])
+                        colour = _lay_over(texel, colour)
+                    shown[k] = colour
+            if looks[look, 3]:
+                for k in range(whole):
+                    colour = np.int64(shown[np.uint64(k)])
+                    shown[np.uint64(k)] = _lit(colour, np.int64(light[np.uint64(k)]), tint)
+            at = row * TILE + x
+            if layer:
+                for k in range(count):
+                    shown[k] = _lay_over(np.int64(shown[k]), np.int64(colours[at + k]))
+            for k in range(count):
+                colours[np.uint64(at + k)] = shown[np.uint64(k)]
 
 
 @_inner
-def _resolve(colours, x0, y0, grid, picture):
-    """Average grid x grid samples to a pixel; each weighs as much as it is opaque."""
-    height, width = picture.shape
+def _fill(value, x0, y0, width, height, across, picture):
+    """Fill a rectangle of the picture, `across` pixels wide in all, with one colour."""
+    for row in range(y0, y0 + height):
+        for column in range(width):
+            picture[np.uint64(row * across + x0 + column)] = value
+
+
+@_inner
+def _resolve(colours, x0, y0, width, height, across, grid, picture):
+    """Put a tile into the picture: grid x grid samples are averaged to a pixel, each weighing as
+    much as it is opaque."""
     count = grid * grid
-    for row in range(min(TILE // grid, height - y0)):
-        for column in range(min(TILE // grid, width - x0)):
-            if grid == 1:
-                picture[y0 + row, x0 + column] = colours[row * TILE + column]
-                continue
+    for row in range(height):
+        start = (y0 + row) * across + x0
+        if grid == 1:
+            for column in range(width):
+                picture[np.uint64(start + column)] = colours[np.uint64(row * TILE + column)]
+            continue
+        for column in range(width):
             alpha = red = green = blue = 0
             for sample in range(count):
                 line, place = row * grid + sample // grid, column * grid + sample % grid
@@ -300,12 +334,24 @@ def _resolve(colours, x0, y0, grid, picture):
                 (blue + half) // total,
             )
             alpha = (alpha + (count >> 1)) // count
-            picture[y0 + row, x0 + column] = alpha << 24 | blue << 16 | green << 8 | red
+            picture[start + column] = alpha << 24 | blue << 16 | green << 8 | red
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def draw_tiles(
-    worker, workers, tiles_x, first, starts, records, mesh, worn, tint, background, grid, picture
+    worker,
+    workers,
+    tiles_x,
+    first,
+    starts,
+    records,
+    mesh,
+    worn,
+    tint,
+    background,
+    grid,
+    size,
+    picture,
 ):
     """Draw every workers-th tile, beginning with number `worker`.
 
@@ -314,18 +360,31 @@ def draw_tiles(
         blend come last and are drawn in their order.
     mesh: vertices [V] of VERTEX, triangles [T, 3], triangle_look [T].
     worn: looks [L, 4], a row each of first coat, count, alpha mode, lit; coats [C, 7], a row each
-        of x, y, width, height in the atlas and tint; atlas [H, W], one uint32 a texel.
-    tint: the light's colour, three factors, float32.
+        of x, y, width, height in the atlas and tint; atlas [H * W], one uint32 a texel; W.
+    tint: the light's colour, three factors in units of 1 / FULL_LIGHT, int64.
     background: one uint32, 0xAABBGGRR, as all colours here.
     grid: samples along a pixel's side.
-    picture: shape [H, W], uint32.
+    size: of the picture [pixels]; picture: shape [H * W], uint32.
     """
+    across, down = size
     vertices, triangles, triangle_look = mesh
     keys = np.empty(2 * LAYER, np.int64)
     colours = np.empty(TILE * TILE, np.uint32)
+    scratch = (
+        np.empty(STRIDE),
+        np.empty(STRIDE),
+        np.empty(STRIDE, np.int32),
+        np.empty(STRIDE, np.int32),
+        np.zeros(STRIDE, np.uint32),
+    )
     for tile in range(worker, len(starts) - 1, workers):
         column, line = (first + tile) % tiles_x, (first + tile) // tiles_x
         x0, y0 = column << TILE_BITS, line << TILE_BITS
+        px, py = x0 // grid, y0 // grid
+        width, height = min(TILE // grid, across - px), min(TILE // grid, down - py)
+        if starts[tile] == starts[tile + 1]:
+            _fill(background, px, py, width, height, across, picture)
+            continue
         colours[:] = background
         keys[:LAYER] = 0
         entry, end = starts[tile], starts[tile + 1]
@@ -341,7 +400,18 @@ def draw_tiles(
                 entry, until, x0, y0, records, vertices, triangles, triangle_look, worn, keys
             )
             _shade_tile(
-                layer, bounds, x0, y0, vertices, triangles, triangle_look, worn, tint, keys, colours
+                layer,
+                bounds,
+                x0,
+                y0,
+                vertices,
+                triangles,
+                triangle_look,
+                worn,
+                tint,
+                keys,
+                colours,
+                scratch,
             )
             entry = until
-        _resolve(colours, x0 // grid, y0 // grid, grid, picture)
+        _resolve(colours, px, py, width, height, across, grid, picture)
