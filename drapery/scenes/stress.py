@@ -11,11 +11,12 @@ from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.cloth import Gravity, Wind, grid, rest_state, simulate
-from drapery.mesh import Array, vertex_normals
+from drapery.mesh import Array
 from drapery.render.scene import Look, Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Shot
 from drapery.style.block import FLAG_SIZE, FLAG_SKIN, SCALE
+from drapery.style.crowds import cover_crowd
 from drapery.style.extrusion import make_shell
 from drapery.style.layers import flag_look
 from drapery.style.stage import SKY
@@ -54,7 +55,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     camera = frame_points(CORNER, places[:, None] + _room(), shot.size[0] / shot.size[1])
     for positions in _motion(parameters, shot, places):
         hung = (positions + places[:, None]).astype(np.float32)
-        mesh = shell.cover(hung, vertex_normals(hung, cloth.triangles), SCALE)
+        mesh = cover_crowd(shell, hung, SCALE)
         yield Scene((Model(mesh, looks, look_index),), camera, shot.size, background=SKY, samples=4)
 
 
