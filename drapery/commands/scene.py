@@ -21,8 +21,12 @@ def run(
         list[str] | None,
         typer.Option("-p", "--set", metavar="NAME=VALUE", help="A parameter of the scene."),
     ] = None,
-    seconds: Annotated[float, typer.Option(help="Length of the animation.")] = 4.0,
-    fps: Annotated[float, typer.Option(help="Frames per second.")] = 20.0,
+    seconds: Annotated[
+        float | None, typer.Option(help="Length of the animation; most scenes' own is 4.")
+    ] = None,
+    fps: Annotated[
+        float | None, typer.Option(help="Frames per second; most scenes' own are 20.")
+    ] = None,
     size: o.SizeOption = "480x480",
     backend: o.BackendOption = "auto",
 ) -> None:
@@ -43,8 +47,8 @@ def _play(
     name: str,
     out: str,
     parameters: list[str],
-    seconds: float,
-    fps: float,
+    seconds: float | None,
+    fps: float | None,
     size: str,
     backend: str,
 ) -> None:
@@ -56,7 +60,10 @@ def _play(
     scene, words = find(name), _words(parameters)
     is_still = out.lower().endswith(".png") and not out.lower().endswith(".sheet.png")
     (check_still_target if is_still else check_animation_target)(out)
-    shot = Shot(pair("size", size), frame_count(seconds, fps), fps)
+    own = scene.shot
+    fps = own.fps if fps is None else fps
+    length = own.count / own.fps if seconds is None else seconds
+    shot = Shot(pair("size", size), frame_count(length, fps), fps)
     with compile_notice(), progress("frames", shot.count) as tick:
         drawn = scene_frames(scene, scene.parameters(words), shot, backend, last=is_still)
         if is_still:

@@ -1,7 +1,8 @@
 """The ready-made scenes, found by name: one module each, which offers `Parameters` and `play`.
 
 `Parameters` is a frozen dataclass whose defaults are the scene's own values; `play(parameters,
-shot)` yields one picture for each frame of the shot. The module's first line says what is seen.
+shot)` yields one picture for each frame of the shot. The module's first line says what is seen;
+its SHOT, where it has one, is its own length and frame rate.
 """
 
 import pkgutil
@@ -35,6 +36,12 @@ class Entry:
     name: str
     summary: str
     module: ModuleType
+
+    @property
+    def shot(self) -> Shot:
+        """The scene's own length and frame rate."""
+        own: Shot = getattr(self.module, "SHOT", Shot())
+        return own
 
     def parameters(self, words: Mapping[str, str] | None = None) -> Any:
         """The scene's parameters, some of them given as text. Raises OptionError."""

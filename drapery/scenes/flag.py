@@ -5,20 +5,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.banner.packs import Packs, open_packs
+from drapery.banner.packs import open_packs
 from drapery.cloth import Cloth, Drag, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.render.camera import Camera
-from drapery.render.scene import Model, Scene
+from drapery.render.scene import Scene
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.flags import flag_looks, flag_shell
 from drapery.scenes.motion import motion, placed
 from drapery.style.block import FLAG_SIZE, SCALE
 from drapery.style.blocks import Cell, blocks
-from drapery.style.boxes import Box, box_mesh, upright
 from drapery.style.garment import garment
-from drapery.style.layers import wood_look
-from drapery.style.stage import SKY
+from drapery.style.stage import SKY, post
 
 LOOP = 4.0
 GROWN = 2.2
@@ -48,7 +46,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     packs = open_packs(())
     cloth = banner_on_its_side(parameters.grid)
     shell, looks = flag_shell(cloth), flag_looks((parameters.design,), packs)
-    still = (*blocks(_hill(), packs), _pole(packs))
+    still = (*blocks(_hill(), packs), post(FOOT, POLE, packs))
     for state in flown(parameters, cloth, shot):
         sheet = state.positions[0]
         flag = garment(shell, sheet, parameters.thickness * SCALE * GROWN, *looks)
@@ -71,13 +69,6 @@ def flown(parameters: Parameters, cloth: Cloth, shot: Shot) -> Iterator[State]:
     push = Gravity((FRICTION * velocity[0], 0.0, FRICTION * velocity[2]))
     forces = (Gravity(), wind, push, Drag(FRICTION))
     return motion(cloth, shot, forces=forces, settle=LOOP)
-
-
-def _pole(packs: Packs) -> Model:
-    """A banner's own pole, longer and thicker."""
-    pole = box_mesh(Box((-1, -42, -1), (2, 42, 2), (44, 0)))
-    standing = upright(pole, POLE / 42, (FOOT[0], FOOT[1], FOOT[2]))
-    return Model(standing, (wood_look(packs),))
 
 
 def _hill() -> dict[Cell, str]:

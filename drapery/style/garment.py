@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner.dyes import DYES
+from drapery.banner.sprites import tint
 from drapery.errors import OptionError
 from drapery.mesh import Array, vertex_normals
 from drapery.render.scene import Coat, Look, Model, Texels
@@ -30,3 +31,10 @@ def dyed(texels: Texels, dye: str) -> Look:
     if dye not in DYES:
         raise OptionError(f"dye {dye!r} is not known; use one of: {', '.join(DYES)}")
     return Look((Coat(texels, DYES[dye].rgb),))
+
+
+def checked(texels: Texels, dyes: tuple[str, str], count: int = 4) -> Look:
+    """A light texture in checks of two dyes, `count` to a side. Raises OptionError."""
+    pieces = [tint(texels, dyed(texels, dye).coats[0].tint) for dye in dyes]
+    rows = [np.hstack([pieces[(r + c) % 2] for c in range(count)]) for r in range(count)]
+    return Look((Coat(np.ascontiguousarray(np.vstack(rows))),))

@@ -9,6 +9,8 @@ from drapery.banner.packs import Packs
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Coat, Look, Model
 from drapery.style.blocks import Cell, blocks
+from drapery.style.boxes import Box, box_mesh, upright
+from drapery.style.layers import wood_look
 
 SKY = (168, 204, 242, 255)
 DUSK = (58, 62, 92, 255)
@@ -45,6 +47,16 @@ def moved(models: tuple[Model, ...], by: Array) -> tuple[Model, ...]:
         replace(model, mesh=replace(model.mesh, positions=model.mesh.positions + by))
         for model in models
     )
+
+
+def post(foot: Array, height: float, packs: Packs) -> Model:
+    """A banner's pole of any height [m], standing on `foot` [m], shape [3]."""
+    pole = box_mesh(Box((-1, -42, -1), (2, 42, 2), (44, 0)))
+    thick = max(height / 42, 1 / 24)
+    standing = upright(pole, 1.0, (0, 0, 0))
+    scale = np.array([thick, height / 42, thick])
+    mesh = replace(standing, positions=standing.positions * scale + foot)
+    return Model(mesh, (wood_look(packs),))
 
 
 def shadow(centre: tuple[float, float], radius: float, height: float = 0.0) -> Model:

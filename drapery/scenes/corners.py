@@ -1,0 +1,79 @@
+"""A square of cloth held at some of its corners, let go from the level: what three scenes share."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.banner.packs import open_packs
+from drapery.cloth import Cloth, Drag, Gravity, State, grid
+from drapery.cloth.colliders import rotation_about
+from drapery.cloth.pins import PinName
+from drapery.cloth.solvers.verlet import SolverVerlet
+from drapery.mesh import Array
+from drapery.render.scene import Scene
+from drapery.render.shadow import contact_shadow
+from drapery.render.views import View, frame_points
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.motion import motion, placed
+from drapery.style.blocks import blocks, plateau
+from drapery.style.extrusion import make_shell
+from drapery.style.garment import checked, garment
+from drapery.style.stage import SKY, post
+
+SIDE, HEIGHT = 2.0, 2.4
+"""Of the cloth, and how high it is held [m]."""
+CORNER_VIEW = View(azimuth=32, elevation=20, fov=28)
+STIFFNESS = (20.0, 6.0, 1.0)
+"""Of structural, shear and flexion springs [N/m]."""
+DRAG = 0.8
+"""[1/s]"""
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """grid: particles across and down; the course's own is 10 x 10. limit: a spring's longest
+    length over its rest length. drag: [1/s]. thickness: [m]."""
+
+    grid: tuple[int, int] = (10, 10)
+    limit: float = 1.1
+    drag: float = DRAG
+    thickness: float = 0.05
+
+
+def show(pins: PinName, parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """The cloth between posts at its held corners."""
+    packs = open_packs(())
+    cloth = level_cloth(pins, parameters)
+    shell = make_shell(cloth.triangles, cloth.uvs)
+    wool = checked(packs.texture("block/white_wool"), ("cyan", "white"))
+    held = cloth.rest_positions[cloth.inv_mass == 0]
+    posts = tuple(post(place * np.array([1, 0, 1]), HEIGHT + 0.06, packs) for place in held)
+    still = (*blocks(plateau(4, 4), packs), *posts)
+    camera = frame_points(CORNER_VIEW, _room(), shot.size[0] / shot.size[1], margin=0.03)
+    for state in swung(cloth, parameters, shot):
+        sheet = garment(shell, state.positions[0], parameters.thickness, wool)
+        veil = contact_shadow((*posts, sheet), 0.0, reach=HEIGHT)
+        yield Scene((*still, veil, sheet), camera, shot.size, background=SKY, samples=4)
+
+
+def level_cloth(pins: PinName, parameters: Parameters) -> Cloth:
+    """The cloth lying level in the air; its first row is at the back.
+
+    One that is held at that row alone will swing, and has it over the middle of the ground.
+    """
+    cloth = grid(*parameters.grid, SIDE, SIDE, pins=pins, stiffness=STIFFNESS)
+    turn = rotation_about((1, 0, 0), -90)
+    back = 0.0 if pins == "corners" else -SIDE / 2
+    return placed(cloth, np.array([0.0, HEIGHT, back]), turn)
+
+
+def swung(cloth: Cloth, parameters: Parameters, shot: Shot) -> Iterator[State]:
+    """The cloth at each frame after it has been let go."""
+    forces = (Gravity(), Drag(parameters.drag))
+    return motion(cloth, shot, solver=SolverVerlet(limit=parameters.limit), forces=forces)
+
+
+def _room() -> Array:
+    """What the camera frames: the ground, and the height of the posts [m]."""
+    return np.array([[x, y, z] for x in (-2, 2) for z in (-2, 2) for y in (-1, 0)] + [[0, 2.5, -1]])
