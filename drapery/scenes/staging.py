@@ -9,7 +9,9 @@ import math
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from itertools import islice
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -32,6 +34,8 @@ SETTLING = 8.0
 """A loop is recorded after the cloth has hung in the wind at least this long [s]."""
 BREEZE = (0.35, 0.0, 1.0)
 """Where the wind blows to, before all is turned: out to the front, and a little sideways."""
+MAX_KEPT = 16 << 20
+"""The largest motion that is remembered [bytes]."""
 
 
 def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
@@ -158,38 +162,70 @@ def _dress(panel: Panel, settings: Settings, positions: Array) -> Mesh:
     return shell.cover(hung, normals, settings.thickness * panel.texel)
 
 
+_ClothKey: TypeAlias = tuple[int, int, float, float, Literal["top", "corners"]]
+
+
+def _cloth_key(panel: Panel, settings: Settings) -> _ClothKey:
+    return (*settings.grid, *panel.size, panel.pins)
+
+
+def _keyed_cloth(key: _ClothKey) -> Cloth:
+    columns, rows, width, height, pins = key
+    return grid(columns, rows, width, height, pins=pins)
+
+
 def _cloth(panel: Panel, settings: Settings) -> Cloth:
-    columns, rows = settings.grid
-    return grid(columns, rows, *panel.size, pins=panel.pins)
+    return _keyed_cloth(_cloth_key(panel, settings))
 
 
-def _wind(settings: Settings, period: float | None = None) -> Wind:
+def _wind(speed: float, seed: int, period: float | None = None) -> Wind:
     direction = np.array(BREEZE) / np.linalg.norm(BREEZE)
-    return Wind(tuple(settings.wind * direction), seed=settings.seed, period=period)
+    return Wind(tuple(speed * direction), seed=seed, period=period)
 
 
 def _hang(panel: Panel, settings: Settings) -> Array:
     """The cloth after `time` seconds, shape [N, 3]."""
-    cloth = _cloth(panel, settings)
-    steps = math.ceil(settings.time / STEP)
-    if steps == 0:
-        rest: Array = rest_state(cloth).positions[0]
-        return rest
-    forces = (Gravity(), _wind(settings))
-    states = simulate(cloth, forces=forces, dt=settings.time / steps, every=steps)
-    hung: Array = next(islice(states, 1, None)).positions[0]
-    return hung
+    return _hung(_cloth_key(panel, settings), settings.wind, settings.seed, settings.time)
 
 
 def _wave(panel: Panel, settings: Settings, count: int, fps: float) -> Array:
     """One period of the cloth's motion in a periodic wind, shape [count, N, 3]."""
+    size = count * math.prod(settings.grid) * 3 * np.dtype(float).itemsize
+    waved = _waved if size <= MAX_KEPT else _waved.__wrapped__
+    return waved(_cloth_key(panel, settings), settings.wind, settings.seed, count, fps)
+
+
+# Many banners in a row often move alike, since no design weighs anything: what was simulated
+# last is remembered.
+
+
+@lru_cache(maxsize=8)
+def _hung(cloth_key: _ClothKey, wind: float, seed: int, time: float) -> Array:
+    cloth = _keyed_cloth(cloth_key)
+    steps = math.ceil(time / STEP)
+    if steps == 0:
+        rest: Array = rest_state(cloth).positions[0]
+        return _kept(rest)
+    forces = (Gravity(), _wind(wind, seed))
+    states = simulate(cloth, forces=forces, dt=time / steps, every=steps)
+    return _kept(next(islice(states, 1, None)).positions[0])
+
+
+@lru_cache(maxsize=8)
+def _waved(cloth_key: _ClothKey, wind: float, seed: int, count: int, fps: float) -> Array:
     period = count / fps
     steps = math.ceil(1 / (fps * STEP))
-    forces = (Gravity(), _wind(settings, period))
-    states = simulate(_cloth(panel, settings), forces=forces, dt=1 / (fps * steps), every=steps)
+    forces = (Gravity(), _wind(wind, seed, period))
+    cloth = _keyed_cloth(cloth_key)
+    states = simulate(cloth, forces=forces, dt=1 / (fps * steps), every=steps)
     first = math.ceil(SETTLING / period) * count
     recorded = [state.positions[0] for state in islice(states, first, first + count + 1)]
-    return close_loop(np.stack(recorded))
+    return _kept(close_loop(np.stack(recorded)))
+
+
+def _kept(positions: Array) -> Array:
+    positions.flags.writeable = False
+    return positions
 
 
 def close_loop(motion: Array) -> Array:

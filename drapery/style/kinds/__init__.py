@@ -35,6 +35,11 @@ def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
 
     Raises OptionError for options that do not fit the kind, and PackError.
     """
+    return check_kind(design, settings).build(design, packs, settings)
+
+
+def check_kind(design: Banner | None, settings: Settings) -> Kind:
+    """The kind that the settings ask for. Raises OptionError where options do not fit it."""
     name = settings.kind
     if name == "auto":
         name = "banner" if design is None else design.kind
@@ -46,4 +51,4 @@ def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
         raise OptionError(f"kind {name} wears no design; give its texture alone, a PNG file")
     if kind.takes == "design" and settings.texture is not None:
         raise OptionError("texture is for a cape or elytra; use kind cape, or leave it out")
-    return kind.build(design, packs, settings)
+    return kind
