@@ -7,6 +7,7 @@ from typer.exceptions import TyperException
 
 from drapery.commands import (
     animate,
+    batch,
     compare,
     doctor,
     flat,
@@ -38,6 +39,7 @@ for name, command in {
     "scene": scene,
     "model": model,
     "packs": packs,
+    "batch": batch,
     "doctor": doctor,
 }.items():
     app.command(name)(command.run)

@@ -29,6 +29,9 @@ LAW: dict[str, set[str]] = {
     "drapery.sheets": {"errors", "settings", "banner", "render", "pictures", "compare"},
     "drapery.beet": {"errors", "banner", "testing"},
     "drapery.testing": {"errors", "settings", "banner", "render", "pictures", "compare"},
+    "drapery.batch": {
+        *("errors", "settings", "banner", "style", "render", "pictures", "compare"),
+    },
 }
 TOP_FLOOR = {"drapery.cli", "drapery.commands", "drapery.__main__", "drapery"}
 

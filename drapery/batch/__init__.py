@@ -1,0 +1,1 @@
+"""Many pictures: a manifest of jobs, done on one machine or many, that survives faults."""

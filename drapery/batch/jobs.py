@@ -1,0 +1,140 @@
+"""One job, and doing it: a picture drawn and stored under all the names that want it."""
+
+import time
+import warnings
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from drapery.banner.design import Banner
+from drapery.batch.keys import Digests, key_of, our_version
+from drapery.batch.manifest import Request
+from drapery.batch.stores import LocalStore, Store
+from drapery.errors import BackendError, DesignError, DraperyError, OptionError
+from drapery.settings import Settings
+
+
+@dataclass(frozen=True)
+class Job:
+    """A picture to be made. outs: the files that want it. places: where they were asked for."""
+
+    key: str
+    outs: tuple[str, ...]
+    places: tuple[str, ...]
+    banner: Banner | None
+    settings: Settings
+    seconds: float | None
+    fps: float | None
+    version: str
+
+    @property
+    def motion(self) -> tuple[object, ...]:
+        """Jobs that agree in this move alike, so their cloth is simulated once."""
+        s = self.settings
+        kind = s.kind if self.banner is None or s.kind != "auto" else self.banner.kind
+        when = s.time if self.seconds is None else 0.0
+        still = self.seconds is None
+        return (kind, s.pose, s.grid, s.wind, s.seed, when, still, self.seconds or 0, self.fps or 0)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a job. fault: why it failed, one line. again: whether another try may help.
+
+    seconds: that it took [s]. size: of its file [bytes].
+    """
+
+    job: Job
+    fault: str | None = None
+    again: bool = False
+    seconds: float = 0.0
+    size: int = 0
+    notes: tuple[str, ...] = ()
+
+
+def plan(requests: Iterable[Request]) -> list[Job]:
+    """Jobs for what is asked, those of one motion next to each other, equal ones made one.
+
+    Raises PackError where packs cannot be read.
+    """
+    digests = Digests()
+    jobs: dict[str, Job] = {}
+    for request in requests:
+        job = job_of(request, digests)
+        same = jobs.get(job.key)
+        if same is not None:
+            job = replace(same, outs=same.outs + job.outs, places=same.places + job.places)
+        jobs[job.key] = job
+    first: dict[tuple[object, ...], int] = {}
+    for job in jobs.values():
+        first.setdefault(job.motion, len(first))
+    return sorted(jobs.values(), key=lambda job: first[job.motion])
+
+
+def job_of(request: Request, digests: Digests) -> Job:
+    """The job of one request. Raises PackError."""
+    ending = Path(request.out).suffix.lower()
+    times = {"seconds": request.seconds, "fps": request.fps}
+    key = key_of(request.banner, request.settings, digests, ending=ending, **times)
+    return Job(
+        key,
+        (request.out,),
+        (request.place,),
+        request.banner,
+        request.settings,
+        request.seconds,
+        request.fps,
+        our_version(),
+    )
+
+
+def do(job: Job, store: Store) -> Outcome:
+    """Draw a job's picture and store it whole. Never raises for what a job can bring about."""
+    start = time.perf_counter()
+    try:
+        size, notes = _do(job, store)
+    except DraperyError as error:
+        hopeless = isinstance(error, (OptionError, DesignError, BackendError))
+        return Outcome(job, str(error), not hopeless, time.perf_counter() - start)
+    except MemoryError:
+        return Outcome(job, OUT_OF_MEMORY, True, time.perf_counter() - start)
+    except Exception as error:
+        # A fault of ours, or of an installed backend; the others shall not suffer by it.
+        line = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}; please report it"
+        return Outcome(job, line, True, time.perf_counter() - start)
+    return Outcome(job, None, False, time.perf_counter() - start, size, notes)
+
+
+OUT_OF_MEMORY = "it wants more memory than --memory allows; make it smaller or raise the limit"
+
+
+def _do(job: Job, store: Store) -> tuple[int, tuple[str, ...]]:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UserWarning)
+        if isinstance(store, LocalStore):
+            first = store.ready(job.outs[0])
+            _save(job, first)
+            data = None
+            size = first.stat().st_size
+        else:
+            with TemporaryDirectory() as folder:
+                path = Path(folder, "picture" + Path(job.outs[0]).suffix)
+                _save(job, path)
+                data = path.read_bytes()
+            store.write(job.outs[0], data)
+            size = len(data)
+    for out in job.outs[1:]:
+        store.write(out, store.read(job.outs[0]) if data is None else data)
+    return size, tuple(dict.fromkeys(str(one.message) for one in caught))
+
+
+def _save(job: Job, path: Path) -> None:
+    from drapery.pictures import draw_with, frame_count, frames
+    from drapery.render.encode import save_animation
+
+    if job.seconds is None or job.fps is None:
+        draw_with(job.banner, job.settings).save(path)
+        return
+    drawn = frames(job.banner, job.seconds, job.fps, job.settings)
+    save_animation(drawn, job.fps, path, total=frame_count(job.seconds, job.fps))

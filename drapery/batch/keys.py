@@ -1,0 +1,105 @@
+"""What a picture is made of, as one hash: same key, same bytes, so no work."""
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import asdict
+from functools import cache
+from importlib.metadata import version
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+from drapery.banner.design import Banner
+from drapery.errors import PackError
+from drapery.settings import Settings
+
+MAX_FILES = 200_000
+
+
+class Digests:
+    """Hashes of packs and textures, each read once."""
+
+    def __init__(self) -> None:
+        self._known: dict[Path, str] = {}
+
+    def of(self, path: str | Path) -> str:
+        """The hash of a file, or of all files in a folder. Raises PackError."""
+        path = Path(path)
+        if path not in self._known:
+            self._known[path] = digest(path)
+        return self._known[path]
+
+
+def digest(path: Path) -> str:
+    """The hash of a file's bytes, or of names and bytes in a folder. Raises PackError."""
+    try:
+        if path.is_file():
+            return _of_file(path)
+        whole = hashlib.sha256()
+        for name in _names(path):
+            whole.update(f"{name}\0{_of_file(path / name)}\n".encode("utf-8", "surrogateescape"))
+        return whole.hexdigest()
+    except OSError as error:
+        raise PackError(f"{path} cannot be read: {error.strerror}; check the path") from None
+
+
+def key_of(
+    banner: Banner | None,
+    settings: Settings,
+    digests: Digests,
+    *,
+    ending: str,
+    seconds: float | None,
+    fps: float | None,
+) -> str:
+    """The key of a picture: 64 hexadecimal digits. Raises PackError for what cannot be read.
+
+    Of the design, its canonical form counts, not how it was written; of packs and textures, their
+    bytes, not their names; of us, `our_version`.
+    """
+    options = asdict(settings)
+    options["packs"] = [digests.of(pack) for pack in settings.packs]
+    options["texture"] = None if settings.texture is None else digests.of(settings.texture)
+    whole: dict[str, Any] = {
+        "design": None if banner is None else asdict(banner),
+        "options": options,
+        "file": [ending, seconds, fps],
+        "version": our_version(),
+    }
+    return hashlib.sha256(json.dumps(whole, sort_keys=True).encode()).hexdigest()
+
+
+@cache
+def our_version() -> str:
+    """The release and a hash of its code and art, so that a changed checkout is another version."""
+    whole = hashlib.sha256()
+    for package in ("drapery", "drapery.render", "drapery.assets"):
+        for name, file in sorted(_own_files(files(package), package)):
+            whole.update(name.encode() + hashlib.sha256(file.read_bytes()).digest())
+    return f"{version('drapery')}+{whole.hexdigest()[:16]}"
+
+
+def _own_files(node: Traversable, name: str) -> Iterator[tuple[str, Traversable]]:
+    for child in node.iterdir():
+        if child.is_dir() and child.name != "__pycache__":
+            yield from _own_files(child, f"{name}/{child.name}")
+        elif child.name.endswith((".py", ".png", ".mcmeta", ".json", ".lark", ".vert", ".frag")):
+            yield f"{name}/{child.name}", child
+
+
+def _of_file(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _names(folder: Path) -> list[str]:
+    found: list[str] = []
+    for top, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if name not in (".git", "__pycache__")]
+        found += [Path(top, name).relative_to(folder).as_posix() for name in names]
+        if len(found) > MAX_FILES:
+            raise PackError(f"{folder} has over {MAX_FILES} files: name a resource pack")
+    return sorted(name for name in found if (folder / name).is_file())

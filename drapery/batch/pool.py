@@ -1,0 +1,159 @@
+"""Processes on this machine that may be killed, hang or eat memory without harm to the others."""
+
+import contextlib
+import os
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from multiprocessing import get_context
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+
+from drapery.batch import worker
+from drapery.batch.jobs import OUT_OF_MEMORY, Job, Outcome
+from drapery.errors import BackendError
+
+LOOK = 0.1
+"""How often the workers' time and memory are looked at [s]."""
+MOST_STILLBORN = 3
+PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What one job may use: time [s], and memory beyond its worker's own [bytes]."""
+
+    seconds: float = 300.0
+    memory: int = 2 << 30
+
+
+@dataclass
+class _Hand:
+    """One worker process. ready: it has reported. resting: its memory without a job [bytes]."""
+
+    process: BaseProcess
+    pipe: Connection
+    ready: bool = False
+    resting: int = 0
+    job: Job | None = None
+    began: float = 0.0
+
+
+@dataclass
+class Pool:
+    """A crew of processes on this machine; see `work.Crew`.
+
+    work: what does a job, a function of a module. workers: how many processes; each gets its
+    share of the cores.
+    """
+
+    work: Callable[[Job], Outcome]
+    workers: int
+    limits: Limits = Limits()
+    _hands: list[_Hand] = field(default_factory=list)
+    _stillborn: int = 0
+
+    def __post_init__(self) -> None:
+        self._hands = [self._hire() for _ in range(self.workers)]
+
+    def free(self) -> int:
+        """See `Crew`."""
+        return sum(hand.ready and hand.job is None for hand in self._hands)
+
+    def start(self, job: Job) -> None:
+        """See `Crew`."""
+        hand = next(hand for hand in self._hands if hand.ready and hand.job is None)
+        hand.job, hand.began = job, time.monotonic()
+        # A dead worker shows at its pipe's end, in `finished`.
+        with contextlib.suppress(OSError):
+            hand.pipe.send(job)
+
+    def finished(self, patience: float) -> list[Outcome]:
+        """See `Crew`. Raises BackendError where no worker starts."""
+        end = time.monotonic() + patience
+        while True:
+            left = max(0.0, min(LOOK, end - time.monotonic()))
+            heard = wait([hand.pipe for hand in self._hands], left)
+            listened = [hand for hand in self._hands if hand.pipe in heard]
+            woke = any(not hand.ready for hand in listened)
+            outcomes = [o for hand in listened for o in self._hear(hand)]
+            outcomes += [o for hand in list(self._hands) for o in self._check(hand)]
+            if outcomes or woke or time.monotonic() >= end:
+                return outcomes
+
+    def pids(self) -> list[int]:
+        """The workers' process ids."""
+        return [hand.process.pid or 0 for hand in self._hands]
+
+    def close(self) -> None:
+        """See `Crew`."""
+        for hand in self._hands:
+            hand.process.kill()
+        for hand in self._hands:
+            hand.process.join()
+            hand.pipe.close()
+        self._hands = []
+
+    def _hire(self) -> _Hand:
+        # A fresh interpreter: forking one that has threads is not safe.
+        context = get_context("spawn")
+        ours, theirs = context.Pipe()
+        threads = max(1, (os.cpu_count() or 1) // self.workers)
+        process = context.Process(
+            target=worker.live,
+            args=(theirs, self.work, self.limits.memory, threads),
+            name="drapery-worker",
+            daemon=True,
+        )
+        process.start()
+        theirs.close()
+        return _Hand(process, ours)
+
+    def _hear(self, hand: _Hand) -> list[Outcome]:
+        try:
+            said = hand.pipe.recv()
+        except (EOFError, OSError):
+            return self._lost(hand, "its worker died")
+        if not hand.ready:
+            hand.ready, hand.resting, self._stillborn = True, said, 0
+            return []
+        hand.job = None
+        if said.fault == OUT_OF_MEMORY:
+            # What is left of a heap that was full is not trusted.
+            self._replace(hand)
+        return [said]
+
+    def _check(self, hand: _Hand) -> list[Outcome]:
+        """End a worker whose job is over its limits."""
+        if hand.job is None or hand not in self._hands:
+            return []
+        if time.monotonic() - hand.began > self.limits.seconds:
+            return self._lost(hand, f"it took over {self.limits.seconds:g} s; raise --timeout")
+        if _resident(hand.process.pid) > hand.resting + self.limits.memory:
+            return self._lost(hand, OUT_OF_MEMORY)
+        return []
+
+    def _lost(self, hand: _Hand, why: str) -> list[Outcome]:
+        if not hand.ready:
+            self._stillborn += 1
+            if self._stillborn >= MOST_STILLBORN:
+                raise BackendError("workers die as they start; run the jobs with `drapery render`")
+        job, took = hand.job, time.monotonic() - hand.began
+        pid = hand.process.pid
+        self._replace(hand)
+        return [] if job is None else [Outcome(job, f"{why} (process {pid})", True, took)]
+
+    def _replace(self, hand: _Hand) -> None:
+        hand.process.kill()
+        hand.process.join()
+        hand.pipe.close()
+        self._hands[self._hands.index(hand)] = self._hire()
+
+
+def _resident(pid: int | None) -> int:
+    """A process's memory [bytes]; 0 where the system does not say."""
+    try:
+        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * PAGE
+    except (OSError, IndexError, ValueError):
+        return 0

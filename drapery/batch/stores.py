@@ -1,0 +1,171 @@
+"""Where outputs go: a folder, or any target that fsspec knows. Every file is written whole."""
+
+import contextlib
+import os
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, Protocol
+
+from drapery.errors import OutputError
+
+WHOLE_AT_ONCE = frozenset({"s3", "s3a", "gs", "gcs", "az", "abfs", "memory"})
+"""Targets where a file appears only when all of it is there."""
+
+_PART = re.compile(r"\.(.+)\.\d+\.part")
+
+
+class Store(Protocol):
+    """A place for outputs, by relative names with slashes. Workers get a copy of it."""
+
+    @property
+    def label(self) -> str:
+        """What the user calls it."""
+
+    def write(self, name: str, data: bytes) -> None:
+        """Store a file whole or not at all. Raises OutputError."""
+
+    def read(self, name: str) -> bytes:
+        """A file's bytes. Raises OutputError."""
+
+    def sizes(self, names: Sequence[str]) -> list[int | None]:
+        """The sizes of files [bytes], None where there is none."""
+
+
+@dataclass(frozen=True)
+class LocalStore:
+    """A folder, on this machine or shared by several."""
+
+    folder: Path
+
+    @property
+    def label(self) -> str:
+        return str(self.folder)
+
+    def path(self, name: str) -> Path:
+        """Where the file lies."""
+        return self.folder / name
+
+    def ready(self, name: str) -> Path:
+        """Where the file shall lie, its folder made. Raises OutputError."""
+        path = self.path(name)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise OutputError(f"cannot write {path}: {error.strerror}; mend that") from None
+        return path
+
+    def write(self, name: str, data: bytes) -> None:
+        """See `Store`."""
+        from drapery.render.encode.output import replacing
+
+        with replacing(self.ready(name)) as beside:
+            beside.write_bytes(data)
+
+    def read(self, name: str) -> bytes:
+        """See `Store`."""
+        try:
+            return self.path(name).read_bytes()
+        except OSError as error:
+            raise OutputError(f"cannot read {self.path(name)}: {error.strerror}") from None
+
+    def sizes(self, names: Sequence[str]) -> list[int | None]:
+        """See `Store`."""
+        return [_size(self.path(name)) for name in names]
+
+    def sweep(self, names: Iterable[str]) -> None:
+        """Remove what killed workers left half-written of these files."""
+        ours = {self.path(name) for name in names}
+        for folder in {path.parent for path in ours}:
+            with contextlib.suppress(OSError), os.scandir(folder) as entries:
+                for entry in entries:
+                    part = _PART.fullmatch(entry.name)
+                    if part is not None and folder / part[1] in ours:
+                        Path(entry.path).unlink(missing_ok=True)
+
+
+@dataclass(frozen=True)
+class RemoteStore:
+    """A folder behind an address such as `s3://bucket/folder`, by fsspec."""
+
+    url: str
+
+    @property
+    def label(self) -> str:
+        return self.url
+
+    def write(self, name: str, data: bytes) -> None:
+        """See `Store`."""
+        fs, path = self._at(name)
+        try:
+            fs.makedirs(path.rpartition("/")[0], exist_ok=True)
+            if self.url.partition("://")[0] in WHOLE_AT_ONCE:
+                fs.pipe_file(path, data)
+            else:
+                beside = f"{path}.{os.getpid()}.part"
+                fs.pipe_file(beside, data)
+                fs.mv(beside, path)
+        except Exception as error:
+            # Each of fsspec's targets raises what its own library does.
+            reason = " ".join(str(error).split())[:200]
+            raise OutputError(f"cannot write {self.url}/{name}: {reason}") from None
+
+    def read(self, name: str) -> bytes:
+        """See `Store`."""
+        fs, path = self._at(name)
+        try:
+            data: bytes = fs.cat_file(path)
+        except Exception as error:
+            raise OutputError(f"cannot read {self.url}/{name}: {error}") from None
+        return data
+
+    def sizes(self, names: Sequence[str]) -> list[int | None]:
+        """See `Store`; one listing, not a question for each file."""
+        fs, root = _file_system(self.url)
+        try:
+            found = fs.find(root, detail=True)
+        except Exception:
+            found = {}
+        sizes = {path.lstrip("/"): int(info["size"]) for path, info in found.items()}
+        return [sizes.get(self._at(name)[1].lstrip("/")) for name in names]
+
+    def _at(self, name: str) -> tuple[Any, str]:
+        fs, root = _file_system(self.url)
+        return fs, f"{root.rstrip('/')}/{name}"
+
+
+def _size(path: Path) -> int | None:
+    try:
+        return path.stat().st_size
+    except OSError:
+        return None
+
+
+@cache
+def _file_system(url: str) -> tuple[Any, str]:
+    try:
+        from fsspec.core import url_to_fs
+
+        fs, root = url_to_fs(url)
+    except ImportError as error:
+        raise OutputError(f"{url}: {error}; install it") from None
+    except Exception as error:
+        raise OutputError(f"{url} cannot be opened: {' '.join(str(error).split())}") from None
+    return fs, str(root)
+
+
+def open_store(target: str) -> Store:
+    """The store at a folder or an address with `://`. Raises OutputError."""
+    if "://" in target:
+        _file_system(target.rstrip("/"))
+        return RemoteStore(target.rstrip("/"))
+    folder = Path(target).absolute()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make {folder}: {error.strerror}; name another folder") from None
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputError(f"the folder {folder} may not be written to; name another")
+    return LocalStore(folder)
