@@ -6,6 +6,8 @@ workers there are. A tile gets all that covering takes, side by side: gathering 
 vertices would wait for the memory at every triangle.
 """
 
+from typing import Any
+
 from numba import njit
 
 TILE_BITS = 6
@@ -19,7 +21,17 @@ RECORD = 10
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
-def sort_into_tiles(first, last, vertices, triangles, triangle_look, looks, tiles, cursor, records):
+def sort_into_tiles(
+    first: Any,
+    last: Any,
+    vertices: Any,
+    triangles: Any,
+    triangle_look: Any,
+    looks: Any,
+    tiles: Any,
+    cursor: Any,
+    records: Any,
+) -> Any:
     """Count triangles first..last for some tiles, or if there is room, enter them.
 
     vertices, triangles, triangle_look, looks: see `draw_tiles`.

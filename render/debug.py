@@ -107,4 +107,5 @@ def _ramp() -> Texels:
     """The ramp as a texture, shape [1, 256, 4]."""
     at = np.linspace(0, len(RAMP) - 1, 256)
     channels = [np.interp(at, np.arange(len(RAMP)), RAMP[:, k]) for k in range(3)]
-    return np.rint(np.stack([*channels, np.full(256, 255.0)], axis=-1)).astype(np.uint8)[None]
+    texels: Texels = np.rint(np.stack([*channels, np.full(256, 255.0)], axis=-1)).astype(np.uint8)
+    return texels[None]

@@ -127,7 +127,8 @@ def _uvs(model: Model) -> Float32:
 def _triangles(model: Model, start: int) -> Triangles:
     """Vertex indices of all copies, shape [B * T, 3]."""
     offsets = start + np.arange(_batch(model)) * model.mesh.positions.shape[-2]
-    return (model.mesh.triangles + offsets[:, None, None]).reshape(-1, 3).astype(np.int32)
+    numbers: Triangles = (model.mesh.triangles + offsets[:, None, None]).astype(np.int32)
+    return numbers.reshape(-1, 3)
 
 
 def _looks(model: Model, first: int) -> NDArray[np.int32]:

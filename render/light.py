@@ -27,7 +27,8 @@ class Light:
     def unit_directions(self) -> NDArray[np.float64]:
         """Towards each light, shape [L, 3]."""
         towards = np.array(self.directions, np.float64).reshape(-1, 3)
-        return towards / np.linalg.norm(towards, axis=1, keepdims=True)
+        unit: NDArray[np.float64] = towards / np.linalg.norm(towards, axis=1, keepdims=True)
+        return unit
 
     def brightness(self, normals: Array) -> Array:
         """The factor in 0..1 for unit normals of shape [..., 3]; shape [...]."""

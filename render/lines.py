@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
-from drapery.render.scene import Coat, Look, Model, Texels
+from drapery.render.scene import Alpha, Coat, Look, Model, Texels
 
 NEARER = 0.004
 """Lines are drawn this share of their distance nearer, so the surface they lie on shows them."""
@@ -27,12 +27,12 @@ def line_model(
     colours: straight-alpha sRGB, shape [4] or [S, 4].
     height: of the picture [pixels]; width: of the lines [pixels].
     """
-    ends = points[segments].astype(np.float64)
+    ends: Array = points[segments].astype(np.float64)
     along = ends[:, 1] - ends[:, 0]
     across = _unit(np.cross(along[:, None], _towards(ends, camera)))
     half = _pixel_size(ends, camera, height)[..., None] * width / 2
-    ends = _nearer(ends, camera)
-    corners = np.stack([ends - across * half, ends + across * half], axis=2)
+    middle, beside = _nearer(ends, camera), across * half
+    corners = np.stack([middle - beside, middle + beside], axis=2)
     return _quads(corners.reshape(-1, 4, 3), colours)
 
 
@@ -44,7 +44,7 @@ def dot_model(
     points: [m], shape [N, 3]; colours: straight-alpha sRGB, shape [4] or [N, 4].
     height: of the picture [pixels]; width: of the dots [pixels].
     """
-    places = points.astype(np.float64)
+    places: Array = points.astype(np.float64)
     towards = _towards(places, camera)
     right = _unit(np.cross(np.asarray(camera.up), towards))
     up = np.cross(towards, right)
@@ -64,7 +64,7 @@ def _quads(corners: Array, colours: ArrayLike) -> Model:
     triangles = (first + np.array([[0, 1, 2, 2, 1, 3]], np.int32)).reshape(-1, 3)
     positions = corners.reshape(-1, 3).astype(np.float32)
     uvs = np.stack([u, np.full_like(u, 0.5)], axis=-1).repeat(4, axis=0)
-    alpha = "opaque" if (texels[..., 3] == 255).all() else "blend"
+    alpha: Alpha = "opaque" if (texels[..., 3] == 255).all() else "blend"
     look = Look((Coat(np.ascontiguousarray(texels)),), alpha, lit=False)
     return Model(Mesh(positions, np.zeros_like(positions), triangles, uvs), (look,))
 
@@ -93,9 +93,11 @@ def _pixel_size(points: Array, camera: Camera, height: int) -> Array:
     """Metres that a pixel spans at points [..., 3], shape [...]."""
     if camera.height is not None:
         return np.full(points.shape[:-1], camera.height / height)
-    return _depth(points, camera) * 2 * np.tan(np.radians(camera.fov) / 2) / height
+    spanned: Array = _depth(points, camera) * 2 * np.tan(np.radians(camera.fov) / 2) / height
+    return spanned
 
 
 def _unit(vectors: Array) -> Array:
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return vectors / np.where(lengths > 0, lengths, 1)
+    unit: Array = vectors / np.where(lengths > 0, lengths, 1)
+    return unit

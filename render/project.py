@@ -1,5 +1,7 @@
 """Vertices from the world to the raster: one loop over all vertices of a model."""
 
+from typing import Any
+
 import numpy as np
 from numba import njit
 
@@ -35,20 +37,20 @@ what is drawn is gathered from all over."""
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def project(
-    first,
-    last,
-    positions,
-    normals,
-    uvs,
-    matrix,
-    width,
-    height,
-    lights,
-    ambient,
-    diffuse,
-    vertices,
-    flags,
-):
+    first: Any,
+    last: Any,
+    positions: Any,
+    normals: Any,
+    uvs: Any,
+    matrix: Any,
+    width: Any,
+    height: Any,
+    lights: Any,
+    ambient: Any,
+    diffuse: Any,
+    vertices: Any,
+    flags: Any,
+) -> Any:
     """Project and light vertices first..last - 1; returns the union of their flags.
 
     positions, normals: shape [V, 3], float32; uvs: shape [V, 2], float32.

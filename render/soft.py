@@ -80,9 +80,9 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
 
 
 def _tables(worn: Wardrobe) -> Tables:
-    looks = [worn.look_coats, worn.look_alpha[:, None], worn.look_lit[:, None]]
+    modes = np.stack([worn.look_alpha, worn.look_lit], axis=1)
     return Tables(
-        np.concatenate(looks, axis=1, dtype=np.int32),
+        np.concatenate([worn.look_coats, modes], axis=1, dtype=np.int32),
         np.concatenate([worn.coat_rects, worn.coat_tints], axis=1, dtype=np.int32),
         worn.atlas.view(np.uint32)[..., 0],
     )
@@ -274,7 +274,8 @@ def _tile_lists(
 
     def run(worker: int, records: NDArray[np.int32]) -> None:
         sort_into_tiles(
-            *share[worker : worker + 2],
+            share[worker],
+            share[worker + 1],
             raster.vertices,
             raster.triangles,
             raster.triangle_look,

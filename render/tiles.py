@@ -12,6 +12,8 @@ of the work can change the picture.
 Perspective: with edge functions E_i, u = sum(E_i u_i / w_i) / sum(E_i / w_i); the area cancels.
 """
 
+from typing import Any
+
 import numpy as np
 from numba import njit
 
@@ -36,13 +38,13 @@ FULL_LIGHT = 1 << LIGHT_BITS
 """Light is multiplied in whole numbers, which is faster than turning colours to floats and back."""
 
 # Called by kernels only: without a door from Python each compiles in half the time.
-_inner = njit(
+_inner = njit(  # type: ignore[call-overload]
     cache=True, error_model="numpy", nogil=True, no_cpython_wrapper=True, no_cfunc_wrapper=True
 )
 
 
 @_inner
-def _edge(ax, ay, bx, by):
+def _edge(ax: Any, ay: Any, bx: Any, by: Any) -> Any:
     """The edge function from a to b: its steps to the right and down by one sample, and its value
     at the tile's first sample; less one where the edge belongs to the triangle beyond it."""
     right = -(by - ay) << 8
@@ -53,7 +55,9 @@ def _edge(ax, ay, bx, by):
 
 
 @_inner
-def _depth_plane(ax, ay, za, bx, by, zb, cx, cy, zc, area):
+def _depth_plane(
+    ax: Any, ay: Any, za: Any, bx: Any, by: Any, zb: Any, cx: Any, cy: Any, zc: Any, area: Any
+) -> Any:
     """The keys' depth at the tile's first sample, and its steps to the right and down.
 
     Whole numbers that may run over outside the triangle, and are right again inside.
@@ -69,7 +73,7 @@ def _depth_plane(ax, ay, za, bx, by, zb, cx, cy, zc, area):
 
 
 @_inner
-def _lay_over(top, below):
+def _lay_over(top: Any, below: Any) -> Any:
     """Straight-alpha colours, one over the other, in 8 bits as the game blends."""
     a, d = top >> 24, below >> 24
     if a == 255 or a == 0:
@@ -87,7 +91,7 @@ def _lay_over(top, below):
 
 
 @_inner
-def _tinted(texel, red, green, blue):
+def _tinted(texel: Any, red: Any, green: Any, blue: Any) -> Any:
     """round(texel * tint / 255) for each channel; the alpha is kept."""
     r = ((texel & 255) * red + 127) // 255
     g = (((texel >> 8) & 255) * green + 127) // 255
@@ -96,7 +100,7 @@ def _tinted(texel, red, green, blue):
 
 
 @_inner
-def _lit(colour, light, tint):
+def _lit(colour: Any, light: Any, tint: Any) -> Any:
     """round(colour * light * tint) for each channel; light and tint in units of 1 / FULL_LIGHT."""
     half = FULL_LIGHT >> 1
     r = ((colour & 255) * (light * tint[0] >> LIGHT_BITS) + half) >> LIGHT_BITS
@@ -106,7 +110,7 @@ def _lit(colour, light, tint):
 
 
 @_inner
-def _reach(low, high, count):
+def _reach(low: Any, high: Any, count: Any) -> Any:
     """The first and last of `count` texels that a triangle with these bounds of u or v reaches.
 
     A sample on the triangle's very edge must not show a neighbouring part of the sheet.
@@ -117,7 +121,18 @@ def _reach(low, high, count):
 
 
 @_inner
-def _cover_tile(first, last, x0, y0, records, vertices, triangles, triangle_look, worn, keys):
+def _cover_tile(
+    first: Any,
+    last: Any,
+    x0: Any,
+    y0: Any,
+    records: Any,
+    vertices: Any,
+    triangles: Any,
+    triangle_look: Any,
+    worn: Any,
+    keys: Any,
+) -> Any:
     """Write the keys of records first..last - 1 in the tile at x0, y0.
 
     Returns the bounds of the samples tried: left, right, top, bottom.
@@ -181,7 +196,7 @@ def _cover_tile(first, last, x0, y0, records, vertices, triangles, triangle_look
 
 
 @_inner
-def _weights(t, x, y, vertices, triangles):
+def _weights(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     """Edge functions over w of triangle t's corners at a sample, and their steps to the right."""
     a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]
     ax, ay = np.int64(a.x) - (x << 8), np.int64(a.y) - (y << 8)
@@ -198,7 +213,7 @@ def _weights(t, x, y, vertices, triangles):
 
 
 @_inner
-def _uv_at(t, x, y, vertices, triangles):
+def _uv_at(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     """Texture coordinates of triangle t at one sample."""
     a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]
     wa, wb, wc, _, _, _ = _weights(t, x, y, vertices, triangles)
@@ -208,8 +223,19 @@ def _uv_at(t, x, y, vertices, triangles):
 
 @_inner
 def _shade_tile(
-    layer, bounds, x0, y0, vertices, triangles, triangle_look, worn, tint, keys, colours, scratch
-):
+    layer: Any,
+    bounds: Any,
+    x0: Any,
+    y0: Any,
+    vertices: Any,
+    triangles: Any,
+    triangle_look: Any,
+    worn: Any,
+    tint: Any,
+    keys: Any,
+    colours: Any,
+    scratch: Any,
+) -> Any:
     """Colour what is seen in the tile at x0, y0, one run of the same triangle after another.
 
     layer: where the keys begin; 0 is what is solid, LAYER what is laid over it.
@@ -300,7 +326,7 @@ def _shade_tile(
 
 
 @_inner
-def _fill(value, x0, y0, width, height, across, picture):
+def _fill(value: Any, x0: Any, y0: Any, width: Any, height: Any, across: Any, picture: Any) -> Any:
     """Fill a rectangle of the picture, `across` pixels wide in all, with one colour."""
     for row in range(y0, y0 + height):
         for column in range(width):
@@ -308,7 +334,9 @@ def _fill(value, x0, y0, width, height, across, picture):
 
 
 @_inner
-def _resolve(colours, x0, y0, width, height, across, grid, picture):
+def _resolve(
+    colours: Any, x0: Any, y0: Any, width: Any, height: Any, across: Any, grid: Any, picture: Any
+) -> Any:
     """Put a tile into the picture: grid x grid samples are averaged to a pixel, each weighing as
     much as it is opaque."""
     count = grid * grid
@@ -319,7 +347,7 @@ def _resolve(colours, x0, y0, width, height, across, grid, picture):
                 picture[np.uint64(start + column)] = colours[np.uint64(row * TILE + column)]
             continue
         for column in range(width):
-            alpha = red = green = blue = 0
+            alpha = red = green = blue = np.int64(0)
             for sample in range(count):
                 line, place = row * grid + sample // grid, column * grid + sample % grid
                 colour = np.int64(colours[line * TILE + place])
@@ -327,7 +355,8 @@ def _resolve(colours, x0, y0, width, height, across, grid, picture):
                 red += (colour >> 24) * (colour & 255)
                 green += (colour >> 24) * ((colour >> 8) & 255)
                 blue += (colour >> 24) * ((colour >> 16) & 255)
-            half, total = alpha >> 1, max(alpha, 1)
+            half = alpha >> 1
+            total: Any = max(alpha, 1)
             red, green, blue = (
                 (red + half) // total,
                 (green + half) // total,
@@ -339,20 +368,20 @@ def _resolve(colours, x0, y0, width, height, across, grid, picture):
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def draw_tiles(
-    worker,
-    workers,
-    tiles_x,
-    first,
-    starts,
-    records,
-    mesh,
-    worn,
-    tint,
-    background,
-    grid,
-    size,
-    picture,
-):
+    worker: Any,
+    workers: Any,
+    tiles_x: Any,
+    first: Any,
+    starts: Any,
+    records: Any,
+    mesh: Any,
+    worn: Any,
+    tint: Any,
+    background: Any,
+    grid: Any,
+    size: Any,
+    picture: Any,
+) -> Any:
     """Draw every workers-th tile, beginning with number `worker`.
 
     tiles_x: tiles across; first: the tile that number 0 stands for, counted row by row.

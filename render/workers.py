@@ -7,6 +7,9 @@ any thread and after a fork.
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from typing import TypeVar
+
+T = TypeVar("T")
 
 _pool: ThreadPoolExecutor | None = None
 
@@ -15,10 +18,10 @@ def worker_count() -> int:
     """How many workers by default: the cores of this process, fewer if NUMBA_NUM_THREADS says."""
     from numba import config
 
-    return int(config.NUMBA_NUM_THREADS)
+    return int(getattr(config, "NUMBA_NUM_THREADS", 1))
 
 
-def share_out(task: Callable[[int], object], workers: int) -> list[object]:
+def share_out(task: Callable[[int], T], workers: int) -> list[T]:
     """Run task(0) … task(workers - 1) at once; the results, in that order."""
     if workers == 1:
         return [task(0)]
