@@ -46,7 +46,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     packs = open_packs(())
     cloth = banner_on_its_side(parameters.grid)
     shell, looks = flag_shell(cloth), flag_looks((parameters.design,), packs)
-    still = (*blocks(_hill(), packs), post(FOOT, POLE, packs))
+    still = (*blocks(_hill(), packs), post(FOOT, POLE, packs, 0.12))
     for state in flown(parameters, cloth, shot):
         sheet = state.positions[0]
         flag = garment(shell, sheet, parameters.thickness * SCALE * GROWN, *looks)

@@ -1,7 +1,7 @@
 """How cloth of any scene moves from frame to frame, with whatever it meets."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 
@@ -12,6 +12,9 @@ from drapery.cloth.colliders import Collider, collide, probes
 from drapery.mesh import Array
 from drapery.scenes.catalogue import Shot
 
+Forces = Sequence[Force] | Callable[[float], Sequence[Force]]
+"""Forces, or those from a time on [s]."""
+FALL = (Gravity(),)
 STEP = 1.0 / 120.0
 """The longest time step [s]; cloth that meets walking legs wants a short one."""
 
@@ -21,7 +24,7 @@ def motion(
     shot: Shot,
     *,
     solver: Solver | None = None,
-    forces: Sequence[Force] = (Gravity(),),
+    forces: Forces = FALL,
     colliders: Sequence[Collider] = (),
     radius: float = 0.0,
     pins: PinPath | None = None,
@@ -54,7 +57,7 @@ def motion(
 def _states(
     cloth: Cloth,
     solver: Solver,
-    forces: Sequence[Force],
+    forces: Forces,
     dt: float,
     colliders: Sequence[Collider],
     radius: float,
@@ -66,7 +69,8 @@ def _states(
     memory = solver.init(cloth, dt)
     while True:
         yield state
-        after, memory = solver.step(cloth, state, memory, forces, dt, pins=pins)
+        acting = forces(state.time) if callable(forces) else forces
+        after, memory = solver.step(cloth, state, memory, acting, dt, pins=pins)
         if colliders:
             after = collide(cloth, state, after, colliders, points, radius=radius)
         state = after

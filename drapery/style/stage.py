@@ -49,14 +49,53 @@ def moved(models: tuple[Model, ...], by: Array) -> tuple[Model, ...]:
     )
 
 
-def post(foot: Array, height: float, packs: Packs) -> Model:
-    """A banner's pole of any height [m], standing on `foot` [m], shape [3]."""
+def post(foot: Array, height: float, packs: Packs, half: float = 0.06) -> Model:
+    """A banner's pole of any height and half width [m], standing on `foot` [m], shape [3]."""
     pole = box_mesh(Box((-1, -42, -1), (2, 42, 2), (44, 0)))
-    thick = max(height / 42, 1 / 24)
     standing = upright(pole, 1.0, (0, 0, 0))
-    scale = np.array([thick, height / 42, thick])
+    scale = np.array([half, height / 42, half])
     mesh = replace(standing, positions=standing.positions * scale + foot)
     return Model(mesh, (wood_look(packs),))
+
+
+def beam(start: Array, length: float, packs: Packs) -> Model:
+    """A pole lying along x from `start` [m], shape [3]."""
+    upright_post = post(np.zeros(3), length, packs)
+    lay = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+    mesh = upright_post.mesh
+    positions = np.einsum("ij,vj->vi", lay, mesh.positions) + start
+    normals = np.einsum("ij,vj->vi", lay, mesh.normals)
+    return replace(upright_post, mesh=replace(mesh, positions=positions, normals=normals))
+
+
+def sea(half: int, level: float) -> Model:
+    """Water, `half` blocks to every side of the origin, at a height [m]."""
+    x, z = (corner.reshape(-1) for corner in np.meshgrid(*[np.arange(-half, half)] * 2))
+    corners = np.stack([x, np.full_like(x, 0), z], axis=-1)[:, None] + SQUARE
+    count = len(corners)
+    pairs = FLAT + 4 * np.arange(count, dtype=np.int32)[:, None, None]
+    mesh = Mesh(
+        corners.reshape(-1, 3) + np.array([0.0, level, 0.0]),
+        np.tile(np.array([0.0, 1.0, 0.0]), (4 * count, 1)),
+        pairs.reshape(-1, 3),
+        np.tile(CORNERS, (count, 1)),
+    )
+    return Model(mesh, (_water(),))
+
+
+def _water() -> Look:
+    """Short ripples in four blues; the texture repeats after a block."""
+    x, y = np.meshgrid(np.arange(16), np.arange(16))
+    tone = (7 * y + 3 * ((x + 5 * y) // 4) + (x + 2 * y) // 7) % 11
+    blues = np.array([[52, 96, 176], [58, 104, 184], [64, 112, 192], [84, 132, 208]], np.uint8)
+    texels = np.full((16, 16, 4), 255, np.uint8)
+    texels[..., :3] = blues[np.choose(tone, [0, 1, 2, 1, 2, 1, 0, 1, 2, 1, 3])]
+    return Look((Coat(texels),))
+
+
+FLAT = np.array([[0, 2, 1], [1, 2, 3]], np.int32)
+CORNERS = np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]])
+SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [0, 0, 1], [1, 0, 1]])
 
 
 def shadow(centre: tuple[float, float], radius: float, height: float = 0.0) -> Model:
@@ -71,7 +110,7 @@ def shadow(centre: tuple[float, float], radius: float, height: float = 0.0) -> M
     mesh = Mesh(
         corners + np.array([x, height + 0.004, z]),
         np.tile(np.array([0.0, 1.0, 0.0]), (4, 1)),
-        np.array([[0, 2, 1], [1, 2, 3]], np.int32),
-        np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]),
+        FLAT,
+        CORNERS,
     )
     return Model(mesh, (Look((Coat(texels),), "blend", lit=False),))

@@ -1,0 +1,138 @@
+"""A sail that billows on its raft; a script steers the wind."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.banner.packs import Packs, open_packs
+from drapery.cloth import Cloth, Drag, Force, Gravity, State, Wind, grid
+from drapery.cloth.colliders import Capsule, Collider
+from drapery.cloth.exact import sine_of_turns
+from drapery.cloth.solvers.verlet import SolverVerlet
+from drapery.mesh import Array
+from drapery.render.scene import Model, Scene
+from drapery.render.views import View, frame_points
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.motion import motion, placed
+from drapery.scenes.wind_script import Setting, parse_script, read_script
+from drapery.style.blocks import Cell, blocks
+from drapery.style.extrusion import make_shell
+from drapery.style.garment import checked, garment
+from drapery.style.stage import SKY, beam, post, sea
+
+SIDE, SLACK = 2.6, 0.9
+"""Of the sail [m], and how far apart its corners are held, as a part of that."""
+LOW = 0.7
+"""Height of its foot over the deck [m]."""
+STERN = View(azimuth=38, elevation=14, fov=30)
+STIFFNESS = (20.0, 6.0, 1.0)
+HALF = SIDE * SLACK / 2
+HEAD, FOOT = LOW + 2 * HALF + 0.03, LOW - 0.03
+"""Heights of the yards [m]."""
+SPAR = 0.075
+"""Radius of mast and yards, which are square and 0.06 m to each side [m]."""
+MAST = np.array([0.0, 0.0, -0.06])
+YARD_DEPTH = 0.03
+OWN = """
+0.0 strength 7
+1.3 direction 55
+2.2 off
+2.8 direction -35
+2.8 strength 9
+2.8 on
+"""
+"""The script that is played unless another is given."""
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """script: a file of commands to the wind; see `drapery.scenes.wind_script`. grid: particles
+    across and down. gusts: of the wind, over its speed. thickness: [m]."""
+
+    script: str = ""
+    grid: tuple[int, int] = (10, 10)
+    gusts: float = 0.3
+    thickness: float = 0.05
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """From the moment when the first wind comes up."""
+    packs = open_packs(())
+    settings = script_of(parameters)
+    cloth = square_sail(parameters.grid)
+    shell = make_shell(cloth.triangles, cloth.uvs)
+    canvas = checked(packs.texture("block/white_wool"), ("white", "red"), 2)
+    ship = (sea(24, -0.7), *blocks(_raft(), packs), *_rigging(packs))
+    camera = frame_points(STERN, _room(), shot.size[0] / shot.size[1], margin=0.02)
+    for state in blown(parameters, settings, cloth, shot):
+        sail = garment(shell, state.positions[0], parameters.thickness, canvas)
+        yield Scene((*ship, sail), camera, shot.size, background=SKY, samples=4)
+
+
+def script_of(parameters: Parameters) -> tuple[Setting, ...]:
+    """The wind's settings. Raises OptionError."""
+    return read_script(parameters.script) if parameters.script else tuple(parse_script(OWN))
+
+
+def blown(
+    parameters: Parameters, settings: Sequence[Setting], cloth: Cloth, shot: Shot
+) -> Iterator[State]:
+    """The sail at each frame."""
+    times = np.array([setting.time for setting in settings])
+    winds = [_forces(parameters, setting) for setting in settings]
+
+    def forces(time: float) -> Sequence[Force]:
+        return winds[int(np.searchsorted(times, time + 1e-9, side="right")) - 1]
+
+    return motion(
+        cloth,
+        shot,
+        solver=SolverVerlet(),
+        forces=forces,
+        colliders=spars(),
+        radius=parameters.thickness / 2,
+        order=3,
+    )
+
+
+def spars() -> tuple[Collider, ...]:
+    """What the sail wraps around: the mast and the yards."""
+    ends = [(MAST, MAST + np.array([0, HEAD + 0.4, 0]))] + [
+        (np.array([-HALF, height, YARD_DEPTH]), np.array([HALF, height, YARD_DEPTH]))
+        for height in (HEAD, FOOT)
+    ]
+    return tuple(Collider(Capsule(start, end, SPAR)) for start, end in ends)
+
+
+def square_sail(shape: tuple[int, int]) -> Cloth:
+    """A sail between its yards, held at all four corners nearer than it is wide."""
+    cloth = grid(*shape, SIDE, SIDE, pins="four-corners", stiffness=STIFFNESS)
+    return placed(cloth, np.array([0.0, LOW + 2 * HALF, 0.13]), SLACK * np.eye(3))
+
+
+def _forces(parameters: Parameters, setting: Setting) -> tuple[Force, ...]:
+    turns = setting.direction / 360
+    along = np.array([sine_of_turns(turns), 0.0, sine_of_turns(turns + 0.25)]) * setting.speed
+    wind = Wind((along[0], 0.0, along[2]), gusts=parameters.gusts, seed=parameters.seed)
+    return (Gravity(), Drag(0.4), wind)
+
+
+def _raft() -> dict[Cell, str]:
+    cells = {(x, -1, z): "oak_planks" for x in range(-2, 2) for z in range(-3, 3)}
+    cells.update({(x, -1, z): "oak_log" for x in (-2, 1) for z in (-3, 2)})
+    return cells
+
+
+def _rigging(packs: Packs) -> tuple[Model, ...]:
+    """The mast, and a yard at the head and the foot of the sail."""
+    yards = [np.array([-HALF - 0.15, height, YARD_DEPTH]) for height in (HEAD, FOOT)]
+    return post(MAST, HEAD + 0.4, packs), *(beam(yard, 2 * HALF + 0.3, packs) for yard in yards)
+
+
+def _room() -> Array:
+    """What the camera frames [m]: the raft, the mast, and the sail's belly."""
+    top = LOW + SIDE * SLACK + 0.4
+    low = [[x, -0.9, z] for x in (-2.2, 2.2) for z in (-3.2, 3.4)]
+    return np.array([*low, [0, top, 0], [1.4, top - 0.5, 1], [-1.4, top - 0.5, 1]])

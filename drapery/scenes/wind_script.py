@@ -1,0 +1,96 @@
+"""Commands to a wind at times: what the keys of a game would do, written down.
+
+One command a line: a time [s], a word and its number. `#` begins a comment.
+
+    0.0  strength 6      m/s
+    1.5  direction 40    degrees: where it blows to; 0 is +z, 90 is +x
+    2.5  off
+    3.0  on
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from drapery.errors import OptionError
+
+MAX_BYTES = 1 << 16
+LIMITS = {"strength": (0.0, 40.0), "direction": (-3600.0, 3600.0)}
+
+
+@dataclass(frozen=True)
+class Setting:
+    """The wind from a time on. time: [s]; direction: [degrees]; strength: [m/s]."""
+
+    time: float = 0.0
+    direction: float = 0.0
+    strength: float = 5.0
+    on: bool = True
+
+    @property
+    def speed(self) -> float:
+        """What blows [m/s]."""
+        return self.strength if self.on else 0.0
+
+
+def read_script(path: str) -> tuple[Setting, ...]:
+    """The settings of a file, in order. Raises OptionError, naming the line."""
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+        text = data.decode()
+    except (OSError, UnicodeDecodeError) as fault:
+        reason = getattr(fault, "strerror", None) or "it is no text"
+        raise OptionError(
+            f"script {path} cannot be read ({reason}); give a file of commands"
+        ) from None
+    if len(data) > MAX_BYTES:
+        raise OptionError(f"script {path} is over {MAX_BYTES} bytes; shorten it")
+    return tuple(parse_script(text, path))
+
+
+def parse_script(text: str, name: str = "script") -> Iterator[Setting]:
+    """The settings of a text of commands, the first at time 0. Raises OptionError."""
+    now = Setting()
+    yield now
+    for number, line in enumerate(text.splitlines(), 1):
+        words = line.partition("#")[0].split()
+        if words:
+            later = _obeyed(now, words, f"{name}, line {number}")
+            yield later
+            now = later
+
+
+def _obeyed(now: Setting, words: list[str], place: str) -> Setting:
+    """The setting after one command."""
+    match words:
+        case [time, ("on" | "off") as switch]:
+            return replace(now, time=_time(time, now, place), on=switch == "on")
+        case [time, ("direction" | "strength") as word, value]:
+            number = _number(value, *LIMITS[word], place)
+            changed = replace(now, time=_time(time, now, place))
+            return (
+                replace(changed, direction=number)
+                if word == "direction"
+                else replace(changed, strength=number)
+            )
+    said = " ".join(words)[:40]
+    raise OptionError(f"{place}: {said!r} is no command; write TIME on|off|direction N|strength N")
+
+
+def _time(text: str, now: Setting, place: str) -> float:
+    time = _number(text, 0.0, 3600.0, place)
+    if time < now.time:
+        raise OptionError(f"{place}: {time:g} s is before {now.time:g} s; sort the commands")
+    return time
+
+
+def _number(text: str, least: float, most: float, place: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not least <= value <= most:
+        raise OptionError(f"{place}: {text[:20]!r} is no number from {least:g} to {most:g}")
+    return value
