@@ -4,12 +4,17 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
+from drapery.banner.sprites import WHITE, Tint
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Coat, Look, Model
 
 Cell = tuple[int, int, int]
 """A block by its least corner [m]: x, y, z."""
+
+Face = tuple[str, Tint]
+"""A texture and the colour that it is multiplied by."""
 
 Cells = Mapping[Cell, str]
 
@@ -31,11 +36,11 @@ SIDES = (
 
 
 def blocks(cells: Cells, packs: Packs) -> tuple[Model, ...]:
-    """The visible faces of blocks named like `stone`, `oak_planks` or `grass`.
+    """The visible faces of blocks named like `stone` or `grass`; a dye's name is wool of it.
 
     Raises PackError for a texture that cannot be read.
     """
-    by_texture: dict[str, list[tuple[Array, Array]]] = {}
+    by_texture: dict[Face, list[tuple[Array, Array]]] = {}
     for cell, kind in sorted(cells.items()):
         for normal, start, right, down in SIDES:
             if tuple(np.add(cell, normal)) not in cells:
@@ -43,8 +48,8 @@ def blocks(cells: Cells, packs: Packs) -> tuple[Model, ...]:
                 sides = by_texture.setdefault(_texture(kind, normal[1]), [])
                 sides.append((quad, np.tile(np.array(normal, float), (4, 1))))
     return tuple(
-        Model(_quads(sides), (Look((Coat(packs.texture(f"block/{texture}")),)),))
-        for texture, sides in sorted(by_texture.items())
+        Model(_quads(sides), (Look((Coat(packs.texture(f"block/{texture}"), tint),)),))
+        for (texture, tint), sides in sorted(by_texture.items())
     )
 
 
@@ -59,9 +64,11 @@ def plateau(width: int, depth: int, kind: str = "grass", thick: int = 1) -> dict
     }
 
 
-def _texture(kind: str, up: int) -> str:
+def _texture(kind: str, up: int) -> Face:
+    if kind in DYES:
+        return "white_wool", DYES[kind].rgb
     top, side, bottom = FACES.get(kind, (kind, kind, kind))
-    return {1: top, 0: side, -1: bottom}[up]
+    return {1: top, 0: side, -1: bottom}[up], WHITE
 
 
 def _corners(start: Array, right: Array, down: Array) -> Array:

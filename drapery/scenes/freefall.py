@@ -1,0 +1,122 @@
+"""Cloths fall on a beetle and on a fox of cubes, and drape over them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from drapery.banner.packs import open_packs
+from drapery.cloth import Cloth, Drag, Gravity, State, grid
+from drapery.cloth.colliders import (
+    Collider,
+    Plane,
+    Pose,
+    Voxels,
+    mesh_collider,
+    rotation_about,
+)
+from drapery.cloth.solvers.verlet import SolverVerlet
+from drapery.mesh import Array
+from drapery.render.scene import Model, Scene
+from drapery.render.shadow import contact_shadow
+from drapery.render.views import View, frame_points
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.motion import motion, placed
+from drapery.style.beetle import Beetle, beetle
+from drapery.style.blocks import blocks, plateau
+from drapery.style.creature import CUBE, cells_of, fox
+from drapery.style.extrusion import make_shell
+from drapery.style.garment import checked, garment
+from drapery.style.stage import SKY, moved
+
+ABOVE = View(azimuth=22, elevation=20, fov=28)
+HEIGHT = 1.9
+"""From where the cloths fall [m]."""
+BEETLE_AT, FOX_AT = np.array([-1.0, 0.0, 0.4]), np.array([1.05, 0.0, 0.5])
+GROUND = Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])), friction=0.6)
+STIFFNESS = (8.0, 2.0, 0.15)
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """grid: particles across and down each cloth. side: of it [m]. drag: of the air [1/s].
+    thickness: [m]. friction: of the cloth on what it meets."""
+
+    grid: tuple[int, int] = (20, 20)
+    side: float = 1.9
+    drag: float = 0.8
+    thickness: float = 0.04
+    friction: float = 0.4
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """From the moment when both are let go."""
+    packs = open_packs(())
+    insect, cubes = beetle(BEETLE_AT), blocks(fox(), packs)
+    still = (*blocks(plateau(4, 3), packs), *insect.models, *_small(cubes))
+    veil = contact_shadow(still[-len(insect.models) - len(cubes) :], 0.0)
+    wool = packs.texture("block/white_wool")
+    looks = [checked(wool, dyes) for dyes in (("lime", "white"), ("light_blue", "white"))]
+    cloths = (sheet(parameters, BEETLE_AT), sheet(parameters, FOX_AT))
+    met = (insect_colliders(parameters, insect), fox_colliders(parameters))
+    shell = make_shell(cloths[0].triangles, cloths[0].uvs)
+    camera = frame_points(ABOVE, _room(), shot.size[0] / shot.size[1], margin=0.03)
+    motions = [fall(parameters, *pair, shot) for pair in zip(cloths, met, strict=True)]
+    for states in zip(*motions, strict=True):
+        fallen = tuple(
+            garment(shell, state.positions[0], parameters.thickness, look)
+            for state, look in zip(states, looks, strict=True)
+        )
+        yield Scene((*still, veil, *fallen), camera, shot.size, background=SKY, samples=4)
+
+
+def sheet(parameters: Parameters, at: Array) -> Cloth:
+    """A level cloth over a place on the ground, turned a little."""
+    cloth = grid(
+        *parameters.grid, parameters.side, parameters.side, pins="none", stiffness=STIFFNESS
+    )
+    flat = placed(cloth, np.array([0, parameters.side / 2, 0]))
+    turn = rotation_about((0, 1, 0), 12) @ rotation_about((1, 0, 0), -90)
+    return placed(flat, at + np.array([0.0, HEIGHT, 0.0]), turn)
+
+
+def fall(
+    parameters: Parameters, cloth: Cloth, met: tuple[Collider, ...], shot: Shot
+) -> Iterator[State]:
+    """One cloth at each frame."""
+    return motion(
+        cloth,
+        shot,
+        solver=SolverVerlet(),
+        forces=(Gravity(), Drag(parameters.drag)),
+        colliders=met,
+        radius=parameters.thickness / 2,
+    )
+
+
+def insect_colliders(parameters: Parameters, insect: Beetle) -> tuple[Collider, ...]:
+    """The beetle and the ground."""
+    surface = mesh_collider(insect.vertices, insect.triangles)
+    return Collider(surface, friction=parameters.friction), GROUND
+
+
+def fox_colliders(parameters: Parameters) -> tuple[Collider, ...]:
+    """The fox and the ground."""
+    place = Pose(FOX_AT - np.array([CUBE / 2, 0, 0]))
+    cubes = Voxels(cells_of(fox()), CUBE)
+    return Collider(cubes, lambda time: place, friction=parameters.friction), GROUND
+
+
+def _small(cubes: tuple[Model, ...]) -> tuple[Model, ...]:
+    """Blocks as cubes of the fox, where it stands."""
+    small = tuple(
+        replace(model, mesh=replace(model.mesh, positions=model.mesh.positions * CUBE))
+        for model in cubes
+    )
+    return moved(small, FOX_AT - np.array([CUBE / 2, 0, 0]))
+
+
+def _room() -> Array:
+    """What the camera frames [m]."""
+    low = [[x, y, z] for x in (-2, 2) for z in (-1, 2) for y in (-1, 0)]
+    return np.array([*low, [-1.2, HEIGHT + 0.2, 0], [1.2, HEIGHT + 0.2, 0]])
