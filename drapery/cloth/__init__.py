@@ -12,12 +12,14 @@ from drapery.cloth.solvers.xpbd import SolverXPBD
 from drapery.cloth.state import State, rest_state
 from drapery.cloth.stepping import simulate
 from drapery.cloth.wind import Wind
+from drapery.cloth.world import Detail, World
 
 __all__ = [
     "FLEXION",
     "SHEAR",
     "STRUCTURAL",
     "Cloth",
+    "Detail",
     "Drag",
     "Force",
     "Gravity",
@@ -28,6 +30,7 @@ __all__ = [
     "SolverXPBD",
     "State",
     "Wind",
+    "World",
     "carried",
     "disc",
     "from_mesh",
