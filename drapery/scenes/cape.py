@@ -5,26 +5,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.banner.packs import Packs, open_packs
+from drapery.banner.packs import open_packs
 from drapery.cloth import Cloth, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
-from drapery.mesh import Array
-from drapery.render.camera import Camera
 from drapery.render.scene import Look, Model, Scene
-from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
 from drapery.scenes.motion import motion, placed
+from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.extrusion import Shell, make_shell
-from drapery.style.figure import CAPE_SIZE, CAPE_SKIN, TEXEL, figure_look, figure_mesh
+from drapery.style.figure import CAPE_SIZE, CAPE_SKIN, TEXEL, figure_look
 from drapery.style.garment import dyed, garment
-from drapery.style.stage import SKY, moved, path_ground, shadow
+from drapery.style.stage import SKY
 
-BEHIND = View(azimuth=214, elevation=14, fov=26)
 SETTLING = LOOP
 BODY = ("body", "right_arm", "left_arm", "right_leg", "left_leg")
-PERIOD = 10
-"""Blocks after which the ground repeats: what is walked in a loop."""
 
 
 @dataclass(frozen=True)
@@ -60,26 +55,9 @@ def worn(shell: Shell, state: State, thickness: float, wool: Look) -> Model:
     return garment(shell, state.positions[0], thickness * TEXEL, wool)
 
 
-def walker(gait: Gait, time: float, skin: Look, causeway: tuple[Model, ...]) -> tuple[Model, ...]:
-    """The figure at a time of its walk, over ground that passes below."""
-    passed = np.array([0.0, 0.0, -(gait.speed * time % PERIOD)])
-    figure = Model(figure_mesh(gait.poses(time)), (skin,))
-    return (*moved(causeway, passed), shadow((0, 0), 0.5), figure)
-
-
-def ground(packs: Packs) -> tuple[Model, ...]:
-    """What a figure walks on."""
-    return path_ground(24, PERIOD, packs)
-
-
 def cape_shell(cloth: Cloth) -> Shell:
     """How a thick cape follows the cloth."""
     return make_shell(cloth.triangles, cloth.uvs, CAPE_SKIN)
-
-
-def camera(size: tuple[int, int]) -> Camera:
-    """From behind, for figures that walk."""
-    return frame_points(BEHIND, _room(), size[0] / size[1], margin=0.1)
 
 
 def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterator[State]:
@@ -103,8 +81,3 @@ def cape_cloth(shape: tuple[int, int]) -> Cloth:
     cloth = grid(columns, rows, *CAPE_SIZE, pins=shoulders)
     back = np.array([0.0, 24 * TEXEL, -2.6 * TEXEL])
     return placed(cloth, back, rotation_about((0, 1, 0), 180))
-
-
-def _room() -> Array:
-    """What the camera frames: the figure and the cape behind it [m]."""
-    return np.array([[-0.5, 0, -0.9], [0.5, 0, 0.5], [0.5, 2, 0.4], [-0.5, 2, -0.4]])

@@ -16,6 +16,7 @@ from drapery.scenes.flags import Stand, flag_cloth, flag_looks, flag_shell, flag
 from drapery.scenes.gait import LOOP, Gait
 from drapery.scenes.motion import motion
 from drapery.scenes.panels import Panels, panel_size
+from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.block import stiff_flag
 from drapery.style.blocks import blocks, plateau
 from drapery.style.board import moved
@@ -74,15 +75,15 @@ def _capes(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple[S
     worn = cape.Parameters(dye=parameters.dye, speed=parameters.speed, seed=parameters.seed)
     gait, cloth = Gait(parameters.speed), cape.cape_cloth(worn.grid)
     shell, wool = cape.cape_shell(cloth), dyed(packs.texture("entity/player/cape"), worn.dye)
-    skin, ground = figure_look(worn.skin, packs), cape.ground(packs)
-    camera = cape.camera(size)
+    skin, causeway = figure_look(worn.skin, packs), ground(packs)
+    view = camera(size)
     for frame, state in enumerate(cape.walk(worn, cloth, gait, shot)):
         stiff = Model(stiff_cape(cape_lean(parameters.speed, frame / shot.fps)), (wool,))
         lifted = moved(stiff.mesh, np.array([0, gait.lift(state.time), 0]))
         soft = cape.worn(shell, state, 1.0, wool)
-        walker = cape.walker(gait, state.time, skin, ground)
+        figure = walker(gait, state.time, skin, causeway)
         left, right = (
-            Scene((*walker, back), camera, size, background=SKY, samples=4)
+            Scene((*figure, back), view, size, background=SKY, samples=4)
             for back in (Model(lifted, stiff.looks), soft)
         )
         yield left, right

@@ -1,0 +1,109 @@
+"""A scarf of woollen squares: two long thin tails that stream behind a walking figure."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from drapery.banner.dyes import DYES
+from drapery.banner.packs import Packs, open_packs
+from drapery.banner.sprites import tint
+from drapery.cloth import Cloth, Gravity, State, Wind, grid
+from drapery.cloth.colliders import rotation_about
+from drapery.render.scene import Coat, Look, Model, Scene, Texels
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.gait import LOOP, Gait
+from drapery.scenes.motion import motion, placed
+from drapery.scenes.stroll import camera, ground, walker
+from drapery.style.boxes import Box, box_mesh, upright
+from drapery.style.extrusion import make_shell
+from drapery.style.figure import TEXEL, figure_look
+from drapery.style.garment import garment
+from drapery.style.stage import SKY, moved
+
+SQUARE = 4 * TEXEL
+"""Edge of a square [m]: the scarf's width, and what one block's texture covers."""
+ROWS_PER_SQUARE = 2
+TAILS = ((-2.2, 6), (2.2, 4))
+"""Where each hangs from the nape, to the side [texels], and its squares."""
+BODY = ("head", "body", "right_arm", "left_arm", "right_leg", "left_leg")
+COLLAR = Box((-4.5, -25.5, -4.5), (9, 2.5, 9), (0, 0))
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """blocks: of the squares in turn, from the neck on; a dye stands for wool of it. skin: of the
+    figure. speed: of the walk [m/s]. wind: from ahead, besides [m/s]. thickness: in texels."""
+
+    blocks: str = "orange yellow red"
+    skin: str = "traveller"
+    speed: float = 2.5
+    wind: float = 2.5
+    thickness: float = 0.5
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """Seen from behind; the neck's turn is stiff, the tails are cloth."""
+    packs, gait = open_packs(()), Gait(parameters.speed)
+    squares = [_texels(name, packs) for name in parameters.blocks.split()] or [
+        _texels("red", packs)
+    ]
+    skin, causeway = figure_look(parameters.skin, packs), ground(packs)
+    collar = Model(upright(box_mesh(COLLAR, (36, 16)), TEXEL, (0, 0, 0)), (_collar_look(squares),))
+    cloths = [tail(*place) for place in TAILS]
+    shells = [make_shell(cloth.triangles, cloth.uvs) for cloth in cloths]
+    looks = [_look(squares, count) for _, count in TAILS]
+    motions = [streaming(parameters, cloth, gait, shot) for cloth in cloths]
+    view = camera(shot.size, tail=1.3)
+    for states in zip(*motions, strict=True):
+        time = states[0].time
+        tails = (
+            garment(shell, state.positions[0], parameters.thickness * TEXEL, look)
+            for shell, state, look in zip(shells, states, looks, strict=True)
+        )
+        neck = moved((collar,), np.array([0, gait.lift(time), 0]))
+        models = (*walker(gait, time, skin, causeway), *neck, *tails)
+        yield Scene(models, view, shot.size, background=SKY, samples=4)
+
+
+def tail(aside: float, squares: int) -> Cloth:
+    """One tail, hanging from the nape: three particles wide, its uppermost row held."""
+    rows = ROWS_PER_SQUARE * squares + 1
+    cloth = grid(3, rows, SQUARE, squares * SQUARE, density=0.2)
+    nape = np.array([aside * TEXEL, 25 * TEXEL, -5.2 * TEXEL])
+    return placed(cloth, nape, rotation_about((0, 1, 0), 180))
+
+
+def streaming(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterator[State]:
+    """One tail at each frame, in the figure's own frame."""
+    speed = gait.speed + parameters.wind
+    wind = Wind((0.0, 0.0, -speed), gusts=0.35, gust_size=1.0, seed=parameters.seed, period=LOOP)
+    return motion(
+        cloth,
+        shot,
+        forces=(Gravity(), wind),
+        colliders=gait.colliders(BODY),
+        radius=parameters.thickness * TEXEL / 2,
+        pins=gait.pins(cloth),
+        settle=LOOP,
+    )
+
+
+def _texels(name: str, packs: Packs) -> Texels:
+    """A block's texture, or wool of a dye."""
+    if name in DYES:
+        return tint(packs.texture("block/white_wool"), DYES[name].rgb)
+    return packs.texture(f"block/{name}")
+
+
+def _look(squares: list[Texels], count: int) -> Look:
+    """Squares below one another, `count` of them."""
+    column = [squares[place % len(squares)] for place in range(count)]
+    return Look((Coat(np.ascontiguousarray(np.vstack(column))),))
+
+
+def _collar_look(squares: list[Texels]) -> Look:
+    """The unfolded collar, 36 x 16 texels, cut from the first square."""
+    wool = np.tile(squares[0][:16, :16], (1, 3, 1))
+    return Look((Coat(np.ascontiguousarray(wool[:, :36])),))

@@ -1,0 +1,34 @@
+"""A figure on its way, as it is drawn: in place, over ground that passes below."""
+
+import numpy as np
+
+from drapery.banner.packs import Packs
+from drapery.render.camera import Camera
+from drapery.render.scene import Look, Model
+from drapery.render.views import View, frame_points
+from drapery.scenes.gait import Gait
+from drapery.style.figure import figure_mesh
+from drapery.style.stage import moved, path_ground, shadow
+
+BEHIND = View(azimuth=214, elevation=14, fov=26)
+BEFORE = View(azimuth=32, elevation=12, fov=26)
+PERIOD = 10
+"""Blocks after which the ground repeats: what is walked in a loop."""
+
+
+def walker(gait: Gait, time: float, skin: Look, causeway: tuple[Model, ...]) -> tuple[Model, ...]:
+    """The figure at a time of its walk [s]."""
+    passed = np.array([0.0, 0.0, -(gait.speed * time % PERIOD)])
+    figure = Model(figure_mesh(gait.poses(time)), (skin,))
+    return (*moved(causeway, passed), shadow((0, 0), 0.5), figure)
+
+
+def ground(packs: Packs) -> tuple[Model, ...]:
+    """What it walks on."""
+    return path_ground(24, PERIOD, packs)
+
+
+def camera(size: tuple[int, int], view: View = BEHIND, tail: float = 0.9) -> Camera:
+    """A view of the figure and of cloth that streams so far behind it [m]."""
+    room = np.array([[-0.5, 0, -tail], [0.5, 0, 0.5], [0.5, 2, 0.4], [-0.5, 2, -0.4]])
+    return frame_points(view, room, size[0] / size[1], margin=0.1)
