@@ -32,6 +32,8 @@ from drapery.errors import DraperyError
 
 MAX_SECONDS = 1.0
 MAX_MEMORY = 200.0
+MAX_INPUT = 2**22
+MAX_TAGS = 20_000
 ANY_TEXT = "any text"
 GZIP = b"\x1f\x8b"
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
@@ -157,6 +159,8 @@ def _changed_nbt(rng: random.Random, raw: bytes, order: str) -> bytes:
     (root,) = file.values()
     for _ in range(rng.randint(1, 8)):
         _change_tag(rng, root)
+        if sum(map(len, _containers(root))) > MAX_TAGS:
+            break
     out = io.BytesIO()
     file.write(out, order)
     return out.getvalue()[:-1]
@@ -219,7 +223,7 @@ _ODD_TAGS = [
 
 def _changed(rng: random.Random, data: bytes, samples: Sequence[bytes]) -> bytes:
     for _ in range(rng.randint(1, 8)):
-        data = rng.choice(_BYTE_CHANGES)(rng, data, samples)
+        data = rng.choice(_BYTE_CHANGES)(rng, data, samples)[:MAX_INPUT]
     return data
 
 

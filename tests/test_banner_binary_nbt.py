@@ -2,6 +2,7 @@
 
 import gzip
 import io
+import random
 import struct
 import time
 import tracemalloc
@@ -184,6 +185,21 @@ def test_hostile_files_are_refused_small(name: str):
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 200 * 2**20
+
+
+def test_a_large_file_that_unpacks_to_far_more_is_refused_soon():
+    bomb = gzip.compress(random.Random(1).randbytes(2**24) + bytes(2**28), 1) + bytes(2**25)
+    start = time.process_time()
+    with pytest.raises(DesignError, match="over 64 MiB"):
+        read_nbt(bomb, "evil.nbt")
+    assert time.process_time() - start < 1
+
+
+@pytest.mark.parametrize("size", [2**20 - 9, 2**20 - 8, 2**20, 2**21 + 1])
+def test_arrays_around_the_size_of_a_piece_come_whole(size: int):
+    body = HEAD + b"\x07\0\x01a" + struct.pack(">i", size) + b"\1" * size + b"\0"
+    for wrap in WRAPPINGS.values():
+        assert read_nbt(wrap(body), "f") == {"a": b"\1" * size}
 
 
 def test_the_most_tags_that_are_allowed_are_read():

@@ -5,10 +5,10 @@ from collections.abc import Callable, Iterator
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import litematic, mcstructure, region, schem, structure
+from drapery.banner.formats.compression import is_compressed
 from drapery.banner.formats.files import find_in_bytes
 from drapery.banner.formats.form import BinaryForm
 from drapery.banner.formats.found import Found
-from drapery.banner.formats.compression import is_compressed
 from drapery.banner.formats.item import item_object
 from drapery.banner.formats.nbt import is_nbt, read_nbt
 from drapery.banner.formats.tree import Tree

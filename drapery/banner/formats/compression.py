@@ -1,6 +1,7 @@
 """Unwrapping gzip and zlib piece by piece, so that no file grows beyond its limit."""
 
 import zlib
+from collections.abc import Iterator
 
 from drapery.errors import DesignError
 
@@ -8,6 +9,7 @@ MAX_BYTES = 64 * 2**20
 """Bytes after decompression."""
 
 _PIECE = 2**20
+_FEED = 2**16
 _GZIP_OR_ZLIB = 32 + zlib.MAX_WBITS
 _REMEDY = "save or download the file anew"
 
@@ -20,19 +22,39 @@ def inflate(data: bytes, where: str, limit: int = MAX_BYTES) -> bytes:
     if not is_compressed(data):
         check_size(len(data), where, limit)
         return data
-    stream = zlib.decompressobj(_GZIP_OR_ZLIB)
     pieces: list[bytes] = []
     size = 0
-    while data and not stream.eof:
-        pieces.append(_piece(stream, data, where, size))
-        data = stream.unconsumed_tail
-        size += len(pieces[-1])
+    for piece in _pieces(data, where):
+        pieces.append(piece)
+        size += len(piece)
         check_size(size, where, limit)
-    if not stream.eof:
-        raise DesignError(
-            f"{where}: cut off: its compressed data ends after byte {size} unpacked; {_REMEDY}"
-        )
     return b"".join(pieces)
+
+
+def _pieces(data: bytes, where: str) -> Iterator[bytes]:
+    """The unpacked bytes, at most _PIECE at once."""
+    stream = zlib.decompressobj(_GZIP_OR_ZLIB)
+    size = start = 0
+    waiting, piece = b"", b""
+    while not stream.eof:
+        # Fed by spoonfuls, since zlib copies whatever it has not swallowed.
+        if not waiting and len(piece) < _PIECE:
+            if start >= len(data):
+                raise DesignError(
+                    f"{where}: cut off: its compressed data ends after byte {size} unpacked;"
+                    f" {_REMEDY}"
+                )
+            waiting = data[start : start + _FEED]
+            start += _FEED
+        try:
+            piece = stream.decompress(waiting, _PIECE)
+        except zlib.error as error:
+            raise DesignError(
+                f"{where}: broken compressed data after byte {size} unpacked ({error}); {_REMEDY}"
+            ) from None
+        waiting = stream.unconsumed_tail
+        size += len(piece)
+        yield piece
 
 
 def is_compressed(data: bytes) -> bool:
@@ -48,12 +70,3 @@ def check_size(size: int, where: str, limit: int = MAX_BYTES) -> None:
         raise DesignError(
             f"{where}: over {limit / 2**20:g} MiB unpacked; cut a smaller piece out of it"
         )
-
-
-def _piece(stream: "zlib._Decompress", data: bytes, where: str, size: int) -> bytes:
-    try:
-        return stream.decompress(data, _PIECE)
-    except zlib.error as error:
-        raise DesignError(
-            f"{where}: broken compressed data after byte {size} unpacked ({error}); {_REMEDY}"
-        ) from None

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from drapery.banner.formats import chunk, litematic, mcstructure, region, schem, structure
 from drapery.banner.formats.blocks import OnError, raise_error
-from drapery.banner.formats.found import Found, find_banners
 from drapery.banner.formats.compression import MAX_BYTES, check_size, is_compressed
+from drapery.banner.formats.found import Found, find_banners
 from drapery.banner.formats.nbt import is_nbt, read_nbt
 from drapery.banner.formats.tree import Tree
 from drapery.errors import DesignError

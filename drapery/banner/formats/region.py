@@ -13,8 +13,8 @@ from typing import BinaryIO
 
 from drapery.banner.formats import chunk
 from drapery.banner.formats.blocks import OnError, raise_error
-from drapery.banner.formats.found import Found
 from drapery.banner.formats.compression import check_size, inflate
+from drapery.banner.formats.found import Found
 from drapery.banner.formats.nbt import read_nbt
 from drapery.errors import DesignError
 
