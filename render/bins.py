@@ -1,9 +1,9 @@
 """Which triangles touch which tile of the picture: a counting sort in two passes.
 
-Every worker takes one run of triangles, first counting, then filling; the runs follow one
-another in every tile, so that each tile holds its triangles in drawing order however many
-workers there are. A tile gets all that covering takes, side by side: gathering it again from the
-vertices would wait for the memory at every triangle.
+The triangles are taken in runs, first counted, then entered; the runs follow one another in every
+tile, so that each tile holds its triangles in drawing order however many threads there are. A
+tile gets all that covering takes, side by side: gathering it again from the vertices would wait
+for the memory at every triangle.
 """
 
 from typing import Any

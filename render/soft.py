@@ -6,6 +6,7 @@ change its result.
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -33,7 +34,10 @@ MAX_RECORDS = 1 << 22
 """Triangles in tiles at one time, 160 MiB; more, and the picture is drawn in parts."""
 
 FEW = 4096
-"""Fewer vertices or triangles are not worth a second thread."""
+"""So many vertices or triangles at least are worked on at a time."""
+
+PARTS = 8
+"""Parts of the work for each thread; see `share_out`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,14 +127,14 @@ def _project_model(
 ) -> int:
     uvs, vertices, flags = arrays
     positions, normals = _vectors(mesh.positions), _vectors(mesh.normals)
-    share = _shares(len(positions), workers if len(positions) > FEW else 1)
+    share = _shares(len(positions), workers)
     width, height = (side * grid for side in scene.size)
     lights, light = scene.light.unit_directions(), scene.light
 
-    def run(worker: int) -> int:
+    def run(part: int) -> int:
         union: int = project(
-            share[worker],
-            share[worker + 1],
+            share[part],
+            share[part + 1],
             positions,
             normals,
             uvs,
@@ -145,7 +149,7 @@ def _project_model(
         )
         return union
 
-    return int(np.bitwise_or.reduce(share_out(run, len(share) - 1)))
+    return int(np.bitwise_or.reduce(share_out(run, len(share) - 1, workers)))
 
 
 def _vectors(points: NDArray[Any]) -> Float32:
@@ -155,8 +159,9 @@ def _vectors(points: NDArray[Any]) -> Float32:
 
 
 def _shares(count: int, workers: int) -> list[int]:
-    """Bounds of the runs that the workers take, [workers + 1]."""
-    return [count * worker // workers for worker in range(workers + 1)]
+    """Bounds of the runs of vertices or triangles that are worked on at a time."""
+    parts = max(1, min(PARTS * workers, -(-count // FEW))) if workers > 1 else 1
+    return [count * part // parts for part in range(parts + 1)]
 
 
 def _clipped(scene: Scene, raster: Raster, matrix: Matrix, grid: int) -> Raster:
@@ -224,11 +229,17 @@ def _draw(
     workers: int,
     picture: NDArray[np.uint32],
 ) -> None:
-    mesh = raster.vertices, raster.triangles, raster.triangle_look
-    worn = tables.looks, tables.coats, tables.atlas.reshape(-1), tables.atlas.shape[1]
-    background = np.array(scene.background, np.uint8).view(np.uint32)[0]
-    tint = np.rint(np.array(scene.light.tint) * FULL_LIGHT).astype(np.int64)
+    constant = (
+        (raster.vertices, raster.triangles, raster.triangle_look),
+        (tables.looks, tables.coats, tables.atlas.reshape(-1), tables.atlas.shape[1]),
+        np.rint(np.array(scene.light.tint) * FULL_LIGHT).astype(np.int64),
+        np.array(scene.background, np.uint8).view(np.uint32)[0],
+        grid,
+        scene.size,
+        picture.reshape(-1),
+    )
     tiles_x, tiles_y = (-(-side * grid // TILE) for side in scene.size)
+    parts = PARTS * workers if workers > 1 else 1
     ranges = [(0, tiles_x * tiles_y)]
     while ranges:
         first, end = ranges.pop()
@@ -237,27 +248,12 @@ def _draw(
             middle = (first + end) // 2
             ranges += [(middle, end), (first, middle)]
             continue
+        given = (tiles_x, first, starts, records, *constant)
+        share_out(partial(_draw_part, parts, given), parts, workers)
 
-        def run(
-            worker: int, first: int = first, starts: Any = starts, records: Any = records
-        ) -> None:
-            draw_tiles(
-                worker,
-                workers,
-                tiles_x,
-                first,
-                starts,
-                records,
-                mesh,
-                worn,
-                tint,
-                background,
-                grid,
-                scene.size,
-                picture.reshape(-1),
-            )
 
-        share_out(run, workers)
+def _draw_part(parts: int, given: tuple[Any, ...], part: int) -> None:
+    draw_tiles(part, parts, *given)
 
 
 def _tile_lists(
@@ -269,24 +265,24 @@ def _tile_lists(
     single tile never has too many.
     """
     count = len(raster.triangles)
-    share = _shares(count, workers if count > FEW else 1)
+    share = _shares(count, workers)
     cursors = np.zeros((len(share) - 1, tiles[3] - tiles[2]), np.int64)
 
-    def run(worker: int, records: NDArray[np.int32]) -> None:
+    def run(part: int, records: NDArray[np.int32]) -> None:
         sort_into_tiles(
-            share[worker],
-            share[worker + 1],
+            share[part],
+            share[part + 1],
             raster.vertices,
             raster.triangles,
             raster.triangle_look,
             looks,
             tiles,
-            cursors[worker],
+            cursors[part],
             records,
         )
 
     nothing = np.empty((0, RECORD), np.int32)
-    share_out(lambda worker: run(worker, nothing), len(cursors))
+    share_out(lambda part: run(part, nothing), len(cursors), workers)
     ends = np.cumsum(cursors.T).reshape(cursors.T.shape).T
     starts = np.concatenate([[0], ends[-1]])
     if starts[-1] > MAX_RECORDS and tiles[3] - tiles[2] > 1:
@@ -294,5 +290,5 @@ def _tile_lists(
     np.subtract(ends, cursors, out=cursors)
     records = np.empty((int(starts[-1]), RECORD), np.int32)
     if len(records):
-        share_out(lambda worker: run(worker, records), len(cursors))
+        share_out(lambda part: run(part, records), len(cursors), workers)
     return starts, records

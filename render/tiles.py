@@ -297,22 +297,20 @@ def _shade_tile(
                 shown[np.uint64(k)] = atlas[np.uint64(place[np.uint64(k)])] | solid
 
             red, green, blue = coats[coat, 4], coats[coat, 5], coats[coat, 6]
-            if red & green & blue != 255 or coats_end - coat > 1:
+            if red & green & blue != 255:
                 for k in range(count):
-                    colour = _tinted(np.int64(shown[k]), red, green, blue)
-                    for upper in range(coat + 1, coats_end):
-                        first, final = _reach(u_low, u_high, coats[upper, 2])
-                        i = coats[upper, 0] + min(
-                            max(np.int64(u[k] * coats[upper, 2]), first), final
-                        )
-                        first, final = _reach(v_low, v_high, coats[upper, 3])
-                        j = coats[upper, 1] + min(
-                            max(np.int64(v[k] * coats[upper, 3]), first), final
-                        )
-                        texel = np.int64(atlas[np.uint64(j * wide + i)])
-                        texel = _tinted(texel, coats[upper, 4], coats[upper, 5], coats[upper, 6])
-                        colour = _lay_over(texel, colour)
-                    shown[k] = colour
+                    shown[k] = _tinted(np.int64(shown[k]), red, green, blue)
+            for upper in range(coat + 1, coats_end):
+                red, green, blue = coats[upper, 4], coats[upper, 5], coats[upper, 6]
+                i_first, i_last = _reach(u_low, u_high, coats[upper, 2])
+                j_first, j_last = _reach(v_low, v_high, coats[upper, 3])
+                origin = coats[upper, 1] * wide + coats[upper, 0]
+                for k in range(count):
+                    i = min(max(np.int64(u[k] * coats[upper, 2]), i_first), i_last)
+                    j = min(max(np.int64(v[k] * coats[upper, 3]), j_first), j_last)
+                    texel = np.int64(atlas[np.uint64(origin + j * wide + i)])
+                    texel = _tinted(texel, red, green, blue)
+                    shown[k] = _lay_over(texel, np.int64(shown[k]))
             if looks[look, 3]:
                 for k in range(whole):
                     colour = np.int64(shown[np.uint64(k)])
@@ -368,8 +366,8 @@ def _resolve(
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def draw_tiles(
-    worker: Any,
-    workers: Any,
+    part: Any,
+    parts: Any,
     tiles_x: Any,
     first: Any,
     starts: Any,
@@ -382,7 +380,7 @@ def draw_tiles(
     size: Any,
     picture: Any,
 ) -> Any:
-    """Draw every workers-th tile, beginning with number `worker`.
+    """Draw every parts-th tile, beginning with number `part`.
 
     tiles_x: tiles across; first: the tile that number 0 stands for, counted row by row.
     starts, records: the triangles of tile i are records[starts[i] : starts[i + 1]]; those that
@@ -406,7 +404,7 @@ def draw_tiles(
         np.empty(STRIDE, np.int32),
         np.zeros(STRIDE, np.uint32),
     )
-    for tile in range(worker, len(starts) - 1, workers):
+    for tile in range(part, len(starts) - 1, parts):
         column, line = (first + tile) % tiles_x, (first + tile) // tiles_x
         x0, y0 = column << TILE_BITS, line << TILE_BITS
         px, py = x0 // grid, y0 // grid

@@ -1,7 +1,9 @@
-"""Kernels on several cores: each releases the GIL and takes its own share of the work.
+"""Kernels on several cores: each releases the GIL and draws its own part of the work.
 
 Plain threads, not numba's parallel loops: they compile in half the time, and may be used from
-any thread and after a fork.
+any thread and after a fork. The work is cut into more parts than there are threads, and a thread
+takes the next part when it is done with one; so a thread that the system lets wait holds up
+nobody, and on a busy machine the caller does all by itself.
 """
 
 import os
@@ -15,18 +17,29 @@ _pool: ThreadPoolExecutor | None = None
 
 
 def worker_count() -> int:
-    """How many workers by default: the cores of this process, fewer if NUMBA_NUM_THREADS says."""
+    """How many threads by default: the cores of this process, fewer if NUMBA_NUM_THREADS says."""
     from numba import config
 
     return int(getattr(config, "NUMBA_NUM_THREADS", 1))
 
 
-def share_out(task: Callable[[int], T], workers: int) -> list[T]:
-    """Run task(0) … task(workers - 1) at once; the results, in that order."""
-    if workers == 1:
-        return [task(0)]
-    others = [_threads().submit(task, worker) for worker in range(1, workers)]
-    return [task(0), *(other.result() for other in others)]
+def share_out(task: Callable[[int], T], parts: int, workers: int) -> list[T]:
+    """Run task(0) … task(parts - 1) on up to `workers` threads; their results, in that order."""
+    results: dict[int, T] = {}
+    left = iter(range(parts))
+
+    def work() -> None:
+        for part in left:
+            results[part] = task(part)
+
+    helpers = [_threads().submit(work) for _ in range(min(workers, parts) - 1)]
+    try:
+        work()
+    finally:
+        for helper in helpers:
+            if not helper.cancel():
+                helper.result()
+    return [results[part] for part in range(parts)]
 
 
 def _threads() -> ThreadPoolExecutor:

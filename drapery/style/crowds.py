@@ -25,10 +25,10 @@ def cover_crowd(shell: Shell, positions: Array, thickness: float) -> Mesh:
     shape = count, len(shell.uvs), 3
     points, normals = np.empty(shape, np.float32), np.empty(shape, np.float32)
     starts, faces = _faces_around(shell)
-    workers = worker_count()
+    parts = 8 * worker_count()
 
-    def run(worker: int) -> None:
-        first, last = (count * (worker + step) // workers for step in range(2))
+    def run(part: int) -> None:
+        first, last = (count * (part + step) // parts for step in range(2))
         _cover(
             first,
             last,
@@ -42,7 +42,7 @@ def cover_crowd(shell: Shell, positions: Array, thickness: float) -> Mesh:
             normals,
         )
 
-    share_out(run, workers)
+    share_out(run, parts, worker_count())
     return Mesh(points, normals, shell.triangles, shell.uvs)
 
 
