@@ -142,17 +142,14 @@ def separable_filter(cloth: Cloth, dt: float) -> Filter:
     rows, columns = cloth.grid_shape
     pins = np.flatnonzero(cloth.inv_mass == 0)
     hangs = np.array_equal(pins, np.arange(columns))
-    V, down_rows = _hanging(rows - 1) if hangs else _free(rows)
+    V, r = _hanging(rows - 1) if hangs else _free(rows)
     U, c = _free(columns)
-    r = down_rows[:, None]
     k = [_stiffness(cloth, kind) for kind in range(3)]
+    r = np.expand_dims(r, 1)
     H = k[0] * (r + c) + k[1] * (r * c + 2 * r + 2 * c) + k[2] * (r * r + 4 * r + c * c + 4 * c)
     spectrum = 1 / (1 - dt**2 * cloth.inv_mass.max() * H)
     matrices, products = _products(V, U, spectrum, columns * int(hangs))
-    release = np.zeros((rows * columns, 0))
-    if not hangs and len(pins):
-        release = _release(V, U, spectrum, pins)
-    return Filter(matrices, products, release)
+    return Filter(matrices, products, _release(V, U, spectrum, pins, hangs))
 
 
 def _products(V: Array, U: Array, spectrum: Array, first: int) -> tuple[Array, NDArray[np.int64]]:
@@ -176,15 +173,17 @@ def _products(V: Array, U: Array, spectrum: Array, first: int) -> tuple[Array, N
     return np.concatenate([part.ravel() for part in matrices]), np.array([*into, *lines, *back])
 
 
-def _release(V: Array, U: Array, spectrum: Array, pins: NDArray[np.int64]) -> Array:
+def _release(V: Array, U: Array, spectrum: Array, pins: NDArray[np.int64], hangs: bool) -> Array:
     """-W[:, pins] W[pins, pins]⁻¹, [N, P]: forces at the pins that hold them still."""
-    columns = []
+    columns = [np.zeros((len(V) * len(U), 0))]
+    if hangs:
+        return np.zeros(((len(V) + 1) * len(U), 0))
     for pin in pins:
         row, column = divmod(int(pin), len(U))
         waves = spectrum * V[row][:, None] * U[column]
         down = (V[:, :, None] * waves[None]).sum(1)
-        columns.append((down[:, None] * U[None]).sum(-1).ravel())
-    W = np.stack(columns, axis=1)
+        columns.append((down[:, None] * U[None]).sum(-1).reshape(-1, 1))
+    W = np.concatenate(columns, axis=1)
     release: Array = -(W[:, :, None] * inverse(W[pins])[None]).sum(1)
     return release
 

@@ -465,4 +465,4 @@ def set_velocities(v: Any, x: Any, old: Any, dt: Any) -> None:
     for row in range(x.shape[0]):
         for lane in range(x.shape[1]):
             speed = (x[row, lane] - old[row, lane]) * rate
-            v[row, lane] = speed if abs(speed) >= still else none
+            v[row, lane] = none if abs(speed) < still else speed

@@ -44,7 +44,7 @@ def limited_links(cloth: Cloth, limit: float, sweeps: int) -> Links:
     springs = across_then_outwards(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
     pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
     fine = pairs, limit * lengths
-    groups = [attachments(cloth), *_long_links(cloth, limit), *[fine] * sweeps]
+    groups = [attachments(cloth, limit), *_long_links(cloth, limit), *[fine] * sweeps]
     return _links(
         cloth,
         np.concatenate([pairs for pairs, _ in groups]),
@@ -62,8 +62,13 @@ def _links(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Links:
     return Links(pairs, longest[free], shares[:, 0].copy(), shares[:, 1].copy())
 
 
-def attachments(cloth: Cloth) -> tuple[NDArray[np.int32], Array]:
-    """Pin and particle pairs [K, 2] and their distances over the cloth at rest [m], [K]."""
+def attachments(cloth: Cloth, slack: float) -> tuple[NDArray[np.int32], Array]:
+    """Pin and particle pairs [K, 2] and the farthest they may be apart [m], [K].
+
+    slack: that distance over the one on the cloth at rest. It should be no less than springs may
+    stretch: shorter ties than the springs' carry the cloth's weight in their place, and each
+    particle swings by itself, too fast.
+    """
     pins = np.flatnonzero(cloth.inv_mass == 0)
     free = np.flatnonzero(cloth.inv_mass > 0)
     if not len(pins):
@@ -77,7 +82,7 @@ def attachments(cloth: Cloth) -> tuple[NDArray[np.int32], Array]:
         mine = pairs[:, 0] == pin
         reach[mine] = _reach(cloth, pin, pairs[mine, 1])
     found = np.isfinite(reach)
-    return pairs[found].astype(np.int32), reach[found]
+    return pairs[found].astype(np.int32), slack * reach[found]
 
 
 def _reach(cloth: Cloth, pin: int, particles: NDArray[np.integer]) -> Array:
@@ -137,10 +142,12 @@ def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Arr
 
 
 def _ancestor_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
-    """The same towards the pins of any cloth: from each particle 2^n springs up the shortest way."""
+    """The same for any cloth: from each particle 2^n springs up the shortest way to a pin."""
+    if not (cloth.inv_mass == 0).any():
+        return []
     distances = pin_distances(cloth)
     above = _next_towards_pins(cloth, distances)
-    groups = []
+    groups: list[tuple[NDArray[np.int32], Array]] = []
     while True:
         above = above[above]
         below = np.flatnonzero((cloth.inv_mass[above] > 0) & np.isfinite(distances))

@@ -54,7 +54,8 @@ def _numbered(numbers: NDArray[np.integer], count: int) -> NDArray[np.int64]:
     unique, uses = np.unique(numbers, return_counts=True)
     if (uses > 1).any():
         raise OptionError(f"pin {unique[uses > 1][0]} is given twice; name each particle once")
-    return unique.astype(np.int64)
+    sorted_numbers: NDArray[np.int64] = unique.astype(np.int64)
+    return sorted_numbers
 
 
 def _named(name: str, rest: Array, grid_shape: tuple[int, int] | None) -> NDArray[np.int64]:

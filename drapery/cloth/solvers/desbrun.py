@@ -54,7 +54,7 @@ class SolverDesbrun:
     threads: None for as many as there are processors.
     """
 
-    limit: float = 1.02
+    limit: float = 1.005
     sweeps: int = 3
     angular: Correction = "exact"
     threads: int | None = None

@@ -25,11 +25,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels
-from drapery.cloth.cloth import Cloth
+from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.forces import Force
 from drapery.cloth.links import Links, attachments
-from drapery.cloth.order import across_then_outwards
+from drapery.cloth.order import across_then_outwards, pin_distances
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import Body, Memory, advance, body_of, check_count
@@ -38,6 +38,8 @@ from drapery.errors import OptionError
 from drapery.mesh import Array
 
 MAX_SUBSTEPS = 1000
+SLACK = 1.02
+"""Attachments reach this much farther than the cloth at rest, so they catch only what is over."""
 
 
 class Constraints(NamedTuple):
@@ -103,32 +105,37 @@ class SolverXPBD:
         return advance(_advance, *args), memory
 
     def _compliances(self, cloth: Cloth) -> Array:
-        own = 1 / cloth.spring_stiffness
+        own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
         for kind, value in enumerate(self.compliance):
             if value is not None:
                 own[cloth.spring_kind == kind] = value
         return own
 
     def _links(self, cloth: Cloth) -> Links:
-        pairs, reach = attachments(cloth) if self.attach else (np.zeros((0, 2), np.int32), [])
+        pairs, reach = attachments(cloth, SLACK) if self.attach else (np.zeros((0, 2), np.int32), [])
         ones = np.ones(len(pairs))
         return Links(pairs, np.asarray(reach, float), 0 * ones, ones)
 
 
 def enough_substeps(cloth: Cloth) -> int:
-    """Substeps at which a hanging grid stretches a few per cent at most in a strong wind."""
-    return max(3, -(-max(cloth.grid_shape or (40,)) // 3))
+    """Substeps at which a hanging cloth stretches a few per cent at most in a strong wind: one for
+    every three springs between it and its pins, or across a cloth without pins."""
+    if cloth.grid_shape is not None:
+        return max(4, -(-max(cloth.grid_shape) // 3))
+    distances = pin_distances(cloth)
+    reach = distances[np.isfinite(distances)].max(initial=0.0)
+    springs = reach / cloth.spring_length[cloth.spring_kind == STRUCTURAL].mean()
+    return max(4, min(MAX_SUBSTEPS, int(np.ceil(springs / 3))))
 
 
 def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> Constraints:
     """Each substep's springs in order: all stiff ones, and its part of the soft."""
     h = dt / substeps
-    a, b = cloth.spring_pairs.T
     w = cloth.inv_mass[cloth.spring_pairs]
     # Soft: a full step's pull moves the ends by less than half of the spring's strain.
     soft = (compliance > dt**2 * w.sum(axis=1)) & (w.sum(axis=1) > 0)
     stiff = ~soft & (w.sum(axis=1) > 0)
-    turn = np.zeros(len(a), np.int64)
+    turn = np.zeros(len(w), np.int64)
     turn[soft] = np.arange(int(soft.sum())) * substeps // max(1, int(soft.sum()))
     chosen, begin = [], [0]
     for substep in range(substeps):
@@ -192,15 +199,22 @@ def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -
 
 @kernel
 def add_pushes(u: Any, inv_mass: Any, numbers: Any, push: Any, dt: Any, start: Any) -> None:
-    """u += dt push, then drag over dt, implicitly: see `kernels.add_uniform`."""
-    slow = u.dtype.type(1 / (1 + dt * numbers[1]))
+    """u += dt push, then drag over dt, implicitly: see `kernels.add_uniform`.
+
+    Gravity comes later, in the substeps; drag is that of the speed with it.
+    """
+    F = u.dtype.type
+    slow = F(1 / (1 + dt * numbers[1]))
     for row in range(u.shape[0]):
-        if push.size > 0 and inv_mass[row // 3] > 0:
+        if inv_mass[row // 3] == 0:
+            continue
+        fall = F(dt * numbers[3 + row % 3])
+        if push.size > 0:
             for lane in range(u.shape[1]):
                 u[row, lane] += dt * push[row, start + lane]
         if numbers[1] > 0:
             for lane in range(u.shape[1]):
-                u[row, lane] *= slow
+                u[row, lane] = (u[row, lane] + fall) * slow - fall
 
 
 @door

@@ -1,0 +1,149 @@
+"""A cloth moves by the same bits alone, in a batch, on any number of threads and any processor."""
+
+import hashlib
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drapery.cloth import (
+    Drag,
+    Gravity,
+    SolverDesbrun,
+    SolverXPBD,
+    State,
+    Wind,
+    carried,
+    disc,
+    grid,
+    rest_state,
+    simulate,
+)
+
+SOLVERS = {"desbrun": SolverDesbrun, "xpbd": SolverXPBD}
+each = pytest.mark.parametrize("name", SOLVERS)
+COUNT = 70
+PHASES = np.linspace(0, 9, COUNT)
+ORIGINS = np.random.default_rng(3).normal(size=(COUNT, 3))
+
+
+def blown(count=slice(None)):
+    wind = Wind((2.0, 0.0, 5.0), seed=4, phases=PHASES[count], origins=ORIGINS[count])
+    return [Gravity(), wind, Drag(0.05)]
+
+
+def moved(cloth, solver, forces, count, *, steps=20, every=1, dt=1 / 60, **options) -> State:
+    start = rest_state(cloth, count)
+    frames = simulate(cloth, solver, forces, dt, start=start, every=every, **options)
+    return next(islice(frames, steps // every, None))
+
+
+def digest(state):
+    parts = (state.positions, state.velocities)
+    whole = b"".join(np.ascontiguousarray(part).tobytes() for part in parts)
+    return hashlib.sha256(whole).hexdigest()
+
+
+@pytest.mark.parametrize("make", [lambda: grid(5, 9, 0.8, 1.6), lambda: disc(3, 0.5, pins=[0])])
+@each
+def test_a_batch_equals_its_cloths_alone(name, make):
+    cloth, solver = make(), SOLVERS[name]()
+    together = moved(cloth, solver, blown(), COUNT)
+    for one in (0, 13, COUNT - 1):
+        alone = moved(cloth, solver, blown(slice(one, one + 1)), 1)
+        np.testing.assert_array_equal(alone.positions[0], together.positions[one])
+        np.testing.assert_array_equal(alone.velocities[0], together.velocities[one])
+    assert np.abs(together.positions[0] - together.positions[1]).max() > 1e-3
+
+
+@each
+def test_threads_and_blocks_change_no_bit(name, monkeypatch):
+    cloth = grid(5, 9, 0.8, 1.6)
+    hashes = {
+        digest(moved(cloth, SOLVERS[name](threads=threads), blown(), COUNT))
+        for threads in (1, 2, 3)
+    }
+    monkeypatch.setattr("drapery.cloth.lanes.BLOCK_BYTES", 1)
+    hashes |= {digest(moved(cloth, SOLVERS[name](threads=2), blown(), COUNT))}
+    assert len(hashes) == 1
+
+
+@each
+def test_several_steps_in_one_call_are_the_same_steps(name):
+    cloth = grid(4, 6, 0.8, 1.6)
+    path = carried(cloth.rest_positions, np.arange(4), sway)
+    one, many = (
+        moved(cloth, SOLVERS[name](), blown(slice(0, 2)), 2, every=every, pins=path)
+        for every in (1, 10)
+    )
+    assert digest(one) == digest(many)
+
+
+def sway(time):
+    return np.eye(3), np.array([0.2 * np.sin(3 * time), 0.0, 0.1 * time])
+
+
+PROGRAM = """
+import sys
+sys.path.insert(0, {tests!r})
+from test_cloth_batches import *
+cloth = grid(5, 9, 0.8, 1.6)
+for solver in (SolverDesbrun(threads=1), SolverXPBD(threads=1)):
+    print(digest(moved(cloth, solver, blown(), COUNT)))
+"""
+
+
+def test_another_processors_code_gives_the_same_bits():
+    cloth = grid(5, 9, 0.8, 1.6)
+    here = [digest(moved(cloth, solver(), blown(), COUNT)) for solver in SOLVERS.values()]
+    plain = os.environ | {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
+    program = PROGRAM.format(tests=str(Path(__file__).parent))
+    there = subprocess.run(
+        [sys.executable, "-c", program], env=plain, capture_output=True, text=True, check=True
+    )
+    assert there.stdout.split() == here
+
+
+@each
+def test_pins_follow_their_path_exactly(name):
+    cloth = grid(4, 6, 0.8, 1.6)
+    path = carried(cloth.rest_positions, np.arange(4), sway)
+    end = moved(cloth, SOLVERS[name](), [Gravity()], 3, steps=30, pins=path)
+    np.testing.assert_allclose(end.positions[:, :4], np.stack([path(0.5)] * 3), atol=1e-6)
+    assert np.abs(end.positions[:, 4:] - cloth.rest_positions[4:]).max() > 0.02
+
+
+@each
+def test_each_cloth_of_a_batch_may_have_its_own_pin_path(name):
+    cloth = grid(4, 6, 0.8, 1.6)
+    still = cloth.rest_positions[:4]
+    end = moved(cloth, SOLVERS[name](), [Gravity()], 2, pins=lambda t: np.stack([still, still + t]))
+    np.testing.assert_allclose(end.positions[1, :4] - end.positions[0, :4], 1 / 3, atol=1e-6)
+
+
+@each
+def test_a_custom_force_that_is_gravity_is_gravity(name):
+    class Pull:
+        def acceleration(self, cloth, state):
+            return np.broadcast_to([0.0, -9.81, 0.0], cloth.rest_positions.shape)
+
+    cloth = grid(4, 6, 0.8, 1.6)
+    known, custom = (moved(cloth, SOLVERS[name](), [force], 1) for force in (Gravity(), Pull()))
+    np.testing.assert_allclose(known.positions, custom.positions, atol=5e-3)
+
+
+@each
+def test_slow_motion_is_flushed_to_rest_and_never_subnormal(name):
+    cloth = grid(4, 6, 0.8, 1.6)
+    start = rest_state(cloth)
+    start = replace(start, velocities=start.velocities + np.float32(1e-12))
+    end = next(islice(simulate(cloth, SOLVERS[name](), [], start=start), 50, None))
+    for values in (end.positions, end.velocities):
+        size = np.abs(values[values != 0])
+        assert not ((size > 0) & (size < np.finfo(np.float32).tiny)).any()
+    assert not end.velocities.any()
