@@ -78,16 +78,19 @@ def _lay_over(top: Any, below: Any) -> Any:
     a, d = top >> 24, below >> 24
     if a == 255 or a == 0:
         return top if a else below
-    share, rest, total = a, 255 - a, 255
-    if d < 255:
-        share, rest = 255 * a, d * (255 - a)
-        total = share + rest
+    if d == 255:
+        rest = 255 - a
+        red = (a * (top & 255) + rest * (below & 255) + 127) // 255
+        green = (a * ((top >> 8) & 255) + rest * ((below >> 8) & 255) + 127) // 255
+        blue = (a * ((top >> 16) & 255) + rest * ((below >> 16) & 255) + 127) // 255
+        return OPAQUE_BITS | blue << 16 | green << 8 | red
+    share, rest = 255 * a, d * (255 - a)
+    total = share + rest
     half = total >> 1
     red = (share * (top & 255) + rest * (below & 255) + half) // total
     green = (share * ((top >> 8) & 255) + rest * ((below >> 8) & 255) + half) // total
     blue = (share * ((top >> 16) & 255) + rest * ((below >> 16) & 255) + half) // total
-    alpha = 255 if d == 255 else (total + 127) // 255
-    return alpha << 24 | blue << 16 | green << 8 | red
+    return ((total + 127) // 255) << 24 | blue << 16 | green << 8 | red
 
 
 @_inner
