@@ -90,7 +90,7 @@ def job_of(request: Request, digests: Digests) -> Job:
 
 
 def do(job: Job, store: Store) -> Outcome:
-    """Draw a job's picture and store it whole. Never raises for what a job can bring about."""
+    """Draw a job's picture and store it whole. Raises MemoryError; other faults are outcomes."""
     start = time.perf_counter()
     try:
         size, notes = _do(job, store)
@@ -98,7 +98,7 @@ def do(job: Job, store: Store) -> Outcome:
         hopeless = isinstance(error, (OptionError, DesignError, BackendError))
         return Outcome(job, str(error), not hopeless, time.perf_counter() - start)
     except MemoryError:
-        return Outcome(job, OUT_OF_MEMORY, True, time.perf_counter() - start)
+        raise
     except Exception as error:
         # A fault of ours, or of an installed backend; the others shall not suffer by it.
         line = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}; please report it"

@@ -38,6 +38,8 @@ def digest(path: Path) -> str:
     try:
         if path.is_file():
             return _of_file(path)
+        if not path.is_dir():
+            raise PackError(f"{path} does not exist: check the path")
         whole = hashlib.sha256()
         for name in _names(path):
             whole.update(f"{name}\0{_of_file(path / name)}\n".encode("utf-8", "surrogateescape"))

@@ -16,7 +16,8 @@ from drapery.errors import BackendError
 
 LOOK = 0.1
 """How often the workers' time and memory are looked at [s]."""
-MOST_STILLBORN = 3
+MOST_STILLBORN = 10
+"""Workers in a row that die before they report. Something outside may kill a few."""
 PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 
 
@@ -44,13 +45,14 @@ class _Hand:
 class Pool:
     """A crew of processes on this machine; see `work.Crew`.
 
-    work: what does a job, a function of a module. workers: how many processes; each gets its
-    share of the cores.
+    work: what does a job, a function of a module. workers: how many processes.
+    threads: of each; by default its share of the cores.
     """
 
     work: Callable[[Job], Outcome]
     workers: int
     limits: Limits = Limits()
+    threads: int | None = None
     _hands: list[_Hand] = field(default_factory=list)
     _stillborn: int = 0
 
@@ -99,7 +101,7 @@ class Pool:
         # A fresh interpreter: forking one that has threads is not safe.
         context = get_context("spawn")
         ours, theirs = context.Pipe()
-        threads = max(1, (os.cpu_count() or 1) // self.workers)
+        threads = self.threads or max(1, (os.cpu_count() or 1) // self.workers)
         process = context.Process(
             target=worker.live,
             args=(theirs, self.work, self.limits.memory, threads),
@@ -118,10 +120,10 @@ class Pool:
         if not hand.ready:
             hand.ready, hand.resting, self._stillborn = True, said, 0
             return []
-        hand.job = None
-        if said.fault == OUT_OF_MEMORY:
+        if said is None:
             # What is left of a heap that was full is not trusted.
-            self._replace(hand)
+            return self._lost(hand, OUT_OF_MEMORY)
+        hand.job = None
         return [said]
 
     def _check(self, hand: _Hand) -> list[Outcome]:

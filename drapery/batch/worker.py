@@ -11,7 +11,7 @@ from typing import Any
 
 
 def live(pipe: Connection, work: Callable[[Any], Any], memory: int, threads: int) -> None:
-    """Do jobs until the other end hangs up.
+    """Do jobs until the other end hangs up; None says that one wanted too much memory.
 
     memory: what a job may take beyond what the process has [bytes]. threads: for the kernels.
     """
@@ -28,7 +28,11 @@ def live(pipe: Connection, work: Callable[[Any], Any], memory: int, threads: int
             job = pipe.recv()
         except (EOFError, OSError):
             return
-        pipe.send(work(job))
+        try:
+            outcome = work(job)
+        except MemoryError:
+            outcome = None
+        pipe.send(outcome)
 
 
 def _die_with_parent() -> None:

@@ -143,8 +143,8 @@ def _hire(
         from drapery.batch.cluster import join, local
 
         if scheduler is None:
-            return local(min(count, todo), store, limits, jobs)
-        return join(scheduler, store, limits, jobs)
+            return local(min(count, todo), store, limits)
+        return join(scheduler, store, limits)
 
     return hire
 

@@ -1,0 +1,204 @@
+"""Many machines: the same jobs as tasks of Dask distributed (extra `cluster`)."""
+
+import logging
+import threading
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from multiprocessing import current_process
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from drapery.batch.jobs import Job, Outcome, do
+from drapery.batch.keys import Digests, our_version
+from drapery.batch.parcels import Parcel, packed, paths_of, settled
+from drapery.batch.pool import Limits, Pool
+from drapery.batch.stores import Store
+from drapery.errors import BackendError, DraperyError
+
+AHEAD = 2
+"""Jobs sent for each of the cluster's threads: one that runs and one that waits there. So few are
+in flight that a killed run has little to do again, and the scheduler's memory stays flat."""
+COUNT_AGAIN = 3.0
+"""How often the cluster's threads are counted, since workers come and go [s]."""
+LOST_AFTER = 15.0
+"""How long the scheduler may be silent [s]."""
+
+
+@dataclass
+class DaskCrew:
+    """A crew of a cluster's workers; see `work.Crew`. cluster: to be closed with it, or None."""
+
+    client: Any
+    store: Store
+    limits: Limits
+    cluster: Any = None
+    _running: dict[str, tuple[Any, Job]] = field(default_factory=dict)
+    _ended: SimpleQueue[str] = field(default_factory=SimpleQueue)
+    _sent: dict[Path, Any] = field(default_factory=dict)
+    _digests: Digests = field(default_factory=Digests)
+    _number: int = 0
+    _threads: int = 0
+    _counted: float = -COUNT_AGAIN
+    _heard: float = 0.0
+
+    def free(self) -> int:
+        """See `Crew`."""
+        if time.monotonic() - self._counted > COUNT_AGAIN:
+            self._count()
+        return AHEAD * max(1, self._threads) - len(self._running)
+
+    def start(self, job: Job) -> None:
+        """See `Crew`."""
+        self._number += 1
+        key = f"drapery-{self._number}-{job.key[:12]}"
+        try:
+            parcels = [self._send(path) for path in paths_of(job)]
+        except DraperyError as error:
+            self._running[key] = (Outcome(job, str(error), True), job)
+            self._ended.put(key)
+            return
+        future = self.client.submit(
+            task, job, self.store, self.limits, parcels, key=key, pure=False, retries=0
+        )
+        self._running[key] = (future, job)
+        future.add_done_callback(lambda _: self._ended.put(key))
+
+    def finished(self, patience: float) -> list[Outcome]:
+        """See `Crew`. Raises BackendError where the scheduler is gone."""
+        self._look_for_scheduler()
+        try:
+            keys = [self._ended.get(timeout=patience)]
+            while not self._ended.empty():
+                keys.append(self._ended.get())
+        except Empty:
+            return []
+        return [_outcome(*self._running.pop(key)) for key in keys if key in self._running]
+
+    def close(self) -> None:
+        """See `Crew`."""
+        for end in (self.client, self.cluster):
+            if end is not None:
+                try:
+                    end.close(timeout=5)
+                except Exception as error:
+                    # It has been killed, or is going: the outcomes are in the ledger.
+                    logging.getLogger(__name__).debug("closing: %s", error)
+
+    def _count(self) -> None:
+        self._counted = time.monotonic()
+        try:
+            self._threads = sum(self.client.nthreads().values())
+        except Exception:
+            # Asked again soon; `finished` tells when the scheduler is gone for good.
+            self._threads = 0
+
+    def _look_for_scheduler(self) -> None:
+        now = time.monotonic()
+        if self.client.status == "running" or not self._heard:
+            self._heard = now
+        if self.client.status == "closed" or now - self._heard > LOST_AFTER:
+            raise BackendError(
+                "the cluster's scheduler is gone; start it again and go on with --resume"
+            )
+
+    def _send(self, path: Path) -> Any:
+        """The parcel's future; workers fetch it once each, from one another."""
+        if path not in self._sent:
+            parcel = packed(path, self._digests)
+            # Not broadcast, so that workers that come later are served alike.
+            self._sent[path] = self.client.scatter(parcel, hash=True)
+        return self._sent[path]
+
+
+def task(job: Job, store: Store, limits: Limits, parcels: Sequence[Parcel]) -> Outcome:
+    """A job on a worker."""
+    if job.version != our_version():
+        fault = (
+            f"the worker runs drapery {our_version()}, the job is of {job.version};"
+            " install the same everywhere"
+        )
+        return Outcome(job, fault)
+    try:
+        here = settled(job, tuple(parcels))
+    except DraperyError as error:
+        return Outcome(job, str(error), True)
+    outcome = do(here, store) if _must_stay(store) else _guarded(here, store, limits)
+    return Outcome(job, outcome.fault, outcome.again, outcome.seconds, outcome.size, outcome.notes)
+
+
+def local(workers: int, store: Store, limits: Limits) -> DaskCrew:
+    """A cluster of processes on this machine. Raises BackendError where Dask is missing."""
+    distributed = _distributed()
+    import dask
+
+    # Each worker has a process of its own for the jobs, so that one which hangs can be ended.
+    dask.config.set({"distributed.worker.daemon": False})
+    cluster = distributed.LocalCluster(
+        n_workers=workers,
+        threads_per_worker=1,
+        processes=True,
+        dashboard_address=None,
+        silence_logs=logging.CRITICAL,
+    )
+    return DaskCrew(distributed.Client(cluster), store, limits, cluster)
+
+
+def join(address: str, store: Store, limits: Limits) -> DaskCrew:
+    """The cluster of a scheduler. Raises BackendError where there is none."""
+    distributed = _distributed()
+    try:
+        return DaskCrew(distributed.Client(address, timeout=15), store, limits)
+    except (OSError, ValueError) as error:
+        reason = " ".join(str(error).split())[:200]
+        raise BackendError(f"no scheduler at {address}: {reason}; check the address") from None
+
+
+def _distributed() -> Any:
+    try:
+        import distributed
+    except ImportError:
+        raise BackendError('Dask is missing; pip install "drapery[cluster]"') from None
+    return distributed
+
+
+def _outcome(future: Any, job: Job) -> Outcome:
+    if isinstance(future, Outcome):
+        return future
+    if future.status == "finished":
+        outcome: Outcome = future.result()
+        return outcome
+    error = future.exception() if future.status == "error" else None
+    reason = " ".join(str(error or "the cluster lost it").split())[:200]
+    return Outcome(job, f"{reason}; see the cluster's log", True)
+
+
+def _must_stay(store: Store) -> bool:
+    """Whether jobs run in the worker itself, under its nanny's limits alone.
+
+    A daemonic worker may have no processes, and `memory://` is of one process.
+    """
+    return current_process().daemon or store.label.startswith("memory://")
+
+
+_own = threading.local()
+
+
+def _guarded(job: Job, store: Store, limits: Limits) -> Outcome:
+    """Do a job in this thread's own process, which may be killed."""
+    if getattr(_own, "terms", None) != (store, limits):
+        if hasattr(_own, "pool"):
+            _own.pool.close()
+        _own.pool, _own.terms = (
+            Pool(partial(do, store=store), 1, limits, threads=1),
+            (store, limits),
+        )
+    pool: Pool = _own.pool
+    while pool.free() < 1:
+        pool.finished(1.0)
+    pool.start(job)
+    while True:
+        for outcome in pool.finished(1.0):
+            return outcome

@@ -1,0 +1,82 @@
+"""Packs and textures sent to other machines: as bytes, once to each worker."""
+
+import io
+import os
+import tempfile
+import zipfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from drapery.batch.jobs import Job
+from drapery.batch.keys import Digests
+from drapery.errors import OutputError, PackError
+from drapery.settings import Settings
+
+MAX_BYTES = 1 << 30
+
+
+@dataclass(frozen=True)
+class Parcel:
+    """A file, or a folder as a zip. digest: of its content."""
+
+    name: str
+    digest: str
+    data: bytes
+
+
+def paths_of(job: Job) -> tuple[Path, ...]:
+    """The packs and the texture that a job needs."""
+    texture = job.settings.texture
+    return (*map(Path, job.settings.packs), *(() if texture is None else (Path(texture),)))
+
+
+def packed(path: Path, digests: Digests) -> Parcel:
+    """A pack or texture as a parcel. Raises PackError."""
+    try:
+        data = path.read_bytes() if path.is_file() else _zipped(path)
+    except OSError as error:
+        raise PackError(f"pack {path} cannot be read: {error.strerror}; check the path") from None
+    if len(data) > MAX_BYTES:
+        raise PackError(f"pack {path} is over {MAX_BYTES >> 20} MiB; leave out what is not needed")
+    name = path.name if path.is_file() else f"{path.name}.zip"
+    return Parcel(name, digests.of(path)[:16], data)
+
+
+def unpacked(parcel: Parcel) -> Path:
+    """The parcel as a file of this machine, written once. Raises OutputError."""
+    try:
+        folder = Path(tempfile.gettempdir(), f"drapery-{os.getuid()}", parcel.digest)
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        path = folder / parcel.name
+        if not path.exists() or path.stat().st_size != len(parcel.data):
+            with tempfile.NamedTemporaryFile(dir=folder, delete=False) as file:
+                file.write(parcel.data)
+            Path(file.name).replace(path)
+    except OSError as error:
+        raise OutputError(
+            f"cannot keep pack {parcel.name}: {error.strerror}; free a disk"
+        ) from None
+    return path
+
+
+def settled(job: Job, parcels: tuple[Parcel, ...]) -> Job:
+    """The job with its packs and texture where they are on this machine."""
+    if not parcels:
+        return job
+    here = [unpacked(parcel) for parcel in parcels]
+    count = len(job.settings.packs)
+    settings: Settings = replace(
+        job.settings, packs=tuple(here[:count]), texture=here[count] if here[count:] else None
+    )
+    return replace(job, settings=settings)
+
+
+def _zipped(folder: Path) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
+        for path in sorted(folder.rglob("*")):
+            if path.is_file() and ".git" not in path.relative_to(folder).parts:
+                # Times stay out, so that the same pack is the same parcel.
+                info = zipfile.ZipInfo(path.relative_to(folder).as_posix())
+                file.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
+    return buffer.getvalue()

@@ -1,0 +1,46 @@
+"""Work for pools of processes that goes wrong in every way a job can."""
+
+import os
+import sys
+import time
+from pathlib import Path
+
+from drapery.banner.design import Banner
+from drapery.batch.jobs import Job, Outcome
+from drapery.settings import Settings
+
+
+def job(name: str, design: str = "white") -> Job:
+    """A job that nothing has to draw."""
+    settings = Settings(size=(16, 16), grid=(2, 2), time=0.05)
+    return Job(name, (f"{name}.png",), (f"line {name}",), Banner(design), settings, None, None, "1")
+
+
+def work(one: Job) -> Outcome:
+    """Do what the job's name says; `once-…` goes wrong the first time only."""
+    kind, _, mark = one.outs[0].removesuffix(".png").partition("@")
+    if kind.startswith("once-"):
+        path = Path(mark.replace("!", "/"))
+        kind = "fine" if path.exists() else kind.removeprefix("once-")
+        path.touch()
+    if kind.startswith("die"):
+        os.kill(os.getpid(), 9)
+    if kind.startswith("hang"):
+        time.sleep(600)
+    if kind.startswith("eat"):
+        return Outcome(one, None, size=len(bytearray(8 << 30)))
+    if kind.startswith("nibble"):
+        kept = []
+        while True:
+            kept.append(b"x" * (1 << 20))
+    return Outcome(one, None, size=os.getpid())
+
+
+def command(version: str, words: list[str]) -> None:
+    """The command line in a process of its own, for one version of a checkout that may change."""
+    from drapery import cli
+    from drapery.batch import jobs, keys
+
+    jobs.our_version = keys.our_version = lambda: version  # type: ignore[assignment]
+    sys.argv = ["drapery", *words]
+    cli.main()

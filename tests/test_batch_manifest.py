@@ -1,0 +1,181 @@
+"""A manifest is read whole before anything is drawn: all jobs, or all faults with their lines."""
+
+import json
+from pathlib import Path
+
+import pytest
+import yaml
+from conftest import Run
+from hypothesis import given
+from hypothesis import strategies as st
+
+from drapery.banner.design import Banner, Layer
+from drapery.batch.jobs import plan
+from drapery.batch.manifest import ManifestError, Request, read_manifest
+from drapery.errors import DraperyError
+from drapery.settings import Settings
+
+JOBS = [
+    {"name": "lime", "design": "white creeper:lime", "view": "hero", "wind": 6},
+    {"out": "guilds/red.gif", "design": "red border:black", "seconds": 2, "fps": 10},
+    {"design": "blue", "size": "32x48", "pose": "vanilla", "rotation": 4},
+]
+
+
+def write(path: Path, text: str) -> Path:
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def as_csv(path: Path) -> Path:
+    names = sorted({name for one in JOBS for name in one})
+    rows = [",".join(str(one.get(name, "")) for name in names) for one in JOBS]
+    return write(path / "m.csv", "\n".join(["# grid = 3x5", ",".join(names), *rows]))
+
+
+def as_jsonl(path: Path) -> Path:
+    lines = [{"defaults": {"grid": "3x5"}}, *JOBS]
+    return write(path / "m.jsonl", "\n\n".join(map(json.dumps, lines)))
+
+
+def as_yaml(path: Path) -> Path:
+    return write(path / "m.yaml", yaml.safe_dump({"defaults": {"grid": [3, 5]}, "jobs": JOBS}))
+
+
+def bare(requests: list[Request]) -> list[tuple[object, ...]]:
+    return [(r.out, r.banner, r.settings, r.seconds, r.fps) for r in requests]
+
+
+@pytest.mark.parametrize("form", [as_csv, as_jsonl, as_yaml])
+def test_the_same_jobs_from_every_form(form, tmp_path: Path) -> None:
+    lime = Banner("white", (Layer("creeper", "lime"),))
+    red = Banner("red", (Layer("border", "black"),))
+    few = {"grid": (3, 5)}
+    turned = Settings(size=(32, 48), pose="vanilla", rotation=4, **few)
+    assert bare(read_manifest(form(tmp_path))) == [
+        ("lime.png", lime, Settings(view="hero", wind=6.0, **few), None, None),
+        ("guilds/red.gif", red, Settings(**few), 2.0, 10.0),
+        ("00003.png", Banner("blue"), turned, None, None),
+    ]
+
+
+def test_defaults_lie_under_the_manifests_own(tmp_path: Path) -> None:
+    given_here = {"grid": "9x9", "wind": "7", "packs": "."}
+    first, second, _ = read_manifest(as_csv(tmp_path), given_here, "webp")
+    assert (first.settings.grid, first.settings.wind, second.settings.wind) == ((3, 5), 6.0, 7.0)
+    assert first.out == "lime.webp"
+
+
+def test_defaults_lie_under_the_manifests_own_but_packs_must_be_packs(tmp_path: Path) -> None:
+    with pytest.raises(ManifestError, match="no resource pack") as caught:
+        read_manifest(as_csv(tmp_path), {"packs": str(tmp_path)})
+    assert [fault.place for fault in caught.value.faults] == ["line 3", "line 4", "line 5"]
+
+
+BAD = """\
+name,design,wind,size,colour
+a,white creeper:lime,99,0x4,
+b,wite,x,48x48,
+a,red,4,48x48,blue
+a,red,4,48x48,
+A,red,4,48x48,
+../up,red,4,48x48,
+c,"two
+lines",4,48x48,
+d,,4,48x48,
+e,red,4,48x48,,,
+"""
+
+
+def test_all_faults_are_told_with_their_lines(tmp_path: Path, drapery: Run) -> None:
+    path = write(tmp_path / "m.csv", BAD)
+    with pytest.raises(ManifestError) as caught:
+        read_manifest(path)
+    faults = [(fault.place, fault.line.split(":")[0][:22]) for fault in caught.value.faults]
+    assert sorted(faults) == sorted(
+        [
+            ("line 2", "wind 99 is out of rang"),
+            ("line 2", "size (width) 0 is out "),
+            ("line 3", "wind"),
+            ("line 3", "design"),
+            ("line 4", "'colour' is no option;"),
+            ("line 6", "A.png is written by li"),
+            ("line 7", "'../up.png' is no file"),
+            ("line 8", "design"),
+            ("line 10", "no design is given; wr"),
+            ("line 11", "7 cells for 5 columns;"),
+        ]
+    )
+    code, out, err = drapery("batch", path, "-o", tmp_path / "out")
+    assert (code, out) == (2, "")
+    assert len(err.splitlines()) == len(faults) + 1
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "place"),
+    [
+        ("m.jsonl", '{"design": "red"}\n{"design": \n', "line 2"),
+        ("m.jsonl", '{"design": "red"}\n\n[1]\n', "line 3"),
+        ("m.yaml", "- design: red\n- 3\n", "line 2"),
+        ("m.yaml", "- design: red\n- design: [\n", "line 3"),
+        ("m.yaml", "- design: red\n\n- design: red\n  sise: 3x3\n", "line 3"),
+        ("m.csv", 'design\nred\n"red\n', "line 3"),
+    ],
+)
+def test_broken_text_is_placed(name: str, text: str, place: str, tmp_path: Path) -> None:
+    with pytest.raises(ManifestError) as caught:
+        read_manifest(write(tmp_path / name, text))
+    assert [fault.place for fault in caught.value.faults] == [place]
+
+
+def test_each_banner_of_a_file_of_banners_is_a_job(tmp_path: Path) -> None:
+    path = write(
+        tmp_path / "all.mcfunction",
+        "give @p red_banner\ngive @p lime_banner\ngive @p red_banner\n",
+    )
+    requests = read_manifest(path, {"size": "8x8"}, "gif")
+    assert [r.banner.base for r in requests] == ["red", "lime", "red"]
+    assert len({r.out for r in requests}) == 3
+    assert {r.settings.size for r in requests} == {(8, 8)}
+    first, second = plan(requests)
+    assert (len(first.outs), len(second.outs)) == (2, 1)
+
+
+def test_a_design_may_be_a_file_beside_the_manifest(tmp_path: Path) -> None:
+    write(tmp_path / "red.txt", "red border:black")
+    path = write(tmp_path / "m.jsonl", '{"design": "red.txt"}')
+    assert read_manifest(path)[0].banner == Banner.parse("red border:black")
+
+
+def test_jobs_of_one_motion_stand_together(tmp_path: Path) -> None:
+    lines = [
+        {"design": f"{dye} border:black", "wind": wind}
+        for dye in ("red", "blue", "lime")
+        for wind in (3, 4)
+    ]
+    path = write(tmp_path / "m.jsonl", "\n".join(map(json.dumps, lines)))
+    assert [job.settings.wind for job in plan(read_manifest(path))] == [3.0] * 3 + [4.0] * 3
+
+
+WORDS = st.sampled_from(
+    [
+        *("design", "red", "size", "4x4", "wind", "-1", "nan", "1e999", "true", "null", "é"),
+        *("jobs", "defaults", "name", "out", "packs", "a/../b.png", "!!python/x", "<<", "{", "}"),
+        *("[", "]", ":", ",", "#", "&a ", "*a", "- ", '"', "\n", "\0"),
+    ]
+)
+
+
+@given(st.sampled_from(["csv", "jsonl", "yaml"]), st.lists(WORDS, max_size=12))
+def test_any_text_is_jobs_or_an_error_of_ours(form: str, words: list[str]) -> None:
+    from tempfile import TemporaryDirectory
+
+    with TemporaryDirectory() as folder:
+        path = write(Path(folder) / f"m.{form}", "".join(words))
+        try:
+            assert read_manifest(path)
+        except ManifestError as error:
+            assert all("\n" not in str(fault) for fault in error.faults)
+        except DraperyError as error:
+            assert "\n" not in str(error)

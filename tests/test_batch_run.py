@@ -1,0 +1,181 @@
+"""A run that is killed, starved or disturbed ends, after --resume, as if nothing had been."""
+
+import json
+import os
+import random
+import shutil
+import signal
+import sqlite3
+import time
+from multiprocessing import get_context
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from batch_works import command
+from conftest import Run
+from PIL import Image
+from test_batch_keys import make_pack
+
+from drapery import Banner, draw
+from drapery.batch.jobs import do, plan
+from drapery.batch.keys import our_version
+from drapery.batch.ledger import FILE, Ledger
+from drapery.batch.manifest import read_manifest
+from drapery.batch.stores import open_store
+from drapery.errors import OutputError
+
+DYES = ("white", "red", "blue", "lime", "black", "pink")
+
+
+def manifest(path: Path, count: int, **defaults: object) -> Path:
+    few = {"size": "16x24", "grid": "2x3", "time": 0.1, **defaults}
+    jobs = [
+        {"name": f"j{n}", "design": f"{DYES[n % 6]} border:{DYES[(n + 1) % 6]}", "seed": n}
+        for n in range(count)
+    ]
+    lines = [{"defaults": few}, *jobs]
+    path.write_text("\n".join(map(json.dumps, lines)))
+    return path
+
+
+def pictures(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.rglob("*.png")}
+
+
+def rows(folder: Path) -> list[tuple[object, ...]]:
+    with sqlite3.connect(folder / FILE) as db:
+        return db.execute("SELECT out, state, why, tries FROM outputs ORDER BY out").fetchall()
+
+
+def test_a_batch_draws_what_draw_draws_and_draws_it_once(drapery: Run, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    path = tmp_path / "m.csv"
+    path.write_text(
+        "name,design,size,grid,out\n"
+        "a,white creeper:lime,24x32,3x5,\n"
+        "b,white creeper:lime,24x32,3x5,\n"
+        ",red,16x16,2x3,deep/er/c.webp\n"
+        ",red,16x16,2x3,d.gif\n"
+    )
+    words = ("batch", path, "-o", out, "--workers", "2", "--set", "fps=10", "--set", "seconds=0.3")
+    code, said, _ = drapery(*words)
+    assert code == 0, said
+    drawn = draw(Banner.parse("white creeper:lime"), size=(24, 32), grid=(3, 5))
+    assert np.array_equal(np.asarray(Image.open(out / "a.png")), drawn.pixels)
+    assert (out / "a.png").read_bytes() == (out / "b.png").read_bytes()
+    with Image.open(out / "d.gif") as gif:
+        assert gif.n_frames == 3
+    page = (out / "report.html").read_text()
+    assert page.count("<img") == 4
+    stamps = {p: p.stat().st_mtime_ns for p in out.rglob("*.*") if p.suffix in (".png", ".gif")}
+    (out / "b.png").unlink()
+    code, said, _ = drapery(*words)
+    assert code == 0
+    assert "drawn               0" in said
+    assert (out / "a.png").read_bytes() == (out / "b.png").read_bytes()
+    assert all(p.stat().st_mtime_ns == t for p, t in stamps.items() if p.name != "b.png")
+
+
+def test_a_run_killed_at_random_moments_ends_as_one_undisturbed(
+    drapery: Run, tmp_path: Path
+) -> None:
+    path = manifest(tmp_path / "m.jsonl", 30)
+    calm, torn = tmp_path / "calm", tmp_path / "torn"
+    for job in plan(read_manifest(path)):
+        assert do(job, open_store(str(calm))).fault is None
+    torn.mkdir()
+    words = ["batch", str(path), "-o", str(torn), "--workers", "2"]
+    chance = random.Random(1)
+    done = 0
+    for _ in range(2):
+        run = get_context("spawn").Process(target=command, args=(our_version(), words))
+        run.start()
+        _wait_for_pictures(torn, min(29, done + chance.randint(1, 10)), run)
+        os.kill(run.pid, signal.SIGKILL)
+        run.join()
+        done = len(pictures(torn))
+    recorded = sum(state == "done" for _, state, _, _ in rows(torn))
+    assert done - recorded <= 4, "only what was in flight is not in the ledger"
+    code, said, _ = drapery(*words, "--resume")
+    assert code == 0
+    assert f"there before        {recorded}" in said
+    assert pictures(torn) == pictures(calm)
+    assert not list(torn.glob(".*.part"))
+
+
+def _wait_for_pictures(folder: Path, count: int, run: BaseProcess) -> None:
+    end = time.monotonic() + 60
+    while len(list(folder.glob("*.png"))) < count and run.is_alive():
+        assert time.monotonic() < end
+        time.sleep(0.005)
+
+
+def test_what_fails_is_reported_and_the_rest_is_done(drapery: Run, tmp_path: Path) -> None:
+    pack = make_pack(tmp_path / "pack")
+    path = manifest(tmp_path / "m.jsonl", 4)
+    out = tmp_path / "out"
+    (out / "j2.png").mkdir(parents=True)
+    words = ("batch", path, "-o", out, "--workers", "2", "--retries", "0")
+    code, said, err = drapery(*words, "--set", f"packs={pack}")
+    assert code == 1
+    assert "failed              1" in said
+    assert "j2.png (line 4): cannot write" in err
+    assert [(o, s) for o, s, _, _ in rows(out)] == [
+        *(("j0.png", "done"), ("j1.png", "done"), ("j2.png", "failed"), ("j3.png", "done"))
+    ]
+    assert "it is a folder" in (out / "report.html").read_text()
+    (out / "j2.png").rmdir()
+    code, said, _ = drapery(*words, "--set", f"packs={pack}", "--resume")
+    assert code == 1, "what failed in the run that is resumed stays failed"
+    code, said, _ = drapery(*words, "--set", f"packs={pack}")
+    assert code == 0, "a run anew tries it again"
+    assert "drawn               1" in said
+
+
+def test_a_pack_removed_in_the_run_fails_its_jobs_alone(tmp_path: Path) -> None:
+    pack = make_pack(tmp_path / "pack")
+    jobs = plan(read_manifest(manifest(tmp_path / "m.jsonl", 2, packs="pack")))
+    plain = plan(read_manifest(manifest(tmp_path / "m.jsonl", 2)))
+    shutil.rmtree(pack)
+    outcomes = [do(job, open_store(str(tmp_path / "out"))) for job in (*jobs, *plain)]
+    assert [outcome.fault is None for outcome in outcomes] == [False, False, True, True]
+    assert "does not exist" in outcomes[0].fault
+    assert outcomes[0].again
+
+
+def test_a_full_disk_leaves_no_half_file(tmp_path: Path, monkeypatch) -> None:
+    (job,) = plan(read_manifest(manifest(tmp_path / "m.jsonl", 1)))
+    out = tmp_path / "out"
+
+    def full(self: Path, target: Path) -> Path:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", full)
+    outcome = do(job, open_store(str(out)))
+    assert "No space left on device" in outcome.fault
+    assert outcome.again
+    assert list(out.iterdir()) == []
+
+
+def test_a_ledger_is_of_one_run_at_a_time(tmp_path: Path) -> None:
+    with Ledger(tmp_path / FILE), pytest.raises(OutputError, match="another run"):
+        Ledger(tmp_path / FILE)
+    with Ledger(tmp_path / FILE) as again:
+        assert again.known() == {}
+
+
+def test_a_target_that_is_no_folder_is_refused(drapery: Run, tmp_path: Path) -> None:
+    path = manifest(tmp_path / "m.jsonl", 1)
+    for target, reason in ((path, "cannot make"), (f"nothing://{tmp_path}", "cannot be opened")):
+        code, _, err = drapery("batch", path, "-o", target)
+        assert code == 2
+        assert reason in err.splitlines()[-1]
+
+
+def test_resume_needs_a_run_to_go_on_with(drapery: Run, tmp_path: Path) -> None:
+    path = manifest(tmp_path / "m.jsonl", 1)
+    code, _, err = drapery("batch", path, "-o", tmp_path / "out", "--resume")
+    assert code == 2
+    assert "nothing to resume" in err

@@ -1,0 +1,100 @@
+"""Jobs that die, hang or eat memory fail with their reason; every other job is done, once."""
+
+import os
+import signal
+from collections import Counter
+from pathlib import Path
+
+from batch_works import job, work
+from hypothesis import given
+from hypothesis import strategies as st
+
+from drapery.batch.jobs import Job, Outcome
+from drapery.batch.pool import Limits, Pool
+from drapery.batch.work import Retries, work_off
+
+SOON = Retries(most=2, pause=0.01)
+
+
+class Scripted:
+    """A crew without processes: each job fails as often as it says."""
+
+    def __init__(self, fails: dict[str, int], hopeless: set[str], room: int) -> None:
+        self.fails, self.hopeless, self.room = dict(fails), hopeless, room
+        self.running: list[Job] = []
+        self.began: Counter[str] = Counter()
+
+    def free(self) -> int:
+        return self.room - len(self.running)
+
+    def start(self, one: Job) -> None:
+        assert self.free() > 0
+        self.began[one.key] += 1
+        self.running.append(one)
+
+    def finished(self, patience: float) -> list[Outcome]:
+        ended, self.running = self.running[:2], self.running[2:]
+        return [self.outcome(one) for one in ended]
+
+    def outcome(self, one: Job) -> Outcome:
+        if self.fails[one.key] == 0:
+            return Outcome(one)
+        self.fails[one.key] -= 1
+        return Outcome(one, "it fails", again=one.key not in self.hopeless)
+
+    def close(self) -> None:
+        pass
+
+
+@given(st.lists(st.tuples(st.integers(0, 4), st.booleans()), max_size=12), st.integers(1, 3))
+def test_every_job_ends_once_after_as_many_tries_as_it_needs(
+    script: list[tuple[int, bool]], room: int
+) -> None:
+    fails = {str(n): count for n, (count, _) in enumerate(script)}
+    hopeless = {str(n) for n, (_, never) in enumerate(script) if never}
+    crew = Scripted(fails, hopeless, room)
+    ended = list(work_off([job(name) for name in fails], crew, Retries(2, 1e-4)))
+    assert Counter(outcome.job.key for outcome, _ in ended) == Counter(list(fails))
+    for outcome, tries in ended:
+        count, key = fails[outcome.job.key], outcome.job.key
+        most = 1 if key in hopeless else 3
+        assert tries == crew.began[key] == min(count + 1, most)
+        assert (outcome.fault is None) == (count < most)
+
+
+def test_a_pool_outlives_what_its_jobs_do() -> None:
+    names = ["die", "eat", "hang", "nibble", *(f"fine{n}" for n in range(6))]
+    pool = Pool(work, 2, Limits(seconds=1.5, memory=200 << 20))
+    try:
+        ended = dict(_ended(pool, names, Retries(0)))
+    finally:
+        pool.close()
+    assert set(ended) == set(names)
+    fine = {name for name, (fault, _) in ended.items() if fault is None}
+    assert fine == {n for n in names if n.startswith("fine")}
+    assert "its worker died" in ended["die"][0]
+    assert "took over 1.5 s" in ended["hang"][0]
+    assert all("more memory" in ended[name][0] for name in ("eat", "nibble"))
+
+
+def test_a_worker_killed_from_outside_loses_no_job(tmp_path: Path) -> None:
+    pool = Pool(work, 2, Limits())
+    mark = str(tmp_path / "mark").replace("/", "!")
+    names = [f"once-die@{mark}", *(f"fine{n}" for n in range(60))]
+    try:
+        ended = []
+        for outcome, tries in work_off([job(name) for name in names], pool, SOON):
+            ended.append((outcome.job.key, outcome.fault, tries))
+            if len(ended) in (15, 40):
+                os.kill(pool.pids()[0], signal.SIGKILL)
+    finally:
+        pool.close()
+    assert Counter(key for key, _, _ in ended) == Counter(names)
+    assert all(fault is None and tries <= 3 for _, fault, tries in ended)
+    assert {tries for key, _, tries in ended if key.startswith("once")} == {2}
+    assert pool.pids() == []
+
+
+def _ended(pool: Pool, names: list[str], retries: Retries):
+    for outcome, tries in work_off([job(name) for name in names], pool, retries):
+        yield outcome.job.key, (outcome.fault, tries)
