@@ -374,6 +374,9 @@ def test_self_collision_stops_approach_and_leaves_neighbours_alone():
             **vars(dust(3)),
             "rest_positions": rest,
             "spring_pairs": np.array([[0, 1], [1, 2]], np.int32),
+            "spring_length": np.ones(2),
+            "spring_stiffness": np.ones(2),
+            "spring_kind": np.zeros(2, np.uint8),
         }
     )
     folded = state(

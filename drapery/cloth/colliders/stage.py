@@ -9,7 +9,7 @@ so nothing passes through, however fast. Points are taken in a fixed order, one 
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +19,11 @@ from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.packing import pack
 from drapery.cloth.colliders.pose import Path, Pose, still
 from drapery.cloth.colliders.shapes import Shape
-from drapery.cloth.colliders.sweep import Frame, Skin, meet
-from drapery.cloth.colliders.vectors import Vector, along, subtract
+from drapery.cloth.colliders.sweep import BOUNCED, MISSED, Frame, Skin, meet
+from drapery.cloth.colliders.vectors import Vector, along, norm, row, scale, subtract
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.lanes import run_blocks, thread_count
+from drapery.cloth.links import Links
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
@@ -59,6 +60,16 @@ class Probes(NamedTuple):
 
     particles: NDArray[np.int32]
     weights: Array
+
+
+class Moved(NamedTuple):
+    """Cloths on their way through the stage: places at the step's start and now [m] and
+    velocities [m/s], shape [B, N, 3]; which particles bounced, [B, N]."""
+
+    start: Array
+    x: Array
+    v: Array
+    bounced: NDArray[np.bool_]
 
 
 def probes(cloth: Cloth, order: int = 2) -> Probes:
@@ -108,43 +119,44 @@ def collide(
     points: Probes,
     *,
     radius: float,
+    links: Links | None = None,
+    rounds: int = 1,
     threads: int | None = None,
 ) -> State:
     """The state after a step, with everything that entered a collider brought back.
 
     before, after: the states at the start and the end of the step; pinned particles keep their
         place. points: from `probes`. radius: distance kept from every surface, half the cloth's
-        thickness [m]; at least `THINNEST` is kept. threads: None for as many as there are
-        processors.
+        thickness [m]; at least `THINNEST` is kept. links: springs to shorten where colliders made
+        them too long; then colliders come again, `rounds` times in all. threads: None for as many
+        as there are processors.
     """
     dt = after.time - before.time
     if not dt > 0:
         raise OptionError(f"collision over a step of {dt} s: the time must grow")
-    inv_mass, start = np.array(cloth.inv_mass, float), np.array(before.positions, float, order="C")
-    positions, velocities = (
-        np.array(a, float, order="C") for a in (after.positions, after.velocities)
+    start, solved, speeds = (
+        np.array(a, float, order="C") for a in (before.positions, after.positions, after.velocities)
     )
-    for collider in colliders:
-        frame = frame_between(collider.path(before.time), collider.path(after.time))
-        skin = Skin(max(radius, THINNEST), float(collider.restitution), float(collider.friction))
-        fixed: Any = (
-            collider.packed,
-            frame,
-            skin,
-            points,
-            inv_mass,
-            start,
-            positions,
-            velocities,
-            dt,
-        )
+    now = Moved(start, solved.copy(), speeds.copy(), np.zeros(start.shape[:2], np.bool_))
+    inv_mass, busy = np.array(cloth.inv_mass, float), np.ones(len(start), np.bool_)
+    skins = [
+        Skin(max(radius, THINNEST), float(c.restitution), float(c.friction)) for c in colliders
+    ]
+    frames = [frame_between(c.path(before.time), c.path(after.time)) for c in colliders]
 
-        def work(first: int, last: int, fixed: Any = fixed) -> None:
-            collide_all(first, last, *fixed)
+    def work(first: int, last: int) -> None:
+        for number in range(rounds):
+            for collider, frame, skin in zip(colliders, frames, skins, strict=True):
+                collide_all(
+                    first, last, collider.packed, frame, skin, points, inv_mass, now, busy, dt
+                )
+            if number + 1 < rounds and links is not None:
+                shorten_all(first, last, now.x, links, busy)
+        settle_all(first, last, now, solved, speeds, dt)
 
-        run_blocks(work, len(positions), 1, thread_count(threads))
+    run_blocks(work, len(start), 1, thread_count(threads))
     dtype = after.positions.dtype
-    return replace(after, positions=positions.astype(dtype), velocities=velocities.astype(dtype))
+    return replace(after, positions=now.x.astype(dtype), velocities=now.v.astype(dtype))
 
 
 def frame_between(start: Pose, end: Pose) -> Frame:
@@ -166,14 +178,15 @@ def collide_all(
     skin: Skin,
     points: Probes,
     inv_mass: Array,
-    start: Array,
-    positions: Array,
-    velocities: Array,
+    now: Moved,
+    busy: NDArray[np.bool_],
     dt: float,
 ) -> None:
     """Cloths first..last of a batch; each is one thread's alone, so threads change no bit."""
     for cloth in range(first, last):
-        collide_one(shape, frame, skin, points, inv_mass, start, positions, velocities, dt, cloth)
+        if busy[cloth]:
+            here = Moved(now.start[cloth], now.x[cloth], now.v[cloth], now.bounced[cloth])
+            collide_one(shape, frame, skin, points, inv_mass, here, dt)
 
 
 @kernel
@@ -183,24 +196,74 @@ def collide_one(
     skin: Skin,
     points: Probes,
     inv_mass: Array,
-    start: Array,
-    positions: Array,
-    velocities: Array,
+    now: Moved,
     dt: float,
-    cloth: int,
 ) -> None:
+    """One cloth: now holds [N, 3]."""
     for m in range(len(points.particles)):
         particles, weights = points.particles[m], points.weights[m]
         give = softness(particles, weights, inv_mass)
         if give == 0.0:
             continue
-        a = blend(start[cloth], particles, weights)
-        b = blend(positions[cloth], particles, weights)
-        v = blend(velocities[cloth], particles, weights)
-        touched, end, speed = meet(shape, frame, skin, a, b, v, dt)
-        if touched:
-            share(positions[cloth], particles, weights, inv_mass, give, subtract(end, b))
-            share(velocities[cloth], particles, weights, inv_mass, give, subtract(speed, v))
+        a = blend(now.start, particles, weights)
+        b = blend(now.x, particles, weights)
+        u = blend(now.v, particles, weights)
+        touch, end, velocity = meet(shape, frame, skin, a, b, u, dt)
+        if touch == MISSED:
+            continue
+        share(now.x, particles, weights, inv_mass, give, subtract(end, b))
+        share(now.v, particles, weights, inv_mass, give, subtract(velocity, u))
+        for corner in range(3):
+            if touch == BOUNCED and weights[corner] > 0.0:
+                now.bounced[particles[corner]] = True
+
+
+@door
+def shorten_all(first: int, last: int, x: Array, links: Links, busy: NDArray[np.bool_]) -> None:
+    """Shorten each link that is too long; cloths without one are done."""
+    for cloth in range(first, last):
+        if busy[cloth]:
+            busy[cloth] = shorten_one(x[cloth], links)
+
+
+@kernel
+def shorten_one(x: Array, links: Links) -> bool:
+    """Whether there was a link to shorten."""
+    found = False
+    for s in range(len(links.longest)):
+        i, j = links.pairs[s, 0], links.pairs[s, 1]
+        arm = subtract(row(x, j), row(x, i))
+        length = norm(arm)
+        if length > links.longest[s]:
+            found = True
+            part = 1 - links.longest[s] / length
+            for axis in range(3):
+                x[i, axis] += links.share_i[s] * part * arm[axis]
+                x[j, axis] -= links.share_j[s] * part * arm[axis]
+    return found
+
+
+@door
+def settle_all(first: int, last: int, now: Moved, solved: Array, speeds: Array, dt: float) -> None:
+    """Particles that were moved here and did not bounce are as fast as they are seen to be. Or a
+    cloth that its solver pulls into a surface at every step would keep the speed of that pull. No
+    more speed comes of it than there was before, or than an impact gave."""
+    for cloth in range(first, last):
+        x, v, start = now.x[cloth], now.v[cloth], now.start[cloth]
+        for i in range(len(x)):
+            if now.bounced[cloth, i] or same(x, solved[cloth], i):
+                continue
+            seen = scale(1 / dt, subtract(row(x, i), row(start, i)))
+            most = max(norm(row(speeds[cloth], i)), norm(row(v, i)))
+            length = norm(seen)
+            part = most / length if length > most else 1.0
+            for axis in range(3):
+                v[i, axis] = part * seen[axis]
+
+
+@kernel
+def same(x: Array, y: Array, i: int) -> bool:
+    return bool(x[i, 0] == y[i, 0] and x[i, 1] == y[i, 1] and x[i, 2] == y[i, 2])
 
 
 @kernel

@@ -35,6 +35,7 @@ MAX_ADVANCES = 512
 MAX_TOUCHES = 4
 """Touches in one step: floor, wall, second wall, and one more. After the last the point waits."""
 MAX_PUSHES = 8
+MISSED, TOUCHED, BOUNCED = range(3)
 QUIET = 0.25
 """Approach [m/s] below which nothing bounces: more than gravity's gain in a step of 1/60 s."""
 
@@ -165,27 +166,28 @@ def reflected(v: Vector, normal: Vector, restitution: float, friction: float) ->
 @kernel
 def meet(
     field: Field, frame: Frame, skin: Skin, start: Vector, end: Vector, velocity: Vector, dt: float
-) -> tuple[bool, Vector, Vector]:
-    """Whether a point that moves from start to end [m] touches; its new end and velocity [m/s]."""
+) -> tuple[int, Vector, Vector]:
+    """Whether a point that moves from start to end [m] is MISSED, TOUCHED or BOUNCED; its new end,
+    and its velocity after the impact [m/s]."""
     p = into_frame(frame.position0, frame.rotation0, start)
     goal = into_frame(frame.position1, frame.rotation1, end)
     if misses(field, p, goal, skin.radius):
-        return False, end, velocity
-    touched, v = False, velocity
+        return MISSED, end, velocity
+    touch, v = MISSED, velocity
     motion = subtract(goal, p)
     for _ in range(MAX_TOUCHES):
         part, normal = trace(field, p, motion, skin.radius)
         if part > 1.0:
             p = add(p, motion)
             break
-        touched = True
         p = along(p, part, motion)
         v, bounce = _answer(frame, skin, p, normal, v, dt)
+        touch = max(touch, BOUNCED if bounce > 0 else TOUCHED)
         motion = reflected(scale(1 - part, motion), normal, bounce, skin.friction)
     pushed, p, v = _pushed_out(field, frame, skin, p, v, dt)
-    if not (touched or pushed):
-        return False, end, velocity
-    return True, out_of_frame(frame.position1, frame.rotation1, p), v
+    if touch == MISSED and not pushed:
+        return MISSED, end, velocity
+    return max(touch, TOUCHED), out_of_frame(frame.position1, frame.rotation1, p), v
 
 
 @kernel
