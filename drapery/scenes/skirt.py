@@ -1,0 +1,172 @@
+"""A skirt about walking legs: a ring of thick cloth with few bend points, held at the waist."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.banner.dyes import DYES
+from drapery.banner.packs import Packs, open_packs
+from drapery.banner.sprites import tint
+from drapery.cloth import Cloth, Gravity, State, Wind, from_triangles
+from drapery.cloth.exact import sine_of_turns
+from drapery.errors import OptionError
+from drapery.mesh import vertex_normals
+from drapery.render.scene import Coat, Look, Model, Scene, Texels
+from drapery.scenes.catalogue import Shot
+from drapery.scenes.gait import LOOP, Gait
+from drapery.scenes.motion import motion
+from drapery.scenes.stroll import BEFORE, camera, ground, walker
+from drapery.style.extrusion import Shell, make_shell
+from drapery.style.figure import TEXEL, figure_look
+from drapery.style.skin import BoxSkin
+from drapery.style.stage import SKY
+
+WAIST, HEM = 13.0, 5.0
+"""Heights [texels]."""
+WAIST_REACH, HEM_REACH = (4.9, 2.9), (8.6, 7.6)
+"""How far it reaches from its middle to the side and to the front [texels]."""
+SQUARE = 4.0
+"""Exponent of its outline: 2 is an ellipse, more is squarer, as bodies of boxes are."""
+BODY = ("body", "right_leg", "left_leg")
+SIDES = ("outside", "inside", "hem")
+SKIN = BoxSkin(
+    front_rect=(0.0, 0.0, 0.5, 1.0),
+    back_rect=(0.5, 0.0, 1.0, 1.0),
+    left=(0.0, 0.9, 0.1, 1.0),
+    right=(0.0, 0.9, 0.1, 1.0),
+    top=(0.0, 0.0, 0.5, 0.1),
+    bottom=(0.0, 0.9, 0.5, 1.0),
+)
+"""The outside is on the left half of the texture, the lining on the right."""
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """panels: around the skirt. rows: of bend points from waist to hem. dye, lining, trim: colours.
+
+    sides: which are textured, of outside, inside and hem; the others are not seen.
+    speed: of the walk [m/s]. thickness: in texels.
+    """
+
+    panels: int = 12
+    rows: int = 4
+    dye: str = "red"
+    lining: str = "pink"
+    trim: str = "white"
+    sides: str = "outside inside hem"
+    skin: str = "dancer"
+    speed: float = 2.0
+    thickness: float = 1.0
+    seed: int = 0
+
+
+def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+    """Seen from before."""
+    packs, gait = open_packs(()), Gait(parameters.speed)
+    cloth = skirt_cloth(parameters)
+    shell, look = skirt_shell(parameters), skirt_look(parameters, packs)
+    skin, causeway = figure_look(parameters.skin, packs), ground(packs)
+    view = camera(shot.size, BEFORE, tail=0.6)
+    for state in walk(parameters, cloth, gait, shot):
+        worn = dressed(parameters, cloth, shell, state, look)
+        models = (*walker(gait, state.time, skin, causeway), worn)
+        yield Scene(models, view, shot.size, background=SKY, samples=4)
+
+
+def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterator[State]:
+    """The skirt at each frame, in the figure's own frame."""
+    wind = Wind((0.0, 0.0, -gait.speed), gusts=0.3, seed=parameters.seed, period=LOOP)
+    return motion(
+        cloth,
+        shot,
+        forces=(Gravity(), wind),
+        colliders=gait.colliders(BODY),
+        radius=parameters.thickness * TEXEL / 2,
+        pins=gait.pins(cloth),
+        settle=LOOP,
+        order=3,
+    )
+
+
+def skirt_cloth(parameters: Parameters) -> Cloth:
+    """The ring at rest: particles row by row from the waist, `panels` to a row. Its waist is held.
+
+    Raises OptionError.
+    """
+    panels, rows = parameters.panels, parameters.rows
+    if not (4 <= panels <= 64 and 1 <= rows <= 32):
+        raise OptionError(f"skirt of {panels} panels, {rows} rows: use 4 to 64 and 1 to 32")
+    part = np.arange(rows + 1)[:, None] / rows
+    turns = np.arange(panels) / panels
+    sine, cosine = sine_of_turns(turns), sine_of_turns(turns + 0.25)
+    # |x|^n + |z|^n = 1, along the direction of each panel.
+    away = (np.abs(sine) ** SQUARE + np.abs(cosine) ** SQUARE) ** (-1 / SQUARE)
+    wide, deep = (w + (h - w) * part for w, h in zip(WAIST_REACH, HEM_REACH, strict=True))
+    high = np.broadcast_to(WAIST + (HEM - WAIST) * part, (rows + 1, panels))
+    places = np.stack([wide * away * sine, high, deep * away * cosine], axis=-1) * TEXEL
+    triangles = _ring(rows, panels)
+    return from_triangles(
+        places.reshape(-1, 3), triangles, pins=list(range(panels)), stiffness=(8.0, 2.0, 0.6)
+    )
+
+
+def skirt_shell(parameters: Parameters) -> Shell:
+    """The thick skirt as it is drawn: cut open at the back, so that the texture can go around."""
+    across, down = np.meshgrid(
+        np.linspace(0, 1, parameters.panels + 1), np.linspace(0, 1, parameters.rows + 1)
+    )
+    uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
+    return make_shell(_triangles(parameters.rows, parameters.panels + 1), uvs, SKIN)
+
+
+def dressed(parameters: Parameters, cloth: Cloth, shell: Shell, state: State, look: Look) -> Model:
+    """The skirt of a state. The normals are those of the closed ring, so the cut is not seen."""
+    panels = parameters.panels
+    index = np.arange((parameters.rows + 1) * panels).reshape(-1, panels)
+    opened = np.concatenate([index, index[:, :1]], axis=1).reshape(-1)
+    sheet = state.positions[0]
+    normals = vertex_normals(sheet, cloth.triangles)
+    thick = shell.cover(sheet[opened], normals[opened], parameters.thickness * TEXEL)
+    return Model(thick, (look,))
+
+
+def skirt_look(parameters: Parameters, packs: Packs) -> Look:
+    """Pleats outside, a plain lining inside, a band of trim at the hem. Raises OptionError."""
+    named = parameters.sides.split()
+    for side in named:
+        if side not in SIDES:
+            raise OptionError(f"side {side!r} is not known; use some of: {' '.join(SIDES)}")
+    wool = np.tile(packs.texture("block/white_wool")[:16, :16], (1, 6, 1))[:, :96]
+    outside, inside = (_dyed(wool, dye) for dye in (parameters.dye, parameters.lining))
+    # Every panel of eight texels darkens towards its edge: a pleat.
+    outside[:, np.arange(96) % 8 == 7, :3] = outside[:, np.arange(96) % 8 == 7, :3] // 5 * 4
+    outside[-2:], inside[-2:] = _dyed(wool, parameters.trim)[-2:], outside[-2:]
+    outside[..., 3] = 255 * ("outside" in named)
+    inside[..., 3] = 255 * ("inside" in named)
+    outside[-2:, :, 3] = 255 * ("hem" in named or "outside" in named)
+    return Look((Coat(np.ascontiguousarray(np.concatenate([outside, inside], axis=1))),), "cutout")
+
+
+def _dyed(wool: Texels, dye: str) -> Texels:
+    if dye not in DYES:
+        raise OptionError(f"dye {dye!r} is not known; use one of: {', '.join(DYES)}")
+    return tint(wool, DYES[dye].rgb)
+
+
+def _ring(rows: int, panels: int) -> NDArray[np.int32]:
+    """The triangles of a closed ring, seen from outside."""
+    opened = _triangles(rows, panels + 1)
+    row, column = np.divmod(opened, panels + 1)
+    return (row * panels + column % panels).astype(np.int32)
+
+
+def _triangles(rows: int, columns: int) -> NDArray[np.int32]:
+    """Two triangles a cell of `rows` x (columns - 1) cells, turned by turns like a folded paper."""
+    index = np.arange((rows + 1) * columns, dtype=np.int32).reshape(rows + 1, columns)
+    a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
+    one = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)], axis=2)
+    two = np.stack([np.stack([a, b, d], -1), np.stack([b, c, d], -1)], axis=2)
+    even = (np.add.outer(np.arange(rows), np.arange(columns - 1)) % 2 == 0)[..., None, None]
+    return np.where(even, one, two).reshape(-1, 3)

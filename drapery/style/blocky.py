@@ -1,0 +1,89 @@
+"""Cloth with the look of low resolution: bends of few angles, and texels that stay level.
+
+Both work on what has been simulated: the cloth itself knows nothing of them.
+"""
+
+import numpy as np
+
+from drapery.mesh import Array, Mesh
+from drapery.style.boxes import Box, box_mesh, upright
+from drapery.style.skin import BoxSkin
+
+
+def stepped(sheet: Array, shape: tuple[int, int], steps: int) -> Array:
+    """A hanging grid as a chain of stiff boards whose angles are multiples of 90 / steps degrees.
+
+    sheet: [..., N, 3], row by row from the top; shape: its rows and columns. Each board keeps the
+    distance of its rows and hangs from the one above; the uppermost row stays where it is.
+    """
+    rows = sheet.reshape(*sheet.shape[:-2], *shape, 3)
+    middles = rows.mean(axis=-2)
+    along = np.diff(middles, axis=-2)
+    across = rows[..., :1, -1, :] - rows[..., :1, 0, :]
+    side = across / np.linalg.norm(across, axis=-1, keepdims=True)
+    front = np.cross(side, [0.0, 1.0, 0.0])
+    lengths = np.linalg.norm(along, axis=-1)
+    aside, ahead = (np.sum(along * axis, axis=-1) for axis in (side, front))
+    lean = _snapped(np.arctan2(aside, np.hypot(along[..., 1], ahead)), steps)
+    bend = _snapped(np.arctan2(ahead, -along[..., 1]), steps)
+    down = np.array([0.0, -1.0, 0.0])
+    turned = np.cos(bend)[..., None] * down + np.sin(bend)[..., None] * front
+    boards = np.cos(lean)[..., None] * turned + np.sin(lean)[..., None] * side
+    hung = np.cumsum(lengths[..., None] * boards, axis=-2)
+    offsets = np.concatenate([np.zeros_like(hung[..., :1, :]), hung], axis=-2)
+    result: Array = (rows[..., :1, :, :] + offsets[..., None, :]).reshape(sheet.shape)
+    return result
+
+
+def pixelled(
+    sheet: Array, shape: tuple[int, int], size: tuple[int, int], skin: BoxSkin, texel: float
+) -> Mesh:
+    """A grid that hangs along x as upright cubes, one a texel, on the lattice of texels.
+
+    A row of texels moves sideways and down as a whole, so that it has no holes; each texel moves
+    to the front and back by itself. sheet: [N, 3]; shape: its rows and columns; size: texels across and down; skin: where front
+    and back lie on the texture; texel: edge of a cube [m]. A cube shows its texel of the front
+    on its front and around it, and that of the back behind.
+    """
+    first = sheet[0] + np.array([texel / 2, -texel / 2, 0.0])
+    column, row = np.meshgrid(np.arange(size[0]), np.arange(size[1]))
+    lattice = first + np.stack([column, -row, 0 * row], axis=-1) * texel
+    shift = _middles(sheet.reshape(*shape, 3), size) - lattice
+    shift[..., :2] = shift[..., :2].mean(axis=1, keepdims=True)
+    snapped = (lattice + np.round(shift / texel) * texel).reshape(-1, 3)
+    cube = upright(box_mesh(Box((-0.5, -0.5, -0.5), (1, 1, 1), (0, 0))), texel, (0, 0, 0))
+    count = len(snapped)
+    firsts = len(cube.positions) * np.arange(count, dtype=np.int32)[:, None, None]
+    return Mesh(
+        (snapped[:, None] + cube.positions).reshape(-1, 3),
+        np.tile(cube.normals, (count, 1)),
+        (cube.triangles + firsts).reshape(-1, 3),
+        _texel_uvs(size, skin).reshape(-1, 2),
+    )
+
+
+def _snapped(angles: Array, steps: int) -> Array:
+    quantum = np.pi / 2 / steps
+    snapped: Array = np.round(angles / quantum) * quantum
+    return snapped
+
+
+def _middles(rows: Array, size: tuple[int, int]) -> Array:
+    """Where the texels' middles are on a grid [R, C, 3], shape [size[1], size[0], 3]."""
+    for axis, count in ((0, size[1]), (1, size[0])):
+        at = (np.arange(count) + 0.5) / count * (rows.shape[axis] - 1)
+        low = np.minimum(at.astype(int), rows.shape[axis] - 2)
+        part = (at - low).reshape(-1, 1, 1) if axis == 0 else (at - low).reshape(1, -1, 1)
+        rows = (1 - part) * rows.take(low, axis) + part * rows.take(low + 1, axis)
+    return rows
+
+
+def _texel_uvs(size: tuple[int, int], skin: BoxSkin) -> Array:
+    """Each cube's 24 texture coordinates: all of a face at its texel's middle, [M, 24, 2]."""
+    across, down = np.meshgrid(
+        (np.arange(size[0]) + 0.5) / size[0], (np.arange(size[1]) + 0.5) / size[1]
+    )
+    uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
+    # The faces of a box: front, back, left, right, top, bottom, four corners each.
+    faces = [skin.front(uvs), skin.back(uvs), *[skin.front(uvs)] * 4]
+    return np.repeat(np.stack(faces, axis=1), 4, axis=1)
