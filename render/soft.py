@@ -78,7 +78,7 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
     if union:
         raster = _clipped(scene, raster, matrix, grid)
     raster = _blends_last(raster, constant.wardrobe.look_alpha)
-    picture = np.empty((scene.size[1], scene.size[0]), np.uint32)
+    picture = np.full((scene.size[1], scene.size[0]), _background(scene), np.uint32)
     _draw(scene, _tables(flattened(constant.wardrobe)), raster, grid, workers, picture)
     return Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
 
@@ -100,6 +100,15 @@ def _grid(scene: Scene) -> int:
     if scene.samples not in (1, 4, 16):
         raise OptionError(f"samples {scene.samples} is not known; use 1, 4 or 16")
     return int(scene.samples**0.5)
+
+
+def _background(scene: Scene) -> np.uint32:
+    """The background as the kernels write it. Raises OptionError."""
+    colour = np.array(scene.background)
+    if colour.shape != (4,) or colour.min() < 0 or colour.max() > 255:
+        raise OptionError(f"background {scene.background} is no colour; use four of 0 to 255")
+    packed: np.uint32 = colour.astype(np.uint8).view(np.uint32)[0]
+    return packed
 
 
 def _project(
@@ -233,7 +242,7 @@ def _draw(
         (raster.vertices, raster.triangles, raster.triangle_look),
         (tables.looks, tables.coats, tables.atlas.reshape(-1), tables.atlas.shape[1]),
         np.rint(np.array(scene.light.tint) * FULL_LIGHT).astype(np.int64),
-        np.array(scene.background, np.uint8).view(np.uint32)[0],
+        _background(scene),
         grid,
         scene.size,
         picture.reshape(-1),

@@ -327,14 +327,6 @@ def _shade_tile(
 
 
 @_inner
-def _fill(value: Any, x0: Any, y0: Any, width: Any, height: Any, across: Any, picture: Any) -> Any:
-    """Fill a rectangle of the picture, `across` pixels wide in all, with one colour."""
-    for row in range(y0, y0 + height):
-        for column in range(width):
-            picture[np.uint64(row * across + x0 + column)] = value
-
-
-@_inner
 def _resolve(
     colours: Any, x0: Any, y0: Any, width: Any, height: Any, across: Any, grid: Any, picture: Any
 ) -> Any:
@@ -394,7 +386,7 @@ def draw_tiles(
     tint: the light's colour, three factors in units of 1 / FULL_LIGHT, int64.
     background: one uint32, 0xAABBGGRR, as all colours here.
     grid: samples along a pixel's side.
-    size: of the picture [pixels]; picture: shape [H * W], uint32.
+    size: of the picture [pixels]; picture: shape [H * W], uint32, filled with the background.
     """
     across, down = size
     vertices, triangles, triangle_look = mesh
@@ -413,7 +405,6 @@ def draw_tiles(
         px, py = x0 // grid, y0 // grid
         width, height = min(TILE // grid, across - px), min(TILE // grid, down - py)
         if starts[tile] == starts[tile + 1]:
-            _fill(background, px, py, width, height, across, picture)
             continue
         colours[:] = background
         keys[:LAYER] = 0
