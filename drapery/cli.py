@@ -17,6 +17,7 @@ from drapery.commands import (
     packs,
     render,
     scene,
+    serve,
     sheet,
     show,
 )
@@ -40,6 +41,7 @@ for name, command in {
     "model": model,
     "packs": packs,
     "batch": batch,
+    "serve": serve,
     "doctor": doctor,
 }.items():
     app.command(name)(command.run)
@@ -60,6 +62,9 @@ def main() -> None:
         if error.format_message():
             say(f"{error.format_message()} (see `drapery --help`)")
         code = error.exit_code
+    except OSError as error:
+        say(f"{error.filename or 'the output'}: {error.strerror or error}; mend that, then go on")
+        code = 2
     except (KeyboardInterrupt, typer.Abort):
         say("stopped")
         code = 130

@@ -11,9 +11,19 @@ import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
+from drapery.errors import DesignError
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.scene import Scene
-from drapery.settings import MAX_FRAMES, MAX_SIDE, ROTATIONS, Options, Settings, within
+from drapery.settings import (
+    MAX_FRAMES,
+    MAX_SIDE,
+    ROTATIONS,
+    Options,
+    Settings,
+    check_format,
+    whole,
+    within,
+)
 
 if TYPE_CHECKING:
     from drapery.scenes.catalogue import Entry, Shot
@@ -23,9 +33,9 @@ def draw(banner: Banner | None = None, **options: Unpack[Options]) -> Frame:
     """Draw a banner as cloth; the options are those of `Settings`.
 
     banner: also a shield; None for a cape or elytra, whose texture is an option.
-    Raises OptionError, PackError or BackendError.
+    Raises DesignError for what is no banner, OptionError, PackError or BackendError.
     """
-    return draw_with(banner, Settings(**options))
+    return draw_with(_design(banner), Settings(**options))
 
 
 def draw_with(banner: Banner | None, settings: Settings) -> Frame:
@@ -65,9 +75,9 @@ def animate(
 
     banner: see `draw`. What does not wave is shown from all around.
     seconds, fps: length of the loop [s] and its frames per second.
-    Raises OptionError, PackError or BackendError.
+    Raises DesignError for what is no banner, OptionError, PackError or BackendError.
     """
-    return Animation(tuple(frames(banner, seconds, fps, Settings(**options))), fps)
+    return Animation(tuple(frames(_design(banner), seconds, fps, Settings(**options))), fps)
 
 
 def frames(
@@ -79,6 +89,12 @@ def frames(
     packs = open_packs(settings.packs, format=settings.format)
     count = frame_count(seconds, fps)
     return _drawn(loop(banner, packs, settings, count, fps), packs, settings)
+
+
+def _design(given: object) -> Banner | None:
+    if given is None or isinstance(given, Banner):
+        return given
+    raise DesignError(f"{str(given)[:40]!r} is no Banner; read a text with Banner.parse(text)")
 
 
 def frame_count(seconds: float, fps: float) -> int:
@@ -99,7 +115,7 @@ def scene_frames(
     from drapery.scenes.panels import drawn
 
     for side in shot.size:
-        within("size", side, 1, MAX_SIDE, "pixels")
+        whole("size", side, 1, MAX_SIDE, "pixels")
     draw_scene = backend_named(backend)
     pictures = scene.play(parameters, shot)
     if last:
@@ -117,8 +133,10 @@ def draw_face(
 ) -> Frame:
     """The plain face of a banner, 20 x 40 texels, each `scale` pixels wide in a 64 x 64 pack.
 
-    format: the pack format of the game to be, as in `Settings`. Raises PackError.
+    format: the pack format of the game to be, as in `Settings`.
+    Raises OptionError or PackError.
     """
+    check_format(format)
     opened = open_packs(packs, format=format)
     pixels = face_pixels(banner, opened, scale, side)
     tell(opened)

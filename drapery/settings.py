@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Literal, TypedDict, get_args
 
@@ -95,9 +96,8 @@ class Settings:
     backend: str = "auto"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "packs", tuple(self.packs))
-        if self.format is not None:
-            within("format", self.format, 1, MAX_FORMAT)
+        object.__setattr__(self, "packs", _paths(self.packs))
+        check_format(self.format)
         one_of("kind", self.kind, get_args(Kind))
         one_of("pose", self.pose, get_args(Pose))
         one_of("placement", self.placement, get_args(Placement))
@@ -105,18 +105,18 @@ class Settings:
         one_of("layers", self.layers, get_args(LayerMode))
         if self.pbr and self.layers == "flat":
             raise OptionError("pbr needs each layer's own maps; use layers stacked")
-        for side, pixels in zip(("width", "height"), self.size, strict=True):
-            within(f"size ({side})", pixels, 1, MAX_SIDE, "pixels")
-        for side, count in zip(("columns", "rows"), self.grid, strict=True):
-            within(f"grid ({side})", count, 2, MAX_GRID, "particles")
+        for side, pixels in zip(("width", "height"), _two("size", self.size), strict=True):
+            whole(f"size ({side})", pixels, 1, MAX_SIDE, "pixels")
+        for side, count in zip(("columns", "rows"), _two("grid", self.grid), strict=True):
+            whole(f"grid ({side})", count, 2, MAX_GRID, "particles")
         within("wind", self.wind, 0, 40, "m/s")
         within("time", self.time, 0, 3600, "s")
-        within("seed", self.seed, 0, 2**32 - 1)
+        whole("seed", self.seed, 0, 2**32 - 1)
         within("thickness", self.thickness, 0, 8, "texels")
         background_colour(self.background)
 
     def _check_turn(self) -> None:
-        within("rotation", self.rotation, 0, ROTATIONS - 1)
+        whole("rotation", self.rotation, 0, ROTATIONS - 1)
         if self.facing is not None:
             one_of("facing", self.facing, get_args(Facing))
             if self.placement != "wall":
@@ -141,16 +141,49 @@ def one_of(option: str, value: str, allowed: tuple[str, ...]) -> None:
 
 def within(option: str, value: float, least: float, most: float, unit: str = "") -> None:
     """Raise OptionError unless the value is a finite number between two bounds."""
+    limits = f"{least:g} to {most:g} {unit}".strip()
+    if not _is(value, Real):
+        raise OptionError(f"{option} {value!r} is no number; use {limits}")
     if not (math.isfinite(value) and least <= value <= most):
-        limits = f"{least:g} to {most:g} {unit}".strip()
         raise OptionError(f"{option} {value:g} is out of range; use {limits}")
+
+
+def whole(option: str, value: int, least: int, most: int, unit: str = "") -> None:
+    """Raise OptionError unless the value is a whole number between two bounds."""
+    within(option, value, least, most, unit)
+    if not _is(value, Integral):
+        raise OptionError(f"{option} {value:g} is no whole number; round it")
+
+
+def _is(value: object, kind: type) -> bool:
+    return isinstance(value, kind)
+
+
+def check_format(number: int | None) -> None:
+    """Raise OptionError unless this may be the number of a pack format; None is the newest."""
+    if number is not None:
+        whole("format", number, 1, MAX_FORMAT)
+
+
+def _paths(packs: object) -> tuple[str | Path, ...]:
+    # A text is a sequence too, of letters.
+    if not isinstance(packs, tuple | list):
+        raise OptionError(f"packs {str(packs)!r} is no list; put it in brackets: [{str(packs)!r}]")
+    return tuple(packs)
+
+
+def _two(option: str, value: object) -> tuple[int, int]:
+    if not isinstance(value, tuple | list) or len(value) != 2:
+        raise OptionError(f"{option} {value!r} is not a pair of whole numbers; write it (512, 512)")
+    first, second = value
+    return first, second
 
 
 def background_colour(text: str) -> tuple[int, int, int, int]:
     """`transparent` or `#rrggbb` as straight-alpha sRGB. Raises OptionError."""
     if text == "transparent":
         return 0, 0, 0, 0
-    digits = text.removeprefix("#")
+    digits = str(text).removeprefix("#")
     if len(digits) != 6 or not all(c in "0123456789abcdefABCDEF" for c in digits):
         raise OptionError(f"background {text!r} is not a colour; use transparent or #rrggbb")
     red, green, blue = bytes.fromhex(digits)

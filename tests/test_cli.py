@@ -5,6 +5,7 @@ import subprocess
 import sys
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from conftest import GIVE, Run
 from PIL import Image
 
 from drapery import Banner, DraperyError, animate, draw
+from drapery.errors import DesignError, OptionError
+from drapery.settings import Settings
 
 
 def test_render_writes_what_draw_draws(drapery: Run, tmp_path: Path) -> None:
@@ -174,6 +177,38 @@ def test_unknown_words_are_one_line(drapery: Run) -> None:
 def test_the_library_raises_what_the_command_line_prints() -> None:
     with pytest.raises(DraperyError, match="size"):
         draw(Banner(), size=(0, 10))
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"packs": "one-pack"},
+        {"size": (64,)},
+        {"size": "64x64"},
+        {"grid": (5.5, 9)},
+        {"wind": "4"},
+        {"seed": 1.5},
+        {"rotation": 0.5},
+        {"format": 0},
+        {"background": None},
+    ],
+    ids=str,
+)
+def test_the_library_names_an_option_of_the_wrong_kind(options: dict[str, Any]) -> None:
+    with pytest.raises(OptionError, match=next(iter(options))):
+        Settings(**options)
+
+
+def test_what_is_no_banner_is_told_how_to_become_one() -> None:
+    with pytest.raises(DesignError, match=r"Banner\.parse"):
+        draw("white creeper:lime")  # type: ignore[arg-type]
+    with pytest.raises(DesignError, match="Layer"):
+        Banner("white", (("creeper", "lime"),))  # type: ignore[arg-type]
+
+
+def test_a_plain_face_knows_only_formats_that_may_be(drapery: Run, tmp_path: Path) -> None:
+    code, _, err = drapery("flat", "white", "-o", tmp_path / "face.png", "--format", "-3")
+    assert (code, len(err.splitlines())) == (2, 1) and "format" in err
 
 
 def test_help_does_not_wait_for_the_kernels() -> None:

@@ -40,7 +40,7 @@ class Banner:
 
     kind: what bears the design, a banner or a shield.
 
-    Raises DesignError for an unknown dye or more than sixteen layers.
+    Raises DesignError for an unknown dye, a layer that is no Layer, or more than sixteen.
     """
 
     base: str = "white"
@@ -51,6 +51,7 @@ class Banner:
         object.__setattr__(self, "layers", tuple(self.layers))
         if self.base not in DYES:
             object.__setattr__(self, "base", dye_name(self.base, "base"))
+        _check_layers(self.layers)
         if len(self.layers) > MAX_LAYERS:
             raise DesignError(
                 f"the banner has {len(self.layers)} layers; the game shows at most {MAX_LAYERS}:"
@@ -66,3 +67,9 @@ class Banner:
         from drapery.banner.formats import parse_banner
 
         return parse_banner(text)
+
+
+def _check_layers(layers: tuple[object, ...]) -> None:
+    for number, layer in enumerate(layers, 1):
+        if not isinstance(layer, Layer):
+            raise DesignError(f"layer {number} is {layer!r}; write Layer('creeper', 'lime')")

@@ -29,11 +29,11 @@ def run(
     """Say what packs have, lack and override; exit code 1 if something in them is broken."""
     from drapery.banner.packs import open_packs
     from drapery.banner.packs.contents import describe_packs
-    from drapery.settings import Settings
+    from drapery.settings import check_format
     from drapery.sheets.faces import contents_sheet
     from drapery.sheets.sheet import check_sheet_target
 
-    Settings(format=format)
+    check_format(format)
     if out is not None:
         check_sheet_target(out)
     reports = describe_packs(packs, format=format)

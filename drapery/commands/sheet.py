@@ -34,13 +34,13 @@ def write_patterns(
     from drapery.banner.names import dye_name
     from drapery.banner.packs import open_packs
     from drapery.pictures import tell
-    from drapery.settings import Settings
+    from drapery.settings import check_format
     from drapery.sheets.faces import patterns_sheet
     from drapery.sheets.sheet import check_sheet_target
 
     _check_scale(scale)
     check_sheet_target(out)
-    Settings(format=format)
+    check_format(format)
     packs = open_packs(tuple(pack or ()), format=format)
     side: Literal["front", "back"] = "back" if back else "front"
     sheet = patterns_sheet(packs, dye_name(base), _dyes(dyes), side=side, scale=scale)
