@@ -35,7 +35,7 @@ def compile_notice() -> Iterator[None]:
     """Say so when kernels are being compiled: it happens once, and takes some seconds."""
     from numba.core import event
 
-    class FirstCompile(event.Listener):  # type: ignore[misc]
+    class FirstCompile(event.Listener):
         spoken = False
 
         def on_start(self, event: Any) -> None:

@@ -1,6 +1,7 @@
 """How far two pictures are apart, in figures."""
 
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,18 +94,16 @@ def over_matte(pixels: Pixels, matte: int = MATTE) -> NDArray[np.uint8]:
 
 def _ssim(expected: Pixels, actual: Pixels) -> float:
     try:
-        from skimage.metrics import structural_similarity
+        from skimage import metrics
     except ImportError:
         raise _missing("SSIM") from None
     side = min(7, *expected.shape[:2])
     window = side if side % 2 else side - 1
     if window < 3:
         return float(np.array_equal(over_matte(expected), over_matte(actual)))
-    return float(
-        structural_similarity(
-            over_matte(expected), over_matte(actual), channel_axis=-1, win_size=window
-        )
-    )
+    similarity: Any = metrics.structural_similarity  # its own types are unfinished
+    pictures = over_matte(expected), over_matte(actual)
+    return float(similarity(*pictures, channel_axis=-1, win_size=window))
 
 
 def _flip(expected: Pixels, actual: Pixels) -> float:

@@ -1,12 +1,12 @@
-"""A page that holds its pictures inside itself, and the same facts as JSON."""
+"""A page that holds its pictures inside itself."""
 
 import base64
-import io
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from PIL import Image
-
+from drapery.render.encode.output import replacing
+from drapery.render.encode.png import png_bytes
 from drapery.render.frame import Frame
 
 _PAGE = """<!doctype html>
@@ -45,15 +45,13 @@ class Entry:
     name: str
     same: bool
     line: str
-    facts: dict[str, object] = field(default_factory=dict)
+    facts: Mapping[str, object] = field(default_factory=dict)
     pictures: tuple[tuple[str, str], ...] = ()
 
 
 def data_address(frame: Frame) -> str:
     """The picture as a `data:` address."""
-    buffer = io.BytesIO()
-    Image.fromarray(frame.pixels).save(buffer, "PNG")
-    return data_of(buffer.getvalue(), "png")
+    return data_of(png_bytes(frame.pixels), "png")
 
 
 def data_of(encoded: bytes, kind: str) -> str:
@@ -71,7 +69,5 @@ def html_report(title: str, summary: str, entries: list[Entry]) -> str:
 
 def write_text(path: Path, text: str) -> None:
     """Write a text file whole or not at all. Raises OutputError."""
-    from drapery.render.encode.output import replacing
-
     with replacing(path) as beside:
         beside.write_text(text, encoding="utf-8")

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -77,7 +78,7 @@ def _drawn(
         raise OptionError(
             "no design is named; give one beside the packs, like 'white creeper:lime'"
         )
-    axes = {
+    axes: dict[str, list[tuple[str, dict[str, Any]]]] = {
         "designs": [(text, {}) for text in designs] if len(designs) > 1 else [],
         "packs": [(Path(p).name, {"packs": (*settings.packs, p)}) for p in packs],
         "layers": [(mode, {"layers": mode}) for mode in layer_modes],

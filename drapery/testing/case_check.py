@@ -7,9 +7,11 @@ from pathlib import Path
 from drapery.banner.design import Banner
 from drapery.banner.formats import read_design
 from drapery.banner.packs import open_packs
+from drapery.errors import DraperyError
 from drapery.pictures import draw
-from drapery.render.encode.output import replacing
+from drapery.render.encode.output import make_folder, replacing
 from drapery.render.frame import Frame
+from drapery.settings import Options
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.explain import LayerNote, explain, layer_notes
 from drapery.testing.failures import keep_failure
@@ -33,7 +35,10 @@ class Outcome:
 
 
 def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[Outcome]:
-    """Draw each case and hold it against its golden; pictures of faults go to `report`."""
+    """Draw each case and hold it against its golden; pictures of faults go to `report`.
+
+    Raises a DraperyError that names the case where one cannot be drawn.
+    """
     for case in cases.case:
         frame, notes = _draw(case, folder)
         path = _golden_path(cases, case, folder)
@@ -41,14 +46,17 @@ def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[Outcome
 
 
 def update_cases(cases: CaseFile, folder: Path) -> Iterator[Outcome]:
-    """Draw each case and write it as the golden where it differs from the one there."""
+    """Draw each case and write it as the golden where it differs from the one there.
+
+    Raises OutputError, or a DraperyError that names the case where one cannot be drawn.
+    """
     for case in cases.case:
         frame, notes = _draw(case, folder)
         path = _golden_path(cases, case, folder)
         new = fingerprint(frame) if case.hashed else encode(frame, notes)
         changed = not path.exists() or path.read_bytes() != new
         if changed:
-            path.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(path.parent)
             with replacing(path) as beside:
                 beside.write_bytes(new)
         yield Outcome(case.name, written=changed)
@@ -61,11 +69,20 @@ def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
     return sorted(path for path in found if path not in used)
 
 
-def _draw(case: Case, folder: Path) -> tuple[Frame, list[LayerNote]]:
-    banner: Banner = read_design(case.design)
+def _draw(case: Case, folder: Path) -> tuple[Frame, list[LayerNote] | None]:
     options = case.options(folder)
-    notes = layer_notes(banner, open_packs(options["packs"]))
-    return draw(banner, **options), notes
+    try:
+        banner = None if case.design is None else read_design(case.design)
+        frame = draw(banner, **options)
+        return frame, _notes(banner, options)
+    except DraperyError as error:
+        raise type(error)(f"case {case.name!r}: {error}") from None
+
+
+def _notes(banner: Banner | None, options: Options) -> list[LayerNote] | None:
+    if banner is None:
+        return None
+    return layer_notes(banner, open_packs(options["packs"], format=options["format"]))
 
 
 def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:
@@ -75,7 +92,7 @@ def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:
 
 
 def _fault(
-    case: Case, path: Path, frame: Frame, notes: list[LayerNote], report: Path
+    case: Case, path: Path, frame: Frame, notes: list[LayerNote] | None, report: Path
 ) -> str | None:
     if not path.exists():
         keep_failure(report, "case", case.name, None, frame, "there is no golden yet")

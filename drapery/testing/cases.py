@@ -12,18 +12,19 @@
     view = "hero"
 
 Paths are relative to the file. A case's keys are the options of `drapery render`, beside `name`,
-`design`, `tolerance`, `pixels` and `hashed`; `defaults` gives them to every case.
+`design`, `tolerance`, `pixels` and `hashed`; `defaults` gives them to every case. A cape or elytra
+has a `texture` in place of a design.
 """
 
 import re
 import tomllib
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, cast
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from drapery.errors import OptionError
-from drapery.settings import Options, pair
+from drapery.settings import Facing, Kind, LayerMode, Options, Placement, Pose, Settings, pair
 
 MAX_FILE = 4 << 20
 MAX_CASES = 100_000
@@ -35,23 +36,29 @@ class Case(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 ._-]{0,99}$")
-    design: str
+    design: str | None = None
     tolerance: int = Field(default=0, ge=0, le=255)
     pixels: int = Field(default=0, ge=0)
     hashed: bool = False
     packs: tuple[str, ...] = ()
-    pose: Literal["cloth", "vanilla"] = "cloth"
-    placement: Literal["standing", "wall"] = "standing"
-    view: str = "front"
+    format: int | None = Settings.format
+    kind: Kind = Settings.kind
+    texture: str | None = None
+    pose: Pose = Settings.pose
+    placement: Placement = Settings.placement
+    rotation: int = Settings.rotation
+    facing: Facing | None = Settings.facing
+    view: str = Settings.view
     size: tuple[int, int] = (256, 256)
-    grid: tuple[int, int] = (5, 9)
-    wind: float = 4.0
-    time: float = 3.0
-    seed: int = 0
-    layers: Literal["stacked", "flat"] = "stacked"
-    thickness: float = 1.0
-    background: str = "transparent"
-    backend: str = "auto"
+    grid: tuple[int, int] = Settings.grid
+    wind: float = Settings.wind
+    time: float = Settings.time
+    seed: int = Settings.seed
+    layers: LayerMode = Settings.layers
+    pbr: bool = Settings.pbr
+    thickness: float = Settings.thickness
+    background: str = Settings.background
+    backend: str = Settings.backend
 
     @field_validator("size", "grid", mode="before")
     @classmethod
@@ -59,9 +66,13 @@ class Case(BaseModel):
         return pair("size or grid", value) if isinstance(value, str) else value
 
     def options(self, folder: Path) -> Options:
-        """The case's picture options, packs as paths from the file's folder."""
+        """The case's picture options, with paths from the file's folder."""
         chosen = self.model_dump(include=set(Options.__optional_keys__))
-        return Options(**chosen | {"packs": tuple(folder / pack for pack in self.packs)})  # type: ignore[typeddict-item]
+        paths = {
+            "packs": tuple(folder / pack for pack in self.packs),
+            "texture": None if self.texture is None else folder / self.texture,
+        }
+        return cast(Options, chosen | paths)
 
 
 class CaseFile(BaseModel):

@@ -101,7 +101,8 @@ def _snapshot(
             update_snapshots=update or option.update_snapshots,
             update_new_snapshots_only=option.update_new_snapshots_only,
         )
-    return store[extension]
+    snapshot: SnapshotAssertion = store[extension]
+    return snapshot
 
 
 _SNAPSHOTS: pytest.StashKey[dict[type[_GoldenFile], SnapshotAssertion]] = pytest.StashKey()

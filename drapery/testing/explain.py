@@ -11,6 +11,7 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import FRONT, flag_layers
 from drapery.compare.metrics import measure
+from drapery.render.encode.png import png_bytes
 from drapery.render.frame import Frame, Pixels
 
 MAX_SHIFT = 4
@@ -90,9 +91,7 @@ def _size(frame: Frame) -> str:
 
 
 def _pack(face: Pixels) -> str:
-    buffer = io.BytesIO()
-    Image.fromarray(face).save(buffer, "PNG")
-    return base64.b64encode(buffer.getvalue()).decode("ascii")
+    return base64.b64encode(png_bytes(face)).decode("ascii")
 
 
 def _unpack(face: str) -> Pixels:

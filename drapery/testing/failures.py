@@ -9,11 +9,9 @@ import json
 import re
 from pathlib import Path
 
-import numpy as np
-from PIL import Image
-
 from drapery.compare.panels import side_by_side
 from drapery.compare.report import Entry, data_of, html_report, write_text
+from drapery.render.encode.output import make_folder
 from drapery.render.frame import Frame
 
 _FACTS = ".failure.json"
@@ -24,8 +22,11 @@ _PAGE = "index.html"
 def keep_failure(
     folder: Path, test: str, label: str, expected: Frame | None, actual: Frame, line: str
 ) -> Path:
-    """Write a failure's pictures and facts; returns the picture to look at first."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """Write a failure's pictures and facts; returns the picture to look at first.
+
+    Raises OutputError.
+    """
+    make_folder(folder)
     stem = _stem(test, label)
     pictures = {"actual": actual}
     if expected is not None:
@@ -33,7 +34,7 @@ def keep_failure(
         if expected.pixels.shape == actual.pixels.shape:
             pictures["difference"] = side_by_side(expected.pixels, actual.pixels)
     for kind, frame in pictures.items():
-        Image.fromarray(np.ascontiguousarray(frame.pixels)).save(folder / f"{stem}.{kind}.png")
+        frame.save(folder / f"{stem}.{kind}.png")
     write_text(folder / (stem + _FACTS), json.dumps({"name": f"{test} [{label}]", "line": line}))
     return folder / f"{stem}.{'difference' if 'difference' in pictures else 'actual'}.png"
 

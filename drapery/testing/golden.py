@@ -88,13 +88,26 @@ def decode(data: bytes) -> tuple[Frame, list[dict[str, str]] | None]:
         raise
     except Exception as error:  # Pillow raises many kinds for a broken file
         raise GoldenError(f"the golden is no readable PNG ({error})") from error
-    return frame, json.loads(note) if note else None
+    return frame, _layers(note) if note else None
+
+
+def _layers(note: str) -> list[dict[str, str]] | None:
+    """The layers that a golden remembers; None where another program has changed the note."""
+    try:
+        layers = json.loads(note)
+    except (ValueError, RecursionError):
+        return None
+    whole = isinstance(layers, list) and all(
+        isinstance(layer, dict) and all(isinstance(layer.get(key), str) for key in ("name", "face"))
+        for layer in layers
+    )
+    return layers if whole else None
 
 
 def fingerprint(frame: Frame) -> bytes:
     """The hash mode's golden: size and SHA-256 of the pixels, one line."""
     height, width = frame.pixels.shape[:2]
-    digest = hashlib.sha256(np.ascontiguousarray(frame.pixels)).hexdigest()
+    digest = hashlib.sha256(frame.pixels.tobytes()).hexdigest()
     return f"{width}x{height} sha256:{digest}\n".encode()
 
 

@@ -98,4 +98,4 @@ def _is_worker(config: pytest.Config) -> bool:
 
 
 def _report_folder(config: pytest.Config) -> Path:
-    return config.rootpath / config.getoption("--drapery-report")
+    return config.rootpath / str(config.getoption("--drapery-report"))

@@ -26,6 +26,15 @@ def check_writable(path: Path) -> None:
         raise OutputError(f"cannot write {path}: the folder {parent} may not be written to")
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder and those above it, where they are not there. Raises OutputError."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = "a file is in its place" if isinstance(error, FileExistsError) else error.strerror
+        raise OutputError(f"cannot make the folder {folder}: {reason}; choose another") from error
+
+
 @contextmanager
 def explained(path: Path) -> Iterator[None]:
     """Turn the system's refusal to write `path` into an OutputError.

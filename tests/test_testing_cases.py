@@ -1,0 +1,74 @@
+"""Files of cases: they can say all that a command can, and their faults name the case."""
+
+from pathlib import Path
+
+import pytest
+from conftest import Run
+from PIL import Image, PngImagePlugin
+
+from drapery.settings import Options
+from drapery.testing.cases import Case
+from drapery.testing.golden import LAYERS_KEY
+
+CASES = """
+[defaults]
+size = "32x40"
+
+[[case]]
+name = "cape"
+kind = "cape"
+texture = "cape.png"
+
+[[case]]
+name = "turned"
+design = "white creeper:lime"
+rotation = 4
+"""
+ONE_CASE = '[[case]]\nname = "one"\ndesign = "white creeper:lime"\nsize = "32x40"\n'
+
+
+def file_of(folder: Path, text: str) -> Path:
+    path = folder / "cases.toml"
+    path.write_text(text)
+    return path
+
+
+def test_a_case_has_every_option_of_a_picture() -> None:
+    assert Options.__optional_keys__ <= set(Case.model_fields)
+
+
+def test_capes_and_rotations_are_kept_and_found_again(drapery: Run, tmp_path: Path) -> None:
+    Image.new("RGBA", (64, 32), "red").save(tmp_path / "cape.png")
+    file = file_of(tmp_path, CASES)
+    assert drapery("golden", "update", file)[0] == 0
+    assert sorted(path.stem for path in (tmp_path / "goldens").iterdir()) == ["cape", "turned"]
+    assert drapery("golden", "check", file, "--report", tmp_path / "report")[0] == 0
+
+
+def test_a_bad_option_names_its_case(drapery: Run, tmp_path: Path) -> None:
+    file = file_of(tmp_path, ONE_CASE + "wind = 999\n")
+    code, _, err = drapery("golden", "check", file, "--report", tmp_path / "report")
+    assert code == 2 and "case 'one': wind 999" in err.splitlines()[-1]
+
+
+@pytest.mark.parametrize("command", ["update", "check"])
+def test_a_folder_that_is_a_file_is_one_line(drapery: Run, tmp_path: Path, command: str) -> None:
+    (tmp_path / "taken").write_text("")
+    file = file_of(tmp_path, 'goldens = "taken"\n' + ONE_CASE)
+    report = ("--report", tmp_path / "taken") if command == "check" else ()
+    code, _, err = drapery("golden", command, file, *report)
+    lines = [line for line in err.splitlines() if "kernels" not in line]
+    assert (code, len(lines)) == (2, 1) and "taken" in lines[0]
+
+
+@pytest.mark.parametrize("note", ["{broken", '[{"x": 1}]', "[" * 9999, "7"])
+def test_a_golden_whose_note_was_harmed_is_compared_without_it(
+    drapery: Run, tmp_path: Path, note: str
+) -> None:
+    file = file_of(tmp_path, ONE_CASE)
+    (tmp_path / "goldens").mkdir()
+    kept = PngImagePlugin.PngInfo()
+    kept.add_text(LAYERS_KEY, note, zip=True)
+    Image.new("RGBA", (32, 40)).save(tmp_path / "goldens/one.png", pnginfo=kept)
+    code, out, _ = drapery("golden", "check", file, "--report", tmp_path / "report")
+    assert code == 1 and "pixels differ" in out
