@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from drapery.render.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
-from drapery.render.project import NEAREST
+from drapery.render.soft.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
+from drapery.render.soft.project import NEAREST
 
 KEY_SCALE = 1 << 31
 """Units of a key in one of depth; those below 2^ID_BITS give way to the triangle's number."""
@@ -309,9 +309,9 @@ def _shade_tile(
                 j_first, j_last = _reach(v_low, v_high, coats[upper, 3])
                 origin = coats[upper, 1] * wide + coats[upper, 0]
                 for k in range(count):
-                    i = min(max(np.int64(u[k] * coats[upper, 2]), i_first), i_last)
-                    j = min(max(np.int64(v[k] * coats[upper, 3]), j_first), j_last)
-                    texel = np.int64(atlas[np.uint64(origin + j * wide + i)])
+                    column = min(max(np.int64(u[k] * coats[upper, 2]), i_first), i_last)
+                    line = min(max(np.int64(v[k] * coats[upper, 3]), j_first), j_last)
+                    texel = np.int64(atlas[np.uint64(origin + line * wide + column)])
                     texel = _tinted(texel, red, green, blue)
                     shown[k] = _lay_over(texel, np.int64(shown[k]))
             if looks[look, 3]:

@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.mesh import Mesh, Triangles
-from drapery.render.bins import RECORD, TILE, sort_into_tiles
 from drapery.render.camera import Matrix, clip_matrix
-from drapery.render.clip import Corners, clip
 from drapery.render.drawlist import Float32, Topology, topology
 from drapery.render.flatten import flattened
 from drapery.render.frame import Frame
-from drapery.render.project import BROKEN, NEAREST, VERTEX, project
 from drapery.render.relief import relieved
 from drapery.render.scene import Scene
-from drapery.render.tiles import FULL_LIGHT, draw_tiles
+from drapery.render.soft.bins import RECORD, TILE, sort_into_tiles
+from drapery.render.soft.clip import Corners, clip
+from drapery.render.soft.project import BROKEN, NEAREST, VERTEX, project
+from drapery.render.soft.tiles import FULL_LIGHT, draw_tiles
 from drapery.render.wardrobe import BLEND, Wardrobe
 from drapery.render.workers import share_out, worker_count
 
@@ -45,7 +45,7 @@ class Raster:
     """Vertices and triangles on the picture.
 
     vertices: shape [V] of VERTEX.
-    flags: see `drapery.render.project`, shape [V], uint8.
+    flags: see `drapery.render.soft.project`, shape [V], uint8.
     triangles, triangle_look: as in `Topology`.
     """
 
