@@ -165,3 +165,12 @@ def test_hidden_layers_are_found_and_visible_ones_kept() -> None:
     assert simplified(visible, packs) == visible
     twice = Banner.parse("white cross:black cross:black")
     assert len(simplified(twice, packs).layers) == 1
+
+
+@pytest.mark.parametrize("target", ["out.bmp", "none/out.png"])
+def test_a_bad_target_is_refused_before_anything_is_drawn(
+    drapery: Run, tmp_path: Path, target: str
+) -> None:
+    designs = ("white creeper:lime", "white creeper:red")
+    code, out, err = drapery("compare", *designs, "-o", tmp_path / target, *SMALL)
+    assert (code, out, len(err.splitlines())) == (2, "", 1)

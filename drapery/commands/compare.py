@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from drapery.compare.variants import Variant
     from drapery.render.frame import Frame
 
+ENDINGS = (".png", ".gif", ".html", ".json")
+
 
 def run(
     ctx: typer.Context,
@@ -65,6 +67,8 @@ def run(
     from drapery.compare.variants import draw_variants
     from drapery.settings import Settings, within
 
+    for target in out or []:
+        _check_target(target)
     within("tolerance", tolerance, 0, 255)
     within("pixels", pixels, 0, 2**31)
     modes, backends = layers.split(","), backend.split(",")
@@ -97,10 +101,19 @@ def _close(pair: "Pair", tolerance: int, pixels: int) -> bool:
     return measure(*frames, slack=tolerance).changed <= pixels
 
 
+def _check_target(target: Path) -> None:
+    """Refuse a target before the work. Raises OptionError or OutputError."""
+    from drapery.errors import OptionError
+    from drapery.render.encode.output import check_writable
+
+    if target.suffix.lower() not in ENDINGS:
+        raise OptionError(f"{target}: the ending of a comparison is one of {', '.join(ENDINGS)}")
+    check_writable(target)
+
+
 def _write(target: Path, pairs: "list[Pair]", costs: dict[str, dict[str, float]]) -> None:
     from drapery.compare.comparison import pair_entry, pair_sheet
     from drapery.compare.report import html_report, write_text
-    from drapery.errors import OptionError
     from drapery.render.contact import stack
     from drapery.render.frame import Animation
 
@@ -116,14 +129,12 @@ def _write(target: Path, pairs: "list[Pair]", costs: dict[str, dict[str, float]]
             for label, c in costs.items()
         )
         write_text(target, html_report("Comparison", summary, entries))
-    elif ending == ".json":
+    else:
         facts = [
             {"a": p.first.label, "b": p.other.label, "from": p.culprit, **p.difference.as_dict()}
             for p in pairs
         ]
         write_text(target, json.dumps({"pairs": facts, "cost": costs}, indent=2) + "\n")
-    else:
-        raise OptionError(f"{target}: a comparison is written as .png, .gif, .html or .json")
 
 
 def _flicker(pairs: "list[Pair]") -> "tuple[Frame, ...]":

@@ -1,14 +1,15 @@
 """A sheet as a page of HTML that holds its pictures inside itself."""
 
+from collections.abc import Sequence
+
 from drapery.compare.report import data_address
-from drapery.render.frame import Frame
-from drapery.sheets.sheet import Sheet
+from drapery.render.frame import Frame, Pixels
 
 _PAGE = """<!doctype html>
 <html lang="en">
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width">
-<title>{{ sheet.title }}</title>
+<title>{{ title }}</title>
 <style>
   body { font: 14px/1.4 system-ui, sans-serif; margin: 1.5rem; color: #28282c;
          background: #f6f6f4; }
@@ -21,35 +22,40 @@ _PAGE = """<!doctype html>
   .list { display: flex; flex-wrap: wrap; gap: .8rem; }
   figure { margin: 0; } figcaption { max-width: 10rem; }
 </style>
-<h1>{{ sheet.title }}</h1>
-{% if sheet.across %}
+<h1>{{ title }}</h1>
+{% if across %}
 <table>
-<thead><tr><th></th>{% for head in sheet.across %}<th>{{ head }}</th>{% endfor %}</tr></thead>
-{% for head in sheet.down %}<tr><th>{{ head }}</th>
-{% for cell in rows[loop.index0] %}<td>{{ picture(cell) }}</td>
+<thead><tr><th></th>{% for head in across %}<th>{{ head }}</th>{% endfor %}</tr></thead>
+{% for head in down %}<tr><th>{{ head }}</th>
+{% for label, source in rows[loop.index0] %}<td>{{ picture(label, source) }}</td>
 {% endfor %}</tr>
 {% endfor %}</table>
 {% else %}
 <div class="list">
-{% for cell in sheet.cells %}<figure><figcaption>{{ cell.label }}</figcaption>
-{{ picture(cell) }}</figure>
+{% for label, source in pictures %}<figure><figcaption>{{ label }}</figcaption>
+{{ picture(label, source) }}</figure>
 {% endfor %}</div>
 {% endif %}
 </html>
 """
-_PICTURE = '<img alt="{{ cell.label }}" title="{{ cell.label }}" src="{{ address(cell) }}">'
+_PICTURE = '<img alt="{{ label }}" title="{{ label }}" src="{{ source }}">'
 
 
-def html_page(sheet: Sheet) -> str:
-    """The page as text; it needs no other file."""
+def html_page(
+    title: str,
+    cells: Sequence[tuple[str, Pixels]],
+    columns: int,
+    across: Sequence[str] = (),
+    down: Sequence[str] = (),
+) -> str:
+    """The page as text; it needs no other file.
+
+    cells: labels and pictures, row by row. columns, across, down: as in `Sheet`.
+    """
     from jinja2 import Environment
 
-    macro = "{% macro picture(cell) -%}" + _PICTURE + "{%- endmacro %}"
+    macro = "{% macro picture(label, source) -%}" + _PICTURE + "{%- endmacro %}"
+    pictures = [(label, data_address(Frame(pixels))) for label, pixels in cells]
+    rows = [pictures[first : first + columns] for first in range(0, len(pictures), columns)]
     template = Environment(autoescape=True).from_string(macro + _PAGE)
-    rows = [
-        sheet.cells[first : first + sheet.columns]
-        for first in range(0, len(sheet.cells), sheet.columns)
-    ]
-    return template.render(
-        sheet=sheet, rows=rows, address=lambda cell: data_address(Frame(cell.pixels))
-    )
+    return template.render(title=title, across=across, down=down, pictures=pictures, rows=rows)

@@ -35,7 +35,7 @@ class Sheet:
         """The sheet as one picture."""
         if self.across:
             return table(self.across, self.down, [cell.pixels for cell in self.cells])
-        return strip([(cell.label, cell.pixels) for cell in self.cells], self.columns)
+        return strip(self._pictures(), self.columns)
 
     def save(self, path: str | Path) -> None:
         """Write it as .png, or as .html that needs no other file. Raises OutputError."""
@@ -44,9 +44,13 @@ class Sheet:
             from drapery.compare.report import write_text
             from drapery.sheets.page import html_page
 
-            write_text(target, html_page(self))
+            cells = self._pictures()
+            write_text(target, html_page(self.title, cells, self.columns, self.across, self.down))
         else:
             self.frame().save(target)
+
+    def _pictures(self) -> list[tuple[str, Pixels]]:
+        return [(cell.label, cell.pixels) for cell in self.cells]
 
 
 def check_sheet_target(path: Path) -> None:
