@@ -21,8 +21,8 @@ from drapery.render.frame import Frame
 from drapery.render.relief import relieved
 from drapery.render.scene import Scene
 from drapery.render.soft.bins import RECORD, TILE, sort_into_tiles
-from drapery.render.soft.clip import Corners, clip
-from drapery.render.soft.project import BROKEN, NEAREST, VERTEX, project
+from drapery.render.soft.clipping import Corners, clip
+from drapery.render.soft.projection import BROKEN, NEAREST, VERTEX, project
 from drapery.render.soft.tiles import FULL_LIGHT, draw_tiles
 from drapery.render.wardrobe import BLEND, Wardrobe
 from drapery.render.workers import share_out, worker_count
@@ -45,7 +45,7 @@ class Raster:
     """Vertices and triangles on the picture.
 
     vertices: shape [V] of VERTEX.
-    flags: see `drapery.render.soft.project`, shape [V], uint8.
+    flags: see `drapery.render.soft.projection`, shape [V], uint8.
     triangles, triangle_look: as in `Topology`.
     """
 

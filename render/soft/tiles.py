@@ -18,7 +18,7 @@ import numpy as np
 from numba import njit
 
 from drapery.render.soft.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
-from drapery.render.soft.project import NEAREST
+from drapery.render.soft.projection import NEAREST
 
 KEY_SCALE = 1 << 31
 """Units of a key in one of depth; those below 2^ID_BITS give way to the triangle's number."""

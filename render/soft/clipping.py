@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.render.camera import Matrix
-from drapery.render.soft.project import GUARD
+from drapery.render.soft.projection import GUARD
 
 Corners = NDArray[np.float64]
 """Triangles' corners, shape [K, 3, 4 + A]: clip coordinates x, y, z, w, then A attributes."""
