@@ -1,0 +1,74 @@
+"""NVIDIA Newton's XPBD on the processor (package `newton`)."""
+
+import numpy as np
+
+from benchmarks.peers import Load, Positions
+
+EFFORTS = (8, 16, 32)
+"""Substeps; its iterations do not help springs, see `_stiffness`."""
+MOST_PARTICLES = 300_000
+THREADS = 1
+MASS = 0.3 * 0.8333 * 1.6667
+"""Of a whole cloth [kg]: 0.3 kg/m²."""
+
+
+def _stiffness(load: Load) -> float:
+    """The stiffest springs that stay stable [N/m].
+
+    Its corrections of all springs at a particle are added up, not averaged, so with eight springs
+    their compliance must outweigh the masses: 1 / (k dt²) >= 8 * 2 / m.
+    """
+    mass = MASS / (load.columns * load.rows)
+    return mass / (16 * (load.dt / load.effort) ** 2)
+
+
+class Newton:
+    def __init__(self, load: Load) -> None:
+        import newton
+        import warp
+
+        warp.config.quiet = True
+        builder = newton.ModelBuilder(up_axis=newton.Axis.Y)
+        for number in range(load.cloths):
+            builder.add_cloth_grid(
+                pos=warp.vec3(2.0 * number, 0.0, 0.0),
+                rot=warp.quat_identity(),
+                vel=warp.vec3(0.0, 0.0, 0.0),
+                dim_x=load.columns - 1,
+                dim_y=load.rows - 1,
+                cell_x=load.width / (load.columns - 1),
+                cell_y=load.height / (load.rows - 1),
+                mass=MASS / (load.columns * load.rows),
+                fix_top=True,
+                tri_ke=0.0,
+                tri_ka=0.0,
+                tri_kd=0.0,
+                edge_ke=0.0,
+                edge_kd=0.0,
+                add_springs=True,
+                spring_ke=_stiffness(load),
+                spring_kd=0.0,
+                # Smaller than half a cell, or the particles collide with each other at rest.
+                particle_radius=1e-3,
+            )
+        self.load = load
+        self.model = builder.finalize(device="cpu")
+        self.solver = newton.solvers.SolverXPBD(self.model, iterations=1)
+        self.states = self.model.state(), self.model.state()
+
+    def step(self, count: int) -> None:
+        near, far = self.states
+        for _ in range(count * self.load.effort):
+            near.clear_forces()
+            self.solver.step(near, far, None, None, self.load.dt / self.load.effort)
+            near, far = far, near
+        self.states = near, far
+
+    def positions(self) -> Positions:
+        flat = self.states[0].particle_q.numpy()
+        grid = flat.reshape(self.load.cloths, self.load.rows, self.load.columns, 3)
+        return np.asarray(grid[:, ::-1])
+
+
+def start(load: Load) -> Newton:
+    return Newton(load)
