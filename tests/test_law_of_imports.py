@@ -32,6 +32,9 @@ LAW: dict[str, set[str]] = {
     "drapery.batch": {
         *("errors", "settings", "banner", "style", "render", "pictures", "compare"),
     },
+    "drapery.serve": {
+        *("errors", "settings", "banner", "style", "render", "pictures", "batch"),
+    },
 }
 TOP_FLOOR = {"drapery.cli", "drapery.commands", "drapery.__main__", "drapery"}
 

@@ -137,7 +137,8 @@ def _hire(
 
     def hire(todo: int) -> "Crew":
         if scheduler is None:
-            warm(jobs)
+            moving = [job.seconds is not None for job in jobs]
+            warm(stills=not all(moving), loops=any(moving))
         if scheduler is None and not cluster:
             return Pool(partial(do, store=store), min(count, todo), limits)
         from drapery.batch.cluster import join, local

@@ -1,0 +1,61 @@
+"""`drapery serve`: pictures of banners over HTTP."""
+
+from typing import Annotated
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice, say
+
+
+def run(
+    host: Annotated[str, typer.Option(help="The address to listen at.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="The port; 0 chooses one.")] = 8000,
+    pack: o.PackOption = None,
+    format: o.FormatOption = None,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes that draw.", show_default="one a core")
+    ] = None,
+    rate: Annotated[float, typer.Option(help="Requests a minute of a client; 0: any.")] = 600.0,
+    timeout: Annotated[float, typer.Option(help="Seconds that one picture may take.")] = 20.0,
+    memory: Annotated[int, typer.Option(help="MiB that one picture may take.")] = 1024,
+    shelf: Annotated[int, typer.Option(help="MiB of pictures that are kept.")] = 256,
+    side: Annotated[int, typer.Option(help="The widest and tallest picture in pixels.")] = 1024,
+) -> None:
+    """Answer /banner.png?design=… and /banner.gif?design=…; /docs tells the rest."""
+    import os
+
+    from drapery.banner.packs import open_packs
+    from drapery.errors import BackendError
+    from drapery.settings import MAX_SIDE, Settings, within
+
+    try:
+        import uvicorn
+
+        from drapery.serve.app import make_app
+    except ImportError:
+        raise BackendError('the service needs an extra; pip install "drapery[serve]"') from None
+    from drapery.batch.pool import Limits
+    from drapery.batch.warming import warm
+    from drapery.serve.wishes import House, Terms
+
+    within("port", port, 0, 65535)
+    within("workers", workers or 1, 1, 512, "processes")
+    within("rate", rate, 0, 1e6, "requests a minute")
+    within("timeout", timeout, 0.1, 3600, "s")
+    within("memory", memory, 16, 1 << 20, "MiB")
+    within("shelf", shelf, 1, 1 << 20, "MiB")
+    within("side", side, 16, MAX_SIDE, "pixels")
+    base = Settings(packs=tuple(pack or ()), format=format, size=(min(256, side), min(320, side)))
+    open_packs(base.packs, format=format)
+    with compile_notice():
+        warm()
+    app = make_app(
+        House(base, Terms(side=side)),
+        workers=workers or os.cpu_count() or 1,
+        limits=Limits(timeout, memory << 20),
+        rate=rate,
+        shelf=shelf << 20,
+    )
+    say(f"listening at http://{host}:{port}; /docs tells what may be asked")
+    uvicorn.run(app, host=host, port=port, log_level="warning")

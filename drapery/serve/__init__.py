@@ -1,0 +1,1 @@
+"""A small service over HTTP: pictures of banners by their address."""
