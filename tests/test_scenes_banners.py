@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
-from scene_truths import still
 
-from drapery.cloth import Gravity, Wind, max_stretch
-from drapery.scenes import banner, stress
+from drapery.cloth import Gravity, SolverDesbrun, Wind, max_stretch
+from drapery.scenes import banner, flag, fold, hall, stress
+from drapery.scenes.banners import Stand, flag_cloth, hung
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.flags import Stand, flag_cloth, hung
-from drapery.scenes.motion import motion
-from drapery.style.block import FLAG_SIZE
-from drapery.testing.plugin import Golden
+from drapery.scenes.moving import motion
+from drapery.style.block import FLAG_SIZE, sway_angle
+from drapery.style.sway import cape_lean, stiff_cape, sway_phase
 
 SHORT = Shot((64, 64), 6, 20.0)
 
@@ -55,9 +54,53 @@ def test_every_banner_of_the_cube_moves_by_itself() -> None:
     assert len(np.unique(np.round(moves, 7), axis=0)) == 27
 
 
-def test_banner(golden: Golden) -> None:
-    golden(still("banner", 3), "banner")
+def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
+    cloth = flag_cloth((5, 9))
+    parameters, shot = hall.Parameters(), Shot((64, 64), 60, 20.0)
+    states = list(hall.blown(parameters, cloth, shot))
+    assert len(states[0].positions) == 32
+    off = np.stack([abs(s.positions[:, -1, 0] - s.positions[:, 0, 0]) for s in states])
+    peak = off.argmax(axis=0) / shot.fps
+    near, middle = peak[:4].mean(), peak[16:20].mean()
+    assert 16 / 11 * 0.7 < middle - near < 16 / 11 * 1.4  # 16 m at 11 m/s
+    assert max(abs(s.positions[..., 0]).max() for s in states) < hall.WIDTH / 2
+    assert max_stretch(np.stack([s.positions for s in states]), cloth) < 0.15
 
 
-def test_stress(golden: Golden) -> None:
-    golden(still("stress", side="5", settle="0.5"), "stress")
+def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
+    parameters = flag.Parameters()
+    cloth = flag.banner_on_its_side(parameters.grid)
+    for state in flag.flown(parameters, cloth, SHORT):
+        hoist, fly = state.positions[0, :4], state.positions[0, -4:]
+        np.testing.assert_allclose(hoist, cloth.rest_positions[:4], atol=1e-12)
+        assert (fly[:, 0] - hoist[:, 0]).min() > 0.6 * 40 / 24 * flag.GROWN
+        assert fly[:, 1].mean() < hoist[:, 1].mean()  # its weight shows
+
+
+def test_the_printed_sign_folds_a_banner_and_the_right_one_does_not() -> None:
+    cloth, shot = flag_cloth((5, 9)), Shot((64, 64), 60, 20.0)
+    fallen = {}
+    for solver in (fold.SolverMisprinted(), SolverDesbrun()):
+        *_, last = fold.hanging(fold.Parameters(wind=0.5), cloth, solver, shot)
+        edges = np.ptp(last.positions[0].reshape(9, 5, 3)[1:, :, 0], axis=1)
+        fallen[type(solver)] = edges.min() / FLAG_SIZE[0]
+    assert fallen[SolverDesbrun] > 0.9
+    assert fallen[fold.SolverMisprinted] < 0.2
+
+
+def test_the_sway_is_the_games() -> None:
+    assert sway_phase((0, 0, 0), 0.0) == 0
+    assert sway_phase((3, 4, 5), 0.0) == (21 + 36 + 65) % 100 / 100
+    assert sway_phase((-1, 0, 0), 0.0) == 0.93  # floorMod, not the remainder
+    assert np.isclose(sway_phase((0, 0, 0), 1.03), 0.206)
+    assert np.isclose(sway_phase((3, 4, 5), 12.5), sway_phase((3, 4, 5), 17.5))
+    angles = np.degrees([sway_angle(phase) for phase in (0, 0.5)])
+    np.testing.assert_allclose(angles, [-0.45, -4.05], atol=1e-9)
+
+
+def test_a_stiff_cape_hangs_close_and_lifts_with_speed() -> None:
+    assert cape_lean(0.0, 1.0) == 6
+    assert 20 < cape_lean(2.5, 0.0) < 30
+    assert cape_lean(100.0, 0.0) == 81
+    feet = [stiff_cape(lean).positions[:, 2].min() for lean in (0, 6, 30)]
+    assert feet[0] > feet[1] > feet[2]

@@ -1,14 +1,17 @@
 """Garments stay on, hang with the walk, and never enter the one who wears them."""
 
 import numpy as np
-from scene_truths import clearance, still
+import pytest
+from scene_truths import clearance
 
 from drapery.cloth import max_stretch
-from drapery.scenes import cape
-from drapery.scenes.catalogue import Shot
+from drapery.errors import OptionError
+from drapery.mesh import vertex_normals
+from drapery.scenes import cape, scarf, skirt
+from drapery.scenes.catalogue import Shot, find
 from drapery.scenes.gait import LEG, Gait
+from drapery.style.extrusion import boundary_edges
 from drapery.style.figure import PARTS, TEXEL
-from drapery.testing.plugin import Golden
 
 STRIDE = Shot((64, 64), 16, 20.0)
 
@@ -50,5 +53,44 @@ def test_a_walk_in_a_cape_ends_as_it_began() -> None:
     assert apart < step  # the seam of the loop is no wider than a step between frames
 
 
-def test_cape(golden: Golden) -> None:
-    golden(still("cape", 3), "cape")
+@pytest.mark.parametrize("place", [0, 1])
+def test_a_scarf_stays_on_and_out_of_the_body(place) -> None:
+    parameters, gait = scarf.Parameters(), Gait()
+    cloth = scarf.tail(*scarf.TAILS[place])
+    for state in scarf.streaming(parameters, cloth, gait, STRIDE):
+        pins = gait.pins(cloth)(state.time)
+        np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)
+        assert clearance(cloth, state, gait.colliders(scarf.BODY)) > 0
+        assert state.positions[0, -1, 2] < -0.5  # it streams behind
+        assert state.positions[0, :, 1].min() > 0  # and off the ground
+
+
+def test_a_skirt_stays_on_and_is_moved_by_the_legs_alone() -> None:
+    parameters, gait = skirt.Parameters(), Gait(2.0)
+    cloth = skirt.skirt_cloth(parameters)
+    states = list(skirt.walk(parameters, cloth, gait, STRIDE))
+    for state in states:
+        pins = gait.pins(cloth)(state.time)
+        np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)
+        assert clearance(cloth, state, gait.colliders(skirt.BODY), order=3) > 0
+        assert max_stretch(state.positions, cloth) < 0.15
+    hem = np.stack([state.positions[0, -parameters.panels :] for state in states])
+    assert np.ptp(hem[..., 2], axis=0).max() > 0.05
+
+
+def test_a_skirt_is_a_closed_ring_seen_from_outside() -> None:
+    cloth = skirt.skirt_cloth(skirt.Parameters())
+    assert len(boundary_edges(cloth.triangles)) == 2 * 12  # waist and hem
+    outwards = vertex_normals(cloth.rest_positions, cloth.triangles)
+    level = cloth.rest_positions * [1, 0, 1]
+    assert (np.sum(outwards * level, axis=1) > 0).all()
+
+
+@pytest.mark.parametrize(
+    ("words", "fault"),
+    [({"panels": "3"}, "panels"), ({"sides": "outside under"}, "under"), ({"dye": "sky"}, "sky")],
+)
+def test_what_no_skirt_can_be_is_named(words, fault) -> None:
+    scene = find("skirt")
+    with pytest.raises(OptionError, match=fault):
+        next(scene.play(scene.parameters(words), STRIDE))

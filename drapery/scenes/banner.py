@@ -10,10 +10,10 @@ from drapery.cloth import Gravity, Wind
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
+from drapery.scenes.banners import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.flags import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
-from drapery.scenes.motion import motion
-from drapery.style.blocks import blocks, plateau
+from drapery.scenes.moving import motion
+from drapery.style.block_world import blocks, plateau
 from drapery.style.stage import SKY, shadow
 
 FRONT = View(azimuth=20, elevation=9, fov=28)

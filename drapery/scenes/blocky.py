@@ -11,15 +11,15 @@ from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.scene import Look, Model, Scene
 from drapery.render.views import View, frame_points
+from drapery.scenes.banners import Stand, flag_cloth, flag_looks, flag_shell, hung, wooden
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.flags import Stand, flag_cloth, flag_looks, flag_shell, hung, wooden
-from drapery.scenes.motion import motion
+from drapery.scenes.moving import motion
 from drapery.scenes.panels import Panels, panel_size
 from drapery.style.block import FLAG_SKIN, SCALE
-from drapery.style.blocks import blocks, plateau
+from drapery.style.block_world import blocks, plateau
 from drapery.style.blocky import pixelled, stepped
-from drapery.style.garment import garment
 from drapery.style.stage import SKY, shadow
+from drapery.style.tailoring import garment
 
 STAND = Stand((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=42, elevation=10, fov=26)

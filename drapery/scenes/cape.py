@@ -8,15 +8,16 @@ import numpy as np
 from drapery.banner.packs import open_packs
 from drapery.cloth import Cloth, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
+from drapery.cloth.collisions import Collisions
 from drapery.render.scene import Look, Model, Scene
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
-from drapery.scenes.motion import motion, placed
+from drapery.scenes.moving import motion, placed
 from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.extrusion import Shell, make_shell
 from drapery.style.figure import CAPE_SIZE, CAPE_SKIN, TEXEL, figure_look
-from drapery.style.garment import dyed, garment
 from drapery.style.stage import SKY
+from drapery.style.tailoring import dyed, garment
 
 SETTLING = LOOP
 BODY = ("body", "right_arm", "left_arm", "right_leg", "left_leg")
@@ -67,8 +68,7 @@ def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterat
         cloth,
         shot,
         forces=(Gravity(), wind),
-        colliders=gait.colliders(BODY),
-        radius=parameters.thickness * TEXEL / 2,
+        collisions=Collisions(gait.colliders(BODY), parameters.thickness * TEXEL),
         pins=gait.pins(cloth),
         settle=SETTLING,
     )

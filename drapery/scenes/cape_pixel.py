@@ -13,8 +13,8 @@ from drapery.render.frame import Frame, Pixels
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.dots import STEP, Dots, Tweaks, dot_grid, step
 from drapery.scenes.panels import Panels, panel_size
+from drapery.style.hero import RUN, sprite
 from drapery.style.pixel import bounding_box, fill_polygon, outline
-from drapery.style.sprite import RUN, sprite
 
 CANVAS_WIDTH = 96
 """Pixels of the art across a panel; it is enlarged by a whole number."""

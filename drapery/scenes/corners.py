@@ -15,11 +15,11 @@ from drapery.render.scene import Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.motion import motion, placed
-from drapery.style.blocks import blocks, plateau
+from drapery.scenes.moving import motion, placed
+from drapery.style.block_world import blocks, plateau
 from drapery.style.extrusion import make_shell
-from drapery.style.garment import checked, garment
 from drapery.style.stage import SKY, post
+from drapery.style.tailoring import checked, garment
 
 SIDE, HEIGHT = 2.0, 2.4
 """Of the cloth, and how high it is held [m]."""

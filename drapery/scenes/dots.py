@@ -86,7 +86,8 @@ def _turning(arms: Array, motion: Array) -> Array:
     """The part of a motion [N, 2] that is one turn about the origin of the arms [N, 2]."""
     across = np.stack([-arms[:, 1], arms[:, 0]], axis=1)
     angle = (across * motion).sum() / max(float((arms * arms).sum()), 1e-9)
-    return angle * across
+    turn: Array = angle * across
+    return turn
 
 
 def _draw_near(dots: Dots, places: Array) -> None:

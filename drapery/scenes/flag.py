@@ -10,13 +10,13 @@ from drapery.cloth import Cloth, Drag, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.render.camera import Camera
 from drapery.render.scene import Scene
+from drapery.scenes.banners import flag_looks, flag_shell
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.flags import flag_looks, flag_shell
-from drapery.scenes.motion import motion, placed
+from drapery.scenes.moving import motion, placed
 from drapery.style.block import FLAG_SIZE, SCALE
-from drapery.style.blocks import Cell, blocks
-from drapery.style.garment import garment
+from drapery.style.block_world import Cell, blocks
 from drapery.style.stage import SKY, post
+from drapery.style.tailoring import garment
 
 LOOP = 4.0
 GROWN = 2.2

@@ -14,9 +14,9 @@ from drapery.cloth import Cloth, Gravity, Solver, SolverDesbrun, State, Wind
 from drapery.cloth.solvers.rounds import Memory
 from drapery.render.scene import Scene
 from drapery.render.views import View, frame_points
+from drapery.scenes.banners import flag_cloth
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.flags import flag_cloth
-from drapery.scenes.motion import motion
+from drapery.scenes.moving import motion
 from drapery.scenes.panels import Panels, panel_size
 from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
 from drapery.style.block import FLAG_SIZE

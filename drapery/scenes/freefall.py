@@ -15,19 +15,20 @@ from drapery.cloth.colliders import (
     mesh_collider,
     rotation_about,
 )
+from drapery.cloth.collisions import Collisions
 from drapery.cloth.solvers.verlet import SolverVerlet
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.motion import motion, placed
-from drapery.style.beetle import Beetle, beetle
-from drapery.style.blocks import blocks, plateau
+from drapery.scenes.moving import motion, placed
+from drapery.style.block_world import blocks, plateau
 from drapery.style.creature import CUBE, cells_of, fox
 from drapery.style.extrusion import make_shell
-from drapery.style.garment import checked, garment
+from drapery.style.insect import Beetle, beetle
 from drapery.style.stage import SKY, moved
+from drapery.style.tailoring import checked, garment
 
 ABOVE = View(azimuth=22, elevation=20, fov=28)
 HEIGHT = 1.9
@@ -89,8 +90,7 @@ def fall(
         shot,
         solver=SolverVerlet(),
         forces=(Gravity(), Drag(parameters.drag)),
-        colliders=met,
-        radius=parameters.thickness / 2,
+        collisions=Collisions(met, parameters.thickness),
     )
 
 

@@ -8,16 +8,17 @@ import numpy as np
 from drapery.banner.packs import open_packs
 from drapery.cloth import Cloth, Gravity, State, Wind
 from drapery.cloth.colliders import Collider, Plane
+from drapery.cloth.collisions import Collisions
 from drapery.cloth.exact import sine_of_turns
 from drapery.mesh import Array
 from drapery.render.camera import Camera
 from drapery.render.light import Light
 from drapery.render.scene import Scene
+from drapery.scenes.banners import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.flags import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
-from drapery.scenes.motion import motion
+from drapery.scenes.moving import motion
 from drapery.style.block import SCALE
-from drapery.style.blocks import Cell, blocks
+from drapery.style.block_world import Cell, blocks
 
 WIDTH, HEIGHT, BAYS = 4, 4, 16
 """Of the hall [blocks]: wall to wall, floor to beam, and banners along each wall."""
@@ -89,10 +90,8 @@ def blown(parameters: Parameters, cloth: Cloth, shot: Shot) -> Iterator[State]:
         shot,
         forces=(Gravity(), breeze, Gust(strength=parameters.gust)),
         start=hung(cloth, stands()),
-        colliders=walls(),
-        radius=SCALE / 2,
+        collisions=Collisions(walls(), SCALE, order=1),
         step=1 / 60,
-        order=1,
     )
 
 

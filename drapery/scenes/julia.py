@@ -158,7 +158,7 @@ def _write_ticks(pen: ImageDraw.ImageDraw, size: tuple[int, int]) -> None:
 def _on_plot(points: Array, size: tuple[int, int]) -> Array:
     """Places of points [N, 2] on the plot of FINER times the size, shape [N, 2]."""
     width, height = size[0] * FINER, size[1] * FINER
-    margin = 24 * FINER
+    margin = min(24 * FINER, width // 6, height // 6)
     (left, right), (low, high) = X_RANGE, Y_RANGE
     x = margin + (points[:, 0] - left) / (right - left) * (width - 1.5 * margin)
     y = height - margin - (points[:, 1] - low) / (high - low) * (height - 1.5 * margin)

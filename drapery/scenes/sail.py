@@ -1,25 +1,28 @@
 """A sail that billows on its raft; a script steers the wind."""
 
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import groupby, pairwise
 
 import numpy as np
 
 from drapery.banner.packs import Packs, open_packs
-from drapery.cloth import Cloth, Drag, Force, Gravity, State, Wind, grid
+from drapery.cloth import Cloth, Drag, Force, Gravity, State, Wind, grid, rest_state
 from drapery.cloth.colliders import Capsule, Collider
+from drapery.cloth.collisions import Collisions
 from drapery.cloth.exact import sine_of_turns
 from drapery.cloth.solvers.verlet import SolverVerlet
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.motion import motion, placed
+from drapery.scenes.moving import motion, placed
 from drapery.scenes.wind_script import Setting, parse_script, read_script
-from drapery.style.blocks import Cell, blocks
+from drapery.style.block_world import Cell, blocks
 from drapery.style.extrusion import make_shell
-from drapery.style.garment import checked, garment
 from drapery.style.stage import SKY, beam, post, sea
+from drapery.style.tailoring import checked, garment
 
 SIDE, SLACK = 2.6, 0.9
 """Of the sail [m], and how far apart its corners are held, as a part of that."""
@@ -79,22 +82,24 @@ def script_of(parameters: Parameters) -> tuple[Setting, ...]:
 def blown(
     parameters: Parameters, settings: Sequence[Setting], cloth: Cloth, shot: Shot
 ) -> Iterator[State]:
-    """The sail at each frame."""
-    times = np.array([setting.time for setting in settings])
-    winds = [_forces(parameters, setting) for setting in settings]
-
-    def forces(time: float) -> Sequence[Force]:
-        return winds[int(np.searchsorted(times, time + 1e-9, side="right")) - 1]
-
-    return motion(
-        cloth,
-        shot,
-        solver=SolverVerlet(),
-        forces=forces,
-        colliders=spars(),
-        radius=parameters.thickness / 2,
-        order=3,
-    )
+    """The sail at each frame. A command takes effect at the first frame not before it."""
+    times = [setting.time - 1e-9 for setting in settings]
+    collisions = Collisions(spars(), parameters.thickness, order=3)
+    state = rest_state(cloth, dtype=np.float64)
+    last = range(shot.count - 1)
+    for number, frames in groupby(last, lambda frame: bisect_right(times, frame / shot.fps)):
+        under_way = motion(
+            cloth,
+            replace(shot, count=len(list(frames)) + 1),
+            solver=SolverVerlet(),
+            forces=_forces(parameters, settings[number - 1]),
+            collisions=collisions,
+            start=state,
+        )
+        for now, later in pairwise(under_way):
+            yield now
+            state = later
+    yield state
 
 
 def spars() -> tuple[Collider, ...]:

@@ -10,16 +10,17 @@ from drapery.banner.packs import Packs, open_packs
 from drapery.banner.sprites import tint
 from drapery.cloth import Cloth, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
+from drapery.cloth.collisions import Collisions
 from drapery.render.scene import Coat, Look, Model, Scene, Texels
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
-from drapery.scenes.motion import motion, placed
+from drapery.scenes.moving import motion, placed
 from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.boxes import Box, box_mesh, upright
 from drapery.style.extrusion import make_shell
 from drapery.style.figure import TEXEL, figure_look
-from drapery.style.garment import garment
 from drapery.style.stage import SKY, moved
+from drapery.style.tailoring import garment
 
 SQUARE = 4 * TEXEL
 """Edge of a square [m]: the scarf's width, and what one block's texture covers."""
@@ -83,8 +84,7 @@ def streaming(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> I
         cloth,
         shot,
         forces=(Gravity(), wind),
-        colliders=gait.colliders(BODY),
-        radius=parameters.thickness * TEXEL / 2,
+        collisions=Collisions(gait.colliders(BODY), parameters.thickness * TEXEL),
         pins=gait.pins(cloth),
         settle=LOOP,
     )

@@ -10,13 +10,14 @@ from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.sprites import tint
 from drapery.cloth import Cloth, Gravity, State, Wind, from_triangles
+from drapery.cloth.collisions import Collisions
 from drapery.cloth.exact import sine_of_turns
 from drapery.errors import OptionError
 from drapery.mesh import vertex_normals
 from drapery.render.scene import Coat, Look, Model, Scene, Texels
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
-from drapery.scenes.motion import motion
+from drapery.scenes.moving import motion
 from drapery.scenes.stroll import BEFORE, camera, ground, walker
 from drapery.style.extrusion import Shell, make_shell
 from drapery.style.figure import TEXEL, figure_look
@@ -82,11 +83,9 @@ def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterat
         cloth,
         shot,
         forces=(Gravity(), wind),
-        colliders=gait.colliders(BODY),
-        radius=parameters.thickness * TEXEL / 2,
+        collisions=Collisions(gait.colliders(BODY), parameters.thickness * TEXEL, order=3),
         pins=gait.pins(cloth),
         settle=LOOP,
-        order=3,
     )
 
 
@@ -159,7 +158,8 @@ def _ring(rows: int, panels: int) -> NDArray[np.int32]:
     """The triangles of a closed ring, seen from outside."""
     opened = _triangles(rows, panels + 1)
     row, column = np.divmod(opened, panels + 1)
-    return (row * panels + column % panels).astype(np.int32)
+    closed: NDArray[np.int32] = (row * panels + column % panels).astype(np.int32)
+    return closed
 
 
 def _triangles(rows: int, columns: int) -> NDArray[np.int32]:

@@ -11,19 +11,19 @@ from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes import cape
+from drapery.scenes.banners import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.flags import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
 from drapery.scenes.gait import LOOP, Gait
-from drapery.scenes.motion import motion
+from drapery.scenes.moving import motion
 from drapery.scenes.panels import Panels, panel_size
 from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.block import stiff_flag
-from drapery.style.blocks import blocks, plateau
+from drapery.style.block_world import blocks, plateau
 from drapery.style.board import moved
 from drapery.style.figure import figure_look
-from drapery.style.garment import dyed
 from drapery.style.stage import SKY, shadow
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
+from drapery.style.tailoring import dyed
 
 STAND = Stand((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=38, elevation=10, fov=26)

@@ -9,9 +9,9 @@ import numpy as np
 from drapery.cloth import Cloth, Gravity, State, Wind
 from drapery.render.scene import Scene
 from drapery.render.views import View, frame_points
+from drapery.scenes.banners import flag_cloth
 from drapery.scenes.catalogue import Shot
-from drapery.scenes.flags import flag_cloth
-from drapery.scenes.motion import motion, placed
+from drapery.scenes.moving import motion, placed
 from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
 from drapery.style.block import FLAG_SIZE
 

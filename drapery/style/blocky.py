@@ -41,9 +41,11 @@ def pixelled(
     """A grid that hangs along x as upright cubes, one a texel, on the lattice of texels.
 
     A row of texels moves sideways and down as a whole, so that it has no holes; each texel moves
-    to the front and back by itself. sheet: [N, 3]; shape: its rows and columns; size: texels across and down; skin: where front
-    and back lie on the texture; texel: edge of a cube [m]. A cube shows its texel of the front
-    on its front and around it, and that of the back behind.
+    to the front and back by itself. A cube shows its texel of the front on its front and around
+    it, and that of the back behind.
+
+    sheet: [N, 3]; shape: its rows and columns; size: texels across and down; skin: where front
+    and back lie on the texture; texel: edge of a cube [m].
     """
     first = sheet[0] + np.array([texel / 2, -texel / 2, 0.0])
     column, row = np.meshgrid(np.arange(size[0]), np.arange(size[1]))

@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.style.blocks import Cell
+from drapery.style.block_world import Cell
 
 CUBE = 0.17
 """Edge of a cube [m]."""

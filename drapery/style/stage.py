@@ -8,7 +8,7 @@ import numpy as np
 from drapery.banner.packs import Packs
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Coat, Look, Model
-from drapery.style.blocks import Cell, blocks
+from drapery.style.block_world import Cell, blocks
 from drapery.style.boxes import Box, box_mesh, upright
 from drapery.style.layers import wood_look
 

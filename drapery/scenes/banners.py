@@ -13,8 +13,8 @@ from drapery.render.scene import Look, Model
 from drapery.style.block import FLAG_SIZE, FLAG_SKIN, SCALE, Placement, flag_origin, turn, wood
 from drapery.style.board import moved
 from drapery.style.extrusion import Shell, make_shell
-from drapery.style.garment import garment
 from drapery.style.layers import flag_look, wood_look
+from drapery.style.tailoring import garment
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,56 @@
+"""How cloth of any scene moves from frame to frame."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import islice
+
+import numpy as np
+
+from drapery.cloth import Cloth, Force, Gravity, PinPath, Solver, State, rest_state, simulate
+from drapery.cloth.collisions import Collisions
+from drapery.mesh import Array
+from drapery.scenes.catalogue import Shot
+
+STEP = 1.0 / 120.0
+"""The longest time step [s]; cloth that meets walking legs wants a short one."""
+
+
+def motion(
+    cloth: Cloth,
+    shot: Shot,
+    *,
+    solver: Solver | None = None,
+    forces: Sequence[Force] = (Gravity(),),
+    collisions: Collisions | None = None,
+    pins: PinPath | None = None,
+    start: State | None = None,
+    settle: float = 0.0,
+    step: float = STEP,
+) -> Iterator[State]:
+    """The state at each frame of the shot; see `simulate`.
+
+    start: the rest shape unless given. settle: time before the first frame [s], rounded to whole
+    frames. step: the longest time step [s].
+    """
+    steps = max(1, math.ceil(1 / (shot.fps * step) - 1e-9))
+    states = simulate(
+        cloth,
+        solver,
+        forces,
+        1 / (shot.fps * steps),
+        start=start or rest_state(cloth, dtype=np.float64),
+        every=steps,
+        pins=pins,
+        collisions=collisions,
+    )
+    first = round(settle * shot.fps)
+    return islice(states, first, first + shot.count)
+
+
+def placed(cloth: Cloth, position: Array, rotation: Array | None = None) -> Cloth:
+    """The cloth with its rest shape turned and put elsewhere: rotation · x + position [m]."""
+    turn = np.eye(3) if rotation is None else rotation
+    # einsum adds in a fixed order; BLAS may not.
+    turned = np.einsum("ij,nj->ni", turn, cloth.rest_positions)
+    return replace(cloth, rest_positions=turned + np.asarray(position, float))

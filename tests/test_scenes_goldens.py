@@ -1,0 +1,31 @@
+"""A picture of each scene that has been looked at, and that every scene can be played."""
+
+import pytest
+from scene_truths import still
+
+from drapery.render.frame import Frame
+from drapery.scenes.catalogue import Shot, find, names
+from drapery.testing.plugin import Golden
+
+FRAMES = {"banner": 8, "freefall": 14, "hall": 24, "julia": 60, "sail": 16, "fold": 56}
+"""How far into a scene its golden is; most show their first frame but two."""
+CORNERS = dict.fromkeys(("four-corners", "three-corners", "two-corners"), 12)
+WORDS = {"stress": {"side": "5", "settle": "0.5"}, "freefall": {"grid": "12x12"}}
+
+
+@pytest.mark.parametrize("name", names())
+def test_a_scene_looks_as_it_did(name: str, golden: Golden) -> None:
+    frames = {**FRAMES, **CORNERS}.get(name, 3)
+    golden(still(name, frames, **WORDS.get(name, {})))
+
+
+@pytest.mark.parametrize("name", ["julia", "cape-pixel", "vanilla"])
+@pytest.mark.parametrize("size", [(96, 61), (33, 120)])
+def test_pictures_of_parts_are_of_the_size_asked_for(name: str, size: tuple[int, int]) -> None:
+    scene = find(name)
+    first = next(scene.play(scene.parameters(), Shot(size, 1)))
+    if isinstance(first, Frame):
+        assert first.pixels.shape[:2] == (size[1], size[0])
+    else:
+        pixels = [p.pixels.shape[1::-1] if isinstance(p, Frame) else p.size for p in first.pictures]
+        assert pixels[0][0] * first.columns in range(size[0] - 1, size[0] + 1)

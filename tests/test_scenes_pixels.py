@@ -1,0 +1,171 @@
+"""Flat and blocky scenes: the tutorial's curtain, the pixel cape, bends in steps, level texels."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from drapery.mesh import Array
+from drapery.scenes import cape_pixel, julia
+from drapery.scenes.catalogue import Shot, find
+from drapery.scenes.dots import Tweaks, dot_grid, step
+from drapery.style.block import FLAG_SKIN, SCALE
+from drapery.style.blocky import pixelled, stepped
+from drapery.style.hero import LEGS, sprite
+
+NONE = Tweaks(False, False, False, False)
+
+
+def published(steps: int) -> list[list[tuple[float, float]]]:
+    """The tutorial's loop in plain numbers: after each step the dots, row by row from below."""
+    nx, ny, spacing, dt = 25, 20, 0.2, 0.02
+    x = [[(i + 1) * spacing for i in range(nx)] for _ in range(ny)]
+    y = [[(j + 1) * spacing for _ in range(nx)] for j in range(ny)]
+    before = [[*row] for row in x], [[*row] for row in y]
+    after = []
+    for number in range(1, steps + 1):
+        push = 2 * np.sin(0.05 * number) * dt**2, -9.8 * dt**2
+        for j in range(ny - 1):
+            for i in range(nx):
+                for places, old, a in zip((x, y), before, push, strict=True):
+                    places[j][i], old[j][i] = 2 * places[j][i] - old[j][i] + a, places[j][i]
+        for _ in range(6):
+            for j in range(ny):
+                for i in range(nx):
+                    for jj, ii in ((j, i + 1), (j + 1, i)):
+                        if ii < nx and jj < ny:
+                            dx, dy = x[jj][ii] - x[j][i], y[jj][ii] - y[j][i]
+                            length = (dx * dx + dy * dy) ** 0.5
+                            half = 0.5 * (length - spacing) / length
+                            if j < ny - 1:
+                                x[j][i] += dx * half
+                                y[j][i] += dy * half
+                            if jj < ny - 1:
+                                x[jj][ii] -= dx * half
+                                y[jj][ii] -= dy * half
+        after.append([(x[j][i], y[j][i]) for j in range(ny) for i in range(nx)])
+    return after
+
+
+def test_the_curtain_moves_by_the_published_numbers() -> None:
+    parameters = julia.Parameters()
+    states = islice(julia.steps(parameters), 1, 301)
+    for state, dots in zip(states, published(300), strict=True):
+        rows = state.positions[0].reshape(20, 25, 3)[::-1].reshape(-1, 3)
+        assert abs(rows[:, :2] - dots).max() < 1e-8
+        assert not rows[:, 2].any()
+
+
+def test_the_curtain_plays_at_its_own_rate() -> None:
+    own = find("julia").shot
+    assert (own.count, own.fps) == (300, 30.0)
+    assert find("banner").shot == Shot()
+
+
+def cape(tweaks: Tweaks) -> tuple[Array, list[float]]:
+    """Two loops of the dots from the hero's feet, [F, N, 2], and the times."""
+    frames = list(cape_pixel.flights(cape_pixel.Parameters(), tweaks, Shot((64, 64), 240, 60.0)))
+    return np.stack([places for places, _ in frames]), [time for _, time in frames]
+
+
+@pytest.mark.parametrize("tweaks", [NONE, Tweaks()])
+def test_a_pixel_cape_stays_on_its_hooks_and_above_the_ground(tweaks) -> None:
+    places, times = cape(tweaks)
+    dots = dot_grid(3, 6, cape_pixel.ACROSS, cape_pixel.DOWN)
+    for dot, time in zip(places, times, strict=True):
+        hero = cape_pixel.hero_at(time)
+        hooks = cape_pixel.hooks_of(dots, hero, tweaks)
+        np.testing.assert_allclose(dot[dots.pinned], hooks, atol=1e-9)
+        assert (dot[:, 1] + hero.feet[1]).max() <= 1e-9
+
+
+def test_neighbouring_dots_stay_near() -> None:
+    dots = dot_grid(3, 6, 2.0, 2.0)
+    random = np.random.default_rng(0)
+    now = np.cumsum(np.full((18, 2), 0.3), axis=0)
+    for _ in range(60):
+        later = step(
+            dots, now, now - random.normal(0, 0.3, (18, 2)), now[:3], np.zeros(2), NONE, 40
+        )
+        now = later
+    apart = np.linalg.norm(now[dots.pairs[:, 1]] - now[dots.pairs[:, 0]], axis=1)
+    assert (apart < dots.reach * 1.1).all()
+
+
+def test_each_tweak_does_what_it_is_for() -> None:
+    plain, times = cape(NONE)
+    end = slice(9, 18)  # the lower half of the dots
+
+    def speed(places: Array) -> float:
+        return float(np.linalg.norm(np.diff(places[:, end], axis=0), axis=-1).mean())
+
+    assert speed(cape(Tweaks(True, False, False, False))[0]) < 0.8 * speed(plain)
+    assert speed(cape(Tweaks(False, True, False, False))[0]) < 0.8 * speed(plain)
+    runs = [cape_pixel.hero_at(time).velocity[0] > 0 for time in times]
+    behind = [cape(t)[0][runs][:, end, 0].mean() for t in (NONE, Tweaks(False, False, True, False))]
+    assert behind[1] < behind[0] - 1  # pushed against the run
+    calm = Tweaks(hooks=False)
+    heights = [np.ptp(cape(t)[0][20:50, :, 1], axis=1).mean() for t in (calm, Tweaks())]
+    assert heights[1] > heights[0]  # keeps volume while it streams
+
+
+def test_the_hero_runs_jumps_and_lands_and_a_loop_has_no_seam() -> None:
+    legs = {cape_pixel.hero_at(time).legs for time in np.arange(0, 4, 0.02)}
+    assert legs == set(LEGS)
+    feet = np.stack([cape_pixel.hero_at(time).feet for time in np.arange(0, 4.01, 0.02)])
+    assert np.isclose(feet[-1, 0] - feet[0, 0], cape_pixel.DISTANCE, atol=2)
+    assert feet[:, 1].max() == 0 and np.isclose(feet[:, 1].min(), -17, atol=0.2)
+    assert (np.diff(feet[:, 0]) >= 0).all()
+    for name in LEGS:
+        assert sprite(name).shape == (21, 12, 4)
+
+
+@pytest.mark.parametrize("debug", ["yes", "no"])
+def test_the_art_is_enlarged_by_a_whole_number(debug) -> None:
+    scene = find("cape-pixel")
+    shot = Shot((288, 288), 1)
+    words = {"compare": "no", "debug": debug}
+    (picture,) = next(scene.play(scene.parameters(words), shot)).pictures
+    blocks = picture.pixels.reshape(96, 3, 96, 3, 4)
+    flat = (blocks == blocks[:, :1, :, :1]).all()
+    assert flat == (debug == "no")
+    colours = {tuple(c) for c in picture.pixels[..., :3].reshape(-1, 3)}
+    works = {(60, 200, 80), (60, 110, 230), (220, 40, 40), (240, 150, 40)}
+    assert works <= colours if debug == "yes" else not works & colours
+
+
+def crumpled() -> Array:
+    rows = np.zeros((6, 3, 3))
+    rows[..., 0] = np.linspace(-0.4, 0.4, 3)
+    bends = np.array([0.1, 0.5, 0.9, 0.3, -0.4])
+    rows[1:, :, 1] = -0.3 * np.cumsum(np.cos(bends))[:, None]
+    rows[1:, :, 2] = 0.3 * np.cumsum(np.sin(bends))[:, None]
+    return rows.reshape(-1, 3)
+
+
+@pytest.mark.parametrize("steps", [1, 4, 7])
+def test_steps_bend_only_by_whole_angles_and_keep_lengths(steps) -> None:
+    sheet = crumpled()
+    rows = stepped(sheet, (6, 3), steps).reshape(6, 3, 3)
+    np.testing.assert_allclose(rows[0], sheet.reshape(6, 3, 3)[0])
+    along = np.diff(rows[:, 1], axis=0)
+    np.testing.assert_allclose(np.linalg.norm(along, axis=1), 0.3)
+    turns = np.arctan2(along[:, 2], -along[:, 1]) / (np.pi / 2 / steps)
+    np.testing.assert_allclose(turns, np.round(turns), atol=1e-9)
+    np.testing.assert_allclose(np.ptp(rows[..., 0], axis=1), 0.8)
+
+
+def test_a_hanging_sheet_needs_no_steps() -> None:
+    flat = crumpled() * [1, 1, 0]
+    np.testing.assert_allclose(stepped(flat, (6, 3), 4), flat, atol=1e-12)
+
+
+def test_snapped_texels_are_level_cubes_on_one_lattice() -> None:
+    mesh = pixelled(crumpled(), (6, 3), (20, 40), FLAG_SKIN, SCALE)
+    cubes = mesh.positions.reshape(800, 24, 3)
+    np.testing.assert_allclose(np.ptp(cubes, axis=1), SCALE)
+    places = (cubes.mean(axis=1) - cubes[0].mean(axis=0)) / SCALE
+    np.testing.assert_allclose(places, np.round(places), atol=1e-6)
+    uvs = mesh.uvs.reshape(800, 24, 2) * 64
+    np.testing.assert_allclose(uvs[0, 0], [1.5, 1.5])  # the front's first texel, its middle
+    np.testing.assert_allclose(uvs[0, 4], [41.5, 1.5])  # behind it, the back's last column
