@@ -1,9 +1,10 @@
 """What a command says on the side, on standard error: notes, warnings, progress."""
 
+import subprocess
 import sys
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, TextIO
 
 
@@ -32,7 +33,11 @@ def adopt_warnings() -> None:
 
 @contextmanager
 def compile_notice() -> Iterator[None]:
-    """Say so when kernels are being compiled: it happens once, and takes some seconds."""
+    """Say so when kernels are being compiled: it happens once, and takes some seconds.
+
+    Where it is the cloth's turn, another process compiles the rasteriser meanwhile; this one
+    finds it in the cache.
+    """
     from numba.core import event
 
     class FirstCompile(event.Listener):
@@ -41,6 +46,8 @@ def compile_notice() -> Iterator[None]:
         def on_start(self, event: Any) -> None:
             if not self.spoken:
                 say("compiling kernels, which happens once ...")
+                if not event.data["dispatcher"].py_func.__module__.startswith("drapery.render"):
+                    _start_beside("drapery.render.soft")
             self.spoken = True
 
         def on_end(self, event: Any) -> None:
@@ -48,6 +55,14 @@ def compile_notice() -> Iterator[None]:
 
     with event.install_listener("numba:compile", FirstCompile()):
         yield
+
+
+def _start_beside(module: str) -> None:
+    """Run a module in a process of its own, which nobody waits for."""
+    nowhere = subprocess.DEVNULL
+    command = [sys.executable, "-m", module]
+    with suppress(OSError):
+        subprocess.Popen(command, stdin=nowhere, stdout=nowhere, stderr=nowhere)
 
 
 @contextmanager
