@@ -47,6 +47,14 @@ def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -
     assert pictures(tmp_path / "torn") == pictures(tmp_path / "calm")
 
 
+def test_short_jobs_travel_several_in_a_task() -> None:
+    crew = cluster.DaskCrew(None, RemoteStore("memory://x"), Limits(), _counted=1e12, _threads=3)
+    assert crew.free() == 6
+    for pace, count in ((1.0, 1), (0.05, 5), (0.001, 32), (0.0, 32)):
+        crew._pace = pace
+        assert crew.free() == 6 * count
+
+
 def test_the_address_of_no_scheduler_is_an_error() -> None:
     with pytest.raises(BackendError, match="no scheduler at"):
         cluster.join("tcp:/nowhere", RemoteStore("memory://x"), Limits())
@@ -54,7 +62,7 @@ def test_the_address_of_no_scheduler_is_an_error() -> None:
 
 def test_a_worker_of_another_version_refuses() -> None:
     (job,) = [jobs.Job("k", ("k.png",), ("line 1",), None, None, None, None, "0+other")]
-    outcome = cluster.task(job, RemoteStore("memory://x"), Limits(), [])
+    (outcome,) = cluster.task([job], RemoteStore("memory://x"), Limits(), {})
     assert our_version() in outcome.fault
     assert not outcome.again
 

@@ -3,15 +3,15 @@
 import logging
 import threading
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from multiprocessing import current_process
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from drapery.batch.jobs import Job, Outcome, do
+from drapery.batch.jobs import OUT_OF_MEMORY, Job, Outcome, do
 from drapery.batch.keys import Digests, our_version
 from drapery.batch.parcels import Parcel, packed, paths_of, settled
 from drapery.batch.pool import Limits, Pool
@@ -19,8 +19,12 @@ from drapery.batch.stores import Store
 from drapery.errors import BackendError, DraperyError
 
 AHEAD = 2
-"""Jobs sent for each of the cluster's threads: one that runs and one that waits there. So few are
+"""Tasks sent for each of the cluster's threads: one that runs and one that waits there. So few are
 in flight that a killed run has little to do again, and the scheduler's memory stays flat."""
+TASK = 0.25
+"""How long a task shall take [s]. A scheduler handles some thousand tasks a second, so short jobs
+travel several in a task; see benchmarks/batch.py."""
+MOST_IN_TASK = 32
 COUNT_AGAIN = 3.0
 """How often the cluster's threads are counted, since workers come and go [s]."""
 LOST_AFTER = 15.0
@@ -35,39 +39,33 @@ class DaskCrew:
     store: Store
     limits: Limits
     cluster: Any = None
-    _running: dict[str, tuple[Any, Job]] = field(default_factory=dict)
+    _running: dict[str, tuple[Any, list[Job]]] = field(default_factory=dict)
     _ended: SimpleQueue[str] = field(default_factory=SimpleQueue)
     _sent: dict[Path, Any] = field(default_factory=dict)
     _digests: Digests = field(default_factory=Digests)
+    _gathered: list[Job] = field(default_factory=list)
     _number: int = 0
     _threads: int = 0
     _counted: float = -COUNT_AGAIN
     _heard: float = 0.0
+    _pace: float = TASK
 
     def free(self) -> int:
         """See `Crew`."""
         if time.monotonic() - self._counted > COUNT_AGAIN:
             self._count()
-        return AHEAD * max(1, self._threads) - len(self._running)
+        busy = sum(len(jobs) for _, jobs in self._running.values()) + len(self._gathered)
+        return AHEAD * max(1, self._threads) * self._in_task() - busy
 
     def start(self, job: Job) -> None:
-        """See `Crew`."""
-        self._number += 1
-        key = f"drapery-{self._number}-{job.key[:12]}"
-        try:
-            parcels = [self._send(path) for path in paths_of(job)]
-        except DraperyError as error:
-            self._running[key] = (Outcome(job, str(error), True), job)
-            self._ended.put(key)
-            return
-        future = self.client.submit(
-            task, job, self.store, self.limits, parcels, key=key, pure=False, retries=0
-        )
-        self._running[key] = (future, job)
-        future.add_done_callback(lambda _: self._ended.put(key))
+        """See `Crew`. It is sent with others, at the latest when outcomes are waited for."""
+        self._gathered.append(job)
+        if len(self._gathered) >= self._in_task():
+            self._submit()
 
     def finished(self, patience: float) -> list[Outcome]:
         """See `Crew`. Raises BackendError where the scheduler is gone."""
+        self._submit()
         self._look_for_scheduler()
         try:
             keys = [self._ended.get(timeout=patience)]
@@ -75,7 +73,33 @@ class DaskCrew:
                 keys.append(self._ended.get())
         except Empty:
             return []
-        return [_outcome(*self._running.pop(key)) for key in keys if key in self._running]
+        outcomes = [o for key in keys for o in _outcomes(*self._running.pop(key))]
+        for outcome in outcomes:
+            self._pace += 0.1 * (outcome.seconds - self._pace)
+        return outcomes
+
+    def _in_task(self) -> int:
+        """How many jobs make a task, by how long the last ones took."""
+        return max(1, min(MOST_IN_TASK, round(TASK / max(self._pace, 1e-3))))
+
+    def _submit(self) -> None:
+        """Send what is gathered as one task."""
+        jobs, self._gathered = self._gathered, []
+        if not jobs:
+            return
+        self._number += 1
+        key = f"drapery-{self._number}-{jobs[0].key[:12]}"
+        try:
+            needed = {str(path): self._send(path) for job in jobs for path in paths_of(job)}
+        except DraperyError as error:
+            self._running[key] = ([Outcome(job, str(error), True) for job in jobs], jobs)
+            self._ended.put(key)
+            return
+        future = self.client.submit(
+            task, jobs, self.store, self.limits, needed, key=key, pure=False, retries=0
+        )
+        self._running[key] = (future, jobs)
+        future.add_done_callback(lambda _: self._ended.put(key))
 
     def close(self) -> None:
         """See `Crew`."""
@@ -113,8 +137,14 @@ class DaskCrew:
         return self._sent[path]
 
 
-def task(job: Job, store: Store, limits: Limits, parcels: Sequence[Parcel]) -> Outcome:
-    """A job on a worker."""
+def task(
+    jobs: Sequence[Job], store: Store, limits: Limits, parcels: Mapping[str, Parcel]
+) -> list[Outcome]:
+    """Jobs on a worker, one after the other. parcels: packs and textures by their paths."""
+    return [_one(job, store, limits, parcels) for job in jobs]
+
+
+def _one(job: Job, store: Store, limits: Limits, parcels: Mapping[str, Parcel]) -> Outcome:
     if job.version != our_version():
         fault = (
             f"the worker runs drapery {our_version()}, the job is of {job.version};"
@@ -122,11 +152,14 @@ def task(job: Job, store: Store, limits: Limits, parcels: Sequence[Parcel]) -> O
         )
         return Outcome(job, fault)
     try:
-        here = settled(job, tuple(parcels))
+        here = settled(job, tuple(parcels[str(path)] for path in paths_of(job)))
     except DraperyError as error:
         return Outcome(job, str(error), True)
-    outcome = do(here, store) if _must_stay(store) else _guarded(here, store, limits)
-    return Outcome(job, outcome.fault, outcome.again, outcome.seconds, outcome.size, outcome.notes)
+    try:
+        outcome = do(here, store) if _must_stay(store) else _guarded(here, store, limits)
+    except MemoryError:
+        return Outcome(job, OUT_OF_MEMORY, True)
+    return replace(outcome, job=job)
 
 
 def local(workers: int, store: Store, limits: Limits) -> DaskCrew:
@@ -164,15 +197,15 @@ def _distributed() -> Any:
     return distributed
 
 
-def _outcome(future: Any, job: Job) -> Outcome:
-    if isinstance(future, Outcome):
+def _outcomes(future: Any, jobs: Sequence[Job]) -> list[Outcome]:
+    if isinstance(future, list):
         return future
     if future.status == "finished":
-        outcome: Outcome = future.result()
-        return outcome
+        outcomes: list[Outcome] = future.result()
+        return outcomes
     error = future.exception() if future.status == "error" else None
     reason = " ".join(str(error or "the cluster lost it").split())[:200]
-    return Outcome(job, f"{reason}; see the cluster's log", True)
+    return [Outcome(job, f"{reason}; see the cluster's log", True) for job in jobs]
 
 
 def _must_stay(store: Store) -> bool:

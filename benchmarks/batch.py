@@ -1,0 +1,362 @@
+"""Batches and the service, measured: `python -m benchmarks.batch WHAT [--jobs N] …`.
+
+WHAT is one of
+  overhead   the pool of one worker against the same loop in one process, and the memory of it
+  workers    what a second worker process gains
+  kills      a run killed at random moments and resumed, against an undisturbed one
+  dask       a mixed manifest on a local Dask cluster whose workers and run are killed
+  catalogue  all 16 x 43 banners of one layer as GIFs on a local Dask cluster
+  soak       the service under many clients for a while
+  scale      a simulation of a cluster: jobs, workers, the cost of each part
+Run them on a quiet machine.
+"""
+
+import argparse
+import heapq
+import json
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+import urllib.error
+import urllib.request
+from collections import Counter
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from drapery.banner.dyes import DYE_NAMES
+from drapery.banner.patterns import PATTERN_NAMES
+from drapery.batch.campaign import Tally, carry_out
+from drapery.batch.jobs import Job, do, plan
+from drapery.batch.ledger import FILE, Ledger
+from drapery.batch.manifest import read_manifest
+from drapery.batch.pool import Pool
+from drapery.batch.stores import open_store
+from drapery.batch.warming import warm
+
+
+def mixed(path: Path, count: int, size: str = "48x48", loops: int = 10) -> Path:
+    """A manifest of random banners; every `loops`-th job is a short GIF."""
+    chance = random.Random(0)
+    lines: list[dict[str, object]] = [{"defaults": {"size": size, "grid": "3x5"}}]
+    for number in range(count):
+        layers = [f"{chance.choice(PATTERN_NAMES)}:{chance.choice(DYE_NAMES)}" for _ in range(3)]
+        words = {"design": " ".join([chance.choice(DYE_NAMES), *layers]), "seed": number % 7}
+        moving = loops and number % loops == 0
+        words |= {"out": f"{number}.gif", "seconds": 0.5} if moving else {"out": f"{number}.png"}
+        lines.append(words)
+    path.write_text("\n".join(map(json.dumps, lines)))
+    return path
+
+
+def catalogue_manifest(path: Path, size: str) -> Path:
+    """All banners of one layer, as loops of a second."""
+    lines: list[dict[str, object]] = [{"defaults": {"size": size, "seconds": 1, "fps": 20}}]
+    lines += [
+        {"design": f"{'white' if dye != 'white' else 'black'} {pattern}:{dye}",
+         "out": f"{pattern}/{dye}.gif"}
+        for pattern in PATTERN_NAMES
+        for dye in DYE_NAMES
+    ]  # fmt: skip
+    path.write_text("\n".join(map(json.dumps, lines)))
+    return path
+
+
+def by_pool(jobs: list[Job], folder: Path, workers: int, tell=lambda tally: None) -> Tally:
+    """A run of a pool into a folder."""
+    store = open_store(str(folder))
+    with Ledger(folder / FILE) as book:
+        return carry_out(
+            jobs, store, book, lambda _: Pool(partial(do, store=store), workers), tell=tell
+        )
+
+
+FIRST = 20
+"""Jobs that are not timed: the first of a process is slower."""
+
+
+def timed_pool(jobs: list[Job], folder: Path, workers: int) -> tuple[float, float]:
+    """Seconds for a job of a running pool, and the part of them that is not the job itself."""
+    moments: list[tuple[float, float]] = []
+    by_pool(jobs, folder, workers, lambda tally: moments.append((time.perf_counter(), tally.busy)))
+    (start, idle), (end, busy) = moments[FIRST], moments[-1]
+    count = len(moments) - 1 - FIRST
+    return (end - start) / count, 1 - (busy - idle) / workers / (end - start)
+
+
+def overhead(jobs: list[Job], folder: Path) -> None:
+    """The same loop in one process, then the pool of one worker with as many threads."""
+    warm()
+    store = open_store(str(folder / "loop"))
+    memory = []
+    start = 0.0
+    for number, job in enumerate(jobs):
+        start = time.perf_counter() if number == FIRST else start
+        assert do(job, store).fault is None
+        if number in (len(jobs) // 4, len(jobs) - 1):
+            memory.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+    loop = (time.perf_counter() - start) / (len(jobs) - FIRST)
+    pooled, around = timed_pool(jobs, folder / "pool", 1)
+    print(f"loop {1000 * loop:.2f} ms a job, pool of one {1000 * pooled:.2f} ms")
+    print(f"overhead against the loop {100 * (pooled / loop - 1):.1f} %")
+    print(f"of the pool's time {100 * around:.1f} % is not in its jobs")
+    print(f"peak memory after a quarter {memory[0]:.0f} MiB, at the end {memory[1]:.0f} MiB")
+
+
+def workers(jobs: list[Job], folder: Path) -> None:
+    """One worker of one thread against two."""
+    os.environ["NUMBA_NUM_THREADS"] = "1"
+    warm()
+    times = {}
+    for number in (1, 2):
+        times[number], _ = timed_pool(jobs, folder / str(number), number)
+        print(f"{number} workers: {1 / times[number]:.1f} jobs/s")
+    print(f"gain {times[1] / times[2]:.2f}")
+
+
+def outputs(folder: Path) -> dict[str, bytes]:
+    """All pictures of a folder."""
+    kinds = (".png", ".gif")
+    found = (p for p in folder.rglob("*") if p.suffix in kinds and not p.name.startswith("."))
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in found}
+
+
+def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
+    """Kill workers, or the whole run, at random moments; then let it end, and compare."""
+    chance = random.Random(os.getpid())
+    calm, torn = folder / "calm", folder / "torn"
+    command = [sys.executable, "-m", "drapery", "batch", str(manifest), *words]
+    subprocess.run([*command, "-o", str(calm)], check=True, stdout=subprocess.DEVNULL)
+    told: Counter[str] = Counter()
+    for number in range(count):
+        more = ["--resume"] if (torn / FILE).exists() else []
+        run = subprocess.Popen([*command, "-o", str(torn), *more], stdout=subprocess.DEVNULL)
+        time.sleep(chance.uniform(1.0, 8.0))
+        victim = chance.choice(["worker", "run"])
+        told[_kill(run, victim)] += 1
+        print(f"kill {number + 1}: {victim}, {len(outputs(torn))} pictures", flush=True)
+        if victim == "worker":
+            time.sleep(chance.uniform(0.0, 3.0))
+            _kill(run, "run")
+        run.wait()
+    subprocess.run([*command, "-o", str(torn), "--resume"], check=True)
+    print(f"killed {dict(told)}; identical: {outputs(torn) == outputs(calm)}")
+    print(f"half-written files left: {len(list(torn.rglob('.*.part')))}")
+
+
+def _kill(run: subprocess.Popen[bytes], victim: str) -> str:
+    """Kill -9 the run, or one of its processes; which it was."""
+    import psutil
+
+    try:
+        family = psutil.Process(run.pid).children(recursive=True)
+    except psutil.NoSuchProcess:
+        return "ended"
+    if victim == "run" or not family:
+        run.send_signal(signal.SIGKILL)
+        return "run"
+    try:
+        random.choice(family).kill()
+    except psutil.NoSuchProcess:
+        return "ended"
+    return "worker"
+
+
+def soak(seconds: float, clients: int, port: int) -> None:
+    """Clients that ask for pictures, half of them known, until the time is over."""
+    command = [sys.executable, "-m", "drapery", "serve", "--port", str(port), "--rate", "0"]
+    server = subprocess.Popen(command)
+    base = f"http://127.0.0.1:{port}"
+    _await_server(base)
+    answers: Counter[int] = Counter()
+    slowest: list[float] = []
+    end = time.monotonic() + seconds
+    tasks = [
+        threading.Thread(target=_client, args=(base, n, end, answers, slowest))
+        for n in range(clients)
+    ]
+    for task in tasks:
+        task.start()
+    memory = _watch(server.pid, end)
+    for task in tasks:
+        task.join()
+    server.send_signal(signal.SIGINT)
+    server.wait(20)
+    slowest.sort()
+    print(f"{clients} clients, {seconds:.0f} s: answers {dict(answers)}")
+    print(f"median {1000 * slowest[len(slowest) // 2]:.0f} ms, slowest {slowest[-1]:.2f} s")
+    print(f"memory of all processes, MiB, each fifth of the time: {memory}")
+
+
+def _client(base: str, number: int, end: float, answers: Counter[int], took: list[float]) -> None:
+    chance = random.Random(number)
+    while time.monotonic() < end:
+        fresh = chance.random() < 0.5
+        seed = chance.randrange(1 << 31) if fresh else chance.randrange(20)
+        address = f"{base}/banner.png?design=red+border:black&size=48x64&grid=3x5&seed={seed}"
+        start = time.monotonic()
+        try:
+            with urllib.request.urlopen(address, timeout=60) as got:
+                got.read()
+                answers[got.status] += 1
+        except urllib.error.HTTPError as error:
+            answers[error.code] += 1
+        except OSError:
+            answers[-1] += 1
+        took.append(time.monotonic() - start)
+
+
+def _await_server(base: str) -> None:
+    for _ in range(300):
+        try:
+            urllib.request.urlopen(f"{base}/metrics", timeout=1).read()
+            return
+        except OSError:
+            time.sleep(0.2)
+    raise SystemExit("the service did not start")
+
+
+def _watch(pid: int, end: float) -> list[int]:
+    import psutil
+
+    seen, pause = [], (end - time.monotonic()) / 5
+    for _ in range(5):
+        time.sleep(max(0.0, pause))
+        family = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
+        seen.append(round(sum(p.memory_info().rss for p in family) / 2**20))
+    return seen
+
+
+@dataclass(frozen=True)
+class Costs:
+    """What the parts of a run cost [s]. job: drawing and storing. schedule: the scheduler's work
+    for one task. client: submitting it and writing its outcome down. trip: there and back."""
+
+    job: float
+    schedule: float
+    client: float
+    trip: float = 0.001
+
+
+def simulate(jobs: int, machines: int, ahead: int, bundle: int, costs: Costs) -> float:
+    """Seconds that a run takes, event by event.
+
+    Client and scheduler are each one thread that does one thing at a time; a worker has one
+    task in work and the others that were sent ahead waiting beside it.
+    bundle: jobs in a task. A task passes client, scheduler, worker, scheduler, client.
+    """
+    client = scheduler = end = 0.0
+    free = [0.0] * machines
+    heapq.heapify(free)
+    window: list[float] = []
+    for _ in range(-(-jobs // bundle)):
+        begin = heapq.heappop(window) if len(window) >= ahead * machines else 0.0
+        client = max(client, begin) + costs.client / 2
+        scheduler = max(scheduler, client) + costs.schedule / 2
+        start = max(heapq.heappop(free), scheduler + costs.trip / 2)
+        done = start + costs.job * bundle
+        heapq.heappush(free, done)
+        # The scheduler's and the client's second halves are charged at once: over many tasks
+        # only their sums count.
+        scheduler += costs.schedule / 2
+        client += costs.client / 2
+        end = max(end, done + costs.trip / 2)
+        heapq.heappush(window, end if done > end else done + costs.trip / 2)
+    return max(end, scheduler, client)
+
+
+def measured(folder: Path, count: int) -> Costs:
+    """The costs on this machine: a job by `do`, a task by an empty one on a local cluster, the
+    ledger by itself."""
+    import distributed
+
+    warm()
+    jobs = plan(read_manifest(mixed(folder / "m.jsonl", count, "256x320", 0)))
+    store = open_store(str(folder / "costs"))
+    start = time.perf_counter()
+    outcomes = [do(job, store) for job in jobs]
+    job = (time.perf_counter() - start) / count
+    with Ledger(folder / FILE) as book:
+        start = time.perf_counter()
+        for outcome in outcomes:
+            book.record(outcome, 1)
+        ledger = (time.perf_counter() - start) / count
+    tasks = 2000
+    with (
+        distributed.LocalCluster(
+            n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        client.submit(abs, 1).result()
+        start, used = time.perf_counter(), time.process_time()
+        client.gather([client.submit(abs, n, pure=False) for n in range(tasks)])
+        task = (time.perf_counter() - start) / tasks
+        # Scheduler and client share this process here, so half of its time is a fair guess.
+        share = (time.process_time() - used) / tasks / 2
+    print(f"measured: job {1000 * job:.1f} ms, ledger {1e6 * ledger:.0f} us,")
+    print(f"empty task {1000 * task:.2f} ms, of which the scheduler about {1000 * share:.2f} ms")
+    return Costs(job, share, share + ledger)
+
+
+def scale(costs: Costs, jobs: int, machines: int) -> None:
+    """What a large run would take, and where the scheduler is what limits it."""
+    for bundle in (1, 10):
+        seconds = simulate(jobs, machines, 2, bundle, costs)
+        ideal = jobs * costs.job / machines
+        print(
+            f"{jobs} jobs, {machines} workers, {bundle} a task: {seconds / 3600:.2f} h,"
+            f" {100 * ideal / seconds:.0f} % of the workers' time used"
+        )
+    slowest = max(costs.schedule, costs.client)
+    print(f"the limit is 1 / {1000 * slowest:.2f} ms = {1 / slowest:.0f} tasks/s,")
+    print(f"reached by {costs.job / slowest:.0f} workers at {1000 * costs.job:.1f} ms a job")
+    for count in (10, 30, 100, 300, 1000):
+        seconds = simulate(20 * count, count, 2, 1, costs)
+        used = 20 * costs.job / seconds
+        print(f"  {count:5d} workers: {100 * used:3.0f} % used, {20 * count / seconds:6.0f} jobs/s")
+
+
+def main() -> None:
+    words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    names = ("overhead", "workers", "kills", "dask", "catalogue", "soak", "scale")
+    words.add_argument("what", choices=names)
+    words.add_argument("--jobs", type=int)
+    words.add_argument("--size", default="48x48")
+    words.add_argument("--kills", type=int, default=20)
+    words.add_argument("--seconds", type=float, default=300)
+    words.add_argument("--clients", type=int, default=50)
+    words.add_argument("--machines", type=int, default=100)
+    words.add_argument("--port", type=int, default=8799)
+    asked = words.parse_args()
+    with TemporaryDirectory() as kept:
+        folder = Path(kept)
+        _measure(asked, folder)
+
+
+def _measure(asked: argparse.Namespace, folder: Path) -> None:
+    manifest = folder / "manifest.jsonl"
+    if asked.what in ("overhead", "workers"):
+        jobs = plan(read_manifest(mixed(manifest, asked.jobs or 10_000, asked.size)))
+        {"overhead": overhead, "workers": workers}[asked.what](jobs, folder)
+    elif asked.what in ("kills", "dask"):
+        more = ("--cluster",) if asked.what == "dask" else ()
+        path = mixed(manifest, asked.jobs or 1000, asked.size)
+        kills(path, folder, asked.kills, "--workers", "2", *more)
+    elif asked.what == "catalogue":
+        path = catalogue_manifest(manifest, asked.size)
+        kills(path, folder, asked.kills, "--workers", "2", "--cluster")
+    elif asked.what == "soak":
+        soak(asked.seconds, asked.clients, asked.port)
+    else:
+        scale(measured(folder, 50), asked.jobs or 1_000_000, asked.machines)
+
+
+if __name__ == "__main__":
+    main()
