@@ -73,7 +73,7 @@ def by_pool(jobs: list[Job], folder: Path, workers: int, tell=lambda tally: None
     store = open_store(str(folder))
     with Ledger(folder / FILE) as book:
         return carry_out(
-            jobs, store, book, lambda _: Pool(partial(do, store=store), workers), tell=tell
+            jobs, store, book, lambda _: Pool(partial(do, store=store), workers, ahead=2), tell=tell
         )
 
 

@@ -3,6 +3,7 @@
 import os
 import signal
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 from batch_works import job, work
@@ -64,7 +65,7 @@ def test_every_job_ends_once_after_as_many_tries_as_it_needs(
 
 def test_a_pool_outlives_what_its_jobs_do() -> None:
     names = ["die", "eat", "hang", "nibble", *(f"fine{n}" for n in range(6))]
-    pool = Pool(work, 2, Limits(seconds=1.5, memory=200 << 20))
+    pool = Pool(work, 2, Limits(seconds=1.5, memory=200 << 20), ahead=2)
     try:
         ended = dict(_ended(pool, names, Retries(0)))
     finally:
@@ -78,7 +79,7 @@ def test_a_pool_outlives_what_its_jobs_do() -> None:
 
 
 def test_a_worker_killed_from_outside_loses_no_job(tmp_path: Path) -> None:
-    pool = Pool(work, 2, Limits())
+    pool = Pool(work, 2, Limits(), ahead=2)
     mark = str(tmp_path / "mark").replace("/", "!")
     names = [f"once-die@{mark}", *(f"fine{n}" for n in range(60))]
     try:
@@ -93,6 +94,17 @@ def test_a_worker_killed_from_outside_loses_no_job(tmp_path: Path) -> None:
     assert all(fault is None and tries <= 3 for _, fault, tries in ended)
     assert {tries for key, _, tries in ended if key.startswith("once")} == {2}
     assert pool.pids() == []
+
+
+def test_a_job_for_very_many_files_does_not_choke_the_pipes() -> None:
+    outs = tuple(f"fine{n}.png" for n in range(20_000))
+    long = [replace(job(f"fine{n}"), outs=outs, places=outs) for n in range(6)]
+    pool = Pool(work, 1, Limits(seconds=20), ahead=2)
+    try:
+        ended = list(work_off(long, pool, SOON))
+    finally:
+        pool.close()
+    assert [outcome.fault for outcome, _ in ended] == [None] * 6
 
 
 def _ended(pool: Pool, names: list[str], retries: Retries):

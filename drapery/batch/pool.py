@@ -3,6 +3,7 @@
 import contextlib
 import os
 import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from multiprocessing import get_context
@@ -18,6 +19,8 @@ LOOK = 0.1
 """How often the workers' time and memory are looked at [s]."""
 MOST_STILLBORN = 10
 """Workers in a row that die before they report. Something outside may kill a few."""
+MOST_AHEAD = 100
+"""Outputs of a job that is sent while its worker is at another."""
 PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 
 
@@ -31,13 +34,16 @@ class Limits:
 
 @dataclass
 class _Hand:
-    """One worker process. ready: it has reported. resting: its memory without a job [bytes]."""
+    """One worker process. ready: it has reported. resting: its memory without a job [bytes].
+
+    jobs: sent to it, of which it does the first; began: when it began that.
+    """
 
     process: BaseProcess
     pipe: Connection
     ready: bool = False
     resting: int = 0
-    job: Job | None = None
+    jobs: deque[Job] = field(default_factory=deque)
     began: float = 0.0
 
 
@@ -47,12 +53,15 @@ class Pool:
 
     work: what does a job, a function of a module. workers: how many processes.
     threads: of each; by default its share of the cores.
+    ahead: jobs sent to a worker; with 2, the next is there when one ends.
     """
 
     work: Callable[[Job], Outcome]
     workers: int
     limits: Limits = Limits()
     threads: int | None = None
+    ahead: int = 1
+    _backlog: deque[Job] = field(default_factory=deque)
     _hands: list[_Hand] = field(default_factory=list)
     _stillborn: int = 0
 
@@ -61,15 +70,31 @@ class Pool:
 
     def free(self) -> int:
         """See `Crew`."""
-        return sum(hand.ready and hand.job is None for hand in self._hands)
+        taken = len(self._backlog) + sum(len(hand.jobs) for hand in self._hands)
+        return self.ahead * sum(hand.ready for hand in self._hands) - taken
 
     def start(self, job: Job) -> None:
         """See `Crew`."""
-        hand = next(hand for hand in self._hands if hand.ready and hand.job is None)
-        hand.job, hand.began = job, time.monotonic()
-        # A dead worker shows at its pipe's end, in `finished`.
-        with contextlib.suppress(OSError):
-            hand.pipe.send(job)
+        self._backlog.append(job)
+        self._deal()
+
+    def _deal(self) -> None:
+        """Send what waits to the workers that have least."""
+        while self._backlog:
+            hand = min(
+                (hand for hand in self._hands if hand.ready and len(hand.jobs) < self.ahead),
+                key=lambda hand: len(hand.jobs),
+                default=None,
+            )
+            # A pipe holds little, so a long job must not be sent to one who is not reading.
+            if hand is None or (hand.jobs and len(self._backlog[0].outs) > MOST_AHEAD):
+                return
+            if not hand.jobs:
+                hand.began = time.monotonic()
+            hand.jobs.append(self._backlog.popleft())
+            # A dead worker shows at its pipe's end, in `finished`.
+            with contextlib.suppress(OSError):
+                hand.pipe.send(hand.jobs[-1])
 
     def finished(self, patience: float) -> list[Outcome]:
         """See `Crew`. Raises BackendError where no worker starts."""
@@ -81,6 +106,7 @@ class Pool:
             woke = any(not hand.ready for hand in listened)
             outcomes = [o for hand in listened for o in self._hear(hand)]
             outcomes += [o for hand in list(self._hands) for o in self._check(hand)]
+            self._deal()
             if outcomes or woke or time.monotonic() >= end:
                 return outcomes
 
@@ -123,12 +149,13 @@ class Pool:
         if said is None:
             # What is left of a heap that was full is not trusted.
             return self._lost(hand, OUT_OF_MEMORY)
-        hand.job = None
+        hand.jobs.popleft()
+        hand.began = time.monotonic()
         return [said]
 
     def _check(self, hand: _Hand) -> list[Outcome]:
         """End a worker whose job is over its limits."""
-        if hand.job is None or hand not in self._hands:
+        if not hand.jobs or hand not in self._hands:
             return []
         if time.monotonic() - hand.began > self.limits.seconds:
             return self._lost(hand, f"it took over {self.limits.seconds:g} s; raise --timeout")
@@ -141,10 +168,14 @@ class Pool:
             self._stillborn += 1
             if self._stillborn >= MOST_STILLBORN:
                 raise BackendError("workers die as they start; run the jobs with `drapery render`")
-        job, took = hand.job, time.monotonic() - hand.began
-        pid = hand.process.pid
+        took, pid = time.monotonic() - hand.began, hand.process.pid
         self._replace(hand)
-        return [] if job is None else [Outcome(job, f"{why} (process {pid})", True, took)]
+        if not hand.jobs:
+            return []
+        first, *others = hand.jobs
+        # It had not begun these.
+        self._backlog.extendleft(reversed(others))
+        return [Outcome(first, f"{why} (process {pid})", True, took)]
 
     def _replace(self, hand: _Hand) -> None:
         hand.process.kill()

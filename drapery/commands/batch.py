@@ -140,7 +140,7 @@ def _hire(
             moving = [job.seconds is not None for job in jobs]
             warm(stills=not all(moving), loops=any(moving))
         if scheduler is None and not cluster:
-            return Pool(partial(do, store=store), min(count, todo), limits)
+            return Pool(partial(do, store=store), min(count, todo), limits, ahead=2)
         from drapery.batch.cluster import join, local
 
         if scheduler is None:
