@@ -11,6 +11,7 @@ from drapery.commands import (
     compare,
     doctor,
     flat,
+    gallery,
     golden,
     layers,
     model,
@@ -38,13 +39,14 @@ for name, command in {
     "compare": compare,
     "layers": layers,
     "scene": scene,
+    "gallery": gallery,
     "model": model,
     "packs": packs,
     "batch": batch,
     "serve": serve,
     "doctor": doctor,
 }.items():
-    app.command(name)(command.run)
+    app.command(name, context_settings=getattr(command, "CONTEXT", None))(command.run)
 app.add_typer(golden.app, name="golden")
 app.add_typer(sheet.app, name="sheet")
 

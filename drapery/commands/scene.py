@@ -7,8 +7,12 @@ import typer
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
 
+CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
+"""Options that are no command's own are parameters of the scene: `--script FILE`."""
+
 
 def run(
+    context: typer.Context,
     name: Annotated[
         str | None, typer.Argument(metavar="NAME", help="Which scene.", show_default=False)
     ] = None,
@@ -30,7 +34,10 @@ def run(
     size: o.SizeOption = "480x480",
     backend: o.BackendOption = "auto",
 ) -> None:
-    """Play a ready-made scene; a still picture shows its last moment."""
+    """Play a ready-made scene; a still picture shows its last moment.
+
+    A scene's parameters are options too: `--steps 4`, `--pixel-snap`.
+    """
     from drapery.errors import OptionError
 
     if show_list:
@@ -40,7 +47,8 @@ def run(
     elif out is None:
         _show_parameters(name)
     else:
-        _play(name, out, parameter or [], seconds, fps, size, backend)
+        parameters = [*(parameter or []), *_as_parameters(context.args)]
+        _play(name, out, parameters, seconds, fps, size, backend)
 
 
 def _play(
@@ -70,6 +78,21 @@ def _play(
             next(drawn).save(out)
         else:
             save_animation(drawn, fps, out, total=shot.count, progress=tick)
+
+
+def _as_parameters(arguments: list[str]) -> list[str]:
+    """`--steps 4`, `--steps=4` and `--pixel-snap` as NAME=VALUE. Raises OptionError."""
+    from drapery.errors import OptionError
+
+    found: list[str] = []
+    for argument in arguments:
+        if argument.startswith("--") and len(argument) > 2:
+            found.append(argument[2:])
+        elif found and "=" not in found[-1]:
+            found[-1] += f"={argument}"
+        else:
+            raise OptionError(f"argument {argument!r} follows no option; write --NAME VALUE")
+    return [word if "=" in word else f"{word}=yes" for word in found]
 
 
 def _words(parameters: list[str]) -> dict[str, str]:

@@ -5,6 +5,7 @@ shot)` yields one picture for each frame of the shot. The module's first line sa
 its SHOT, where it has one, is its own length and frame rate.
 """
 
+import math
 import pkgutil
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
@@ -91,12 +92,20 @@ def _value(word: str, text: str, default: Any) -> Any:
     try:
         if isinstance(default, bool):
             return {"yes": True, "true": True, "no": False, "false": False}[text.lower()]
-        if isinstance(default, int | float | str):
-            return type(default)(text)
         if isinstance(default, tuple):
             parts = text.replace("x", ",").split(",")
-            return tuple(type(d)(p) for d, p in zip(default, parts, strict=True))
+            return tuple(_number(p, type(d)) for d, p in zip(default, parts, strict=True))
+        return text if isinstance(default, str) else _number(text, type(default))
     except (KeyError, ValueError):
         pass
     example = ",".join(map(str, default)) if isinstance(default, tuple) else default
+    example = {True: "yes", False: "no"}[default] if isinstance(default, bool) else example
     raise OptionError(f"parameter {word} = {text!r} does not fit; write it like {example}")
+
+
+def _number(text: str, kind: type[Any]) -> Any:
+    """A finite number. Raises ValueError."""
+    value = kind(text)
+    if not math.isfinite(value):
+        raise ValueError(text)
+    return value

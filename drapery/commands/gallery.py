@@ -1,0 +1,108 @@
+"""`drapery gallery`: every ready-made scene as an animation, and a page that shows them all."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice, progress
+
+if TYPE_CHECKING:
+    from drapery.scenes.catalogue import Entry
+
+_PAGE = """<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>Drapery: the scenes</title>
+<style>
+  body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 84rem;
+         padding: 0 1rem; color: #28282c; background: #fdfdfb; }
+  main { display: grid; gap: 2rem; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); }
+  h2 { margin: .4rem 0 0; font-size: 1.05rem; }
+  p { margin: .1rem 0; }
+  img, video { width: 100%; display: block; image-rendering: pixelated; border-radius: 4px; }
+  code { background: #eeeeea; padding: .1rem .3rem; border-radius: 3px; }
+</style>
+<h1>The scenes</h1>
+<p>Each is one command; <code>drapery scene NAME</code> alone tells its parameters.</p>
+<main>
+{% for scene in scenes %}
+<section>
+{% if scene.file.endswith(('.mp4', '.webm')) %}
+<video autoplay loop muted playsinline src="{{ scene.file }}"></video>
+{% else %}
+<img alt="{{ scene.summary }}" src="{{ scene.file }}" loading="lazy">
+{% endif %}
+<h2>{{ scene.name }}</h2>
+<p>{{ scene.summary }}</p>
+<p><code>drapery scene {{ scene.name }} -o {{ scene.file }}</code></p>
+</section>
+{% endfor %}
+</main>
+</html>
+"""
+KINDS = ("gif", "webp", "apng", "mp4", "webm")
+
+
+def run(
+    out: Annotated[Path, typer.Option("-o", "--out", metavar="DIR", help="A folder.")],
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME]...", help="Some scenes only.", show_default="all"),
+    ] = None,
+    seconds: Annotated[float | None, typer.Option(help="Length of each; else its own.")] = None,
+    kind: Annotated[str, typer.Option("--as", help=f"One of {', '.join(KINDS)}.")] = "gif",
+    size: o.SizeOption = "480x480",
+    backend: o.BackendOption = "auto",
+) -> None:
+    """Make the gallery: all scenes, and an index page."""
+    from drapery.render.encode.output import replacing
+    from drapery.scenes.catalogue import find
+    from drapery.scenes.catalogue import names as all_names
+    from drapery.settings import one_of, pair
+
+    one_of("as", kind, KINDS)
+    scenes = [find(name) for name in names or all_names()]
+    pixels = pair("size", size)
+    _make_folder(out)
+    entries = []
+    for scene in scenes:
+        file = f"{scene.name}.{kind}"
+        _play(scene, out / file, pixels, seconds, backend)
+        entries.append({"name": scene.name, "summary": scene.summary, "file": file})
+    with replacing(out / "index.html") as page:
+        page.write_text(_rendered(entries), encoding="utf-8")
+
+
+def _play(
+    scene: "Entry", target: Path, size: tuple[int, int], seconds: float | None, backend: str
+) -> None:
+    from dataclasses import replace
+
+    from drapery.pictures import frame_count, scene_frames
+    from drapery.render.encode import check_animation_target, save_animation
+
+    check_animation_target(target)
+    shot = replace(scene.shot, size=size)
+    if seconds is not None:
+        shot = replace(shot, count=frame_count(seconds, shot.fps))
+    with compile_notice(), progress(scene.name, shot.count) as tick:
+        frames = scene_frames(scene, scene.parameters(), shot, backend)
+        save_animation(frames, shot.fps, target, total=shot.count, progress=tick)
+
+
+def _rendered(entries: list[dict[str, str]]) -> str:
+    from jinja2 import Environment
+
+    return Environment(autoescape=True).from_string(_PAGE).render(scenes=entries)
+
+
+def _make_folder(out: Path) -> None:
+    from drapery.errors import OutputError
+
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as fault:
+        raise OutputError(f"{out}: {fault.strerror}; name a folder to write in") from fault

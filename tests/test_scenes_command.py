@@ -1,0 +1,96 @@
+"""Scenes by the command line: listed, set by options, gathered in a gallery; faults in one line."""
+
+import re
+from html import escape
+
+import pytest
+from PIL import Image
+
+from drapery.scenes.catalogue import find, names
+
+
+def test_the_list_names_every_scene(drapery) -> None:
+    code, out, _ = drapery("scene", "--list")
+    assert code == 0
+    assert [line.split()[0] for line in out.splitlines()] == names()
+    assert all(len(line) < 120 for line in out.splitlines())
+
+
+def test_a_scene_alone_tells_its_parameters(drapery) -> None:
+    code, out, _ = drapery("scene", "blocky")
+    assert code == 0
+    assert "steps = 4" in out and "pixel_snap = True" in out
+
+
+def test_parameters_are_options(drapery, tmp_path) -> None:
+    ways = (
+        ["--steps", "2", "--pixel-snap", "no"],
+        ["--steps=2", "--pixel-snap=no"],
+        ["-p", "steps=2", "--set", "pixel_snap=no"],
+    )
+    pictures = []
+    for number, words in enumerate(ways):
+        target = tmp_path / f"{number}.png"
+        shot = ("--seconds", "0.05", "--size", "64x32")
+        code, _, err = drapery("scene", "blocky", *words, *shot, "-o", target)
+        assert code == 0, err
+        pictures.append(target.read_bytes())
+    assert pictures[0] == pictures[1] == pictures[2]
+
+
+def test_a_sail_obeys_its_script(drapery, tmp_path) -> None:
+    script = tmp_path / "wind.txt"
+    script.write_text("0 strength 9\n0.2 direction 60\n")
+    shot = ("--seconds", "0.4", "--fps", "10", "--size", "48x48")
+    code, _, _ = drapery("scene", "sail", "--script", script, *shot, "-o", tmp_path / "sail.gif")
+    assert code == 0
+    with Image.open(tmp_path / "sail.gif") as image:
+        assert (image.n_frames, image.size) == (4, (48, 48))
+
+
+@pytest.mark.parametrize(
+    ("words", "fault"),
+    [
+        (["nope"], "scene 'nope' is not known; use one of: banner"),
+        (["blocky", "--stps", "3"], "has no parameter 'stps'; it has: steps"),
+        (["blocky", "--pixel-snap", "maybe"], "write it like yes"),
+        (["blocky", "--steps", "0"], "steps 0 is out of range"),
+        (["blocky", "stray"], "'stray' follows no option"),
+        (["banner", "--wind", "nan"], "wind = 'nan' does not fit"),
+        (["banner", "--left", "white nosuch:red"], "nosuch"),
+        (["banner", "--left-grid", "1x5"], "columns 1"),
+        (["sail", "--script", "none.txt"], "script none.txt cannot be read"),
+        (["cape", "--dye", "sky"], "dye 'sky' is not known"),
+        ([], "no scene is named"),
+    ],
+)
+def test_a_fault_is_one_line_and_leaves_no_file(drapery, tmp_path, words, fault) -> None:
+    target = tmp_path / "x.png"
+    code, _, err = drapery("scene", *words, "-o", target, "--seconds", "0.05")
+    assert code == 2
+    assert fault in err and err.strip().count("\n") == 0
+    assert not target.exists()
+
+
+def test_the_gallery_shows_what_it_made(drapery, tmp_path) -> None:
+    folder = tmp_path / "new" / "gallery"
+    chosen = ("cape-pixel", "julia")
+    code, _, _ = drapery(
+        "gallery", *chosen, "-o", folder, "--seconds", "0.1", "--size", "96x96", "--as", "webp"
+    )
+    assert code == 0
+    page = (folder / "index.html").read_text()
+    assert re.findall(r'src="([^"]+)"', page) == [f"{name}.webp" for name in chosen]
+    for name in chosen:
+        assert escape(find(name).summary).replace("&#x27;", "&#39;") in page
+        with Image.open(folder / f"{name}.webp") as image:
+            assert image.size == (96, 96)
+
+
+def test_a_gallery_of_no_known_kind_is_refused(drapery, tmp_path) -> None:
+    code, _, err = drapery("gallery", "-o", tmp_path / "g", "--as", "bmp")
+    assert code == 2 and "use one of: gif" in err
+    assert not (tmp_path / "g").exists()
+    (tmp_path / "file").write_text("")
+    code, _, err = drapery("gallery", "julia", "-o", tmp_path / "file", "--seconds", "0.1")
+    assert code == 2 and "name a folder" in err
