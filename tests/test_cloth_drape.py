@@ -1,7 +1,9 @@
 """Cloths of every solver fall on things, lie still on them and never pass through."""
 
 import itertools
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -162,3 +164,13 @@ def test_solvers_are_found_by_name_with_their_options():
         solver("euler")
     with pytest.raises(OptionError, match="solver pbd has no option 'glue'; use one of: passes"):
         solver("pbd", glue=1)
+
+
+def test_the_page_on_solvers_runs_as_it_is_written():
+    page = (Path(__file__).parents[1] / "docs" / "solvers.md").read_text(encoding="utf-8")
+    names: dict[str, object] = {}
+    for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
+        exec(block.replace("180", "3"), names)
+    assert len(names["cloth"].inv_mass) == 11 * 21
+    first, second = itertools.islice(names["states"], 2)
+    assert second.time > first.time
