@@ -22,6 +22,7 @@ from drapery.errors import BackendError, OutputError
 
 
 def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -> None:
+    our_version.cache_clear()
     make_pack(tmp_path / "pack")
     planned = jobs.plan(read_manifest(manifest(tmp_path / "m.jsonl", 16, packs="pack")))
     calm = open_store(str(tmp_path / "calm"))

@@ -31,6 +31,10 @@ LOST_AFTER = 15.0
 """How long the scheduler may be silent [s]."""
 
 
+class LostError(BackendError):
+    """The scheduler went while jobs were in work."""
+
+
 @dataclass
 class DaskCrew:
     """A crew of a cluster's workers; see `work.Crew`. cluster: to be closed with it, or None."""
@@ -64,7 +68,7 @@ class DaskCrew:
             self._submit()
 
     def finished(self, patience: float) -> list[Outcome]:
-        """See `Crew`. Raises BackendError where the scheduler is gone."""
+        """See `Crew`. Raises LostError where the scheduler is gone."""
         self._submit()
         self._look_for_scheduler()
         try:
@@ -124,7 +128,7 @@ class DaskCrew:
         if self.client.status == "running" or not self._heard:
             self._heard = now
         if self.client.status == "closed" or now - self._heard > LOST_AFTER:
-            raise BackendError(
+            raise LostError(
                 "the cluster's scheduler is gone; start it again and go on with --resume"
             )
 

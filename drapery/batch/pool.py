@@ -64,6 +64,7 @@ class Pool:
     _backlog: deque[Job] = field(default_factory=deque)
     _hands: list[_Hand] = field(default_factory=list)
     _stillborn: int = 0
+    _looked: float = 0.0
 
     def __post_init__(self) -> None:
         self._hands = [self._hire() for _ in range(self.workers)]
@@ -105,7 +106,9 @@ class Pool:
             listened = [hand for hand in self._hands if hand.pipe in heard]
             woke = any(not hand.ready for hand in listened)
             outcomes = [o for hand in listened for o in self._hear(hand)]
-            outcomes += [o for hand in list(self._hands) for o in self._check(hand)]
+            if time.monotonic() - self._looked >= LOOK:
+                self._looked = time.monotonic()
+                outcomes += [o for hand in list(self._hands) for o in self._check(hand)]
             self._deal()
             if outcomes or woke or time.monotonic() >= end:
                 return outcomes

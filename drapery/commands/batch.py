@@ -62,6 +62,7 @@ def run(
     ] = None,
 ) -> None:
     """Draw all jobs of a manifest; exit code 0, 1 where some failed, 2 for a bad manifest."""
+    from drapery.batch.cluster import LostError
     from drapery.batch.ledger import Ledger
     from drapery.batch.page import numbers, write_page
     from drapery.batch.stores import open_store
@@ -76,7 +77,11 @@ def run(
     start = monotonic()
     with Ledger(_ledger_path(store, ledger, resume)) as book, compile_notice():
         hire = _hire(store, workers, cluster, scheduler, timeout, memory << 20, jobs)
-        tally = _carry_out(jobs, store, book, hire, resume, retries)
+        try:
+            tally = _carry_out(jobs, store, book, hire, resume, retries)
+        except LostError as error:
+            say(str(error))
+            raise typer.Exit(1) from None
         seconds = monotonic() - start
         write_page(f"{manifest.name} in {store.label}", tally, seconds, book.known(), store)
     _summarise(numbers(tally, seconds), tally)
