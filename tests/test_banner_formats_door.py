@@ -150,3 +150,14 @@ def test_shorthand_and_json_load_no_grammar():
         "sys.exit(any(m in sys.modules for m in ('lark', 'nbtlib', 'numpy')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_a_folder_that_is_no_world_is_named(tmp_path: Path):
+    with pytest.raises(DesignError, match="a folder, and no Java world"):
+        read_designs(str(tmp_path))
+
+
+def test_a_folder_does_not_hide_a_word(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    (tmp_path / "red").mkdir()
+    monkeypatch.chdir(tmp_path)
+    assert read_designs("red")[0].banner == RED

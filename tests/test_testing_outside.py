@@ -132,6 +132,15 @@ def test_harmed_and_unused_goldens_are_named_by_workers_in_one_report(
     page = (project / "drapery-report/index.html").read_text()
     assert "4 pictures not as expected" in page
 
+    test.write_text(
+        "import numpy as np\n"
+        "def test_slack(golden):\n"
+        "    golden(np.zeros((1, 1), np.uint8), tolerance=300)\n"
+    )
+    slack = run("test_many.py", "--drapery-report", "elsewhere")
+    assert "tolerance 300 of 0 pixels is out of range" in slack.stdout
+    assert "golden.py" not in slack.stdout
+
 
 def _harm(path: Path, harm: bytes | str | tuple[int, int]) -> None:
     if isinstance(harm, bytes):

@@ -34,7 +34,10 @@ class Tolerance:
 
     def __post_init__(self) -> None:
         if not (0 <= self.channel <= 255 and self.pixels >= 0):
-            raise OptionError(f"tolerance {self} is out of range; use 0..255 and 0 or more pixels")
+            raise OptionError(
+                f"tolerance {self.channel} of {self.pixels} pixels is out of range;"
+                " use 0 to 255, and 0 or more pixels"
+            )
 
 
 def as_frame(picture: Any) -> Frame:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from drapery.errors import DraperyError
+
 if TYPE_CHECKING:
     from drapery.banner.design import Banner
 
@@ -77,16 +79,19 @@ def golden(request: pytest.FixtureRequest) -> Golden:
         packs: Sequence[str | Path] = (),
     ) -> None:
         __tracebackhide__ = True
-        fault = check_golden(
-            request,
-            picture,
-            name=name,
-            tolerance=(tolerance, pixels),
-            hashed=hashed,
-            backend=backend,
-            design=None if banner is None else (banner, tuple(packs)),
-            report=_report_folder(request.config),
-        )
+        try:
+            fault = check_golden(
+                request,
+                picture,
+                name=name,
+                tolerance=(tolerance, pixels),
+                hashed=hashed,
+                backend=backend,
+                design=None if banner is None else (banner, tuple(packs)),
+                report=_report_folder(request.config),
+            )
+        except DraperyError as error:
+            fault = str(error)
         if fault is not None:
             pytest.fail(fault, pytrace=False)
 

@@ -246,6 +246,8 @@ def _as_path(source: str | Path) -> Path | None:
     try:
         if path.exists() and (not path.is_dir() or _is_world(path)):
             return path
+        if path.is_dir() and path.name != source:
+            raise DesignError(f"{shown(source, 80)}: a folder, and no Java world; give a file")
     except OSError:
         return None
     if path.suffix.lower() in _SUFFIXES and not set('{}[]"').intersection(source):
