@@ -13,6 +13,7 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
 from drapery.errors import DesignError
 from drapery.render.frame import Animation, Frame, Pixels
+from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
 from drapery.settings import (
     MAX_FRAMES,
@@ -164,7 +165,8 @@ def _drawn(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterato
 
     draw_scene = backend(settings.backend)
     for number, scene in enumerate(scenes):
-        yield draw_scene(scene)
+        frame = draw_scene(scene)
+        yield frame if settings.pixel == 1 else enlarge(frame, settings.pixel)
         if number == 0:
             tell(packs)
 

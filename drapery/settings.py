@@ -13,12 +13,17 @@ Pose = Literal["cloth", "vanilla"]
 Placement = Literal["standing", "wall", "item"]
 Facing = Literal["south", "west", "north", "east"]
 LayerMode = Literal["stacked", "flat"]
+Samples = Literal[1, 4, 16]
+Lighting = Literal["game", "flat"]
 
 MAX_SIDE = 8192
 """The widest and tallest picture [pixels]."""
 MAX_GRID = 129
 """The most particles along one side of a flag."""
 MAX_FRAMES = 3600
+MAX_PIXEL = 64
+MAX_LIGHT = 15
+"""Light levels as the game counts them."""
 ROTATIONS = 16
 """A standing banner turns in steps of a sixteenth."""
 MAX_FORMAT = 9999
@@ -46,6 +51,13 @@ class Options(TypedDict, total=False):
     pbr: bool
     thickness: float
     background: str
+    samples: Samples
+    pixel: int
+    light: Lighting
+    block_light: int
+    sky_light: int
+    daylight: float
+    shadow: bool
     backend: str
 
 
@@ -72,6 +84,12 @@ class Settings:
         `pyrender` by roughness, metal and glow as well.
     thickness: of the cloth, in texels of the flag (1/24 m); 0 is a bare sheet.
     background: `transparent` or `#rrggbb`.
+    samples: 1, 4 or 16 for each pixel; 1 is pixel art's hard edge.
+    pixel: the picture is drawn smaller by this and every pixel enlarged to a square of it.
+    light: the `game`'s two lights, or `flat`, the plain colours of the textures.
+    block_light, sky_light: levels 0..15 of torches and of the sky where the banner hangs.
+    daylight: 1 at noon, 0 at night.
+    shadow: a soft shadow on the floor beneath.
     backend: `auto`, `soft`, `pyrender`, or one that an installed package adds.
     """
 
@@ -93,6 +111,13 @@ class Settings:
     pbr: bool = False
     thickness: float = 1.0
     background: str = "transparent"
+    samples: Samples = 1
+    pixel: int = 1
+    light: Lighting = "game"
+    block_light: int = 0
+    sky_light: int = MAX_LIGHT
+    daylight: float = 1.0
+    shadow: bool = False
     backend: str = "auto"
 
     def __post_init__(self) -> None:
@@ -114,6 +139,21 @@ class Settings:
         whole("seed", self.seed, 0, 2**32 - 1)
         within("thickness", self.thickness, 0, 8, "texels")
         background_colour(self.background)
+        self._check_picture()
+
+    def _check_picture(self) -> None:
+        if self.samples not in get_args(Samples):
+            raise OptionError(f"samples {self.samples} is not known; use one of: 1, 4, 16")
+        whole("pixel", self.pixel, 1, MAX_PIXEL)
+        if any(side % self.pixel for side in self.size):
+            width, height = self.size
+            raise OptionError(
+                f"size {width}x{height} is not whole in pixels of {self.pixel}; use a multiple"
+            )
+        one_of("light", self.light, get_args(Lighting))
+        whole("block_light", self.block_light, 0, MAX_LIGHT)
+        whole("sky_light", self.sky_light, 0, MAX_LIGHT)
+        within("daylight", self.daylight, 0, 1)
 
     def _check_turn(self) -> None:
         whole("rotation", self.rotation, 0, ROTATIONS - 1)
@@ -124,6 +164,11 @@ class Settings:
         if self.rotation and self.placement != "standing":
             remedy = "use facing on a wall" if self.placement == "wall" else "leave it out"
             raise OptionError(f"rotation {self.rotation} is of what stands; {remedy}")
+
+    @property
+    def drawn_size(self) -> tuple[int, int]:
+        """Width and height [pixels] of the picture before its pixels are enlarged."""
+        return self.size[0] // self.pixel, self.size[1] // self.pixel
 
     @property
     def turned(self) -> float:

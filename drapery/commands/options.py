@@ -81,6 +81,13 @@ PbrOption = Annotated[
 ]
 ThicknessOption = Annotated[float, typer.Option(help="Thickness of the cloth in texels.")]
 BackgroundOption = Annotated[str, typer.Option(help="transparent or #rrggbb.")]
+SamplesOption = Annotated[int, typer.Option(help="1, 4 or 16 samples a pixel.")]
+PixelOption = Annotated[int, typer.Option(help="Draw smaller, each pixel a square of N.")]
+LightOption = Annotated[str, typer.Option(help="game (its two lights) or flat (plain colours).")]
+BlockLightOption = Annotated[int, typer.Option(help="Light level of torches, 0 to 15.")]
+SkyLightOption = Annotated[int, typer.Option(help="Light level of the sky, 0 to 15.")]
+DaylightOption = Annotated[float, typer.Option(help="1 at noon, 0 at night.")]
+ShadowOption = Annotated[bool, typer.Option("--shadow", help="A soft shadow on the floor.")]
 BackendOption = Annotated[str, typer.Option(help="auto, soft or pyrender.")]
 
 

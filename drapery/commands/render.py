@@ -37,6 +37,13 @@ def run(
     pbr: o.PbrOption = False,
     thickness: o.ThicknessOption = 1.0,
     background: o.BackgroundOption = "transparent",
+    samples: o.SamplesOption = 1,
+    pixel: o.PixelOption = 1,
+    light: o.LightOption = "game",
+    block_light: o.BlockLightOption = 0,
+    sky_light: o.SkyLightOption = 15,
+    daylight: o.DaylightOption = 1.0,
+    shadow: o.ShadowOption = False,
     backend: o.BackendOption = "auto",
 ) -> None:
     """Draw a banner, shield, cape or elytra and write one picture."""

@@ -20,7 +20,9 @@ from drapery.banner.packs import Packs
 from drapery.cloth import Cloth, Gravity, Wind, grid, rest_state, simulate
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.camera import Camera
+from drapery.render.light import UNLIT, Light, lit_at
 from drapery.render.scene import Model, Scene
+from drapery.render.shadow import contact_shadow
 from drapery.render.views import VIEWS, frame_view, turntable
 from drapery.settings import Settings, background_colour
 from drapery.style.block import turn
@@ -100,15 +102,26 @@ def _scenes(
     points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in (*parts, *cloths)])
     dresses = [part.dress for part in body.parts] + [panel.dress for panel in body.panels]
     cameras = _cameras(body, settings, points, len(times))
+    floor = min(0.0, float(points[:, 1].min()))
     for frame, (time, camera) in enumerate(zip(times, cameras, strict=True)):
         meshes = [*parts, *(_moment(cloth, frame) for cloth in cloths)]
+        models = [Model(mesh, (at(time),)) for mesh, at in zip(meshes, dresses, strict=True)]
+        if settings.shadow:
+            models.insert(0, contact_shadow(models, floor))
         yield Scene(
-            tuple(Model(mesh, (at(time),)) for mesh, at in zip(meshes, dresses, strict=True)),
+            tuple(models),
             camera,
-            settings.size,
-            body.light,
+            settings.drawn_size,
+            _light(body, settings),
             background_colour(settings.background),
+            settings.samples,
         )
+
+
+def _light(body: Body, settings: Settings) -> Light:
+    """What falls on the body: its own light where the world's has these levels."""
+    light = UNLIT if settings.light == "flat" else body.light
+    return lit_at(light, settings.block_light, settings.sky_light, settings.daylight)
 
 
 def _turned(mesh: Mesh, settings: Settings) -> Mesh:
