@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drapery.assets.bitmaps import centred, shades
+from drapery.assets.bitmaps import charge
 from drapery.assets.canvas import FLAG, Grey, Texels, blank, grey_texels, wrap
 from drapery.assets.charges import CHARGES
 from drapery.assets.shading import cloth, seam, times
@@ -16,8 +16,7 @@ UNDYED = 235
 def figure(pattern: str) -> tuple[Grey, Grey]:
     """Coverage and own shade of a pattern on the flag's face, shape [40, 20] each."""
     if pattern in CHARGES:
-        drawing = centred(shades(CHARGES[pattern]), FLAG.width, FLAG.height)
-        return np.where(drawing > 0, 255, 0).astype(np.uint8), drawing
+        return charge(CHARGES[pattern], FLAG.width, FLAG.height)
     coverage = SHAPES[pattern](FLAG.width, FLAG.height)
     return coverage, seam(coverage)
 

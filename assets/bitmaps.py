@@ -22,6 +22,12 @@ def shades(drawing: str) -> Grey:
     return np.array(values, np.uint8)
 
 
+def charge(drawing: str, width: int, height: int) -> tuple[Grey, Grey]:
+    """Coverage and shade of a drawing in the middle of a face, shape [height, width] each."""
+    shade = centred(shades(drawing), width, height)
+    return np.where(shade > 0, 255, 0).astype(np.uint8), shade
+
+
 def centred(drawing: Grey, width: int, height: int) -> Grey:
     """The drawing in the middle of a face, open all around, shape [height, width]."""
     rows, columns = drawing.shape

@@ -6,7 +6,7 @@ within the rim, 10 x 20, on the front alone: the back of a shield is bare wood.
 
 import numpy as np
 
-from drapery.assets.bitmaps import centred, shades
+from drapery.assets.bitmaps import centred, charge
 from drapery.assets.canvas import HANDLE, PLATE, Box, Grey, Region, Texels, blank, grey_texels, put
 from drapery.assets.noise import Field, speckle
 from drapery.assets.shading import times
@@ -38,8 +38,7 @@ def boards(width: int, height: int) -> Grey:
 def field_figure(pattern: str) -> tuple[Grey, Grey]:
     """Coverage and own shade of a pattern on the field, shape [20, 10] each."""
     if pattern in SHIELD_CHARGES:
-        drawing = centred(shades(SHIELD_CHARGES[pattern]), FIELD.width, FIELD.height)
-        return np.where(drawing > 0, 255, 0).astype(np.uint8), drawing
+        return charge(SHIELD_CHARGES[pattern], FIELD.width, FIELD.height)
     coverage = SHAPES[pattern](FIELD.width, FIELD.height)
     return coverage, np.full_like(coverage, 255)
 
