@@ -13,9 +13,7 @@ from drapery.style.boxes import Box, box_mesh, upright
 from drapery.style.layers import wood_look
 
 SKY = (168, 204, 242, 255)
-DUSK = (58, 62, 92, 255)
-STUDIO = (226, 228, 232, 255)
-"""Backgrounds, sRGB and opaque: out of doors by day, in the evening, and for things on show."""
+"""The background out of doors by day, sRGB and opaque."""
 
 SHADOW = 84
 """How dark a shadow is in its middle, 0..255."""
