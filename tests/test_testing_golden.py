@@ -11,7 +11,7 @@ from drapery.banner.packs import open_packs
 from drapery.compare.metrics import measure
 from drapery.errors import OptionError
 from drapery.render.frame import Frame
-from drapery.testing.explain import explain, layer_notes
+from drapery.testing.explain import explain_change, layer_notes
 from drapery.testing.golden import GoldenError, Tolerance, agrees, as_frame, decode, encode
 
 
@@ -71,7 +71,7 @@ def test_a_moved_layer_is_recognised() -> None:
     after = [dict(note) for note in before]
     for shift in (1, 3):
         after[3] = {"name": before[3]["name"], "face": _shifted(before[3]["face"], shift)}
-        line = explain(noise(1), noise(2), before, after)
+        line = explain_change(noise(1), noise(2), before, after)
         assert line.startswith(f"layer 2 (border, black) moved by {shift} texel")
         assert "pixels differ, max" in line
 
@@ -81,10 +81,10 @@ def test_other_dyes_and_counts_are_named() -> None:
     before = layer_notes(Banner.parse("white creeper:lime"), packs)
     dyed = layer_notes(Banner.parse("white creeper:red"), packs)
     more = layer_notes(Banner.parse("white creeper:lime border:red"), packs)
-    assert "layer 1 (creeper, lime) became (creeper, red)" in explain(
+    assert "layer 1 (creeper, lime) became (creeper, red)" in explain_change(
         noise(1), noise(2), before, dyed
     )
-    assert "1 layers became 2" in explain(noise(1), noise(2), before, more)
+    assert "1 layers became 2" in explain_change(noise(1), noise(2), before, more)
 
 
 def _shifted(face: str, down: int) -> str:

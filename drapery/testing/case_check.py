@@ -13,7 +13,7 @@ from drapery.render.encode.output import make_folder, replacing
 from drapery.render.frame import Frame
 from drapery.settings import Options
 from drapery.testing.cases import Case, CaseFile
-from drapery.testing.explain import LayerNote, explain, layer_notes
+from drapery.testing.explain import LayerNote, explain_change, layer_notes
 from drapery.testing.failures import keep_failure
 from drapery.testing.golden import (
     GoldenError,
@@ -110,6 +110,6 @@ def _fault(
         return f"{path}: {error}; restore it, or replace it with `drapery golden update`"
     if agrees(expected, frame, Tolerance(case.tolerance, case.pixels)):
         return None
-    line = explain(expected, frame, before, notes)
+    line = explain_change(expected, frame, before, notes)
     keep_failure(report, "case", case.name, expected, frame, line)
     return line

@@ -11,7 +11,7 @@ from syrupy.location import PyTestLocation
 from drapery.banner.design import Banner
 from drapery.render.frame import Frame
 from drapery.render.scene import Scene
-from drapery.testing.explain import LayerNote, explain, layer_notes
+from drapery.testing.explain import LayerNote, explain_change, layer_notes
 from drapery.testing.failures import keep_failure
 from drapery.testing.golden import (
     GoldenError,
@@ -161,6 +161,6 @@ def _fault(
             f"golden {label!r}: {path}: {error}; restore the file, or replace it with"
             " --drapery-update"
         )
-    line = explain(expected, frame, before, notes)
+    line = explain_change(expected, frame, before, notes)
     kept = keep_failure(report, test, label, expected, frame, line)
     return f"golden {label!r}: {line}; see {kept}{accept}"

@@ -32,7 +32,7 @@ def layer_notes(banner: Banner, packs: Packs) -> list[LayerNote]:
     ]
 
 
-def explain(
+def explain_change(
     expected: Frame,
     actual: Frame,
     before: list[LayerNote] | None = None,
