@@ -8,6 +8,8 @@ import yaml
 from conftest import Run
 from hypothesis import given
 from hypothesis import strategies as st
+from test_banner_binary_files import make_world
+from world_maker import LIME, RED, SHIELD
 
 from drapery.banner.design import Banner, Layer
 from drapery.batch.jobs import plan
@@ -140,6 +142,18 @@ def test_each_banner_of_a_file_of_banners_is_a_job(tmp_path: Path) -> None:
     assert {r.settings.size for r in requests} == {(8, 8)}
     first, second = plan(requests)
     assert (len(first.outs), len(second.outs)) == (2, 1)
+
+
+def test_each_banner_of_a_world_is_a_job_named_by_its_place(tmp_path: Path) -> None:
+    make_world(tmp_path / "world")
+    requests = read_manifest(tmp_path / "world", {"size": "8x8"})
+    assert [(r.out, r.banner) for r in requests] == [
+        ("level.dat.Data.Player.Item.png", LIME),
+        ("DIM-1_region_r.0.0.mca_chunk_3_0_block_48_71_9.png", RED),
+        ("dimensions_a_b_entities_r.0.0.mca_chunk_3_0_block_48_71_9.png", RED),
+        ("playerdata_x.dat.Inventory_0.png", SHIELD),
+        ("region_r.0.0.mca_chunk_3_0_block_48_71_9.png", RED),
+    ]
 
 
 def test_a_design_may_be_a_file_beside_the_manifest(tmp_path: Path) -> None:

@@ -47,14 +47,14 @@ class Meters:
     """What /metrics tells."""
 
     def __init__(self) -> None:
-        self.registry = CollectorRegistry()
-        of = {"registry": self.registry}
-        self.requests = Counter("drapery_requests", "Requests.", ["path", "status"], **of)
-        self.drawn = Counter("drapery_drawn", "Pictures drawn.", **of)
-        self.kept = Counter("drapery_kept", "Pictures answered from those drawn before.", **of)
-        self.waiting = Gauge("drapery_waiting", "Pictures asked for and not there yet.", **of)
-        self.shelf = Gauge("drapery_shelf_bytes", "Bytes of pictures kept.", **of)
-        self.seconds = Histogram("drapery_draw_seconds", "Time to draw a picture.", **of)
+        own = self.registry = CollectorRegistry()
+        counted = ["path", "status"]
+        self.requests = Counter("drapery_requests", "Requests.", counted, registry=own)
+        self.drawn = Counter("drapery_drawn", "Pictures drawn.", registry=own)
+        self.kept = Counter("drapery_kept", "Pictures drawn before.", registry=own)
+        self.waiting = Gauge("drapery_waiting", "Pictures to be drawn.", registry=own)
+        self.shelf = Gauge("drapery_shelf_bytes", "Bytes of pictures kept.", registry=own)
+        self.seconds = Histogram("drapery_draw_seconds", "Time of a drawing.", registry=own)
 
 
 class Studio:
