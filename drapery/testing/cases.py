@@ -24,7 +24,18 @@ from typing import Any, cast
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from drapery.errors import OptionError
-from drapery.settings import Facing, Kind, LayerMode, Options, Placement, Pose, Settings, pair
+from drapery.settings import (
+    Facing,
+    Kind,
+    LayerMode,
+    Lighting,
+    Options,
+    Placement,
+    Pose,
+    Samples,
+    Settings,
+    pair,
+)
 
 MAX_FILE = 4 << 20
 MAX_CASES = 100_000
@@ -58,6 +69,13 @@ class Case(BaseModel):
     pbr: bool = Settings.pbr
     thickness: float = Settings.thickness
     background: str = Settings.background
+    samples: Samples = Settings.samples
+    pixel: int = Settings.pixel
+    light: Lighting = Settings.light
+    block_light: int = Settings.block_light
+    sky_light: int = Settings.sky_light
+    daylight: float = Settings.daylight
+    shadow: bool = Settings.shadow
     backend: str = Settings.backend
 
     @field_validator("size", "grid", mode="before")
