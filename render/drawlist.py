@@ -17,7 +17,7 @@ from drapery.mesh import Array, Triangles
 from drapery.render.light import Light
 from drapery.render.recent import Recent
 from drapery.render.scene import Model
-from drapery.render.wardrobe import Wardrobe, wardrobe
+from drapery.render.wardrobe import Wardrobe, make_wardrobe
 
 Float32 = NDArray[np.float32]
 
@@ -111,7 +111,7 @@ def _merge(models: Sequence[Model]) -> Topology:
             [empty[:, 0], *(_looks(m, f) for m, f in zip(models, first_look, strict=False))]
         ),
         starts,
-        wardrobe(looks),
+        make_wardrobe(looks),
     )
 
 

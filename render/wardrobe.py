@@ -41,7 +41,7 @@ class Wardrobe:
 _recent: Recent[Wardrobe] = Recent()
 
 
-def wardrobe(looks: Sequence[Look]) -> Wardrobe:
+def make_wardrobe(looks: Sequence[Look]) -> Wardrobe:
     """The tables of these looks; look i keeps its place, and each texture is packed once.
 
     Raises OptionError for a look without coats or a texture that is none.

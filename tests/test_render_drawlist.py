@@ -12,7 +12,7 @@ from drapery.render.atlas import PADDING, make_atlas
 from drapery.render.drawlist import draw_list, topology
 from drapery.render.light import GAME_LIGHT
 from drapery.render.scene import Coat, Look, Model
-from drapery.render.wardrobe import wardrobe
+from drapery.render.wardrobe import make_wardrobe
 
 SIZES = st.lists(st.tuples(st.integers(1, 70), st.integers(1, 70)), min_size=1, max_size=40)
 
@@ -54,7 +54,7 @@ def test_each_texture_is_packed_once() -> None:
     """However many coats wear it, in whatever tint, and if it was loaded twice."""
     texels = noise(1, 16, 16)
     coats = [Coat(texels, (i, 0, 0)) for i in range(50)] + [Coat(texels.copy())]
-    worn = wardrobe([Look((coat,)) for coat in coats])
+    worn = make_wardrobe([Look((coat,)) for coat in coats])
     assert len(np.unique(worn.coat_rects, axis=0)) == 1
     assert worn.atlas.shape == (18, 18, 4)
     assert (worn.coat_tints[:50, 0] == np.arange(50)).all()

@@ -13,7 +13,7 @@ from PIL import Image, ImageSequence
 
 from drapery.errors import BackendError, OptionError, OutputError
 from drapery.render.encode import save_animation, save_frame
-from drapery.render.encode.delays import delays
+from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import ColourTable, median_cut, reduced
 from drapery.render.frame import Animation, Frame
 
@@ -134,7 +134,7 @@ def test_a_matte_takes_the_half_transparent_pixels_of_a_gif(tmp_path: Path) -> N
 
 @pytest.mark.parametrize("fps", [20, 24, 29.97, 50, 3])
 def test_delays_add_up(fps: float) -> None:
-    times = [t for t, _ in zip(delays(fps, 100), range(997), strict=False)]
+    times = [t for t, _ in zip(frame_delays(fps, 100), range(997), strict=False)]
     assert abs(sum(times) - 997 * 100 / fps) <= 0.5
     assert max(times) - min(times) <= 1
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import count
 
 
-def delays(fps: float, ticks_per_second: int) -> Iterator[int]:
+def frame_delays(fps: float, ticks_per_second: int) -> Iterator[int]:
     """Each frame's time in ticks; their sum is never more than half a tick from the true time."""
     step = ticks_per_second / Fraction(fps)
     for frame in count():

@@ -17,7 +17,7 @@ from PIL import GifImagePlugin, Image
 from drapery.errors import OptionError
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import Patch, bounding_box, changed_patch, cut, with_previous
-from drapery.render.encode.delays import delays
+from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
 from drapery.render.frame import Frame
 
@@ -55,7 +55,7 @@ def write_gif(
     squeezed = list(encode_ahead(frames, partial(_squeeze, table, matte), workers=1))
     paint, shared = _painter(table, max(frame.colours for frame in squeezed))
     clear = bool(table.counts[0])
-    times = delays(fps, 100) if len(squeezed) > 1 else iter([0])
+    times = frame_delays(fps, 100) if len(squeezed) > 1 else iter([0])
     pages = zip(_patches(squeezed, clear), times, strict=False)
     file.write(_header(squeezed[0].size, shared) + (LOOP_FOREVER if len(squeezed) > 1 else b""))
     for data in encode_ahead(pages, lambda page: _frame_data(*page, paint, shared is None, clear)):

@@ -103,7 +103,12 @@ def median_cut(colours: Colours, counts: NDArray[np.int64], size: int) -> Colour
 
 
 def nearest(colours: Colours, palette: Colours) -> NDArray[np.intp]:
-    """For each colour the place of the closest palette entry, the first of equals."""
-    parts = np.array_split(colours.astype(np.int32), len(colours) // 2048 + 1)
-    wide = palette.astype(np.int32)
-    return np.concatenate([((p[:, None] - wide) ** 2).sum(-1).argmin(1) for p in parts])
+    """For each colour the place of the closest palette entry, the first of equals.
+
+    |c - p|² = |c|² + (|p|² - 2 c·p): whole numbers under 2^24, so that a product of matrices is
+    exact in single precision, in whatever order it is summed.
+    """
+    parts = np.array_split(colours.astype(np.float32), len(colours) // 4096 + 1)
+    wide = palette.astype(np.float32)
+    squares = (wide * wide).sum(axis=1)
+    return np.concatenate([(squares - 2 * (part @ wide.T)).argmin(axis=1) for part in parts])

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from drapery.errors import OutputError
-from drapery.render.encode.delays import delays
+from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.output import replacing
 from drapery.render.encode.png import png_bytes
 from drapery.render.frame import Frame, Pixels
@@ -40,7 +40,7 @@ def sheet_index(frames: Sequence[Frame], fps: float, name: str) -> dict[str, Any
     """The JSON beside the sheet; `name` is the sheet's file name, durations are in ms."""
     height, width = frames[0].pixels.shape[:2]
     columns, rows = grid_of(len(frames), width, height)
-    times, whole = delays(fps, 1000), {"x": 0, "y": 0, "w": width, "h": height}
+    times, whole = frame_delays(fps, 1000), {"x": 0, "y": 0, "w": width, "h": height}
     return {
         "frames": {
             f"frame_{number:04d}.png": {

@@ -13,7 +13,7 @@ from PIL import Image
 
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import Patch, changed_patch, with_previous
-from drapery.render.encode.delays import delays
+from drapery.render.encode.delays import frame_delays
 from drapery.render.frame import Frame, Pixels
 
 ANIMATED_WITH_ALPHA = 0x12
@@ -31,7 +31,7 @@ def webp_bytes(pixels: Pixels, method: int = 4) -> bytes:
 
 def write_webp(file: BinaryIO, frames: Iterable[Frame], fps: float) -> None:
     """An animation that loops forever; each frame replaces its rectangle, without blending."""
-    pairs, times = with_previous(frame.pixels for frame in frames), delays(fps, 1000)
+    pairs, times = with_previous(frame.pixels for frame in frames), frame_delays(fps, 1000)
     for count, (patch, webp) in enumerate(encode_ahead(pairs, _encode_patch)):
         if count == 0:
             height, width = patch.pixels.shape[:2]
