@@ -1,4 +1,4 @@
-"""Banners of small grids on their poles, waving: the mod's own first picture."""
+"""Banners of small grids on their poles, waving in a breeze."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A cube of 17 x 17 x 17 banners, all simulated at once: the mod's stress test."""
+"""A cube of 17 x 17 x 17 banners, all simulated at once."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
