@@ -49,12 +49,29 @@ class BandFilter(NamedTuple):
     mass: Array
 
 
+class SheetFilter(NamedTuple):
+    """W of a regular grid laid out as rows of lanes; see `drapery.cloth.sheets`.
+
+    into: [C, W], each column's part of each wave along the row; back: the other way.
+    near, far, inverse: of each wave's column, L one and two below the diagonal and 1 / D, [R, W].
+    first: the first free row. release: [P, R, W], see `Filter`.
+    """
+
+    into: Array
+    back: Array
+    near: Array
+    far: Array
+    inverse: Array
+    first: int
+    release: Array
+
+
 def cloth_filter(cloth: Cloth, dt: float) -> Filter | BandFilter:
     """The cheapest filter for this cloth."""
     columns = cloth.grid_shape[1] if cloth.grid_shape else 0
     pins = np.flatnonzero(cloth.inv_mass == 0)
     hangs = np.array_equal(pins, np.arange(columns))
-    if _is_regular(cloth) and (hangs or len(pins) <= MANY_PINS):
+    if is_regular(cloth) and (hangs or len(pins) <= MANY_PINS):
         return separable_filter(cloth, dt)
     if len(cloth.inv_mass) > DENSE:
         return band_filter(cloth, dt)
@@ -144,12 +161,74 @@ def separable_filter(cloth: Cloth, dt: float) -> Filter:
     hangs = np.array_equal(pins, np.arange(columns))
     V, r = _hanging(rows - 1) if hangs else _free(rows)
     U, c = _free(columns)
-    k = [_stiffness(cloth, kind) for kind in range(3)]
-    r = np.expand_dims(r, 1)
-    H = k[0] * (r + c) + k[1] * (r * c + 2 * r + 2 * c) + k[2] * (r * r + 4 * r + c * c + 4 * c)
-    spectrum = 1 / (1 - dt**2 * cloth.inv_mass.max() * H)
+    spectrum = _spectrum(cloth, r, c, dt)
     matrices, products = _products(V, U, spectrum, columns * int(hangs))
     return Filter(matrices, products, _release(V, U, spectrum, pins, hangs))
+
+
+def _spectrum(cloth: Cloth, rows: Array, columns: Array, dt: float) -> Array:
+    """W of each wave: 1-D eigenvalues of the rows [R] and columns [C] to [R, C]."""
+    r, c = rows[:, None], columns[None]
+    k = [_stiffness(cloth, kind) for kind in range(3)]
+    H = k[0] * (r + c) + k[1] * (r * c + 2 * r + 2 * c) + k[2] * (r * r + 4 * r + c * c + 4 * c)
+    spectrum: Array = 1 / (1 - dt**2 * cloth.inv_mass.max() * H)
+    return spectrum
+
+
+def sheet_filter(cloth: Cloth, dt: float, width: int) -> SheetFilter:
+    """The filter of `separable_filter`, with the waves' columns solved instead of multiplied.
+
+    Along a column the Laplacian is a band of one, its square a band of two.
+    """
+    assert cloth.grid_shape is not None
+    rows, columns = cloth.grid_shape
+    pins = np.flatnonzero(cloth.inv_mass == 0)
+    hangs = np.array_equal(pins, np.arange(columns))
+    U, c = _free(columns)
+    V, r = _hanging(rows - 1) if hangs else _free(rows)
+    L = np.diag(np.full(len(V), -2.0)) + np.eye(len(V), k=1) + np.eye(len(V), k=-1)
+    L[-1, -1] = -1.0
+    if not hangs:
+        L[0, 0] += 1.0
+    square = L @ L  # whole numbers, exact in any order
+    k = [_stiffness(cloth, kind) for kind in range(3)]
+    a = dt**2 * cloth.inv_mass.max()
+    linear, constant = k[0] + k[1] * (c + 2) + 4 * k[2], (k[0] + 2 * k[1]) * c + k[2] * (c + 4) * c
+    bands = [
+        (offset == 0) * (1 - a * constant)
+        - a * np.diagonal(L, -offset)[:, None] * linear
+        - a * np.diagonal(square, -offset)[:, None] * k[2]
+        for offset in range(3)
+    ]
+    matrices = [_widened(part, width) for part in (U, U.T, *_pentadiagonal(*bands))]
+    release = _release(V, U, _spectrum(cloth, r, c, dt), pins, hangs)
+    held = _widened(release.T.reshape(-1, rows, columns), width)
+    return SheetFilter(*matrices, int(hangs), held)
+
+
+def _pentadiagonal(diagonal: Array, near: Array, far: Array) -> tuple[Array, Array, Array]:
+    """L D Lᵀ of C matrices at once: L one and two below the diagonal, and 1 / D, [R, C] each."""
+    rows = len(diagonal)
+    one, two, inverse = np.zeros((3, *diagonal.shape))
+    pivot = np.zeros_like(diagonal)
+    for i in range(rows):
+        rest = diagonal[i].copy()
+        if i > 1:
+            two[i] = far[i - 2] * inverse[i - 2]
+            rest -= two[i] ** 2 * pivot[i - 2]
+        if i > 0:
+            link = near[i - 1] - (two[i] * one[i - 1] * pivot[i - 2] if i > 1 else 0.0)
+            one[i] = link * inverse[i - 1]
+            rest -= one[i] ** 2 * pivot[i - 1]
+        pivot[i], inverse[i] = rest, 1 / rest
+    return one, two, inverse
+
+
+def _widened(values: Array, width: int) -> Array:
+    """The last axis filled up with zeros."""
+    wide = np.zeros((*values.shape[:-1], width))
+    wide[..., : values.shape[-1]] = values
+    return wide
 
 
 def _products(V: Array, U: Array, spectrum: Array, first: int) -> tuple[Array, NDArray[np.int64]]:
@@ -188,7 +267,8 @@ def _release(V: Array, U: Array, spectrum: Array, pins: NDArray[np.int64], hangs
     return release
 
 
-def _is_regular(cloth: Cloth) -> bool:
+def is_regular(cloth: Cloth) -> bool:
+    """Whether a grid's free particles are alike, and its springs of each kind."""
     free = cloth.inv_mass[cloth.inv_mass > 0]
     kinds = [cloth.spring_stiffness[cloth.spring_kind == kind] for kind in range(3)]
     uniform = [free, *kinds]

@@ -34,7 +34,7 @@ def take_lanes(y: Any, x: Any, start: Any) -> None:
     """Copy the lanes from `start` of x [3N, B] into the block y [3N, L]."""
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):
-            y[row, lane] = x[row, start + lane]
+            y[row, lane] = x[row, np.uintp(start) + np.uintp(lane)]
 
 
 @kernel
@@ -42,7 +42,7 @@ def give_lanes(x: Any, y: Any, start: Any) -> None:
     """Copy the block y [3N, L] to the lanes from `start` of x [3N, B]."""
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):
-            x[row, start + lane] = y[row, lane]
+            x[row, np.uintp(start) + np.uintp(lane)] = y[row, lane]
 
 
 @kernel
@@ -153,7 +153,7 @@ def blow(
     phases, origins = gusts.phases[number], gusts.origins[number]
     at, swell, drift, first, noise = work[6:9], work[9], work[10], work[11], work[12:15]
     for lane in range(x.shape[1]):
-        now = time + phases[start + lane]
+        now = time + phases[np.uintp(start) + np.uintp(lane)]
         swell[lane] = numbers[9] * (1 + numbers[10] * sine_of_turns(now * numbers[11]))
         cells = now * numbers[14]
         cells -= numbers[15] * np.floor(cells / numbers[15])
@@ -167,9 +167,9 @@ def blow(
         for axis in range(at.shape[0]):
             ex, ey, ez = F(numbers[3 * axis]), F(numbers[3 * axis + 1]), F(numbers[3 * axis + 2])
             for lane in range(x.shape[1]):
-                px = x[row, lane] + origins[0, start + lane]
-                py = x[row + 1, lane] + origins[1, start + lane]
-                pz = x[row + 2, lane] + origins[2, start + lane]
+                px = x[row, lane] + origins[0, np.uintp(start) + np.uintp(lane)]
+                py = x[row + 1, lane] + origins[1, np.uintp(start) + np.uintp(lane)]
+                pz = x[row + 2, lane] + origins[2, np.uintp(start) + np.uintp(lane)]
                 at[axis, lane] = scale * (ex * px + ey * py + ez * pz) + middle
         for lane in range(x.shape[1]):
             at[0, lane] -= drift[lane]
@@ -432,7 +432,7 @@ def add_uniform(g: Any, mean: Any, inv_mass: Any, numbers: Any, push: Any, start
         fall = F(numbers[0] * numbers[3 + row % 3])
         if push.size > 0:
             for lane in range(g.shape[1]):
-                g[row, lane] += dt * push[row, start + lane]
+                g[row, lane] += dt * push[row, np.uintp(start) + np.uintp(lane)]
         for lane in range(g.shape[1]):
             g[row, lane] = (g[row, lane] + mean[row % 3, lane] + fall) * slow
 
@@ -454,8 +454,10 @@ def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any)
         for lane in range(x.shape[1]):
             if targets.shape[0] == 0:
                 x[at, lane] = old[at, lane]
+            elif targets.shape[2] > 1:
+                x[at, lane] = targets[step, row, np.uintp(start) + np.uintp(lane)]
             else:
-                x[at, lane] = targets[step, row, start + lane if targets.shape[2] > 1 else 0]
+                x[at, lane] = targets[step, row, 0]
 
 
 @kernel

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.order import across_then_outwards, distances_from, outwards, pin_distances
+from drapery.cloth.order import across_then_outwards, distances_from, pin_distances
 from drapery.mesh import Array
 
 FEW_PINS = 4
@@ -134,9 +134,7 @@ def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Arr
                 np.stack([index[:-stride].ravel(), index[stride:].ravel()], axis=1),
             ]
         )
-        lengths = _path_lengths(cloth, pairs, stride)
-        order = outwards(pin_distances(cloth), pairs, lengths)
-        groups.append((pairs[order], limit * lengths[order]))
+        groups.append((pairs, limit * _path_lengths(cloth, pairs, stride)))
         stride *= 2
     return groups[::-1]
 

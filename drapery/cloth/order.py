@@ -45,8 +45,11 @@ def outwards(distances: Array, pairs: NDArray[np.int32], lengths: Array) -> NDAr
 def across_then_outwards(cloth: Cloth, springs: NDArray[np.integer]) -> NDArray[np.integer]:
     """These springs [S]: first those across the way from the pins, then those along it, outwards.
 
-    Mixed, row by row, they make projections without a limit unstable on fine grids.
+    Mixed, row by row, they make projections without a limit unstable on fine grids. A grid's are
+    built in a fit order: all rows, then all columns from the top down.
     """
+    if cloth.grid_shape is not None:
+        return springs
     distances = pin_distances(cloth)
     pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
     order = outwards(distances, pairs, lengths)

@@ -17,13 +17,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels
+from drapery.cloth import kernels, sheet_kernels
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door
-from drapery.cloth.filters import BandFilter, Filter, cloth_filter
+from drapery.cloth.faces import wind_faces
+from drapery.cloth.filters import (
+    BandFilter,
+    Filter,
+    SheetFilter,
+    cloth_filter,
+    is_regular,
+    sheet_filter,
+)
 from drapery.cloth.forces import Force
 from drapery.cloth.links import Links, limited_links
 from drapery.cloth.pins import PinPath
+from drapery.cloth.sheets import Rows, Sheet, is_sheet, rows_of, sheet_of, sheet_width
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import (
     Body,
@@ -43,6 +52,13 @@ class Plan(NamedTuple):
     filter: Filter | BandFilter
     links: Links
     spin: Spin | NoSpin
+
+
+class SheetPlan(NamedTuple):
+    sheet: Sheet
+    springs: Rows
+    links: Rows
+    filter: SheetFilter
 
 
 @dataclass(frozen=True)
@@ -67,6 +83,9 @@ class SolverDesbrun:
 
     def init(self, cloth: Cloth, dt: float) -> Memory:
         check_step(dt, 1)
+        pinned = (cloth.inv_mass == 0).any()
+        if is_sheet(cloth) and is_regular(cloth) and (pinned or self.angular == "none"):
+            return Memory(sheet_plan(cloth, dt, self.limit, self.sweeps), dt, 1)
         links = limited_links(cloth, self.limit, self.sweeps)
         spin = spin_correction(cloth, dt, self.angular)
         return Memory(Plan(body_of(cloth), cloth_filter(cloth, dt), links, spin), dt, 1)
@@ -83,7 +102,22 @@ class SolverDesbrun:
         pins: PinPath | None = None,
     ) -> tuple[State, Memory]:
         args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        return advance(_advance, *args), memory
+        kernel = _advance_sheet if isinstance(memory.plan, SheetPlan) else _advance
+        return advance(kernel, *args), memory
+
+
+def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:
+    """The plan of a fine grid, whose columns are lanes."""
+    pairs = cloth.spring_pairs
+    links = limited_links(cloth, limit, sweeps)
+    width = sheet_width(cloth, pairs, links.pairs)
+    parts = (dt * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
+    return SheetPlan(
+        sheet_of(cloth, *wind_faces(cloth), width),
+        rows_of(cloth, width, pairs, cloth.spring_length, *parts, together=1.0),
+        rows_of(cloth, width, *links),
+        sheet_filter(cloth, dt, width),
+    )
 
 
 @door
@@ -122,3 +156,34 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.set_velocities(u, y, old, dt)
         kernels.give_lanes(batch.new_x, y, start)
         kernels.give_lanes(batch.new_v, u, start)
+
+
+@door
+def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, substeps: int) -> None:
+    """Steps of cloths first..last, one after another."""
+    sheet, dtype = plan.sheet, batch.x.dtype
+    dt, lanes = dtype.type(batch.numbers[0]), sheet.lanes
+    rows, width = 3 * (sheet.rows + sheet.extra), sheet.width
+    y, u = np.empty((rows, width), dtype), np.empty((rows, width), dtype)
+    g, old = np.zeros((rows, width), dtype), np.zeros((rows, width), dtype)
+    room, mean = sheet_kernels.wind_room(sheet, dtype), np.empty(3, dtype)
+    for cloth in range(first, last):
+        sheet_kernels.load(y, batch.x, cloth, sheet.columns)
+        sheet_kernels.load(u, batch.v, cloth, sheet.columns)
+        gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
+        sheet_kernels.place(y, sheet, batch.targets[:0], 0, cloth)
+        for step in range(steps):
+            time = batch.numbers[2] + step * batch.numbers[0]
+            sheet_kernels.subtract_mean(g, u, mean, sheet, lanes)
+            sheet_kernels.pull(g, y, plan.springs, 0, plan.springs.i.size, 0, room[3])
+            sheet_kernels.filter_sheet(g, old, plan.filter, sheet, lanes)
+            for number in range(gusts.seeds.size):
+                sheet_kernels.add_wind(g, y, u, sheet, gusts, number, time, dt, room)
+            sheet_kernels.add_push(g, sheet, batch.push, dt, cloth)
+            sheet_kernels.fall(g, mean, sheet, batch.numbers, lanes)
+            sheet_kernels.move(y, g, old, dt, sheet, lanes)
+            sheet_kernels.place(y, sheet, batch.targets, step, cloth)
+            sheet_kernels.pull(y, y, plan.links, 0, plan.links.i.size, 1, room[3])
+            sheet_kernels.set_velocities(u, y, old, dt, sheet, lanes)
+        sheet_kernels.store(batch.new_x, y, cloth, sheet.columns)
+        sheet_kernels.store(batch.new_v, u, cloth, sheet.columns)
