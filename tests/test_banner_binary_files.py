@@ -318,7 +318,7 @@ BROKEN = {
     "pos": {"palette": [{"Name": "minecraft:red_banner"}], "blocks": [{"state": 0, "pos": "x"}]},
     "an array where a position should be": {
         "palette": [{"Name": "minecraft:red_banner"}],
-        "blocks": [{"state": 0, "pos": make.LongArray(range(10**6))}],
+        "blocks": [{"state": 0, "pos": make.LongArray([7] * 9999)}],
     },
     "Palette": {"Width": 1, "Height": 1, "Length": 1, "Palette": 3},
     "BlockStates": {

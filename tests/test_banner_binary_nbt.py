@@ -2,7 +2,6 @@
 
 import gzip
 import io
-import random
 import struct
 import time
 import tracemalloc
@@ -83,6 +82,7 @@ TREES = compounds(
 )
 
 
+@settings(max_examples=60)
 @given(TREES, st.sampled_from(ORDERS), st.sampled_from(sorted(WRAPPINGS)), TEXTS)
 def test_it_reads_what_nbtlib_writes(root, order: str, wrapping: str, name: str):
     data = WRAPPINGS[wrapping](encode(root, order, name))
@@ -188,7 +188,7 @@ def test_hostile_files_are_refused_small(name: str):
 
 
 def test_a_large_file_that_unpacks_to_far_more_is_refused_soon():
-    bomb = gzip.compress(random.Random(1).randbytes(2**24) + bytes(2**28), 1) + bytes(2**25)
+    bomb = gzip.compress(bytes(2**27), 1) + bytes(2**26)
     start = time.process_time()
     with pytest.raises(DesignError, match="over 64 MiB"):
         read_nbt(bomb, "evil.nbt")

@@ -1,6 +1,5 @@
 """What we write as bytes: nbtlib reads it as the game would, and it comes back to itself."""
 
-
 import nbtlib
 import pytest
 from hypothesis import given
