@@ -137,7 +137,8 @@ def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
     for number in range(count):
         more = ["--resume"] if (torn / FILE).exists() else []
         run = subprocess.Popen([*command, "-o", str(torn), *more], stdout=subprocess.DEVNULL)
-        time.sleep(chance.uniform(1.0, 8.0))
+        _await_more(torn, run)
+        time.sleep(chance.uniform(0.0, 2.0))
         victim = chance.choice(["worker", "run"])
         told[_kill(run, victim)] += 1
         print(f"kill {number + 1}: {victim}, {len(outputs(torn))} pictures", flush=True)
@@ -148,6 +149,13 @@ def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
     subprocess.run([*command, "-o", str(torn), "--resume"], check=True)
     print(f"killed {dict(told)}; identical: {outputs(torn) == outputs(calm)}")
     print(f"half-written files left: {len(list(torn.rglob('.*.part')))}")
+
+
+def _await_more(folder: Path, run: subprocess.Popen[bytes]) -> None:
+    """Wait for the first new picture, for a kill while workers start shows little."""
+    before, end = len(outputs(folder)), time.monotonic() + 60
+    while len(outputs(folder)) == before and run.poll() is None and time.monotonic() < end:
+        time.sleep(0.05)
 
 
 def _kill(run: subprocess.Popen[bytes], victim: str) -> str:
