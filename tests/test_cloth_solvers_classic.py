@@ -2,6 +2,7 @@
 
 import dataclasses
 import itertools
+import math
 
 import numpy as np
 import pytest
@@ -253,26 +254,29 @@ def julia_cloth(nx=25, ny=20, spacing=0.2):
 
 def julia_loop(cloth, steps, dt=0.02, spacing=0.2):
     """The published loop, written plainly: move by Verlet, then six passes over all pairs."""
-    place, last = cloth.rest_positions[:, :2].tolist(), cloth.rest_positions[:, :2].tolist()
+    (xs, ys), (last_xs, last_ys) = (cloth.rest_positions[:, :2].T.tolist() for _ in range(2))
     pinned = (cloth.inv_mass == 0).tolist()
+    free = [p for p in range(len(xs)) if not pinned[p]]
     pairs = cloth.spring_pairs.tolist()
     for step in range(1, steps + 1):
-        push = (2 * np.sin(0.05 * step), -9.8)
-        for p in range(len(place)):
-            if not pinned[p]:
-                now = place[p]
-                place[p] = [now[k] + (now[k] - last[p][k]) + push[k] * dt**2 for k in range(2)]
-                last[p] = now
+        wind, gravity = 2 * math.sin(0.05 * step), -9.8
+        for p in free:
+            x, y = xs[p], ys[p]
+            xs[p] = x + (x - last_xs[p]) + wind * dt**2
+            ys[p] = y + (y - last_ys[p]) + gravity * dt**2
+            last_xs[p], last_ys[p] = x, y
         for _ in range(6):
             for p, q in pairs:
-                delta = [place[q][k] - place[p][k] for k in range(2)]
-                length = (delta[0] ** 2 + delta[1] ** 2) ** 0.5
+                dx, dy = xs[q] - xs[p], ys[q] - ys[p]
+                length = math.sqrt(dx * dx + dy * dy)
                 part = 0.5 * (length - spacing) / length
                 if not pinned[p]:
-                    place[p] = [place[p][k] + part * delta[k] for k in range(2)]
+                    xs[p] += part * dx
+                    ys[p] += part * dy
                 if not pinned[q]:
-                    place[q] = [place[q][k] - part * delta[k] for k in range(2)]
-    return np.array(place)
+                    xs[q] -= part * dx
+                    ys[q] -= part * dy
+    return np.stack([xs, ys], axis=1)
 
 
 class SineWind:

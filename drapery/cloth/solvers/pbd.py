@@ -43,6 +43,11 @@ from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
+LET_BE = 1.005
+"""Links longer than this many times their longest length are worth another sweep."""
+BEYOND = 1e6
+"""No link grows to this many times its longest length."""
+
 
 class Constraints(NamedTuple):
     """Distances between pairs [C, 2]: at least `least` and at most `most` [m], [C]; the part of a
@@ -73,7 +78,7 @@ class SolverPBD:
     order: `pins` outwards from the pins, or `given`, as the cloth lists its springs.
     shares: `mass`, or `half`: each end that is not pinned moves half, even if the other is pinned.
     limit: longest length of a structural spring over its rest length, seen to by `links`.
-    sweeps: over springs that are still too long, at most, at the end of a step; 0 for no links.
+    sweeps: over springs that are still too long, at most, a substep; 0 for no links.
     damping: rate at which all velocities decay [1/s].
     threads: None for as many as there are processors.
     """
@@ -217,27 +222,52 @@ def relax(y: Any, constraints: Any) -> None:
 
 
 @kernel
-def tidy(y: Any, links: Any, sweeps: Any) -> None:
-    """Sweeps until no link of any lane is too long. One more would not change a bit of a lane that
-    is done, so lanes do not depend on each other."""
+def tidy(y: Any, links: Any, sweeps: Any, most: Any) -> None:
+    """Sweeps over the lanes in which a link is too long, each lane until it has none.
+
+    most: room for the longest length over `longest` that is let be, [L]: all, once a lane is done.
+    """
     for _ in range(sweeps):
-        if not any_too_long(y, links):
+        if not mark_too_long(most, y, links):
             return
-        kernels.shorten(y, links)
+        for s in range(links.longest.size):
+            i, j = 3 * links.pairs[s, 0], 3 * links.pairs[s, 1]
+            longest, part_i, part_j = links.longest[s], links.share_i[s], links.share_j[s]
+            for lane in range(y.shape[1]):
+                dx = y[j, lane] - y[i, lane]
+                dy = y[j + 1, lane] - y[i + 1, lane]
+                dz = y[j + 2, lane] - y[i + 2, lane]
+                limit = most[lane] * longest
+                d = max(np.sqrt(dx * dx + dy * dy + dz * dz), limit)
+                excess = (d - limit) / d
+                y[i, lane] += part_i * excess * dx
+                y[i + 1, lane] += part_i * excess * dy
+                y[i + 2, lane] += part_i * excess * dz
+                y[j, lane] -= part_j * excess * dx
+                y[j + 1, lane] -= part_j * excess * dy
+                y[j + 2, lane] -= part_j * excess * dz
 
 
 @kernel
-def any_too_long(y: Any, links: Any) -> Any:
+def mark_too_long(most: Any, y: Any, links: Any) -> Any:
+    """1 for lanes with a link over LET_BE times its longest length, else a number over all; whether
+    there is such a lane."""
+    F = y.dtype.type
+    slack = F(LET_BE * LET_BE)
+    found = False
+    for lane in range(most.size):
+        most[lane] = F(BEYOND)
     for s in range(links.longest.size):
         i, j = 3 * links.pairs[s, 0], 3 * links.pairs[s, 1]
-        most = links.longest[s] * links.longest[s]
+        square = slack * links.longest[s] * links.longest[s]
         for lane in range(y.shape[1]):
             dx = y[j, lane] - y[i, lane]
             dy = y[j + 1, lane] - y[i + 1, lane]
             dz = y[j + 2, lane] - y[i + 2, lane]
-            if dx * dx + dy * dy + dz * dz > most:
-                return True
-    return False
+            long = dx * dx + dy * dy + dz * dz > square
+            most[lane] = F(1) if long else most[lane]
+            found = found or long
+    return found
 
 
 @kernel
@@ -282,8 +312,7 @@ def _advance(
             for _ in range(passes):
                 relax(y, plan.constraints)
             kernels.shorten(y, plan.links)
-            if step % substeps == substeps - 1:
-                tidy(y, plan.springs, sweeps)
+            tidy(y, plan.springs, sweeps, work[0])
             kernels.set_velocities(u, y, old, h)
         kernels.give_lanes(batch.new_x, y, start)
         kernels.give_lanes(batch.new_v, u, start)
