@@ -195,7 +195,9 @@ def _progress(total: int) -> "Iterator[Callable[[Tally], None]]":
         *(TextColumn("pictures"), BarColumn(), MofNCompleteColumn()),
         *(Rate(), TimeRemainingColumn(), TextColumn("{task.fields[failed]} failed")),
     )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    console = Console(stderr=True)
+    hidden = not console.is_terminal
+    with Progress(*columns, console=console, transient=True, disable=hidden) as bar:
         task = bar.add_task("pictures", total=total, failed=0)
 
         def tell(tally: "Tally") -> None:
