@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth import kernels, lanes
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.compiled import kernel
+from drapery.cloth.compiled import door, kernel
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
 from drapery.cloth.pins import PinPath
@@ -212,7 +212,7 @@ def check_limit(limit: float) -> None:
         raise OptionError(f"limit {limit!r} is out of range; use 1 or more")
 
 
-@kernel
+@door
 def blow_all(wind: Any, y: Any, body: Any, batch: Any, start: Any, time: Any, work: Any) -> None:
     """All winds W at the control particles C, into wind [3CW, L]."""
     rows = 3 * body.controls.size
@@ -221,7 +221,7 @@ def blow_all(wind: Any, y: Any, body: Any, batch: Any, start: Any, time: Any, wo
         kernels.blow(out, y, body.controls, batch.gusts, number, start, time, work)
 
 
-@kernel
+@door
 def add_loads(
     g: Any, y: Any, u: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any, work: Any
 ) -> None:
