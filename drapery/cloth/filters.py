@@ -200,10 +200,18 @@ def sheet_filter(cloth: Cloth, dt: float, width: int) -> SheetFilter:
         - a * np.diagonal(square, -offset)[:, None] * k[2]
         for offset in range(3)
     ]
-    matrices = [_widened(part, width) for part in (U, U.T, *_pentadiagonal(*bands))]
+    near, far, inverse_diagonal = _pentadiagonal(*bands)
     release = _release(V, U, _spectrum(cloth, r, c, dt), pins, hangs)
     held = _widened(release.T.reshape(-1, rows, columns), width)
-    return SheetFilter(*matrices, int(hangs), held)
+    return SheetFilter(
+        _widened(U, width),
+        _widened(U.T, width),
+        _widened(near, width),
+        _widened(far, width),
+        _widened(inverse_diagonal, width),
+        int(hangs),
+        held,
+    )
 
 
 def _pentadiagonal(diagonal: Array, near: Array, far: Array) -> tuple[Array, Array, Array]:

@@ -111,10 +111,10 @@ def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:
     pairs = cloth.spring_pairs
     links = limited_links(cloth, limit, sweeps)
     width = sheet_width(cloth, pairs, links.pairs)
-    parts = (dt * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
+    part_i, part_j = (dt * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
     return SheetPlan(
         sheet_of(cloth, *wind_faces(cloth), width),
-        rows_of(cloth, width, pairs, cloth.spring_length, *parts, together=1.0),
+        rows_of(cloth, width, pairs, cloth.spring_length, part_i, part_j, together=1.0),
         rows_of(cloth, width, *links),
         sheet_filter(cloth, dt, width),
     )
