@@ -207,6 +207,7 @@ def _debug(pixels: Pixels, dots: Dots, places: Array, scale: int) -> Pixels:
         pen.line((*at[i], *at[j]), fill=(60, 110, 230))
     for number, (x, y) in enumerate(at):
         pinned = number in dots.pinned
-        radius, colour = (4, (220, 40, 40)) if pinned else (2, (60, 200, 80))
+        radius = max(2, scale - 1) if pinned else max(1, scale // 2)
+        colour = (220, 40, 40) if pinned else (60, 200, 80)
         pen.ellipse((x - radius, y - radius, x + radius, y + radius), fill=colour)
     return np.asarray(image)
