@@ -1,0 +1,130 @@
+"""Where scenes are set and who is in them: only seen faces, closed bodies, feet on the ground."""
+
+import numpy as np
+import pytest
+
+from drapery.banner.packs import open_packs
+from drapery.cloth.colliders import mesh_collider
+from drapery.style.block_world import blocks, plateau
+from drapery.style.creature import cells_of, fox
+from drapery.style.figure import PARTS, figure_look, figure_mesh
+from drapery.style.insect import beetle
+from drapery.style.stage import beam, path_ground, post, sea, shadow
+from drapery.style.tailoring import checked, dyed
+
+PACKS = open_packs(())
+
+
+def faces(models) -> int:
+    return sum(len(model.mesh.triangles) for model in models) // 2
+
+
+@pytest.mark.parametrize(
+    ("cells", "seen"),
+    [
+        ({(0, 0, 0): "stone"}, 6),
+        ({(0, 0, 0): "stone", (1, 0, 0): "dirt"}, 10),
+        (plateau(3, 3, "stone"), 2 * 9 + 4 * 3),
+        ({(x, y, z): "sand" for x in range(3) for y in range(3) for z in range(3)}, 54),
+    ],
+)
+def test_only_faces_before_air_are_drawn(cells, seen) -> None:
+    assert faces(blocks(cells, PACKS)) == seen
+
+
+def test_faces_look_outwards_and_lie_on_their_block() -> None:
+    for model in blocks({(2, 3, 4): "grass"}, PACKS):
+        corners = model.mesh.positions[model.mesh.triangles]
+        turned = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normals = model.mesh.normals[model.mesh.triangles[:, 0]]
+        np.testing.assert_allclose(turned, normals)
+        away = corners.mean(axis=1) - np.array([2.5, 3.5, 4.5])
+        assert (np.sum(away * normals, axis=1) > 0.4).all()
+
+
+def test_grass_is_green_above_and_earth_below_and_a_dye_is_wool() -> None:
+    top, side, bottom = (
+        PACKS.texture(f"block/{n}") for n in ("grass_block_top", "grass_block_side", "dirt")
+    )
+    drawn = {
+        float(model.mesh.normals[0, 1]): model.looks[0].coats[0].texels
+        for model in blocks({(0, 0, 0): "grass"}, PACKS)
+    }
+    assert drawn[1] is top and drawn[0] is side and drawn[-1] is bottom
+    (wool,) = blocks({(0, 0, 0): "red"}, PACKS)
+    assert wool.looks[0].coats[0].tint == (176, 46, 38)
+
+
+def test_a_causeway_repeats() -> None:
+    for model in path_ground(10, 10, PACKS):
+        places, z = model.mesh.positions, model.mesh.positions[:, 2]
+        ahead = places[(z > 0.5) & (z < 9.5)]
+        behind = places[(z > -9.5) & (z < -0.5)] + np.array([0, 0, 10])
+        assert set(map(tuple, ahead)) == set(map(tuple, behind))
+
+
+def test_the_figure_is_two_blocks_tall_and_stands_on_the_ground() -> None:
+    mesh = figure_mesh({})
+    assert mesh.positions[:, 1].min() == 0 and mesh.positions[:, 1].max() == 2
+    assert len(mesh.triangles) == 12 * len(PARTS)
+    for skin in ("traveller", "dancer", "cape"):
+        assert figure_look(skin, PACKS).coats[0].texels.shape == (64, 64, 4)
+
+
+def test_every_texel_of_a_figure_is_painted() -> None:
+    mesh, sheet = figure_mesh({}), figure_look("traveller", PACKS).coats[0].texels
+    for a, b, c in mesh.uvs[mesh.triangles]:
+        u, v = (a + b + c) / 3 * 64
+        assert sheet[int(v), int(u), 3] == 255
+
+
+def test_the_beetle_is_made_of_closed_bodies() -> None:
+    insect = beetle(np.array([1.0, 0, 2]))
+    surface = mesh_collider(insect.vertices, insect.triangles)
+    assert (
+        surface.solid.all() and len(surface.solid) == 1 + 2 + 6 + 2 + 2
+    )  # the halves of a leg meet in its knee
+    assert 0 <= insect.vertices[:, 1].min() < 0.05
+    for model in insect.models:
+        corners = model.mesh.positions[model.mesh.triangles]
+        turned = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        assert (np.sum(turned * model.mesh.normals[model.mesh.triangles[:, 0]], axis=1) > 0).all()
+
+
+def test_the_fox_holds_together() -> None:
+    cells = {tuple(cell) for cell in cells_of(fox()).tolist()}
+    found, edge = set(), [next(iter(cells))]
+    while edge:
+        cell = edge.pop()
+        if cell in cells and cell not in found:
+            found.add(cell)
+            edge += [
+                tuple(np.add(cell, s * axis)) for axis in np.eye(3, dtype=int) for s in (1, -1)
+            ]
+    assert found == cells
+    assert min(y for _, y, _ in cells) == 0
+    assert {(-x, y, z) for x, y, z in cells} == cells
+
+
+def test_posts_stand_and_beams_lie() -> None:
+    standing = post(np.array([1.0, 2, 3]), 4.0, PACKS, 0.1).mesh.positions
+    np.testing.assert_allclose([standing.min(0), standing.max(0)], [[0.9, 2, 2.9], [1.1, 6, 3.1]])
+    lying = beam(np.array([1.0, 2, 3]), 4.0, PACKS).mesh.positions
+    np.testing.assert_allclose([lying.min(0), lying.max(0)], [[1, 1.94, 2.94], [5, 2.06, 3.06]])
+
+
+def test_water_is_level_and_shadows_fade() -> None:
+    assert set(sea(3, -0.5).mesh.positions[:, 1]) == {-0.5}
+    assert faces([sea(3, 0.0)]) == 36
+    alpha = shadow((0, 0), 1.0).looks[0].coats[0].texels[..., 3]
+    assert alpha[0, 0] == 0 and alpha[8, 8] == alpha.max() > 60
+    assert len(np.unique(alpha)) <= 5
+
+
+def test_checks_are_of_two_dyes() -> None:
+    wool = PACKS.texture("block/white_wool")
+    board = checked(wool, ("lime", "white"), 2).coats[0].texels
+    assert board.shape == (32, 32, 4)
+    assert np.array_equal(board[:16, :16], board[16:, 16:])
+    assert not np.array_equal(board[:16, :16], board[:16, 16:])
+    assert dyed(wool, "lime").coats[0].tint == (128, 199, 31)
