@@ -56,7 +56,7 @@ def run(name: str, target: Target, count: int, seed: int) -> fuzzing.Tally:
         f" heaviest {tally.heaviest:.0f} MB, {len(tally.failures)} failures",
         flush=True,
     )
-    for outcome, number in tally.outcomes.most_common():
+    for outcome, number in tally.outcomes.most_common(12):
         print(f"  {number:7d}  {outcome}")
     return tally
 

@@ -36,4 +36,5 @@ def test_as_in_the_inventory(golden: Golden) -> None:
 
 def test_with_a_real_pack(golden: Golden, real_pack: Path) -> None:
     banner = Banner.parse("yellow bricks:orange creeper:green border:purple")
-    golden(draw(banner, size=SIZE, packs=[real_pack]), "pack", banner=banner, packs=[real_pack])
+    # Only the hash: the pack's art is not ours to keep here.
+    golden(draw(banner, size=SIZE, packs=[real_pack]), "pack", hashed=True)
