@@ -7,7 +7,15 @@ from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Shot, find, names
 from drapery.testing.plugin import Golden
 
-FRAMES = {"banner": 8, "freefall": 14, "hall": 24, "julia": 60, "sail": 16, "fold": 56}
+FRAMES = {
+    "banner": 8,
+    "cape-pixel": 32,
+    "freefall": 14,
+    "hall": 24,
+    "julia": 60,
+    "sail": 16,
+    "fold": 56,
+}
 """How far into a scene its golden is; most show their first frame but two."""
 CORNERS = dict.fromkeys(("four-corners", "three-corners", "two-corners"), 12)
 WORDS = {"stress": {"side": "5", "settle": "0.5"}, "freefall": {"grid": "12x12"}}
