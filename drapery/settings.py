@@ -13,6 +13,7 @@ Pose = Literal["cloth", "vanilla"]
 Placement = Literal["standing", "wall", "item"]
 Facing = Literal["south", "west", "north", "east"]
 LayerMode = Literal["stacked", "flat"]
+SolverName = Literal["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"]
 Samples = Literal[1, 4, 16]
 Lighting = Literal["game", "flat"]
 
@@ -44,6 +45,7 @@ class Options(TypedDict, total=False):
     view: str
     size: tuple[int, int]
     grid: tuple[int, int]
+    solver: SolverName
     wind: float
     time: float
     seed: int
@@ -76,6 +78,7 @@ class Settings:
     view: a named view of `drapery.render.views`: front, back, iso, gui, hero.
     size: width and height of the picture [pixels].
     grid: particles across and down the cloth.
+    solver: the method that moves it; docs/solvers.md says which is for what.
     wind: mean wind speed [m/s].
     time: how long the cloth has hung in the wind when the picture is taken [s].
     seed: which gusts blow.
@@ -104,6 +107,7 @@ class Settings:
     view: str = "front"
     size: tuple[int, int] = (512, 512)
     grid: tuple[int, int] = (5, 9)
+    solver: SolverName = "desbrun"
     wind: float = 4.0
     time: float = 3.0
     seed: int = 0
@@ -128,6 +132,7 @@ class Settings:
         one_of("placement", self.placement, get_args(Placement))
         self._check_turn()
         one_of("layers", self.layers, get_args(LayerMode))
+        one_of("solver", self.solver, get_args(SolverName))
         if self.pbr and self.layers == "flat":
             raise OptionError("pbr needs each layer's own maps; use layers stacked")
         for side, pixels in zip(("width", "height"), _two("size", self.size), strict=True):

@@ -41,6 +41,22 @@ def test_night_is_darker_than_noon_and_a_torch_is_warm() -> None:
     assert red > 1.3 * blue
 
 
+@pytest.mark.parametrize("solver", ["xpbd", "pbd"])
+def test_every_solver_moves_the_banner_its_own_way(solver: str) -> None:
+    assert (pixels(solver=solver) != pixels()).any()
+    with pytest.raises(DraperyError, match="solver 'magic' is not known"):
+        pixels(solver="magic")
+
+
+def test_the_solvers_are_those_of_the_cloth() -> None:
+    from typing import get_args
+
+    from drapery.cloth.solvers.registry import SOLVERS
+    from drapery.settings import SolverName
+
+    assert tuple(SOLVERS) == get_args(SolverName)
+
+
 def test_a_shadow_is_added_under_the_banner_and_nowhere_else() -> None:
     plain, shaded = pixels(), pixels(shadow=True)
     changed = (plain != shaded).any(axis=-1)

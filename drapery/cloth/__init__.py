@@ -8,6 +8,7 @@ from drapery.cloth.pins import PinPath, carried
 from drapery.cloth.sewing import Seam, sew
 from drapery.cloth.solvers.base import Solver
 from drapery.cloth.solvers.desbrun import SolverDesbrun
+from drapery.cloth.solvers.registry import SOLVERS, solver
 from drapery.cloth.solvers.xpbd import SolverXPBD
 from drapery.cloth.state import State, rest_state
 from drapery.cloth.stepping import simulate
@@ -17,6 +18,7 @@ from drapery.cloth.world import Detail, World
 __all__ = [
     "FLEXION",
     "SHEAR",
+    "SOLVERS",
     "STRUCTURAL",
     "Cloth",
     "Detail",
@@ -40,5 +42,6 @@ __all__ = [
     "rest_state",
     "sew",
     "simulate",
+    "solver",
     "strip",
 ]

@@ -72,6 +72,7 @@ FacingOption = Annotated[
 ViewOption = Annotated[str, typer.Option(help="front, back, iso, gui or hero.")]
 SizeOption = Annotated[str, typer.Option(help="Width and height in pixels.")]
 GridOption = Annotated[str, typer.Option(help="Particles across and down the cloth.")]
+SolverOption = Annotated[str, typer.Option(help="desbrun, xpbd, pbd, verlet, provot or implicit.")]
 WindOption = Annotated[float, typer.Option(help="Mean wind speed in m/s.")]
 TimeOption = Annotated[float, typer.Option(help="Seconds the cloth has hung in the wind.")]
 SeedOption = Annotated[int, typer.Option(help="Which gusts blow.")]

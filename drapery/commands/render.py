@@ -30,6 +30,7 @@ def run(
     view: o.ViewOption = "front",
     size: o.SizeOption = "512x512",
     grid: o.GridOption = "5x9",
+    solver: o.SolverOption = "desbrun",
     wind: o.WindOption = 4.0,
     time: o.TimeOption = 3.0,
     seed: o.SeedOption = 0,

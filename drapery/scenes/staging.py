@@ -18,6 +18,7 @@ import numpy as np
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.cloth import Cloth, Gravity, Wind, grid, rest_state, simulate
+from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.camera import Camera
 from drapery.render.light import UNLIT, Light, lit_at
@@ -175,15 +176,16 @@ def _dress(panel: Panel, settings: Settings, positions: Array) -> Mesh:
     return shell.cover(hung, normals, settings.thickness * panel.texel)
 
 
-_ClothKey: TypeAlias = tuple[int, int, float, float, Literal["top", "corners"]]
+_ClothKey: TypeAlias = tuple[int, int, float, float, Literal["top", "corners"], str]
+"""What a cloth is made of and what moves it, so that equal motions are known again."""
 
 
 def _cloth_key(panel: Panel, settings: Settings) -> _ClothKey:
-    return (*settings.grid, *panel.size, panel.pins)
+    return (*settings.grid, *panel.size, panel.pins, settings.solver)
 
 
 def _keyed_cloth(key: _ClothKey) -> Cloth:
-    columns, rows, width, height, pins = key
+    columns, rows, width, height, pins, _ = key
     return grid(columns, rows, width, height, pins=pins)
 
 
@@ -220,7 +222,8 @@ def _hung(cloth_key: _ClothKey, wind: float, seed: int, time: float) -> Array:
         rest: Array = rest_state(cloth).positions[0]
         return _kept(rest)
     forces = (Gravity(), _wind(wind, seed))
-    states = simulate(cloth, forces=forces, dt=time / steps, every=steps)
+    method = solver(cloth_key[-1])
+    states = simulate(cloth, method, forces, time / steps, every=steps)
     return _kept(next(islice(states, 1, None)).positions[0])
 
 
@@ -230,7 +233,8 @@ def _waved(cloth_key: _ClothKey, wind: float, seed: int, count: int, fps: float)
     steps = math.ceil(1 / (fps * STEP))
     forces = (Gravity(), _wind(wind, seed, period))
     cloth = _keyed_cloth(cloth_key)
-    states = simulate(cloth, forces=forces, dt=1 / (fps * steps), every=steps)
+    method = solver(cloth_key[-1])
+    states = simulate(cloth, method, forces, 1 / (fps * steps), every=steps)
     first = math.ceil(SETTLING / period) * count
     recorded = [state.positions[0] for state in islice(states, first, first + count + 1)]
     return _kept(close_loop(np.stack(recorded)))

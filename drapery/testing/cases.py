@@ -34,6 +34,7 @@ from drapery.settings import (
     Pose,
     Samples,
     Settings,
+    SolverName,
     pair,
 )
 
@@ -62,6 +63,7 @@ class Case(BaseModel):
     view: str = Settings.view
     size: tuple[int, int] = (256, 256)
     grid: tuple[int, int] = Settings.grid
+    solver: SolverName = Settings.solver
     wind: float = Settings.wind
     time: float = Settings.time
     seed: int = Settings.seed
