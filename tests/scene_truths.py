@@ -1,7 +1,6 @@
 """What the tests of scenes share: how deep cloth is in a collider, and a scene's last picture."""
 
 from collections.abc import Sequence
-from itertools import islice
 
 import numpy as np
 
@@ -31,8 +30,3 @@ def clearance(cloth: Cloth, state: State, colliders: Sequence[Collider], order: 
             own = np.einsum("ij,mi->mj", pose.rotation, places - pose.position)
             least = min(least, *(distance(collider.packed, tuple(p), np.inf)[0] for p in own))
     return float(least)
-
-
-def taken(states, count: int) -> list[State]:
-    """The first states of a motion."""
-    return list(islice(states, count))
