@@ -77,7 +77,13 @@ class DaskCrew:
                 keys.append(self._ended.get())
         except Empty:
             return []
-        outcomes = [o for key in keys for o in _outcomes(*self._running.pop(key))]
+        outcomes = []
+        for future, jobs in map(self._running.pop, keys):
+            answered = _answer(future)
+            if answered is None:
+                # A worker that went may have held the only copy of what was sent.
+                self._sent.clear()
+            outcomes += answered or _lost(future, jobs)
         for outcome in outcomes:
             self._pace += 0.1 * (outcome.seconds - self._pace)
         return outcomes
@@ -201,12 +207,21 @@ def _distributed() -> Any:
     return distributed
 
 
-def _outcomes(future: Any, jobs: Sequence[Job]) -> list[Outcome]:
+def _answer(future: Any) -> list[Outcome] | None:
+    """The outcomes of a task; None where it failed, or its answer went with a worker."""
     if isinstance(future, list):
         return future
-    if future.status == "finished":
+    if future.status != "finished":
+        return None
+    try:
         outcomes: list[Outcome] = future.result()
-        return outcomes
+    except Exception as error:  # Dask tells of what it lost in several ways
+        logging.getLogger(__name__).debug("an answer is lost: %s", error)
+        return None
+    return outcomes
+
+
+def _lost(future: Any, jobs: Sequence[Job]) -> list[Outcome]:
     error = future.exception() if future.status == "error" else None
     reason = " ".join(str(error or "the cluster lost it").split())[:200]
     return [Outcome(job, f"{reason}; see the cluster's log", True) for job in jobs]
