@@ -37,6 +37,18 @@ def test_animate_writes_what_animate_draws(drapery: Run, tmp_path: Path) -> None
             assert np.array_equal(np.asarray(image.convert("RGBA")), frame.pixels)
 
 
+def test_a_matte_colours_the_soft_edges_of_a_gif(drapery: Run, tmp_path: Path) -> None:
+    words = ("--size", "40x60", "--seconds", "0.2", "--fps", "10", "--samples", "16")
+    for name, more in (("plain", ()), ("matte", ("--matte", "#ff0000"))):
+        assert drapery("animate", "white", "-o", tmp_path / f"{name}.gif", *words, *more)[0] == 0
+    plain, matte = (
+        np.asarray(Image.open(tmp_path / f"{name}.gif").convert("RGBA")).astype(int)
+        for name in ("plain", "matte")
+    )
+    redder = (matte[..., 0] - matte[..., 1] > 60) & (matte[..., 3] == 255)
+    assert redder.any() and not ((plain[..., 0] - plain[..., 1] > 60) & redder).all()
+
+
 def test_a_folder_gets_numbered_frames(drapery: Run, tmp_path: Path) -> None:
     words = ("--size", "20x20", "--seconds", "0.3", "--fps", "10")
     assert drapery("animate", "red", "-o", f"{tmp_path}/frames/", *words)[0] == 0

@@ -45,6 +45,10 @@ def run(
     pbr: o.PbrOption = False,
     thickness: o.ThicknessOption = 1.0,
     background: o.BackgroundOption = "transparent",
+    matte: Annotated[
+        str | None,
+        typer.Option(metavar="#RRGGBB", help="Behind half-transparent pixels of a GIF or video."),
+    ] = None,
     samples: o.SamplesOption = 1,
     pixel: o.PixelOption = 1,
     light: o.LightOption = "game",
@@ -57,12 +61,13 @@ def run(
     """Draw a banner waving in the wind, as a seamless loop."""
     from drapery.pictures import frame_count, frames
     from drapery.render.encode import check_animation_target, save_animation
-    from drapery.settings import Settings
+    from drapery.settings import Settings, background_colour
 
     settings = Settings(**o.options_of(ctx.params))
+    behind = None if matte is None else background_colour(matte)[:3]
     check_animation_target(out)
     with compile_notice():
         drawn = frames(o.design_of(ctx.params), seconds, fps, settings)
         total = frame_count(seconds, fps)
         with progress("frames", total) as tick:
-            save_animation(drawn, fps, out, total=total, progress=tick)
+            save_animation(drawn, fps, out, matte=behind, total=total, progress=tick)
