@@ -133,8 +133,9 @@ def rows_of(
 ) -> Rows:
     """Pairs [K, 2] in order as rows: those that follow each other between the same rows at once.
 
-    length: [K]; part_i, part_j: [K]; together: part of the corrections along a row. Pairs with a pin that follow those with the same pin are
-    taken as between the pin's own row and the particles.
+    length: [K]; part_i, part_j: [K]; together: part of the corrections along a row. Pairs with a
+    pin that follow those with the same pin are taken as between the pin's own row and the
+    particles.
     """
     assert cloth.grid_shape is not None
     columns = cloth.grid_shape[1]

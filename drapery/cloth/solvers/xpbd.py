@@ -112,7 +112,9 @@ class SolverXPBD:
         return own
 
     def _links(self, cloth: Cloth) -> Links:
-        pairs, reach = attachments(cloth, SLACK) if self.attach else (np.zeros((0, 2), np.int32), [])
+        pairs, reach = (
+            attachments(cloth, SLACK) if self.attach else (np.zeros((0, 2), np.int32), [])
+        )
         ones = np.ones(len(pairs))
         return Links(pairs, np.asarray(reach, float), 0 * ones, ones)
 
