@@ -8,6 +8,7 @@ In `beet.json`:
 import re
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 from zipfile import ZipFile
 
 from beet import BannerPattern, Context, ErrorMessage, PluginOptions, configurable
@@ -70,7 +71,7 @@ def pattern_ids(ctx: Context) -> list[str]:
 
 def _save_packs(ctx: Context, folder: Path) -> tuple[str, ...]:
     paths = folder / "assets.zip", folder / "data.zip"
-    packs: tuple[Pack, Pack] = (ctx.assets, ctx.data)
+    packs: tuple[Pack[Any], Pack[Any]] = (ctx.assets, ctx.data)
     for pack, path in zip(packs, paths, strict=True):
         with ZipFile(path, "w") as file:
             pack.dump(file)

@@ -145,7 +145,8 @@ def _guess_order(data: bytes) -> Order:
     256. The root's name may be empty: then its first child's tells.
     """
     for at in (1, 4):
-        big, little = (int.from_bytes(data[at : at + 2], order) for order in ("big", "little"))
+        big = int.from_bytes(data[at : at + 2], "big")
+        little = int.from_bytes(data[at : at + 2], "little")
         if big or little:
             return "little" if little < big else "big"
     return "big"
