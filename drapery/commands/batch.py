@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from drapery.commands.notices import compile_notice, say
+from drapery.commands.notices import bar_of, compile_notice, say
 
 if TYPE_CHECKING:
     from drapery.batch.campaign import Tally
@@ -175,29 +175,7 @@ def _carry_out(
 @contextmanager
 def _progress(total: int) -> "Iterator[Callable[[Tally], None]]":
     """A bar: done, rate, time left, failures."""
-    from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        ProgressColumn,
-        Task,
-        TextColumn,
-        TimeRemainingColumn,
-    )
-    from rich.text import Text
-
-    class Rate(ProgressColumn):
-        def render(self, task: Task) -> Text:
-            return Text(f"{task.speed:.1f}/s" if task.speed else "-/s")
-
-    columns: tuple[Any, ...] = (
-        *(TextColumn("pictures"), BarColumn(), MofNCompleteColumn()),
-        *(Rate(), TimeRemainingColumn(), TextColumn("{task.fields[failed]} failed")),
-    )
-    console = Console(stderr=True)
-    hidden = not console.is_terminal
-    with Progress(*columns, console=console, transient=True, disable=hidden) as bar:
+    with bar_of("pictures", "{task.fields[failed]} failed") as bar:
         task = bar.add_task("pictures", total=total, failed=0)
 
         def tell(tally: "Tally") -> None:

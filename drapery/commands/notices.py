@@ -5,7 +5,10 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 
 def say(line: str) -> None:
@@ -68,18 +71,34 @@ def _start_beside(module: str) -> None:
 @contextmanager
 def progress(what: str, total: int) -> Iterator[Callable[[int, int | None], None]]:
     """A bar with count, rate and time left; the callable takes how many are done, of how many."""
+    with bar_of(what) as bar:
+        task = bar.add_task(what, total=total)
+        yield lambda done, _total: bar.update(task, completed=done)
+
+
+def bar_of(what: str, *more: str) -> "Progress":
+    """A bar on standard error: count, rate, time left, and more columns by rich's own words."""
     from rich.console import Console
     from rich.progress import (
         BarColumn,
         MofNCompleteColumn,
         Progress,
+        ProgressColumn,
+        Task,
         TextColumn,
         TimeRemainingColumn,
     )
+    from rich.text import Text
 
-    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    class Rate(ProgressColumn):
+        def render(self, task: Task) -> Text:
+            return Text(f"{task.speed:.1f}/s" if task.speed else "-/s")
+
     console = Console(stderr=True)
-    hidden = not console.is_terminal  # else a log gets an empty line
-    with Progress(*columns, console=console, transient=True, disable=hidden) as bar:
-        task = bar.add_task(what, total=total)
-        yield lambda done, _total: bar.update(task, completed=done)
+    return Progress(
+        *(TextColumn(what), BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn()),
+        *(TextColumn(words) for words in more),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,  # else a log gets an empty line
+    )
