@@ -52,9 +52,9 @@ class BandFilter(NamedTuple):
 class SheetFilter(NamedTuple):
     """W of a regular grid laid out as rows of lanes; see `drapery.cloth.sheets`.
 
-    into: [C, W], each column's part of each wave along the row; back: the other way.
+    into: [W, W], each column's part of each wave along the row; back: the other way.
     near, far, inverse: of each wave's column, L one and two below the diagonal and 1 / D, [R, W].
-    first: the first free row. release: [P, R, W], see `Filter`.
+    first: the first free row. release: [P, R · W], see `Filter`.
     """
 
     into: Array
@@ -204,13 +204,13 @@ def sheet_filter(cloth: Cloth, dt: float, width: int) -> SheetFilter:
     release = _release(V, U, _spectrum(cloth, r, c, dt), pins, hangs)
     held = _widened(release.T.reshape(-1, rows, columns), width)
     return SheetFilter(
-        _widened(U, width),
-        _widened(U.T, width),
+        _widened(_widened(U.T, width).T, width),
+        _widened(_widened(U, width).T, width),
         _widened(near, width),
         _widened(far, width),
         _widened(inverse_diagonal, width),
         int(hangs),
-        held,
+        held.reshape(len(held), rows * width),
     )
 
 

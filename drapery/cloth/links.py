@@ -9,6 +9,7 @@ VRIPHYS 2008); and the springs themselves go from the pins outwards, so that one
 error from the top of a hanging cloth to its free edge.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -39,20 +40,34 @@ class Links(NamedTuple):
 
 def limited_links(cloth: Cloth, limit: float, sweeps: int) -> Links:
     """Links that hold a cloth's structural springs to `limit` times their rest length."""
+    groups = link_groups(cloth, limit, sweeps)
+    return joined(groups) if groups else shared(cloth, np.zeros((0, 2), np.int32), np.zeros(0))
+
+
+def link_groups(cloth: Cloth, limit: float, sweeps: int) -> list[Links]:
+    """Attachments, long links by their length, the springs once a sweep, and the attachments again,
+    which leave no stretch next to the pins; none for 0 sweeps."""
     if sweeps == 0:
-        return _links(cloth, np.zeros((0, 2), np.int32), np.zeros(0))
+        return []
     springs = across_then_outwards(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
-    pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
-    fine = pairs, limit * lengths
-    groups = [attachments(cloth, limit), *_long_links(cloth, limit), *[fine] * sweeps]
-    return _links(
-        cloth,
-        np.concatenate([pairs for pairs, _ in groups]),
-        np.concatenate([longest for _, longest in groups]),
+    fine = cloth.spring_pairs[springs], limit * cloth.spring_length[springs]
+    held = attachments(cloth, limit)
+    groups = [held, *_long_links(cloth, limit), *[fine] * sweeps, held]
+    return [shared(cloth, *group) for group in groups]
+
+
+def joined(groups: Sequence[Links]) -> Links:
+    """Groups of links one after another."""
+    pairs, longest, share_i, share_j = zip(*groups, strict=True)
+    return Links(
+        np.concatenate(pairs),
+        np.concatenate(longest),
+        np.concatenate(share_i),
+        np.concatenate(share_j),
     )
 
 
-def _links(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Links:
+def shared(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Links:
     """Both ends share a correction by their inverse masses; pinned ends take none."""
     w = cloth.inv_mass[pairs]
     total = w.sum(axis=1)

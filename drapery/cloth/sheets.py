@@ -1,12 +1,14 @@
-"""One fine grid as rows of lanes: its columns.
+"""One fine grid as a plane of lanes.
 
-A batch fills the lanes of `kernels` with cloths. One cloth alone would leave them empty, so a fine
-grid is laid out with its columns as lanes, [3R, W]: row 3r + axis. Springs are taken a row at a
-time: all those between two rows, or along one, at once. Between rows they share no particle, and
-that is exact Gauss-Seidel from row to row. Along a row they do, and are solved together (Jacobi)
-with a part of each correction, `TOGETHER`. Lanes past the last column stay at rest at the origin.
+A batch fills the lanes of `kernels` with cloths; one cloth alone would leave them empty. So a fine
+grid is laid out as lanes itself, [3, lanes]: lane r · width + c is the particle in row r and
+column c, rows filled up to whole registers. A pull between particles some rows and columns apart
+joins lanes a constant shift apart, and one loop takes as many as share no particle: every second
+one of the whole plane, or, down the columns, a row after the other, which is exact Gauss-Seidel
+along a hanging cloth. Lanes beside the grid stay at the origin.
 """
 
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -17,49 +19,30 @@ from drapery.cloth.faces import Faces
 from drapery.mesh import Array
 
 LEAST_COLUMNS = 16
-"""Grids with fewer columns leave too many lanes empty."""
+"""Narrower grids are as fast as a batch of one."""
 MOST_PINS = 4
 """Most pins beside a whole top row."""
-TOGETHER = 0.75
-"""Part of the corrections along a row: with all, the shortest waves would never settle."""
-VECTOR = 16
-"""Lanes are filled up to a multiple of this, whole registers of any processor."""
-
-
-class Rows(NamedTuple):
-    """Pulls between lanes l of row i and l + shift of row j, in order.
-
-    i, j: rows, [E]; from R on they are the pins' own, with the pin in every lane. shift: [E].
-    lanes: how many, filled up, [E]. lengths, parts_i, parts_j: lines of the tables, [E].
-    length: [m], [K, W]. part: of the difference that an end moves, [M, W]; 0 where there is none.
-    """
-
-    i: NDArray[np.int64]
-    j: NDArray[np.int64]
-    shift: NDArray[np.int64]
-    lanes: NDArray[np.int64]
-    lengths: NDArray[np.int64]
-    parts_i: NDArray[np.int64]
-    parts_j: NDArray[np.int64]
-    length: Array
-    part: Array
+REGISTER = 8
+"""Rows are filled up to a multiple of this, a register of 256 bits."""
 
 
 class Sheet(NamedTuple):
-    """Where a grid's particles are among the lanes.
+    """Where a grid's particles are.
 
-    rows, columns: of the grid. lanes: the columns, filled up; width: with room beside them.
-    extra: rows of pins. pins: particles, [P]; free: 1 for those
-    that move, [R, W]; inv_mass: [1/kg], [R, W].
-    controls: wind samples, [S]; above: the first of the two sample lines around each row, [R];
-    low: how far the row is towards the second, [R]; across: weights of sample columns, [C', W].
+    rows, columns: of the grid. width: lanes a row. size: lanes of the grid. plane: lanes of the
+    grid and room for the longest shift; planes of anchors follow it. anchors: the pin whose place
+    fills each such plane, [K], or -1 for each column's own. pins: particles, [P]. free: 1 for
+    those that move, [size]. inv_mass: [1/kg], [size]. controls: wind samples, [S]. above: the
+    first of the two sample lines around each row, [R]; low: how far the row is towards the
+    second, [R]. across: weights of sample columns, [C', width].
     """
 
     rows: int
     columns: int
-    lanes: int
     width: int
-    extra: int
+    size: int
+    plane: int
+    anchors: NDArray[np.int64]
     pins: NDArray[np.int64]
     free: Array
     inv_mass: Array
@@ -69,23 +52,57 @@ class Sheet(NamedTuple):
     across: Array
 
 
+class Pulls(NamedTuple):
+    """Pulls between lanes a + n and b + n for n below their number of lanes, in order.
+
+    a, b, lanes, start: [E]; the lengths and parts of entry e begin at start[e].
+    length: [m]; part_i, part_j: of the difference that each end takes, 0 where there is no pull.
+    """
+
+    a: NDArray[np.int64]
+    b: NDArray[np.int64]
+    lanes: NDArray[np.int64]
+    start: NDArray[np.int64]
+    length: Array
+    part_i: Array
+    part_j: Array
+
+
+class Pairs(NamedTuple):
+    """Pairs of particles [K, 2] with their lengths [m] and parts, [K] each."""
+
+    pairs: NDArray[np.int32]
+    length: Array
+    part_i: Array
+    part_j: Array
+
+
+class Piece(NamedTuple):
+    """One entry of `Pulls`: its lanes, and values [3, count]."""
+
+    a: int
+    b: int
+    values: Array
+
+
 def is_sheet(cloth: Cloth) -> bool:
-    """Whether a cloth is better stepped with its columns as lanes."""
+    """Whether a cloth is better stepped as a plane of lanes."""
     if cloth.grid_shape is None or cloth.grid_shape[1] < LEAST_COLUMNS:
         return False
-    return _hangs(cloth) or int((cloth.inv_mass == 0).sum()) <= MOST_PINS
+    return hangs(cloth) or int((cloth.inv_mass == 0).sum()) <= MOST_PINS
 
 
-def _hangs(cloth: Cloth) -> bool:
+def hangs(cloth: Cloth) -> bool:
     """Whether a grid's pins are its top row."""
     columns = cloth.grid_shape[1] if cloth.grid_shape else 0
     return np.array_equal(np.flatnonzero(cloth.inv_mass == 0), np.arange(columns))
 
 
-def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32], width: int) -> Sheet:
-    """The layout, in `width` lanes."""
+def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> Sheet:
+    """The layout of a grid."""
     assert cloth.grid_shape is not None
     rows, columns = cloth.grid_shape
+    width = -(-columns // REGISTER) * REGISTER
     inv_mass = np.zeros((rows, width))
     inv_mass[:, :columns] = cloth.inv_mass.reshape(rows, columns)
     samples = len(np.unique(controls % columns))
@@ -93,104 +110,117 @@ def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32], width: int
     for corner in range(4):
         sample = faces.controls[:columns, corner] % samples
         np.add.at(across, (sample, np.arange(columns)), faces.weights[:columns, corner])
-    return Sheet(
-        rows,
-        columns,
-        filled(columns),
-        width,
-        0 if _hangs(cloth) else int((cloth.inv_mass == 0).sum()),
-        np.flatnonzero(cloth.inv_mass == 0),
-        (inv_mass > 0).astype(float),
-        inv_mass,
-        controls,
-        (faces.controls[::columns, 0] // samples).astype(np.int64),
-        faces.weights[::columns, 2:].sum(axis=1),
-        across,
-    )
-
-
-def sheet_width(cloth: Cloth, *pairs: NDArray[np.int32]) -> int:
-    """Lanes for the columns, and beyond them for the longest way along a row."""
-    assert cloth.grid_shape is not None
-    columns = cloth.grid_shape[1]
-    along = [np.abs(np.diff(pair % columns, axis=1)).max(initial=0) for pair in pairs]
-    return filled(columns) + filled(int(max(along)))
-
-
-def filled(lanes: int) -> int:
-    """Lanes up to whole registers."""
-    return -(-lanes // VECTOR) * VECTOR
-
-
-def rows_of(
-    cloth: Cloth,
-    width: int,
-    pairs: NDArray[np.int32],
-    length: Array,
-    part_i: Array,
-    part_j: Array,
-    together: float = TOGETHER,
-) -> Rows:
-    """Pairs [K, 2] in order as rows: those that follow each other between the same rows at once.
-
-    length: [K]; part_i, part_j: [K]; together: part of the corrections along a row. Pairs with a
-    pin that follow those with the same pin are taken as between the pin's own row and the
-    particles.
-    """
-    assert cloth.grid_shape is not None
-    columns = cloth.grid_shape[1]
-    places = _places(cloth, pairs)
-    swap = places[:, 2] < 0
-    i = np.where(swap, places[:, 1], places[:, 0])
-    j = np.where(swap, places[:, 0], places[:, 1])
-    lane = places[:, 3] + np.where(swap, places[:, 2], 0)
-    shift = np.abs(places[:, 2])
-    first, second = np.where(swap, part_j, part_i), np.where(swap, part_i, part_j)
-    keys = np.stack([i, j, shift], axis=1)
-    starts = np.flatnonzero(np.r_[True, (keys[1:] != keys[:-1]).any(axis=1)][: len(keys)])
-    entry = np.zeros(len(keys), np.int64)
-    entry[starts[1:]] = 1
-    entry = np.cumsum(entry)
-    count = len(starts)
-    lengths = np.ones((count, width))
-    parts = np.zeros((2, count, width))
-    lengths[entry, lane] = length
-    along = np.where((i == j) & (shift > 0), together, 1.0)
-    parts[0, entry, lane], parts[1, entry, lane] = first * along, second * along
-    length_table, length_lines = _table(lengths)
-    part_table, part_lines = _table(parts.reshape(2 * count, width))
-    last = np.zeros(count, np.int64)
-    np.maximum.at(last, entry, lane)
-    return Rows(
-        i[starts],
-        j[starts],
-        shift[starts],
-        np.minimum(-(-(last + 1) // VECTOR) * VECTOR, filled(columns)),
-        length_lines,
-        part_lines[:count],
-        part_lines[count:],
-        length_table,
-        part_table,
-    )
-
-
-def _places(cloth: Cloth, pairs: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Row of a and of b, shift from a to b, lane of a, [K, 4]."""
-    assert cloth.grid_shape is not None
-    rows, columns = cloth.grid_shape
-    row, lane = np.divmod(pairs.astype(np.int64), columns)
     pins = np.flatnonzero(cloth.inv_mass == 0)
-    shift, at = lane[:, 1] - lane[:, 0], lane[:, 0].copy()
-    if not _hangs(cloth):
-        for number, pin in enumerate(pins):
-            held = pairs[:, 0] == pin
-            row[held, 0], shift[held], at[held] = rows + number, 0, lane[held, 1]
-    return np.stack([row[:, 0], row[:, 1], shift, at], axis=1)
+    return Sheet(
+        rows=rows,
+        columns=columns,
+        width=width,
+        size=rows * width,
+        plane=2 * rows * width,
+        anchors=np.array([-1]) if hangs(cloth) else pins,
+        pins=pins,
+        free=(inv_mass > 0).astype(float).ravel(),
+        inv_mass=inv_mass.ravel(),
+        controls=controls,
+        above=(faces.controls[::columns, 0] // samples).astype(np.int64),
+        low=faces.weights[::columns, 2:].sum(axis=1),
+        across=across,
+    )
 
 
-def _table(lines: Array) -> tuple[Array, NDArray[np.int64]]:
-    """Each different line once, and which each was."""
-    if not len(lines):
-        return np.ones((1, lines.shape[1])), np.zeros(0, np.int64)
-    table, number = np.unique(lines, axis=0, return_inverse=True)
-    return table, number.ravel().astype(np.int64)
+def pulls(pieces: Sequence[Piece]) -> Pulls:
+    """Pieces in order. Those with the same values share them."""
+    starts: dict[bytes, int] = {}
+    values: list[Array] = [np.zeros((3, 0))]
+    at, size = [], 0
+    for piece in pieces:
+        key = piece.values.tobytes()
+        if key not in starts:
+            starts[key] = size
+            size += piece.values.shape[1]
+            values.append(piece.values)
+        at.append(starts[key])
+    length, part_i, part_j = np.concatenate(values, axis=1)
+    lanes = np.array([(p.a, p.b, p.values.shape[1]) for p in pieces], np.int64).reshape(-1, 3)
+    a, b, count = (np.ascontiguousarray(column) for column in lanes.T)
+    return Pulls(a, b, count, np.array(at, np.int64), length, part_i, part_j)
+
+
+def anchored(sheet: Sheet, pairs: Pairs) -> Iterator[Piece]:
+    """Pairs of a pin and a particle: one piece for each plane of anchors."""
+    for number, anchor in enumerate(sheet.anchors):
+        mine = slice(None) if anchor < 0 else pairs.pairs[:, 0] == anchor
+        values = _nothing(sheet)
+        _put(values, sheet, pairs.pairs[mine, 1], *(part[mine] for part in pairs[1:]))
+        yield Piece((number + 1) * sheet.plane, 0, values)
+
+
+def together(sheet: Sheet, pairs: Pairs) -> Iterator[Piece]:
+    """Pairs of particles, a piece for each way between them; for sums, whose order is free."""
+    for shift, values in _by_shift(sheet, pairs):
+        yield Piece(0, shift, values)
+
+
+def in_turn(sheet: Sheet, pairs: Pairs, part: float = 1.0) -> Iterator[Piece]:
+    """Pairs of particles in pieces of which none uses a particle twice.
+
+    Straight down the columns these are rows from the top; on other ways every second pair. With
+    a part below 1, such pairs are taken at once instead, with that part of their pulls: all of
+    them would keep the shortest waves going.
+    """
+    row, column = np.divmod(np.arange(sheet.size), sheet.width)
+    for shift, values in _by_shift(sheet, pairs):
+        rows, columns = _rows_and_columns(sheet, shift)
+        if columns == 0:
+            yield from _row_by_row(sheet, rows, values)
+        elif part < 1:
+            yield Piece(0, shift, values * np.array([[1.0], [part], [part]]))
+        else:
+            turn = row // rows % 2 if rows else column // columns % 2
+            for colour in (0, 1):
+                chosen = values.copy()
+                chosen[1:, turn != colour] = 0.0
+                if chosen[1:].any():
+                    yield Piece(0, shift, chosen)
+
+
+def _row_by_row(sheet: Sheet, rows: int, values: Array) -> Iterator[Piece]:
+    """Pairs straight down some rows: as many rows at once as share no particle, from the top."""
+    for top in range(0, sheet.rows - rows, rows):
+        first, last = top * sheet.width, min(top + rows, sheet.rows - rows) * sheet.width
+        yield Piece(first, first + rows * sheet.width, values[:, first:last])
+
+
+def _by_shift(sheet: Sheet, pairs: Pairs) -> Iterator[tuple[int, Array]]:
+    """For each shift of lanes, in the order of first use, the values of its pairs."""
+    row, column = np.divmod(pairs.pairs.astype(np.int64), sheet.columns)
+    lanes = row * sheet.width + column
+    shifts = lanes[:, 1] - lanes[:, 0]
+    _, first = np.unique(np.abs(shifts), return_index=True)
+    for shift in np.abs(shifts[np.sort(first)]):
+        values = _nothing(sheet)
+        for sign, start, end in ((1, 0, 1), (-1, 1, 0)):
+            mine = shifts == sign * shift
+            parts = pairs.part_i[mine], pairs.part_j[mine]
+            chosen = pairs.pairs[mine, start]
+            _put(values, sheet, chosen, pairs.length[mine], parts[start], parts[end])
+        yield int(shift), values
+
+
+def _rows_and_columns(sheet: Sheet, shift: int) -> tuple[int, int]:
+    """The way of a shift of lanes: rows down, and columns to the right or (below 0) to the left."""
+    rows = (shift + sheet.width // 2) // sheet.width if shift >= sheet.columns else 0
+    return rows, shift - rows * sheet.width
+
+
+def _nothing(sheet: Sheet) -> Array:
+    """Values of no pulls: length 1 m, parts 0."""
+    values = np.zeros((3, sheet.size))
+    values[0] = 1.0
+    return values
+
+
+def _put(values: Array, sheet: Sheet, particles: NDArray[np.integer], *parts: Array) -> None:
+    row, column = np.divmod(particles.astype(np.int64), sheet.columns)
+    for line, part in zip(values, parts, strict=True):
+        line[row * sheet.width + column] = part

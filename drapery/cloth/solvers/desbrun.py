@@ -30,9 +30,19 @@ from drapery.cloth.filters import (
     sheet_filter,
 )
 from drapery.cloth.forces import Force
-from drapery.cloth.links import Links, limited_links
+from drapery.cloth.links import Links, limited_links, link_groups
 from drapery.cloth.pins import PinPath
-from drapery.cloth.sheets import Rows, Sheet, is_sheet, rows_of, sheet_of, sheet_width
+from drapery.cloth.sheets import (
+    Pairs,
+    Pulls,
+    Sheet,
+    anchored,
+    in_turn,
+    is_sheet,
+    pulls,
+    sheet_of,
+    together,
+)
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import (
     Body,
@@ -46,6 +56,12 @@ from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 
+CELLS = 60
+"""A step is halved on grids with more cells than this one way, and so on: a gust must not carry a
+particle past several neighbours in one."""
+AT_ONCE = 0.75
+"""Part of the corrections along a sheet's rows, which are made at once."""
+
 
 class Plan(NamedTuple):
     body: Body
@@ -56,8 +72,8 @@ class Plan(NamedTuple):
 
 class SheetPlan(NamedTuple):
     sheet: Sheet
-    springs: Rows
-    links: Rows
+    springs: Pulls
+    links: Pulls
     filter: SheetFilter
 
 
@@ -67,12 +83,14 @@ class SolverDesbrun:
 
     limit: a spring's longest length over its rest length. sweeps: of the correction, a step.
     angular: how a free cloth's angular momentum is corrected, see `drapery.cloth.spin`.
-    threads: None for as many as there are processors.
+    substeps: of each step; None for more than one on very fine grids only. threads: None for as
+    many as there are processors.
     """
 
     limit: float = 1.005
     sweeps: int = 3
     angular: Correction = "exact"
+    substeps: int | None = None
     threads: int | None = None
 
     def __post_init__(self) -> None:
@@ -80,15 +98,18 @@ class SolverDesbrun:
             raise OptionError(f"angular {self.angular!r} is not known; use exact, paper or none")
         check_limit(self.limit)
         check_count("sweeps", self.sweeps, 0, 1000)
+        check_count("substeps", self.substeps, 1, 1000)
 
     def init(self, cloth: Cloth, dt: float) -> Memory:
         check_step(dt, 1)
+        substeps = self.substeps or -(-max(cloth.grid_shape or (1,)) // CELLS)
+        h = dt / substeps
         pinned = (cloth.inv_mass == 0).any()
         if is_sheet(cloth) and is_regular(cloth) and (pinned or self.angular == "none"):
-            return Memory(sheet_plan(cloth, dt, self.limit, self.sweeps), dt, 1)
+            return Memory(sheet_plan(cloth, h, self.limit, self.sweeps), dt, substeps)
         links = limited_links(cloth, self.limit, self.sweeps)
-        spin = spin_correction(cloth, dt, self.angular)
-        return Memory(Plan(body_of(cloth), cloth_filter(cloth, dt), links, spin), dt, 1)
+        spin = spin_correction(cloth, h, self.angular)
+        return Memory(Plan(body_of(cloth), cloth_filter(cloth, h), links, spin), dt, substeps)
 
     def step(
         self,
@@ -107,16 +128,26 @@ class SolverDesbrun:
 
 
 def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:
-    """The plan of a fine grid, whose columns are lanes."""
+    """The plan of a fine grid, a plane of lanes."""
+    sheet = sheet_of(cloth, *wind_faces(cloth))
     pairs = cloth.spring_pairs
-    links = limited_links(cloth, limit, sweeps)
-    width = sheet_width(cloth, pairs, links.pairs)
     part_i, part_j = (dt * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
+    springs = Pairs(pairs, cloth.spring_length, part_i, part_j)
+    links = [Pairs(*group) for group in link_groups(cloth, limit, sweeps)]
+    pieces = [
+        piece
+        for group in links
+        for piece in (
+            anchored(sheet, group)
+            if group is links[0] or group is links[-1]
+            else in_turn(sheet, group, AT_ONCE)
+        )
+    ]
     return SheetPlan(
-        sheet_of(cloth, *wind_faces(cloth), width),
-        rows_of(cloth, width, pairs, cloth.spring_length, part_i, part_j, together=1.0),
-        rows_of(cloth, width, *links),
-        sheet_filter(cloth, dt, width),
+        sheet,
+        pulls(list(together(sheet, springs))),
+        pulls(pieces),
+        sheet_filter(cloth, dt, sheet.width),
     )
 
 
@@ -136,7 +167,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.take_lanes(y, batch.x, start)
         kernels.take_lanes(u, batch.v, start)
-        for step in range(steps):
+        for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
             kernels.frame_velocity(mean, u, body.pins)
             kernels.subtract_frame(both[0], u, mean)
@@ -162,28 +193,27 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
 def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, substeps: int) -> None:
     """Steps of cloths first..last, one after another."""
     sheet, dtype = plan.sheet, batch.x.dtype
-    dt, lanes = dtype.type(batch.numbers[0]), sheet.lanes
-    rows, width = 3 * (sheet.rows + sheet.extra), sheet.width
-    y, u = np.empty((rows, width), dtype), np.empty((rows, width), dtype)
-    g, old = np.zeros((rows, width), dtype), np.zeros((rows, width), dtype)
-    room, mean = sheet_kernels.wind_room(sheet, dtype), np.empty(3, dtype)
+    dt, width = dtype.type(batch.numbers[0]), sheet.plane * (1 + sheet.anchors.size)
+    y, u = np.zeros((3, width), dtype), np.zeros((3, sheet.plane), dtype)
+    g, old = np.zeros((3, sheet.plane), dtype), np.zeros((3, sheet.plane), dtype)
+    work, mean = np.zeros((2, sheet.plane), dtype), np.empty(3, dtype)
+    room = sheet_kernels.wind_room(sheet, dtype)
     for cloth in range(first, last):
-        sheet_kernels.load(y, batch.x, cloth, sheet.columns)
-        sheet_kernels.load(u, batch.v, cloth, sheet.columns)
+        sheet_kernels.load(y, batch.x, cloth, sheet)
+        sheet_kernels.load(u, batch.v, cloth, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
-        sheet_kernels.place(y, sheet, batch.targets[:0], 0, cloth)
-        for step in range(steps):
+        for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
-            sheet_kernels.subtract_mean(g, u, mean, sheet, lanes)
-            sheet_kernels.pull(g, y, plan.springs, 0, plan.springs.i.size, 0, room[3])
-            sheet_kernels.filter_sheet(g, old, plan.filter, sheet, lanes)
+            sheet_kernels.subtract_mean(g, u, mean, sheet)
+            sheet_kernels.add_spring_velocities(g, y, plan.springs, work)
+            sheet_kernels.filter_sheet(g, old, plan.filter, sheet)
             for number in range(gusts.seeds.size):
                 sheet_kernels.add_wind(g, y, u, sheet, gusts, number, time, dt, room)
             sheet_kernels.add_push(g, sheet, batch.push, dt, cloth)
-            sheet_kernels.fall(g, mean, sheet, batch.numbers, lanes)
-            sheet_kernels.move(y, g, old, dt, sheet, lanes)
+            sheet_kernels.fall(g, mean, sheet, batch.numbers)
+            sheet_kernels.move(y, g, old, dt, sheet)
             sheet_kernels.place(y, sheet, batch.targets, step, cloth)
-            sheet_kernels.pull(y, y, plan.links, 0, plan.links.i.size, 1, room[3])
-            sheet_kernels.set_velocities(u, y, old, dt, sheet, lanes)
-        sheet_kernels.store(batch.new_x, y, cloth, sheet.columns)
-        sheet_kernels.store(batch.new_v, u, cloth, sheet.columns)
+            sheet_kernels.pull(y, plan.links, 0, plan.links.a.size, sheet_kernels.LIMIT, work)
+            sheet_kernels.set_velocities(u, y, old, dt, sheet)
+        sheet_kernels.store(batch.new_x, y, cloth, sheet)
+        sheet_kernels.store(batch.new_v, u, cloth, sheet)

@@ -11,26 +11,39 @@ A spring of rest length l is the constraint (d² - l²) / (d² + l²) · d = 0, 
 order and needs no square root (Jakobsen, "Advanced character physics", GDC 2001). With one
 iteration a substep its multiplier starts from 0 (2016, eq. 18): Δλ = -C / (w_i + w_j + α / h²).
 
-Soft springs act once a step, each kind in one of the substeps, with the impulse of the whole step
-(α / (h dt) in place of α / h²): as in multiple time stepping (Tuckerman, Berne, Martyna 1992), the
-short steps are spent on what is stiff. So do wind and other loads, but for gravity. Long range
+Soft springs take part in a few of a step's n substeps only, in t of them with α / (h dt / t) in
+place of α / h²: as in multiple time stepping (Tuckerman, Berne, Martyna 1992), the short steps are
+spent on what is stiff. Wind and other loads but for gravity act once a step. Long range
 attachments (`drapery.cloth.links`) keep coarse errors from having to travel spring by spring.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import kernels
+from drapery.cloth import kernels, sheet_kernels
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
+from drapery.cloth.faces import wind_faces
 from drapery.cloth.forces import Force
 from drapery.cloth.links import Links, attachments
 from drapery.cloth.order import across_then_outwards, pin_distances
 from drapery.cloth.pins import PinPath
+from drapery.cloth.sheets import (
+    Pairs,
+    Piece,
+    Pulls,
+    Sheet,
+    anchored,
+    in_turn,
+    is_sheet,
+    pulls,
+    sheet_of,
+)
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import Body, Memory, advance, body_of, check_count
 from drapery.cloth.state import State
@@ -40,6 +53,8 @@ from drapery.mesh import Array
 MAX_SUBSTEPS = 1000
 SLACK = 1.02
 """Attachments reach this much farther than the cloth at rest, so they catch only what is over."""
+OFTEN = 3.0
+"""Soft springs take part this many times as often as an explicit step would need."""
 
 
 class Constraints(NamedTuple):
@@ -60,6 +75,15 @@ class Plan(NamedTuple):
     body: Body
     constraints: Constraints
     links: Links
+
+
+class SheetPlan(NamedTuple):
+    """begin: the first entry of each substep, [substeps + 1]."""
+
+    sheet: Sheet
+    constraints: Pulls
+    begin: NDArray[np.int64]
+    links: Pulls
 
 
 @dataclass(frozen=True)
@@ -88,7 +112,10 @@ class SolverXPBD:
         check_step(dt, 1)
         substeps = self.substeps or enough_substeps(cloth)
         constraints = solved_springs(cloth, self._compliances(cloth), dt, substeps)
-        return Memory(Plan(body_of(cloth), constraints, self._links(cloth)), dt, substeps)
+        links = self._links(cloth)
+        if is_sheet(cloth):
+            return Memory(sheet_plan(cloth, constraints, links), dt, substeps)
+        return Memory(Plan(body_of(cloth), constraints, links), dt, substeps)
 
     def step(
         self,
@@ -102,7 +129,8 @@ class SolverXPBD:
         pins: PinPath | None = None,
     ) -> tuple[State, Memory]:
         args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        return advance(_advance, *args), memory
+        kernel = _advance_sheet if isinstance(memory.plan, SheetPlan) else _advance
+        return advance(kernel, *args), memory
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -121,39 +149,79 @@ class SolverXPBD:
 
 def enough_substeps(cloth: Cloth) -> int:
     """Substeps at which a hanging cloth stretches a few per cent at most in a strong wind: one for
-    every three springs between it and its pins, or across a cloth without pins."""
+    every two or three springs between it and its pins, or across a cloth without pins."""
     if cloth.grid_shape is not None:
-        return max(4, -(-max(cloth.grid_shape) // 3))
+        return max(4, int(np.ceil(max(cloth.grid_shape) / 2.5)))
     distances = pin_distances(cloth)
     reach = distances[np.isfinite(distances)].max(initial=0.0)
     springs = reach / cloth.spring_length[cloth.spring_kind == STRUCTURAL].mean()
-    return max(4, min(MAX_SUBSTEPS, int(np.ceil(springs / 3))))
+    return max(4, min(MAX_SUBSTEPS, int(np.ceil(springs / 2.5))))
 
 
 def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> Constraints:
-    """Each substep's springs in order: all stiff ones, and its part of the soft."""
-    h = dt / substeps
-    w = cloth.inv_mass[cloth.spring_pairs]
-    # Soft: a full step's pull moves the ends by less than half of the spring's strain.
-    soft = (compliance > dt**2 * w.sum(axis=1)) & (w.sum(axis=1) > 0)
-    stiff = ~soft & (w.sum(axis=1) > 0)
-    turn = np.zeros(len(w), np.int64)
-    turn[soft] = np.arange(int(soft.sum())) * substeps // max(1, int(soft.sum()))
-    chosen, begin = [], [0]
+    """Each substep's springs in order: all stiff ones, and those soft ones whose turn it is."""
+    w = cloth.inv_mass[cloth.spring_pairs].sum(axis=1)
+    times = turns_a_step(compliance, w, dt, substeps)
+    first = _first_turns(cloth, times < substeps, substeps)
+    movable = w > 0
+    chosen = []
     for substep in range(substeps):
-        springs = np.flatnonzero(stiff | (soft & (turn == substep)))
+        due = (substep - first) % -(-substeps // times) == 0
+        springs = np.flatnonzero(movable & (due | (times == substeps)))
         chosen.append(across_then_outwards(cloth, springs))
-        begin.append(begin[-1] + len(springs))
     order = np.concatenate(chosen)
-    step = np.where(soft, h * dt, h * h)
-    shares = w / (w.sum(axis=1) + compliance / step + ~(soft | stiff))[:, None]
+    each = dt**2 / substeps / -(-substeps // (-(-substeps // times)))
+    shares = cloth.inv_mass[cloth.spring_pairs] / (w + compliance / each + ~movable)[:, None]
     return Constraints(
         cloth.spring_pairs[order],
         cloth.spring_length[order] ** 2,
         shares[order, 0],
         shares[order, 1],
-        np.array(begin),
+        np.cumsum([0, *(len(springs) for springs in chosen)]),
     )
+
+
+def turns_a_step(compliance: Array, w: Array, dt: float, substeps: int) -> NDArray[np.int64]:
+    """How many of a step's substeps each spring takes part in, [S].
+
+    The fewest that keep its swing, of frequency sqrt(w / α) and twice that among neighbours, well
+    inside the limit of an explicit step, times it takes part.
+    """
+    swing = OFTEN * dt * np.sqrt(w / np.maximum(compliance, 1e-30))
+    return np.clip(np.ceil(swing), 1, substeps).astype(np.int64)
+
+
+def _first_turns(cloth: Cloth, soft: NDArray[np.bool_], substeps: int) -> NDArray[np.int64]:
+    """The substep in which each soft spring is taken first, [S]: evenly spread.
+
+    A grid's springs of one direction are taken together.
+    """
+    ways = cloth.spring_pairs[:, 1] - cloth.spring_pairs[:, 0]
+    if cloth.grid_shape is None:
+        ways = np.arange(len(ways))
+    _, number = np.unique(ways[soft], return_inverse=True)
+    first = np.zeros(len(soft), np.int64)
+    first[soft] = number.ravel() * substeps // max(1, int(number.max(initial=0)) + 1)
+    return first
+
+
+def sheet_plan(cloth: Cloth, constraints: Constraints, links: Links) -> SheetPlan:
+    """The plan of a fine grid, a plane of lanes."""
+    sheet = sheet_of(cloth, *wind_faces(cloth))
+    pieces: list[Piece] = []
+    begin = [0]
+    for first, last in pairwise(constraints.begin):
+        turn = slice(first, last)
+        due = Pairs(
+            constraints.pairs[turn],
+            np.sqrt(constraints.square[turn]),
+            constraints.share_i[turn],
+            constraints.share_j[turn],
+        )
+        pieces += in_turn(sheet, due)
+        begin.append(len(pieces))
+    held = pulls(list(anchored(sheet, Pairs(*links))))
+    return SheetPlan(sheet, pulls(pieces), np.array(begin), held)
 
 
 @kernel
@@ -253,3 +321,34 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.set_velocities(u, y, old, h)
         kernels.give_lanes(batch.new_x, y, start)
         kernels.give_lanes(batch.new_v, u, start)
+
+
+@door
+def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, substeps: int) -> None:
+    """Steps of cloths first..last, one after another."""
+    sheet, dtype = plan.sheet, batch.x.dtype
+    h = dtype.type(batch.numbers[0])
+    dt = dtype.type(batch.numbers[0] * substeps)
+    y = np.zeros((3, sheet.plane * (1 + sheet.anchors.size)), dtype)
+    u, old = np.zeros((3, sheet.plane), dtype), np.zeros((3, sheet.plane), dtype)
+    work, room = np.zeros((2, sheet.plane), dtype), sheet_kernels.wind_room(sheet, dtype)
+    for cloth in range(first, last):
+        sheet_kernels.load(y, batch.x, cloth, sheet)
+        sheet_kernels.load(u, batch.v, cloth, sheet)
+        gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
+        for step in range(steps):
+            time = batch.numbers[2] + step * substeps * batch.numbers[0]
+            for number in range(gusts.seeds.size):
+                sheet_kernels.add_wind(u, y, u, sheet, gusts, number, time, dt, room)
+            sheet_kernels.add_push(u, sheet, batch.push, dt, cloth)
+            sheet_kernels.slow_down(u, sheet, batch.numbers, dt)
+            for substep in range(substeps):
+                sheet_kernels.drift(y, old, u, sheet, batch.numbers, substep)
+                sheet_kernels.place(y, sheet, batch.targets, step * substeps + substep, cloth)
+                begin, end = plan.begin[substep], plan.begin[substep + 1]
+                sheet_kernels.pull(y, plan.constraints, begin, end, sheet_kernels.SOLVE, work)
+                last_link = plan.links.a.size
+                sheet_kernels.pull(y, plan.links, 0, last_link, sheet_kernels.LIMIT, work)
+            sheet_kernels.set_velocities(u, y, old, h, sheet)
+        sheet_kernels.store(batch.new_x, y, cloth, sheet)
+        sheet_kernels.store(batch.new_v, u, cloth, sheet)

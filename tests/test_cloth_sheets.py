@@ -1,0 +1,88 @@
+"""A fine grid laid out as a plane of lanes moves as it does in a batch."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from drapery.cloth import (
+    Gravity,
+    SolverDesbrun,
+    SolverXPBD,
+    Wind,
+    carried,
+    grid,
+    max_stretch,
+    rest_state,
+    simulate,
+)
+from drapery.cloth.solvers import desbrun, xpbd
+
+SOLVERS = {"desbrun": SolverDesbrun(), "xpbd": SolverXPBD()}
+each = pytest.mark.parametrize("name", SOLVERS)
+FORCES = [Gravity(), Wind((1.0, 0.0, 3.0), seed=2)]
+
+
+def moved(cloth, solver, steps, *, count=1, forces=FORCES, dtype=np.float64, every=None, **options):
+    every = every or steps
+    start = rest_state(cloth, count, dtype)
+    frames = simulate(cloth, solver, forces, start=start, every=every, **options)
+    return next(islice(frames, steps // every, None))
+
+
+def as_a_batch(monkeypatch):
+    for module in (desbrun, xpbd):
+        monkeypatch.setattr(module, "is_sheet", lambda cloth: False)
+
+
+@each
+@pytest.mark.parametrize("pins", ["top", "corners"])
+def test_a_sheet_moves_like_the_same_cloth_in_a_batch(name, pins, monkeypatch):
+    cloth = grid(18, 21, 0.8, 1.2, pins=pins)
+    sheet = moved(cloth, SOLVERS[name], 30)
+    as_a_batch(monkeypatch)
+    batch = moved(cloth, SOLVERS[name], 30)
+    way = np.abs(batch.positions - cloth.rest_positions).max()
+    assert way > 0.1
+    # Only the order of the corrections along a row differs.
+    assert np.abs(sheet.positions - batch.positions).max() < 0.1 * way
+
+
+@each
+def test_a_batch_of_sheets_equals_each_alone_on_any_number_of_threads(name):
+    cloth = grid(17, 9, 0.8, 1.2)
+    phases = np.array([0.0, 3.0, 7.0])
+    blown = [Gravity(), Wind((1.0, 0.0, 3.0), phases=phases)]
+    solver = type(SOLVERS[name])
+    one, two = (
+        moved(cloth, solver(threads=threads), 20, count=3, forces=blown) for threads in (1, 2)
+    )
+    np.testing.assert_array_equal(one.positions, two.positions)
+    alone = [Gravity(), Wind((1.0, 0.0, 3.0), phases=phases[2:])]
+    last = moved(cloth, solver(), 20, forces=alone)
+    np.testing.assert_array_equal(last.positions[0], one.positions[2])
+    np.testing.assert_array_equal(last.velocities[0], one.velocities[2])
+
+
+@each
+def test_steps_together_or_apart_and_pins_on_a_path(name):
+    cloth = grid(17, 9, 0.8, 1.2)
+
+    def swing(time):
+        return np.eye(3), np.array([0.3 * np.sin(4 * time), 0.0, 0.2 * time])
+
+    path = carried(cloth.rest_positions, np.arange(17), swing)
+    one, many = (moved(cloth, SOLVERS[name], 20, every=every, pins=path) for every in (1, 20))
+    # The time is a sum of steps in one, a product in the other.
+    np.testing.assert_allclose(one.positions, many.positions, atol=1e-11)
+    np.testing.assert_allclose(one.positions[0, :17], path(20 / 60), atol=1e-12)
+    assert max_stretch(one.positions, cloth) < 0.08
+
+
+@each
+@pytest.mark.parametrize("columns", [16, 23, 24, 40])
+def test_any_width_and_kind_of_number(name, columns):
+    cloth = grid(columns, 7, 0.8, 1.2, pins="four-corners")
+    exact = moved(cloth, SOLVERS[name], 12)
+    single = moved(cloth, SOLVERS[name], 12, dtype=np.float32)
+    np.testing.assert_allclose(single.positions, exact.positions, atol=2e-3)
