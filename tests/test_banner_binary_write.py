@@ -1,7 +1,10 @@
 """What we write as bytes: nbtlib reads it as the game would, and it comes back to itself."""
 
+from pathlib import Path
+
 import nbtlib
 import pytest
+from conftest import Run
 from hypothesis import given
 from hypothesis import strategies as st
 from world_maker import LIME, PLAIN, RED, SHIELD, parse_nbt
@@ -91,3 +94,26 @@ def test_a_form_that_is_forced_must_fit():
     data = structure.write([RED])
     with pytest.raises(DesignError, match="no Sponge schematic"):
         list(WRITERS["schem"].read(data))
+
+
+@pytest.mark.parametrize("name", ["a.nbt", "a.schem", "a.mcstructure", "a.dat", "a.json"])
+def test_show_writes_a_file_by_its_ending(drapery: Run, tmp_path: Path, name: str):
+    assert drapery("show", "white creeper:lime", "-o", tmp_path / name)[0] == 0
+    assert drapery("show", tmp_path / name, "--as", "text") == (0, "white creeper:lime\n", "")
+
+
+def test_show_writes_and_reads_a_form_of_bytes_by_its_name(drapery: Run, tmp_path: Path):
+    path = tmp_path / "banner"
+    assert drapery("show", "red border:black", "-o", path, "--as", "schem")[0] == 0
+    assert drapery("show", path, "--from", "schem", "--as", "text")[1] == "red border:black\n"
+    for words, fault in (
+        ((path, "--from", "litematic"), "the file is NBT but no Litematica schematic"),
+        ((path, "--from", "give"), "neither text nor a known file"),
+        ((path, "--from", "schemm"), "did you mean 'schem'?"),
+        (("white", "--from", "schem"), "this is a text; give a file"),
+        (("white", "--as", "litematic", "-o", path), "can be read but not written"),
+        ((tmp_path, "--from", "nbt"), "a folder"),
+    ):
+        code, _, said = drapery("show", *words)
+        assert (code, said.count("\n")) == (2, 1)
+        assert fault in said

@@ -1,5 +1,6 @@
 """`drapery show`: what was understood, layer by layer, or the same banner in another form."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -16,6 +17,10 @@ def run(
         str | None,
         typer.Option("--as", metavar="FORM", help="Write it as json, give, give-legacy, text, ..."),
     ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("-o", "--out", metavar="FILE", help="Write it there, as .nbt, .schem, ..."),
+    ] = None,
     form: o.FromOption = None,
     number: o.NumberOption = None,
 ) -> None:
@@ -24,6 +29,9 @@ def run(
     from drapery.banner.formats.door import pick
 
     found = read_designs(design, form=form)
+    if out is not None:
+        _write(pick(found, number), out, written)
+        return
     banners = [pick(found, number)] if number is not None else [one.banner for one in found]
     if written is not None:
         for banner in banners:
@@ -33,6 +41,28 @@ def run(
         if len(banners) > 1:
             print(place)
         _explain(banner)
+
+
+def _write(banner: "Banner", out: Path, form: str | None) -> None:
+    """The banner as a file: of a form of bytes by its name or the file's ending, or of text."""
+    from drapery.banner.formats import write_banner
+    from drapery.banner.formats.door import binary_forms
+    from drapery.errors import DesignError
+    from drapery.render.encode.output import replacing
+
+    ending = out.suffix.lower()
+    kinds = [kind for kind in binary_forms().values() if kind.write]
+    fits = (kind for kind in kinds if (kind.name == form if form else ending in kind.suffixes))
+    kind = next(fits, None)
+    if kind is None and form in binary_forms():
+        names = ", ".join(kind.name for kind in kinds)
+        raise DesignError(f"the form {form!r} can be read but not written; use one of: {names}")
+    if kind is None or kind.write is None:
+        data = (write_banner(banner, form or "json") + "\n").encode()
+    else:
+        data = kind.write(banner)
+    with replacing(out) as path:
+        path.write_bytes(data)
 
 
 def _explain(banner: "Banner") -> None:

@@ -27,7 +27,7 @@ from drapery.banner.formats import (
     trees,
     wynncraft,
 )
-from drapery.banner.formats.form import Form, single
+from drapery.banner.formats.form import BinaryForm, Form, single
 from drapery.banner.formats.found import Found
 from drapery.banner.formats.snbt import MAX_TEXT
 from drapery.banner.names import shown
@@ -174,13 +174,27 @@ def read_designs(source: str | Path, *, form: str | None = None) -> list[Found]:
 
 
 def _named(form: str) -> Form:
-    if form not in FORMS:
-        import difflib
+    if form in FORMS:
+        return FORMS[form]
+    if form in binary_forms():
+        raise DesignError(f"the form {form!r} is one of files, and this is a text; give a file")
+    raise _unknown(form)
 
-        close = difflib.get_close_matches(form[:40].lower(), FORMS, 1)
-        hint = f"; did you mean '{close[0]}'?" if close else f": they are {', '.join(FORMS)}"
-        raise DesignError(f"unknown form {shown(form)}{hint}")
-    return FORMS[form]
+
+def _unknown(form: str) -> DesignError:
+    import difflib
+
+    known = (*FORMS, *binary_forms())
+    close = difflib.get_close_matches(form[:40].lower(), known, 1)
+    hint = f"; did you mean '{close[0]}'?" if close else f": they are {', '.join(known)}"
+    return DesignError(f"unknown form {shown(form)}{hint}")
+
+
+def binary_forms() -> dict[str, BinaryForm]:
+    """Every form of bytes by name; texts are read without numpy, which these need."""
+    from drapery.banner.formats.binary import BINARY_FORMS
+
+    return BINARY_FORMS
 
 
 def _command_lines(text: str) -> list[tuple[int, str]]:
@@ -262,15 +276,34 @@ def _is_world(path: Path) -> bool:
 def _read_path(path: Path, form: str | None) -> list[Found]:
     from drapery.banner.formats.files import is_binary
 
+    if form is not None and form not in FORMS:
+        if form not in binary_forms():
+            raise _unknown(form)
+        return _read_as(path, binary_forms()[form])
     if path.is_dir():
         return _read_binary(path)
     with path.open("rb") as file:
         head = file.read(_HEAD)
-        if is_binary(head, path.stat().st_size) or path.suffix.lower() == ".mca":
+        binary = is_binary(head, path.stat().st_size) or path.suffix.lower() == ".mca"
+        if binary and form is None:
             return _read_binary(path)
         data = head + file.read(4 * MAX_TEXT + 1 - len(head))
+    text = _decoded(data, str(path))
     try:
-        return parse_banners(_decoded(data, str(path)), form=form)
+        return parse_banners(text, form=form)
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from None
+
+
+def _read_as(path: Path, form: BinaryForm) -> list[Found]:
+    """All banners of a file that is said to be of this form."""
+    from drapery.banner.formats.compression import MAX_BYTES, check_size
+
+    if path.is_dir():
+        raise DesignError(f"{path}: a folder, and no file of the form {form.name!r}; give a file")
+    check_size(path.stat().st_size, str(path), MAX_BYTES)
+    try:
+        return _despite(list(form.read(path.read_bytes())), [], "no banner in it")
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from None
 
