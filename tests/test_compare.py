@@ -174,3 +174,11 @@ def test_a_bad_target_is_refused_before_anything_is_drawn(
     designs = ("white creeper:lime", "white creeper:red")
     code, out, err = drapery("compare", *designs, "-o", tmp_path / target, *SMALL)
     assert (code, out, len(err.splitlines())) == (2, "", 1)
+
+
+def test_designs_are_read_and_drawn_as_render_does(drapery: Run, tmp_path: Path) -> None:
+    two = tmp_path / "two.mcfunction"
+    two.write_text("give @p white_banner\ngive @p red_banner\n")
+    words = ("compare", two, "red", "--number", "2", "--size", "32x48", "--grid", "2x3")
+    assert drapery(*words, "--rotation", "3", "--shadow", "--samples", "4")[0] == 0
+    assert drapery(*words[:3], "--number", "1", *words[5:])[0] == 1

@@ -44,20 +44,35 @@ def run(
     cost: Annotated[
         bool, typer.Option("--cost", help="Quads drawn and time for a frame as well.")
     ] = False,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
     pack: o.PackOption = None,
+    format: o.FormatOption = None,
+    kind: o.KindOption = "auto",
     pose: o.PoseOption = "cloth",
     placement: o.PlacementOption = "standing",
+    rotation: o.RotationOption = 0,
+    facing: o.FacingOption = None,
     view: o.ViewOption = "front",
     size: o.SizeOption = "512x512",
     grid: o.GridOption = "5x9",
+    solver: o.SolverOption = "desbrun",
     wind: o.WindOption = 4.0,
     time: o.TimeOption = 3.0,
     seed: o.SeedOption = 0,
     layers: Annotated[
         str, typer.Option(help="One mode, or stacked,flat to compare the two.")
     ] = "stacked",
+    pbr: o.PbrOption = False,
     thickness: o.ThicknessOption = 1.0,
     background: o.BackgroundOption = "transparent",
+    samples: o.SamplesOption = 1,
+    pixel: o.PixelOption = 1,
+    light: o.LightOption = "game",
+    block_light: o.BlockLightOption = 0,
+    sky_light: o.SkyLightOption = 15,
+    daylight: o.DaylightOption = 1.0,
+    shadow: o.ShadowOption = False,
     backend: Annotated[
         str, typer.Option(help="One backend, or soft,pyrender to compare the two.")
     ] = "auto",
@@ -75,7 +90,7 @@ def run(
     words = ctx.params | {"layers": modes[0], "backend": backends[0]}
     settings = Settings(**o.options_of(words))
     with compile_notice():
-        chosen = draw_variants(subjects, settings, modes, backends)
+        chosen = draw_variants(subjects, settings, modes, backends, form=form, number=number)
         pairs = compare_variants(chosen, perceptual=perceptual)
         costs = {v.label: _cost(v) for v in chosen} if cost else {}
     for pair in pairs:

@@ -26,6 +26,7 @@ def run(
     form: o.FromOption = None,
     number: o.NumberOption = None,
     pack: o.PackOption = None,
+    format: o.FormatOption = None,
     view: o.ViewOption = "iso",
     size: o.SizeOption = "768x512",
     background: o.BackgroundOption = "transparent",
@@ -41,6 +42,7 @@ def run(
 
     settings = Settings(
         packs=tuple(pack or ()),
+        format=format,
         view=view,
         size=pair("size", size),
         background=background,
@@ -49,7 +51,7 @@ def run(
     if steps is not None:
         check_sheet_target(steps)
     banner = read_design(design, form=form, number=number)
-    packs = open_packs(settings.packs)
+    packs = open_packs(settings.packs, format=format)
     _tell_steps(banner)
     _tell_hidden(banner, packs)
     with compile_notice():

@@ -92,6 +92,8 @@ def write_packs(
         ),
     ],
     out: SheetOption,
+    form: o.FromOption = None,
+    number: o.NumberOption = None,
     format: o.FormatOption = None,
     flat: Annotated[bool, typer.Option("--flat", help="Plain faces instead of cloth.")] = False,
     scale: Annotated[int, typer.Option(help="Pixels per texel of a plain face.")] = 8,
@@ -119,7 +121,8 @@ def write_packs(
     )
     with compile_notice():
         faces = scale if flat else None
-        packs_sheet(read_design(design), packs, settings, scale=faces).save(out)
+        banner = read_design(design, form=form, number=number)
+        packs_sheet(banner, packs, settings, scale=faces).save(out)
 
 
 def _check_scale(scale: int) -> None:

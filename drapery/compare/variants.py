@@ -9,7 +9,8 @@ import numpy as np
 from PIL import Image
 
 from drapery.banner.design import Banner
-from drapery.banner.formats import read_design
+from drapery.banner.formats import read_designs
+from drapery.banner.formats.door import pick
 from drapery.errors import OptionError
 from drapery.pictures import draw_with
 from drapery.render.frame import Frame
@@ -48,10 +49,14 @@ def draw_variants(
     settings: Settings,
     layer_modes: Sequence[str] = (),
     backends: Sequence[str] = (),
+    *,
+    form: str | None = None,
+    number: int | None = None,
 ) -> list[Variant]:
     """What the words of a comparison name, each drawn.
 
     subjects: two or more pictures; or one or more designs, and packs to draw them with.
+    form, number: how designs are read, and which banner of those that hold several.
     Raises OptionError where nothing, or more than one thing, varies.
     """
     pictures = [subject for subject in subjects if _is_picture(subject)]
@@ -63,23 +68,28 @@ def draw_variants(
         return [Variant(Path(p).name, _load(Path(p))) for p in pictures]
     packs = [subject for subject in subjects if _is_pack(subject)]
     designs = [subject for subject in subjects if subject not in packs]
-    return _drawn(designs, packs, settings, layer_modes, backends)
+    banners = [(text, _banner(text, form, number)) for text in designs]
+    return _drawn(banners, packs, settings, layer_modes, backends)
+
+
+def _banner(text: str, form: str | None, number: int | None) -> Banner:
+    found = read_designs(text, form=form)
+    return pick(found, number if len(found) > 1 else None)
 
 
 def _drawn(
-    designs: list[str],
+    banners: list[tuple[str, Banner]],
     packs: list[str],
     settings: Settings,
     layer_modes: Sequence[str],
     backends: Sequence[str],
 ) -> list[Variant]:
-    banners = [(text, read_design(text)) for text in designs]
     if not banners:
         raise OptionError(
             "no design is named; give one beside the packs, like 'white creeper:lime'"
         )
     axes: dict[str, list[tuple[str, dict[str, Any]]]] = {
-        "designs": [(text, {}) for text in designs] if len(designs) > 1 else [],
+        "designs": [(text, {}) for text, _ in banners] if len(banners) > 1 else [],
         "packs": [(Path(p).name, {"packs": (*settings.packs, p)}) for p in packs],
         "layers": [(mode, {"layers": mode}) for mode in layer_modes],
         "backends": [(name, {"backend": name}) for name in backends],
