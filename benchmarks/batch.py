@@ -128,27 +128,49 @@ def outputs(folder: Path) -> dict[str, bytes]:
 
 
 def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
-    """Kill workers, or the whole run, at random moments; then let it end, and compare."""
+    """Kill workers, or the whole run, at random moments; then let it end, and compare.
+
+    The moments are spread over about the time that an undisturbed run takes.
+    """
     chance = random.Random(os.getpid())
     calm, torn = folder / "calm", folder / "torn"
     command = [sys.executable, "-m", "drapery", "batch", str(manifest), *words]
+    start = time.perf_counter()
     subprocess.run([*command, "-o", str(calm)], check=True, stdout=subprocess.DEVNULL)
+    pause = (time.perf_counter() - start) / count
     told: Counter[str] = Counter()
+    again = 0
     for number in range(count):
+        before = written(torn)
         more = ["--resume"] if (torn / FILE).exists() else []
         run = subprocess.Popen([*command, "-o", str(torn), *more], stdout=subprocess.DEVNULL)
         _await_more(torn, run)
-        time.sleep(chance.uniform(0.0, 2.0))
+        time.sleep(chance.uniform(0.0, pause))
         victim = chance.choice(["worker", "run"])
         told[_kill(run, victim)] += 1
         print(f"kill {number + 1}: {victim}, {len(outputs(torn))} pictures", flush=True)
         if victim == "worker":
-            time.sleep(chance.uniform(0.0, 3.0))
+            time.sleep(chance.uniform(0.0, pause))
             _kill(run, "run")
         run.wait()
+        again += rewritten(before, torn)
+    before = written(torn)
     subprocess.run([*command, "-o", str(torn), "--resume"], check=True)
+    again += rewritten(before, torn)
     print(f"killed {dict(told)}; identical: {outputs(torn) == outputs(calm)}")
+    print(f"drawn twice, since they were in flight: {again} of {len(outputs(torn))}")
     print(f"half-written files left: {len(list(torn.rglob('.*.part')))}")
+
+
+def written(folder: Path) -> dict[str, int]:
+    """When each picture of a folder was written [ns]."""
+    return {name: (folder / name).stat().st_mtime_ns for name in outputs(folder)}
+
+
+def rewritten(before: dict[str, int], folder: Path) -> int:
+    """How many pictures were written anew."""
+    now = written(folder)
+    return sum(now[name] != moment for name, moment in before.items())
 
 
 def _await_more(folder: Path, run: subprocess.Popen[bytes]) -> None:

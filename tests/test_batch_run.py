@@ -7,11 +7,13 @@ import shutil
 import signal
 import sqlite3
 import time
+from contextlib import suppress
 from multiprocessing import get_context
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 from batch_works import command
 from conftest import Run
@@ -78,31 +80,53 @@ def test_a_batch_draws_what_draw_draws_and_draws_it_once(drapery: Run, tmp_path:
     assert all(p.stat().st_mtime_ns == t for p, t in stamps.items() if p.name != "b.png")
 
 
-def test_a_run_killed_at_random_moments_ends_as_one_undisturbed(
+def test_a_run_killed_at_twenty_random_moments_ends_as_one_undisturbed(
     drapery: Run, tmp_path: Path
 ) -> None:
-    path = manifest(tmp_path / "m.jsonl", 30)
+    path = manifest(tmp_path / "m.jsonl", 120)
     calm, torn = tmp_path / "calm", tmp_path / "torn"
     for job in plan(read_manifest(path)):
         assert do(job, open_store(str(calm))).fault is None
     torn.mkdir()
-    words = ["batch", str(path), "-o", str(torn), "--workers", "2"]
+    words = ["batch", str(path), "-o", str(torn), "--workers", "2", "--retries", "20"]
     chance = random.Random(1)
-    done = 0
-    for _ in range(2):
+    for end in (30, 60, 90, 119):
+        before = stamps(torn)
         run = get_context("spawn").Process(target=command, args=(our_version(), words))
         run.start()
-        _wait_for_pictures(torn, min(29, done + chance.randint(1, 10)), run)
+        first = len(before)
+        for victims in range(1, 5):
+            _wait_for_pictures(torn, first + (end - first) * victims // 5, run)
+            _kill_a_worker(run, chance)
+        _wait_for_pictures(torn, end, run)
         os.kill(run.pid, signal.SIGKILL)
         run.join()
-        done = len(pictures(torn))
+        assert _in_flight(before, torn) <= 4
+        if "--resume" not in words:
+            words.append("--resume")
     recorded = sum(state == "done" for _, state, _, _ in rows(torn))
-    assert done - recorded <= 4, "only what was in flight is not in the ledger"
-    code, said, _ = drapery(*words, "--resume")
+    assert len(pictures(torn)) - recorded <= 4, "only what was in flight is not in the ledger"
+    code, said, _ = drapery(*words)
     assert code == 0
     assert f"there before        {recorded}" in said
     assert pictures(torn) == pictures(calm)
     assert not list(torn.glob(".*.part"))
+
+
+def stamps(folder: Path) -> dict[str, int]:
+    return {path.name: path.stat().st_mtime_ns for path in folder.glob("*.png")}
+
+
+def _in_flight(before: dict[str, int], folder: Path) -> int:
+    """How many pictures were drawn again since, for the killed run had not written them down."""
+    now = stamps(folder)
+    return sum(now[name] != moment for name, moment in before.items())
+
+
+def _kill_a_worker(run: BaseProcess, chance: random.Random) -> None:
+    workers = [p for p in psutil.Process(run.pid).children() if "spawn_main" in str(p.cmdline())]
+    with suppress(psutil.NoSuchProcess, IndexError):
+        chance.choice(workers).kill()
 
 
 def _wait_for_pictures(folder: Path, count: int, run: BaseProcess) -> None:

@@ -51,9 +51,10 @@ def carry_out(
     tally = Tally(sum(len(job.outs) for job in jobs))
     todo = _sift(jobs, store, ledger, tally, resume)
     tell(tally)
+    # A worker that outlived its killed run may leave something beside what is done, too.
+    outs = [out for job in jobs for out in job.outs]
+    _sweep(store, outs)
     if todo:
-        outs = [out for job in todo for out in job.outs]
-        _sweep(store, outs)
         crew = hire(len(todo))
         try:
             for outcome, tries in work_off(todo, crew, retries):

@@ -4,6 +4,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -12,6 +13,8 @@ from typing import Any
 
 def live(pipe: Connection, work: Callable[[Any], Any], memory: int, threads: int) -> None:
     """Do jobs until the other end hangs up; None says that one wanted too much memory.
+
+    Nobody is left to be told when the other end is killed, so the worker ends without a word.
 
     memory: what a job may take beyond what the process has [bytes]. threads: for the kernels.
     """
@@ -22,17 +25,17 @@ def live(pipe: Connection, work: Callable[[Any], Any], memory: int, threads: int
     import drapery.pictures  # noqa: F401 - so that its memory is the worker's, not the first job's
 
     _limit(memory)
-    pipe.send(_pages(1))
-    while True:
-        try:
-            job = pipe.recv()
-        except (EOFError, OSError):
-            return
-        try:
-            outcome = work(job)
-        except MemoryError:
-            outcome = None
-        pipe.send(outcome)
+    with suppress(EOFError, ConnectionError):
+        pipe.send(_pages(1))
+        while True:
+            pipe.send(_outcome(work, pipe.recv()))
+
+
+def _outcome(work: Callable[[Any], Any], job: Any) -> Any:
+    try:
+        return work(job)
+    except MemoryError:
+        return None
 
 
 def _die_with_parent() -> None:
