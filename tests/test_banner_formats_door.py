@@ -88,7 +88,7 @@ def test_a_text_is_no_file_even_where_a_folder_is_called_so(
     assert read_design("red") == RED
 
 
-@pytest.mark.parametrize("name", ["gone.txt", "a/b.json", "C:\\banners\\mine.nbt"])
+@pytest.mark.parametrize("name", ["gone.txt", "gone.png", "a/b.json", "C:\\banners\\mine.nbt"])
 def test_a_file_that_is_not_there_is_called_so(name: str):
     with pytest.raises(DesignError, match="there is no such file"):
         read_design(name)

@@ -1,5 +1,6 @@
 """The door: any text or file in, banners out; and a banner in, any form out."""
 
+import re
 import sys
 import warnings
 from collections.abc import Callable
@@ -241,6 +242,9 @@ def _despite(found: list[Found], errors: list[DesignError], nothing: str) -> lis
 
 _MOST_WARNINGS = 5
 
+_FILE_NAME = re.compile(r"[^\s:{}\[\]\"'?&=]+\.[A-Za-z][A-Za-z0-9]{1,5}")
+"""One word with an ending, which no text of a banner is."""
+
 _SUFFIXES = frozenset(
     f".{suffix}"
     for suffix in (
@@ -264,7 +268,8 @@ def _as_path(source: str | Path) -> Path | None:
             raise DesignError(f"{shown(source, 80)}: a folder, and no Java world; give a file")
     except OSError:
         return None
-    if path.suffix.lower() in _SUFFIXES and not set('{}[]"').intersection(source):
+    known = path.suffix.lower() in _SUFFIXES and not set('{}[]"').intersection(source)
+    if known or _FILE_NAME.fullmatch(source):
         raise DesignError(f"{shown(source, 80)}: there is no such file; check the path")
     return None
 
