@@ -1,0 +1,97 @@
+"""The wind of the live cloth: set by sliders, steered by keys, and steady where it changes."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from drapery.cloth import Wind
+from drapery.scenes.staging import BREEZE
+from drapery.settings import within
+
+OWN_HEADING = float(np.degrees(np.arctan2(BREEZE[0], BREEZE[2])))
+"""Where a picture's wind blows to [degrees]: 0 is straight out of its front."""
+TURNING = 150.0
+"""How fast the keys turn the wind [degrees/s]."""
+RISING = 5.0
+"""How fast the keys change its strength [m/s²]."""
+STRONGEST = 40.0
+AHEAD = {"w": 180.0, "s": 0.0, "a": -90.0, "d": 90.0}
+"""Where each key sends the wind, from where the viewer stands: away, near, left, right."""
+KEYS = (*AHEAD, "q", "e")
+TRIES = 1 << 16
+
+
+@dataclass(frozen=True)
+class Breeze:
+    """What blows.
+
+    speed: [m/s]. turned: how far from where a picture's wind blows to [degrees], to the right of
+    one who stands before the banner. gusts: their rms over the speed. seed: which gusts. on:
+    whether it blows.
+    """
+
+    speed: float = 4.0
+    turned: float = 0.0
+    gusts: float = 0.4
+    seed: int = 0
+    on: bool = True
+
+    def __post_init__(self) -> None:
+        within("wind", self.speed, 0, STRONGEST, "m/s")
+        within("direction", self.turned, -180, 180, "degrees")
+        within("gusts", self.gusts, 0, 2)
+
+
+def wind_of(breeze: Breeze) -> Wind:
+    """The wind on a cloth in its own frame; unturned it is that of pictures, to the bit."""
+    speed = breeze.speed if breeze.on else 0.0
+    along = np.array(BREEZE) / np.linalg.norm(BREEZE)
+    cos, sin = np.cos(np.radians(breeze.turned)), np.sin(np.radians(breeze.turned))
+    x, y, z = speed * along
+    velocity = (float(x * cos + z * sin), float(y), float(z * cos - x * sin))
+    return Wind(velocity, gusts=breeze.gusts, seed=breeze.seed)
+
+
+def steered(breeze: Breeze, keys: Iterable[str], azimuth: float, seconds: float) -> Breeze:
+    """The breeze after keys have been held for so long.
+
+    w, a, s, d: turn it away from the viewer, to the left, near, to the right; q, e: weaker and
+    stronger. azimuth: where the viewer stands about the banner [degrees].
+    """
+    held = set(keys)
+    towards = [np.radians(azimuth + AHEAD[key]) for key in AHEAD if key in held]
+    x, z = sum(map(np.sin, towards)), sum(map(np.cos, towards))
+    if x * x + z * z > 1e-6:
+        wished = float(np.degrees(np.arctan2(x, z))) - OWN_HEADING
+        rest = _around(wished - breeze.turned)
+        most = TURNING * seconds
+        breeze = replace(breeze, turned=_around(breeze.turned + min(max(rest, -most), most)))
+    rise = RISING * seconds * (("e" in held) - ("q" in held))
+    return replace(breeze, speed=min(max(breeze.speed + rise, 0.0), STRONGEST))
+
+
+def _around(degrees: float) -> float:
+    """The same direction as -180..180."""
+    return (degrees + 180.0) % 360.0 - 180.0
+
+
+def carried_on(before: Wind, after: Wind, time: float) -> Wind:
+    """A wind that takes over from another at a time [s], its gusts and swell in their midst.
+
+    Gusts travel with the wind, so that another speed alone would leap to quite other gusts. Among
+    the phases that keep the swell, the one is taken that keeps the gusts best.
+    """
+    phase = float(np.asarray(before.phases))
+    old, new = (_speed(wind) / wind.gust_size for wind in (before, after))
+    if new in (0.0, old) or old == 0.0:
+        return replace(after, phases=phase)
+    later = phase + after.sine_period * np.arange(TRIES)
+    # Only the part within a cell shows: elsewhere in a cell the gusts are others, no wilder.
+    apart = (time + later) * new - (time + phase) * old
+    apart -= 4096.0 * np.round(apart / 4096.0)
+    return replace(after, phases=float(later[np.argmin(np.abs(apart))]))
+
+
+def _speed(wind: Wind) -> float:
+    return float(np.sqrt(np.sum(np.square(wind.velocity))))

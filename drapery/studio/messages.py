@@ -1,0 +1,272 @@
+"""What the live cloth tells the page: a message of what stays, and one for each moment.
+
+A message is a header of JSON and arrays of numbers behind it, little-endian: its first four bytes
+are the header's length, which fills up to a multiple of four with blanks, as each array does with
+zeros. The header's `arrays` names each array, its type, its length and where it begins, counted
+from the end of the header.
+
+`scene`: panes, triangles, what they wear; everything that stays from one moment to the next.
+`moment`: positions and light of the vertices that have moved, and cameras that have changed.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import astuple, dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.mesh import Array
+from drapery.render.camera import Camera
+from drapery.render.drawlist import Topology, topology
+from drapery.render.flatten import flattened
+from drapery.render.light import Light
+from drapery.render.recent import Recent
+from drapery.render.relief import relieved
+from drapery.render.scene import Model
+from drapery.studio.panes import Pane, Shown
+
+TYPES = {"float32": "<f4", "uint32": "<u4", "int32": "<i4", "uint8": "|u1"}
+Run = tuple[int, int]
+"""The first vertex of a run, and how many."""
+
+
+def pack(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """A message as bytes."""
+    listed, parts, at = [], [], 0
+    for name, array in arrays.items():
+        kind = array.dtype.name
+        data = np.ascontiguousarray(array).astype(TYPES[kind], copy=False).tobytes()
+        listed.append([name, kind, array.size, at])
+        parts.append(data + bytes(-len(data) % 4))
+        at += len(parts[-1])
+    text = json.dumps({**header, "arrays": listed}, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    return b"".join([len(text).to_bytes(4, "little"), text, *parts])
+
+
+def unpack(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """The header and the arrays of a message, each [n]."""
+    start = 4 + int.from_bytes(message[:4], "little")
+    header = json.loads(message[4:start])
+    arrays = {
+        name: np.frombuffer(message, TYPES[kind], count, start + at)
+        for name, kind, count, at in header.pop("arrays")
+    }
+    return header, arrays
+
+
+@dataclass
+class Told:
+    """What a viewer has been told, so that each moment says only what is new.
+
+    which: all panes, or only the first or last. shape: width and height of the viewer.
+    """
+
+    which: str = "all"
+    shape: tuple[int, int] = (1, 1)
+    _version: int = 0
+    _topology: Topology | None = None
+    _layout: object = None
+    _cut: object = None
+    _cameras: list[Camera] = field(default_factory=list)
+    _moved: list[tuple[Array, Array, Light]] = field(default_factory=list)
+    _lit_of: tuple[Topology, NDArray[np.bool_]] | None = None
+    _recent: Recent[Topology] = field(default_factory=lambda: Recent(2))
+
+    def forget(self) -> None:
+        """Tell everything again."""
+        self._topology = None
+
+    def reframe(self, shape: tuple[int, int]) -> None:
+        """The viewer has another shape."""
+        if shape != self.shape:
+            self.shape, self._cut = shape, None
+
+    def messages(self, shown: Shown) -> list[bytes]:
+        """What to tell of this moment: the scene too, where another is seen than before.
+
+        Raises OptionError for what cannot be drawn.
+        """
+        shown = _arranged(shown, self.which, self.shape)
+        panes = [_Drawn(pane) for pane in shown.panes]
+        constant = self._constant([model for pane in panes for model in pane.models])
+        found = []
+        if not self._knows(constant, shown, [len(pane.models) for pane in panes]):
+            self._version += 1
+            self._moved, self._cut = [], None
+            found.append(self._scene(constant, shown, panes))
+        return [*found, self._moment(constant, shown, panes)]
+
+    def _constant(self, models: list[Model]) -> Topology:
+        """What stays of the models; the renderer's own memory is shared by all tabs."""
+        arrays = tuple(
+            part
+            for model in models
+            for part in (model.mesh.triangles, model.mesh.uvs, model.look_index, *model.looks)
+        )
+        shapes = [model.mesh.positions.shape for model in models]
+        return self._recent.get(arrays, shapes, lambda: topology(models))
+
+    def _knows(self, topology: Topology, shown: Shown, counts: list[int]) -> bool:
+        labels = [(pane.label, pane.flat, pane.scene.background) for pane in shown.panes]
+        samples = max(pane.scene.samples for pane in shown.panes)
+        layout = (counts, labels, shown.columns, shown.grip, samples)
+        known = self._layout == layout and _same(self._topology, topology)
+        self._layout = layout
+        if not known or self._topology is None:
+            self._topology = topology
+        return known
+
+    def _scene(self, topology: Topology, shown: Shown, panes: list["_Drawn"]) -> bytes:
+        starts, looks = topology.vertex_start, np.zeros(len(topology.uvs), np.int32)
+        looks[topology.triangles] = topology.triangle_look[:, None]
+        worn = flattened(topology.wardrobe)
+        kinds = np.stack([worn.look_alpha, worn.look_lit], axis=1)
+        header = {
+            "kind": "scene",
+            "version": self._version,
+            "columns": shown.columns,
+            "vertices": len(topology.uvs),
+            "atlas": worn.atlas.shape[1::-1],
+            "samples": max(pane.scene.samples for pane in shown.panes),
+            "panes": _pane_headers(topology, panes),
+            "grip": [_run(starts, first + g) for first in _firsts(panes) for g in shown.grip],
+        }
+        arrays = {
+            "uvs": topology.uvs,
+            "triangles": topology.triangles.astype(np.uint32),
+            "triangleLooks": topology.triangle_look,
+            "vertexLooks": looks,
+            "looks": np.concatenate([worn.look_coats, kinds], axis=1, dtype=np.int32),
+            "coats": np.concatenate([worn.coat_rects, worn.coat_tints], axis=1, dtype=np.int32),
+            "atlas": worn.atlas,
+        }
+        return pack(header, arrays)
+
+    def _moment(self, constant: Topology, shown: Shown, panes: list["_Drawn"]) -> bytes:
+        models = [(model, pane.pane.scene.light) for pane in panes for model in pane.models]
+        states = [(model.mesh.positions, model.mesh.normals, light) for model, light in models]
+        new = [number for number, state in enumerate(states) if not self._is_known(number, state)]
+        self._moved = states
+        runs = [_run(constant.vertex_start, number) for number in new]
+        lit = self._lit(constant)
+        light = [
+            np.where(lit[first : first + count], models[number][1].brightness(_flat(normals)), 1)
+            for number, (first, count) in zip(new, runs, strict=True)
+            for normals in [states[number][1]]
+        ]
+        header: dict[str, Any] = {
+            "kind": "moment",
+            "version": self._version,
+            "runs": runs,
+            "tints": [pane.pane.scene.light.tint for pane in panes],
+        }
+        if shown.wind is not None:
+            speed, heading, on = shown.wind
+            header["wind"] = [round(speed, 2), round(heading, 1), on]
+        cameras = self._views(shown)
+        if cameras is not None:
+            header["cameras"] = cameras
+        nothing = np.zeros((0, 3), np.float32)
+        arrays = {
+            "positions": np.concatenate([nothing, *(_flat(states[number][0]) for number in new)]),
+            "light": np.concatenate([nothing[:, 0], *light]).astype(np.float32, copy=False),
+        }
+        return pack(header, arrays)
+
+    def _lit(self, constant: Topology) -> NDArray[np.bool_]:
+        """On which vertices light falls, shape [V]."""
+        if self._lit_of is None or self._lit_of[0] is not constant:
+            shines = np.zeros(len(constant.uvs), np.bool_)
+            shines[constant.triangles[constant.wardrobe.look_lit[constant.triangle_look]]] = True
+            self._lit_of = constant, shines
+        return self._lit_of[1]
+
+    def _is_known(self, number: int, state: tuple[Array, Array, Light]) -> bool:
+        if number >= len(self._moved):
+            return False
+        old = self._moved[number]
+        return old[0] is state[0] and old[1] is state[1] and old[2] == state[2]
+
+    def _views(self, shown: Shown) -> dict[str, Any] | None:
+        """The cameras, where they are others than before; `cut` where the viewer looks anew."""
+        cut = self._cut is None or self._cut != (shown.cut,)
+        self._cut = (shown.cut,)
+        # A live body is framed once for each cut, a scene may carry its camera about.
+        follow = shown.wind is None
+        if not cut and not follow:
+            return None
+        rows = -(-len(shown.panes) // shown.columns)
+        aspect = (self.shape[0] / shown.columns) / (self.shape[1] / rows)
+        cameras = [pane.framing(aspect) for pane in shown.panes]
+        if not cut and cameras == self._cameras:
+            return None
+        self._cameras = cameras
+        return {"cut": cut, "list": [astuple(camera) for camera in cameras]}
+
+
+def _arranged(shown: Shown, which: str, shape: tuple[int, int]) -> Shown:
+    """The panes that a viewer shows; under each other where it is upright and they are a row."""
+    count = len(shown.panes)
+    if which != "all" and count > 1:
+        return replace(
+            shown, panes=shown.panes[:1] if which == "left" else shown.panes[-1:], columns=1
+        )
+    if count > 1 and shown.columns == count and shape[0] < shape[1]:
+        return replace(shown, columns=1)
+    return shown
+
+
+class _Drawn:
+    """A pane and its models as they are drawn, normal maps worked into their textures."""
+
+    def __init__(self, pane: Pane) -> None:
+        self.pane = pane
+        self.models: tuple[Model, ...] = relieved(pane.scene).models
+
+
+def _pane_headers(topology: Topology, panes: list[_Drawn]) -> list[dict[str, Any]]:
+    """Each pane's label, background and run of triangles."""
+    firsts = [*_firsts(panes), sum(len(pane.models) for pane in panes)]
+    owner = np.searchsorted(topology.vertex_start, topology.triangles[:, 0], "right") - 1
+    cuts = np.searchsorted(owner, firsts)
+    return [
+        {
+            "label": drawn.pane.label,
+            "flat": drawn.pane.flat,
+            "background": drawn.pane.scene.background,
+            "triangles": [int(cuts[number]), int(cuts[number + 1] - cuts[number])],
+        }
+        for number, drawn in enumerate(panes)
+    ]
+
+
+def _firsts(panes: list[_Drawn]) -> list[int]:
+    """The number of each pane's first model."""
+    counts = [len(pane.models) for pane in panes]
+    return [sum(counts[:number]) for number in range(len(counts))]
+
+
+def _flat(vectors: Array) -> NDArray[np.float32]:
+    return np.asarray(vectors, np.float32).reshape(-1, 3)
+
+
+def _run(starts: NDArray[np.int64], model: int) -> Run:
+    return int(starts[model]), int(starts[model + 1] - starts[model])
+
+
+def _same(a: Topology | None, b: Topology) -> bool:
+    """Whether two draw lists look alike but for where their vertices are."""
+    if a is None or a is b:
+        return a is b
+    pairs = [
+        (a.triangles, b.triangles),
+        (a.triangle_look, b.triangle_look),
+        (a.uvs, b.uvs),
+        (a.vertex_start, b.vertex_start),
+    ]
+    worn = "look_coats", "look_alpha", "look_lit", "coat_rects", "coat_tints", "atlas"
+    pairs += [(getattr(a.wardrobe, name), getattr(b.wardrobe, name)) for name in worn]
+    return all(x is y or np.array_equal(x, y) for x, y in pairs)

@@ -1,0 +1,302 @@
+"""One tab's live cloth: it moves while somebody looks, and tells those who look when it has.
+
+Whatever happens is handed over as a call and made between two ticks, in the thread that ticks; the
+page's own loop only hands over and waits.
+"""
+
+import asyncio
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs, open_packs
+from drapery.cloth.pins import PinName
+from drapery.errors import DraperyError
+from drapery.scenes.staging import STEP
+from drapery.studio.breeze import OWN_HEADING, Breeze
+from drapery.studio.live import Live
+from drapery.studio.panes import Shown
+from drapery.studio.player import Player
+from drapery.studio.session import Session
+from drapery.studio.sketch import banner_of
+
+BEHIND = 4
+"""Ticks that are caught up at once; what is further behind is left out, and time runs slower."""
+THREADS = 2
+
+T = TypeVar("T")
+Input = Callable[[Live], object]
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What the live cloth is asked for beyond the settings of a picture.
+
+    turned, gusts, on: of the wind, see `Breeze`. pins: None is the cloth's own. paused: time
+    stands. scene: a ready-made scene instead of the design. beside: packs in which the design is
+    shown side by side; None where only one is.
+    """
+
+    turned: float = 0.0
+    gusts: float = 0.4
+    on: bool = True
+    pins: PinName | None = None
+    paused: bool = False
+    scene: str | None = None
+    beside: tuple[str | Path, ...] | None = None
+
+
+@cache
+def _pool() -> ThreadPoolExecutor:
+    """The threads in which all tabs' cloths move."""
+    return ThreadPoolExecutor(THREADS, thread_name_prefix="live")
+
+
+async def in_thread(call: Callable[[], T]) -> T:
+    """The call's result, made in a thread of the live cloths."""
+    return await asyncio.get_running_loop().run_in_executor(_pool(), call)
+
+
+class Stage:
+    """The live cloth of a session.
+
+    version: counts what can be seen. fault: why the last change did not come about; "" where it
+    did. size: of the viewer [pixels]. viewers: how many are connected, hidden ones too.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self.wishes = Wishes()
+        self.version = 0
+        self.fault = ""
+        self.size = (640, 480)
+        self.viewers = 0
+        self._session = session
+        self._live: Live | None = None
+        self._player: Player | None = None
+        self._inputs: list[Input] = []
+        self._told: list[Callable[[], None]] = []
+        self._stale = True
+        self._keys: tuple[str, ...] = ()
+        self._lookers = 0
+        self._task: asyncio.Task[None] | None = None
+        self._pulse = asyncio.Event()
+        self._owed = 0.0
+        self._lock = threading.Lock()
+        self._picture: tuple[int, Shown | None] = (-1, None)
+        for event in ("sketch", "settings", "packs"):
+            session.listen(event, self._spoil)
+        session.on_close(self.close)
+
+    def wish(self, **options: Any) -> None:
+        """Ask for something else; tells "scene" where another scene is asked for.
+
+        Raises OptionError or PackError; nothing has changed then.
+        """
+        before, after = self.wishes, replace(self.wishes, **options)
+        Breeze(0.0, after.turned, after.gusts)
+        if after.beside is not None and after.beside != before.beside:
+            _opened(after.beside, self._session.settings.format)
+        self.wishes = after
+        self._spoil()
+        if after.scene != before.scene:
+            self._session.tell("scene")
+
+    def listen(self, call: Callable[[], None]) -> None:
+        """Call this whenever keys have changed the wishes, or a fault has come or gone."""
+        self._told.append(call)
+
+    def do(self, call: Input) -> None:
+        """Hand over what happens to the live cloth before the next tick."""
+        self._inputs.append(call)
+
+    def press(self, keys: tuple[str, ...], azimuth: float) -> None:
+        """Hold these keys of the wind; see `Live.press`."""
+        self._keys = keys
+        self.do(lambda live: live.press(keys, azimuth))
+
+    def switch(self) -> None:
+        """The wind off, or on again."""
+        self.wish(on=not self.wishes.on)
+        self._tell()
+
+    def reset(self) -> None:
+        """The cloth back to rest, the scene back to its start."""
+        self.do(lambda live: live.reset())
+        if self._player is not None:
+            self._player.restart()
+        self._spoil()
+
+    def look_anew(self) -> None:
+        """Frame what is seen as the named view does."""
+        self.do(lambda live: live.look_anew())
+
+    def enter(self) -> None:
+        """Somebody looks: it begins to move."""
+        self._lookers += 1
+        if self._task is None:
+            self._task = asyncio.get_running_loop().create_task(self._run(), name="live cloth")
+
+    def leave(self) -> None:
+        """Somebody looks no more; without anybody it stands still and costs nothing."""
+        self._lookers -= 1
+        if self._lookers <= 0:
+            self._stop()
+
+    def close(self) -> None:
+        """The tab is gone."""
+        self._stop()
+        _STAGES.pop(self._session.token, None)
+        self._live = self._player = None
+        self._told.clear()
+
+    @property
+    def moving(self) -> bool:
+        """Whether a task of it runs."""
+        return self._task is not None
+
+    async def after(self, version: int) -> None:
+        """Wait until there is something newer than this version."""
+        while self.version <= version:
+            await self._pulse.wait()
+
+    def shown(self) -> Shown | None:
+        """What is to be seen now; None before there is anything. Not for the page's own loop."""
+        with self._lock:
+            if self._picture[0] != self.version:
+                self._picture = self.version, self._look()
+            return self._picture[1]
+
+    def _look(self) -> Shown | None:
+        if self._player is not None:
+            return self._player.now
+        return self._live.shown() if self._live is not None else None
+
+    def _stop(self) -> None:
+        if self._task is not None:
+            self._task.cancel()
+            self._task = None
+        self._lookers = 0
+
+    def _spoil(self) -> None:
+        self._stale = True
+
+    def _tell(self) -> None:
+        for call in [*self._told]:
+            with suppress(Exception):
+                call()
+
+    async def _run(self) -> None:
+        clock = asyncio.get_running_loop().time
+        due = clock()
+        while True:
+            ticks = min(int((clock() - due) / STEP) + 1, BEHIND)
+            fault, version = self.fault, self.version
+            await in_thread(lambda ticks=ticks: self._turn(ticks))  # type: ignore[misc]
+            if self.version != version:
+                self._pulse.set()
+                self._pulse = asyncio.Event()
+            if self.fault != fault or (not self._keys and self._has_steered()):
+                self._tell()
+            due = max(due + ticks * STEP, clock() - STEP)
+            await asyncio.sleep(max(0.0, due - clock()))
+
+    def _has_steered(self) -> bool:
+        """Whether keys have made another wind; it is then what is wished for."""
+        breeze = self._live.breeze if self._live is not None else None
+        if breeze is None or self._stale or self._inputs:
+            return False
+        speed, turned = round(breeze.speed, 1), round(breeze.turned, 1)
+        if (speed, turned) == (round(self._session.settings.wind, 1), round(self.wishes.turned, 1)):
+            return False
+        self.wishes = replace(self.wishes, turned=turned)
+        self._session.adjust(wind=speed)
+        return True
+
+    def _turn(self, ticks: int) -> None:
+        with self._lock:
+            self._change(ticks)
+
+    def _change(self, ticks: int) -> None:
+        """Make the changes, then move on; what goes wrong is kept as `fault`."""
+        inputs, self._inputs = self._inputs, []
+        stale, self._stale = self._stale, False
+        try:
+            if stale:
+                self._renew()
+            for call in inputs:
+                if self._live is not None:
+                    call(self._live)
+            moved = self._move(ticks)
+            if stale:
+                self.fault = ""
+        except DraperyError as error:
+            self.fault, moved = str(error), True
+        if stale or inputs or moved:
+            self.version += 1
+
+    def _move(self, ticks: int) -> bool:
+        if self.wishes.paused or ticks <= 0:
+            return False
+        if self._player is None:
+            if self._live is not None:
+                self._live.step(ticks)
+            return self._live is not None
+        self._owed += ticks * STEP * self._player.fps
+        if self._owed < 1.0:
+            return False
+        # A scene that is late is late: each of its moments is simulated only once.
+        self._owed = min(self._owed - 1.0, 1.0)
+        self._player.step()
+        return True
+
+    def _renew(self) -> None:
+        """Take over the design, the settings and the wishes. Raises DraperyError."""
+        session, wishes = self._session, self.wishes
+        if wishes.scene != (self._player.entry.name if self._player is not None else None):
+            self._player = None
+            if wishes.scene is not None:
+                player = Player(wishes.scene, self.size)
+                player.step()
+                self._player = player
+        settings, packs = session.settings, session.packs()
+        beside = None if wishes.beside is None else _opened(wishes.beside, settings.format)
+        design = _design(session)
+        if self._live is None:
+            self._live = Live(design, packs, settings)
+        self._live.wear(design, packs, settings, beside)
+        if wishes.pins != self._live.pins:
+            self._live.hold(wishes.pins)
+        breeze = replace(self._live.breeze, turned=wishes.turned, gusts=wishes.gusts, on=wishes.on)
+        if breeze != self._live.breeze and not self._keys:
+            self._live.blow(breeze)
+
+
+def _design(session: Session) -> Banner | None:
+    """What the sketch shows; nothing where a texture is worn instead."""
+    return None if session.settings.texture is not None else banner_of(session.sketch)
+
+
+@cache
+def _opened(paths: tuple[str | Path, ...], format: int | None) -> Packs:
+    return open_packs(paths, format=format)
+
+
+_STAGES: dict[str, Stage] = {}
+
+
+def stage_of(session: Session) -> Stage:
+    """The live cloth of a session, which ends with it."""
+    if session.token not in _STAGES:
+        _STAGES[session.token] = Stage(session)
+    return _STAGES[session.token]
+
+
+def heading_of(turned: float) -> float:
+    """Where a wind blows to that is turned so far [degrees], -180..180; 0 is the banner's front."""
+    return (turned + OWN_HEADING + 180.0) % 360.0 - 180.0

@@ -1,0 +1,28 @@
+"""The live cloth as an element of the page; `viewer/` draws it and `stream` feeds it."""
+
+from typing import Literal
+
+from nicegui import ui
+
+from drapery.studio.session import Session
+
+Which = Literal["all", "left", "right"]
+
+LABEL = (
+    "Live banner. Drag its cloth to pull it and the background to walk round it; the wheel or"
+    " plus and minus zoom, Shift with arrows turns, Home looks anew. W, A, S, D or arrows turn the"
+    " wind, Q and E make it weaker and stronger, Space stops it."
+)
+
+
+class Viewer(ui.element, component="viewer.js", esm={"drapery-viewer": "viewer"}):
+    """A canvas on which a session's cloth moves.
+
+    which: of what is shown side by side, all, or only what stands on the left or right; viewers
+    of one session show the same motion.
+    """
+
+    def __init__(self, session: Session, which: Which = "all", label: str = LABEL) -> None:
+        super().__init__()
+        self._props["address"] = f"/live/{session.token}?which={which}"
+        self._props["label"] = label

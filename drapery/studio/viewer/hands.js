@@ -1,0 +1,163 @@
+// Mouse, touch and keys on the viewer: walk round it, come nearer, pull the cloth, steer the wind.
+
+const TURN = 0.0075; // radians a pixel
+const STEP = Math.PI / 24;
+const STEERING = {
+  KeyW: "w", KeyA: "a", KeyS: "s", KeyD: "d", KeyQ: "q", KeyE: "e",
+  ArrowUp: "w", ArrowLeft: "a", ArrowDown: "s", ArrowRight: "d",
+};
+const WRITING = "input, textarea, select, [contenteditable=''], [contenteditable=true], [role=textbox]";
+
+const viewers = new Set();
+
+export class Hands {
+  // viewer: has canvas, orbit, redraw(), ray(x, y), grips(x, y), say(words), azimuth().
+  constructor(viewer) {
+    this.viewer = viewer;
+    this.pointers = new Map();
+    this.held = new Set();
+    this.pulling = false;
+    const { canvas } = viewer;
+    this.listen(canvas, "pointerdown", (event) => this.down(event));
+    this.listen(canvas, "pointermove", (event) => this.move(event));
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+      this.listen(canvas, end, (event) => this.up(event));
+    this.listen(canvas, "wheel", (event) => this.wheel(event));
+    this.listen(canvas, "dblclick", () => this.change(() => viewer.orbit.reset()));
+    this.listen(canvas, "contextmenu", (event) => event.preventDefault());
+    this.listen(window, "keydown", (event) => this.key(event, true));
+    this.listen(window, "keyup", (event) => this.key(event, false));
+    this.listen(window, "blur", () => this.release());
+    viewers.add(this);
+  }
+
+  listen(target, name, call) {
+    this.ears ??= [];
+    this.ears.push([target, name, call]);
+    target.addEventListener(name, call, { passive: false });
+  }
+
+  end() {
+    this.release();
+    for (const [target, name, call] of this.ears) target.removeEventListener(name, call);
+    viewers.delete(this);
+  }
+
+  change(call) {
+    call();
+    this.viewer.redraw();
+  }
+
+  down(event) {
+    event.preventDefault();
+    this.viewer.canvas.focus({ preventScroll: true });
+    this.viewer.canvas.setPointerCapture(event.pointerId);
+    this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
+    this.shifting = event.shiftKey || event.button === 2;
+    if (this.pointers.size > 1) this.drop();
+    else if (event.button === 0 && !event.shiftKey && this.viewer.grips(event.offsetX, event.offsetY)) {
+      this.pulling = true;
+      this.viewer.say({ grab: this.viewer.ray(event.offsetX, event.offsetY) });
+    }
+    this.cursor(event);
+  }
+
+  move(event) {
+    const before = this.pointers.get(event.pointerId);
+    if (!before) return this.cursor(event);
+    const [dx, dy] = [event.offsetX - before[0], event.offsetY - before[1]];
+    const spread = this.spread();
+    this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
+    const { orbit, canvas } = this.viewer;
+    if (this.pulling) this.viewer.say({ pull: this.viewer.ray(event.offsetX, event.offsetY) });
+    else if (this.pointers.size === 2)
+      this.change(() => {
+        if (spread) orbit.approach(spread / Math.max(1, this.spread()));
+        orbit.shift(dx / 2 / canvas.clientHeight, -dy / 2 / canvas.clientHeight);
+      });
+    else if (this.shifting) this.change(() => orbit.shift(dx / canvas.clientHeight, -dy / canvas.clientHeight));
+    else if (this.pointers.size === 1) this.change(() => orbit.turn(-TURN * dx, TURN * dy));
+  }
+
+  up(event) {
+    this.pointers.delete(event.pointerId);
+    this.drop();
+    this.cursor(event);
+  }
+
+  drop() {
+    if (this.pulling) this.viewer.say({ drop: 1 });
+    this.pulling = false;
+  }
+
+  // How far two fingers are apart.
+  spread() {
+    const [a, b] = [...this.pointers.values()];
+    return b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0;
+  }
+
+  cursor(event) {
+    const { canvas } = this.viewer;
+    if (event.pointerType === "touch" || this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      const over = !this.pointers.size && this.viewer.grips(event.offsetX, event.offsetY);
+      canvas.style.cursor = this.pulling ? "grabbing" : over ? "grab" : "move";
+    });
+  }
+
+  wheel(event) {
+    event.preventDefault();
+    const lines = event.deltaMode === 1 ? 30 : 1;
+    this.change(() => this.viewer.orbit.approach(Math.exp(Math.min(120, Math.max(-120, event.deltaY * lines)) * 0.0015)));
+  }
+
+  // With the viewer in focus Shift and arrows walk round, + and - zoom, Home looks anew.
+  key(event, down) {
+    const inside = event.target === this.viewer.canvas;
+    if (inside && down && this.walk(event)) return event.preventDefault();
+    if ([...viewers][0] !== this && !inside) return;
+    if ([...viewers].some((other) => other !== this && other.viewer.canvas === event.target)) return;
+    if (down && (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey)) return;
+    const key = STEERING[event.code];
+    if (!down) {
+      if (key && this.held.delete(key)) this.steer();
+      return;
+    }
+    if (event.target.closest?.(WRITING)) return;
+    const elsewhere = !inside && event.target !== document.body;
+    if (elsewhere && (event.code === "Space" || event.code.startsWith("Arrow"))) return;
+    if (event.code === "Space") {
+      event.preventDefault();
+      if (!event.repeat) this.viewer.say({ switch: 1 });
+    } else if (key) {
+      event.preventDefault();
+      if (!this.held.has(key)) this.steer(this.held.add(key));
+    }
+  }
+
+  walk(event) {
+    const { orbit } = this.viewer;
+    const turns = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, STEP], ArrowDown: [0, -STEP] };
+    if (event.shiftKey && turns[event.key]) this.change(() => orbit.turn(...turns[event.key]));
+    else if (event.key === "+" || event.key === "=") this.change(() => orbit.approach(0.9));
+    else if (event.key === "-") this.change(() => orbit.approach(1 / 0.9));
+    else if (event.key === "Home") this.change(() => orbit.reset());
+    else return false;
+    return true;
+  }
+
+  steer() {
+    this.viewer.say({ keys: [[...this.held].join(""), this.viewer.azimuth()] });
+  }
+
+  release() {
+    this.drop();
+    this.pointers.clear();
+    if (this.held.size) {
+      this.held.clear();
+      this.steer();
+    }
+  }
+}
