@@ -5,6 +5,7 @@ WHAT is one of
   workers    what a second worker process gains
   kills      a run killed at random moments and resumed, against an undisturbed one
   dask       a mixed manifest on a local Dask cluster whose workers and run are killed
+  scheduler  a mixed manifest on a Dask cluster of processes of its own, whose scheduler is killed
   catalogue  all 16 x 43 banners of one layer as GIFs on a local Dask cluster
   soak       the service under many clients for a while
   scale      a simulation of a cluster: jobs, workers, the cost of each part
@@ -160,6 +161,41 @@ def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
     print(f"killed {dict(told)}; identical: {outputs(torn) == outputs(calm)}")
     print(f"drawn twice, since they were in flight: {again} of {len(outputs(torn))}")
     print(f"half-written files left: {len(list(torn.rglob('.*.part')))}")
+
+
+def schedulers(manifest: Path, folder: Path, count: int, port: int) -> None:
+    """Kill the scheduler of a cluster again and again; the last cluster is left alone."""
+    chance = random.Random(os.getpid())
+    calm, torn = folder / "calm", folder / "torn"
+    batch = [sys.executable, "-m", "drapery", "batch", str(manifest)]
+    subprocess.run([*batch, "-o", str(calm)], check=True, stdout=subprocess.DEVNULL)
+    for number in range(count + 1):
+        address = f"tcp://127.0.0.1:{port + number}"
+        cluster = _cluster(address, 2, folder)
+        more = ["--resume"] if (torn / FILE).exists() else []
+        run = subprocess.Popen([*batch, "-o", str(torn), "--scheduler", address, *more])
+        if number < count:
+            _await_more(torn, run)
+            time.sleep(chance.uniform(0.0, 1.0))
+            cluster[0].kill()
+            print(f"kill {number + 1}: the scheduler, {len(outputs(torn))} pictures", flush=True)
+        print(f"the run ended with exit code {run.wait()}", flush=True)
+        for process in cluster:
+            process.kill()
+            process.wait()
+    print(f"identical: {outputs(torn) == outputs(calm)}")
+    print(f"half-written files left: {len(list(torn.rglob('.*.part')))}")
+
+
+def _cluster(address: str, workers: int, folder: Path) -> list[subprocess.Popen[bytes]]:
+    """A scheduler and its workers, each a process."""
+    host, port = address.removeprefix("tcp://").split(":")
+    dask = [sys.executable, "-m", "dask"]
+    commands = [[*dask, "scheduler", "--host", host, "--port", port, "--no-dashboard"]]
+    work = [*dask, "worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
+    commands += [[*work, "--local-directory", str(folder / "dask")]] * workers
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return [subprocess.Popen(command, **quiet) for command in commands]
 
 
 def written(folder: Path) -> dict[str, int]:
@@ -355,7 +391,7 @@ def scale(costs: Costs, jobs: int, machines: int) -> None:
 
 def main() -> None:
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    names = ("overhead", "workers", "kills", "dask", "catalogue", "soak", "scale")
+    names = ("overhead", "workers", "kills", "dask", "scheduler", "catalogue", "soak", "scale")
     words.add_argument("what", choices=names)
     words.add_argument("--jobs", type=int)
     words.add_argument("--size", default="48x48")
@@ -379,6 +415,8 @@ def _measure(asked: argparse.Namespace, folder: Path) -> None:
         more = ("--cluster",) if asked.what == "dask" else ()
         path = mixed(manifest, asked.jobs or 1000, asked.size)
         kills(path, folder, asked.kills, "--workers", "2", *more)
+    elif asked.what == "scheduler":
+        schedulers(mixed(manifest, asked.jobs or 1000, asked.size), folder, asked.kills, asked.port)
     elif asked.what == "catalogue":
         path = catalogue_manifest(manifest, asked.size)
         kills(path, folder, asked.kills, "--workers", "2", "--cluster")
