@@ -1,0 +1,187 @@
+"""What is ordered becomes a file, by the code that the commands use; in a thread that can stop."""
+
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeVar
+
+from drapery.banner.design import Banner
+from drapery.errors import DraperyError, OptionError
+from drapery.studio.snippets import KINDS, LOOPS, Order, options_for
+
+MAX_PIXELS = 1 << 31
+"""Of all frames together: 512 x 512 for six minutes at 20 frames/s."""
+MAX_SCALE = 256
+
+Progress = Callable[[int, int], None]
+"""Takes how many frames are done, of how many."""
+
+Item = TypeVar("Item")
+
+
+class StoppedError(DraperyError):
+    """The export was stopped by whoever ordered it."""
+
+
+def make(order: Order, path: Path, progress: Progress | None = None) -> None:
+    """Write the file, as the command of `snippets.as_command` does.
+
+    progress may raise, which stops the work and leaves no file. Raises OptionError, PackError,
+    BackendError or OutputError.
+    """
+    check(order)
+    tell = progress or (lambda done, total: None)
+    if order.kind in LOOPS:
+        _loop(order, path, tell)
+        return
+    _ONCE[order.kind](order, path, tell)
+
+
+def count_frames(order: Order) -> int:
+    """How many frames the file has; 1 for what does not move. Raises OptionError."""
+    from drapery.pictures import frame_count
+
+    return frame_count(order.seconds, order.fps) if order.kind in (*LOOPS, "glb") else 1
+
+
+def check(order: Order) -> None:
+    """Raise OptionError for an order that is out of bounds, before anything is drawn."""
+    from drapery.render.views import VIEWS
+    from drapery.settings import one_of, whole
+
+    one_of("kind", order.kind, KINDS)
+    one_of("view", order.look.view, tuple(VIEWS))
+    whole("scale", order.scale, 1, MAX_SCALE, "pixels a texel")
+    width, height = order.look.size
+    frames = count_frames(order)
+    if order.kind in LOOPS and width * height * frames > MAX_PIXELS:
+        raise OptionError(
+            f"{frames} frames of {width}x{height} are over {MAX_PIXELS >> 20} million pixels;"
+            " use fewer or smaller ones"
+        )
+
+
+def _still(order: Order, path: Path, tell: Progress) -> None:
+    from drapery.pictures import draw_with
+
+    tell(0, 1)
+    frame = draw_with(order.banner, options_for(order))
+    tell(1, 1)
+    frame.save(path)
+
+
+def _face(order: Order, path: Path, tell: Progress) -> None:
+    from drapery.pictures import draw_face
+
+    tell(0, 1)
+    look = options_for(order)
+    banner = _banner(order)
+    face = draw_face(banner, packs=look.packs, format=look.format, scale=order.scale)
+    tell(1, 1)
+    face.save(path)
+
+
+def _loop(order: Order, path: Path, tell: Progress) -> None:
+    from drapery.pictures import frames
+    from drapery.render.encode import check_animation_target, save_animation
+
+    total = count_frames(order)
+    tell(0, total)
+    check_animation_target(path)
+    drawn = frames(order.banner, order.seconds, order.fps, options_for(order))
+    save_animation(_told(drawn, total, tell), order.fps, path, total=total)
+
+
+def _model(order: Order, path: Path, tell: Progress) -> None:
+    from drapery.banner.packs import open_packs
+    from drapery.render.export import check_model_target, save_model
+    from drapery.scenes.staging import loop
+
+    total, look = count_frames(order), options_for(order)
+    tell(0, total)
+    check_model_target(path)
+    packs = open_packs(look.packs, format=look.format)
+    scenes = loop(order.banner, packs, look, total, order.fps)
+    save_model(_told(scenes, total, tell), path, fps=order.fps)
+
+
+def _design(order: Order, path: Path, tell: Progress) -> None:
+    from drapery.banner.formats import write_banner
+    from drapery.render.encode.output import replacing
+
+    with replacing(path) as unfinished:
+        unfinished.write_bytes(write_banner(_banner(order)).encode() + b"\n")
+    tell(1, 1)
+
+
+_ONCE: dict[str, Callable[[Order, Path, Progress], None]] = {
+    "png": _still,
+    "face": _face,
+    "glb": _model,
+    "json": _design,
+}
+
+
+def _banner(order: Order) -> Banner:
+    if order.banner is None:
+        raise OptionError(f"a {order.kind} is of a design; give one")
+    return order.banner
+
+
+def _told(items: Iterable[Item], total: int, tell: Progress) -> Iterator[Item]:
+    for number, item in enumerate(items, 1):
+        yield item
+        tell(number, total)
+
+
+@dataclass(eq=False)
+class Export:
+    """One export under way, or done, or stopped.
+
+    path: where the file lies once `state` is "done". fault: the line that says why it is "failed".
+    """
+
+    order: Order
+    path: Path
+    name: str
+    done: int = 0
+    total: int = 1
+    state: str = "running"
+    fault: str = ""
+    _stop: threading.Event = field(default_factory=threading.Event)
+    _thread: threading.Thread | None = None
+
+    def start(self) -> None:
+        """Begin, in a thread of its own."""
+        self._thread = threading.Thread(target=self._run, name="export", daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop at the next frame; what was written goes."""
+        self._stop.set()
+
+    def wait(self, seconds: float) -> bool:
+        """Wait until it has ended; whether it has."""
+        if self._thread is not None:
+            self._thread.join(seconds)
+        return self.state != "running"
+
+    def _tell(self, done: int, total: int) -> None:
+        self.done, self.total = done, total
+        if self._stop.is_set():
+            raise StoppedError("the export was stopped")
+
+    def _run(self) -> None:
+        try:
+            make(self.order, self.path, self._tell)
+        except StoppedError:
+            self.state = "stopped"
+        except DraperyError as error:
+            self.state, self.fault = "failed", str(error)
+        except (OSError, MemoryError) as error:
+            self.state, self.fault = "failed", f"the export failed: {error or 'out of memory'}"
+        else:
+            self.state = "stopped" if self._stop.is_set() else "done"
+        if self.state != "done":
+            self.path.unlink(missing_ok=True)

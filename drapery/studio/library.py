@@ -1,0 +1,404 @@
+"""Designs that are kept: a file of SQLite, through SQLAlchemy.
+
+Every change is one transaction that takes the file's lock at its start, so that several studios
+may share a file. The file says that it is ours by its application id, and its version by its user
+version (SQLite, "Pragma statements").
+"""
+
+import json
+import os
+import sys
+from base64 import b64decode, b64encode
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import ForeignKey, String, create_engine, event, func, select, text
+from sqlalchemy.exc import DBAPIError, SQLAlchemyError
+from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column, relationship
+from sqlalchemy.pool import NullPool
+
+from drapery.banner.packs.png import png_size, read_png
+from drapery.banner.patterns import PATTERNS
+from drapery.errors import DesignError, DraperyError, OutputError
+from drapery.render.encode.output import make_folder
+from drapery.settings import Settings
+from drapery.studio.share import as_tree, checked_title, of_tree
+from drapery.studio.sketch import Sketch
+
+OURS = 0x44726170
+"""The application id: "Drap"."""
+VERSION = 1
+FILE = "library.sqlite"
+
+MAX_DESIGNS = 20_000
+MAX_TAGS = 12
+MAX_TAG = 32
+MAX_THUMBNAIL = 64 << 10
+"""Of a thumbnail's PNG file [bytes]."""
+MAX_THUMBNAIL_SIDE = 256
+MAX_IMPORT = 64 << 20
+"""Of a library's JSON [bytes]."""
+PATIENCE = 10.0
+"""How long another studio's change is waited for [s]."""
+
+_MARK = "drapery_library"
+
+
+@dataclass(frozen=True)
+class Design:
+    """A design as it is kept.
+
+    number: names it in its library; 0 before it is kept. thumbnail: a PNG file, or nothing.
+    changed: grows with every change in the library, so it orders designs by their latest.
+    """
+
+    sketch: Sketch
+    look: Settings
+    tags: tuple[str, ...] = ()
+    thumbnail: bytes = b""
+    number: int = 0
+    changed: int = 0
+
+    @property
+    def title(self) -> str:
+        """The sketch's title."""
+        return self.sketch.title
+
+
+class _Base(DeclarativeBase):
+    pass
+
+
+class _Row(_Base):
+    __tablename__ = "designs"
+    number: Mapped[int] = mapped_column(primary_key=True)
+    title: Mapped[str] = mapped_column(String)
+    tree: Mapped[str] = mapped_column(String)
+    words: Mapped[str] = mapped_column(String)
+    thumbnail: Mapped[bytes]
+    changed: Mapped[int] = mapped_column(index=True)
+    tags: Mapped[list["_Tag"]] = relationship(
+        cascade="all, delete-orphan", order_by="_Tag.place", lazy="selectin"
+    )
+
+
+class _Tag(_Base):
+    __tablename__ = "tags"
+    design: Mapped[int] = mapped_column(ForeignKey("designs.number"), primary_key=True)
+    place: Mapped[int] = mapped_column(primary_key=True)
+    name: Mapped[str] = mapped_column(String, index=True)
+
+
+class Library:
+    """The designs in one file. Several hands may hold it, in this process and in others."""
+
+    def __init__(self, path: Path) -> None:
+        """Open the file, or make it and its folder.
+
+        Raises OutputError for a file that is no library, of a newer version, damaged, locked or
+        where nothing may be written.
+        """
+        self.path = path
+        make_folder(path.parent)
+        self._engine = create_engine(
+            "sqlite://",
+            creator=partial(_connect, path),
+            poolclass=NullPool,  # threads come and go, and a connection belongs to one
+        )
+        event.listen(self._engine, "begin", lambda hand: hand.exec_driver_sql("BEGIN IMMEDIATE"))
+        with self._change() as session:
+            _prepare(session, path)
+
+    def add(self, design: Design) -> int:
+        """Keep a design; its number. Raises DesignError or OutputError."""
+        checked = _checked(design)
+        with self._change() as session:
+            _check_room(session, 1)
+            return _insert(session, checked)
+
+    def change(self, design: Design) -> None:
+        """Keep a design in the place of that of its number. Raises DesignError, OutputError."""
+        checked = _checked(design)
+        with self._change() as session:
+            _fill(_found(session, design.number), checked, _next(session))
+
+    def get(self, number: int) -> Design:
+        """The design of a number. Raises DesignError, OutputError."""
+        with self._change() as session:
+            return _design(_found(session, number))
+
+    def rename(self, number: int, title: str) -> None:
+        """Give a design another title. Raises DesignError, OutputError."""
+        old = self.get(number)
+        self.change(replace(old, sketch=replace(old.sketch, title=checked_title(title))))
+
+    def tag(self, number: int, tags: Iterable[str]) -> None:
+        """Give a design these tags and no others. Raises DesignError, OutputError."""
+        self.change(replace(self.get(number), tags=tuple(tags)))
+
+    def remove(self, number: int) -> Design:
+        """Take a design out; `add` puts it back. Raises DesignError, OutputError."""
+        with self._change() as session:
+            row = _found(session, number)
+            design = _design(row)
+            session.delete(row)
+            return design
+
+    def search(
+        self, words: str = "", tag: str | None = None, *, first: int = 0, most: int = 60
+    ) -> tuple[list[Design], int]:
+        """Designs that have all the words in title, tags, dyes or patterns, and how many there are.
+
+        The latest change comes first. Raises OutputError.
+        """
+        wanted = select(_Row)
+        for word in words.lower().split()[:16]:
+            wanted = wanted.where(_Row.words.contains(word[:80], autoescape=True))
+        if tag is not None:
+            wanted = wanted.where(_Row.tags.any(_Tag.name == tag))
+        page = wanted.order_by(_Row.changed.desc()).offset(first).limit(most)
+        with self._change() as session:
+            count = session.scalar(select(func.count()).select_from(wanted.subquery()))
+            return [*_readable(session.scalars(page))], count or 0
+
+    def tags(self) -> dict[str, int]:
+        """All tags, with how many designs have each. Raises OutputError."""
+        counted = select(_Tag.name, func.count()).group_by(_Tag.name).order_by(_Tag.name)
+        with self._change() as session:
+            return {row[0]: row[1] for row in session.execute(counted)}
+
+    def dump(self) -> bytes:
+        """The whole library as JSON, in the order in which designs changed. Raises OutputError."""
+        with self._change() as session:
+            rows = session.scalars(select(_Row).order_by(_Row.changed))
+            designs = [_outside(_design(row)) for row in rows]
+        whole = {_MARK: VERSION, "designs": designs}
+        return json.dumps(whole, ensure_ascii=False, indent=1).encode()
+
+    def load(self, data: bytes) -> tuple[int, int]:
+        """Add all designs of another library's JSON: how many are new, how many were there.
+
+        Raises DesignError, with the place, where one of them is broken: then none is added.
+        """
+        designs = _read(data)
+        with self._change() as session:
+            known = {(row.tree, _names(row)) for row in session.scalars(select(_Row))}
+            fresh = [design for design in designs if _identity(design) not in known]
+            # The same twice in one file is once as well.
+            unique = list({_identity(design): design for design in fresh}.values())
+            _check_room(session, len(unique))
+            for design in unique:
+                _insert(session, design)
+        return len(unique), len(designs) - len(unique)
+
+    @contextmanager
+    def _change(self) -> Iterator[Session]:
+        """One transaction, done whole or not at all."""
+        try:
+            with Session(self._engine) as session, session.begin():
+                yield session
+        except DBAPIError as error:
+            raise OutputError(f"library {self.path}: {_reason(error)}") from None
+        except SQLAlchemyError as error:
+            raise OutputError(f"library {self.path}: {str(error).splitlines()[0]}") from None
+
+
+def default_place(environment: dict[str, str] | None = None) -> Path:
+    """Where a person's library lies: where the system keeps programs' data.
+
+    On Linux that is XDG_DATA_HOME (XDG Base Directory Specification 0.8), if it is absolute.
+    """
+    words = os.environ if environment is None else environment
+    home = Path(words.get("HOME") or Path.home())
+    if sys.platform == "win32":
+        folder = Path(words.get("LOCALAPPDATA") or home / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        folder = home / "Library" / "Application Support"
+    else:
+        chosen = Path(words.get("XDG_DATA_HOME", ""))
+        folder = chosen if chosen.is_absolute() else home / ".local" / "share"
+    return folder / "drapery" / FILE
+
+
+def _connect(path: Path) -> Any:
+    import sqlite3
+
+    # No transaction but those that are asked for.
+    hand = sqlite3.connect(path, timeout=PATIENCE, isolation_level=None)
+    hand.execute("PRAGMA foreign_keys = ON")
+    # Views and triggers of a file from elsewhere must call nothing.
+    hand.execute("PRAGMA trusted_schema = OFF")
+    return hand
+
+
+def _prepare(session: Session, path: Path) -> None:
+    """Make the tables in a new file; refuse a file that is not ours."""
+    ours = session.scalar(text("PRAGMA application_id"))
+    version = session.scalar(text("PRAGMA user_version")) or 0
+    tables = session.scalar(text("SELECT count(*) FROM sqlite_master"))
+    if ours == OURS and version > VERSION:
+        raise OutputError(
+            f"library {path} is of version {version}, and {VERSION} is read;"
+            " bring Drapery up to date, or name another with --library"
+        )
+    if ours == OURS:
+        return
+    if tables or ours:
+        raise OutputError(f"library {path} is another program's file; name another with --library")
+    _Base.metadata.create_all(session.connection())
+    session.execute(text(f"PRAGMA application_id = {OURS}"))
+    session.execute(text(f"PRAGMA user_version = {VERSION}"))
+
+
+def _reason(error: DBAPIError) -> str:
+    reason = str(error.orig)
+    if "locked" in reason:
+        return "another program holds it; close that one, or name another with --library"
+    if "unable to open" in reason or "readonly" in reason:
+        return "it may not be written; mend that, or name another with --library"
+    if "not a database" in reason or "malformed" in reason:
+        return "it is damaged or no library; put it aside, or name another with --library"
+    return f"{reason}; mend that, or name another with --library"
+
+
+def _insert(session: Session, design: Design) -> int:
+    row = _Row()
+    _fill(row, design, _next(session))
+    session.add(row)
+    session.flush()
+    return row.number
+
+
+def _fill(row: _Row, design: Design, changed: int) -> None:
+    row.title, row.thumbnail, row.changed = design.title, design.thumbnail, changed
+    row.tree, row.words = _tree(design), _words(design)
+    row.tags = [_Tag(place=place, name=name) for place, name in enumerate(design.tags)]
+
+
+def _next(session: Session) -> int:
+    return (session.scalar(select(func.max(_Row.changed))) or 0) + 1
+
+
+def _check_room(session: Session, count: int) -> None:
+    if (session.scalar(select(func.count(_Row.number))) or 0) + count > MAX_DESIGNS:
+        raise DesignError(f"a library holds at most {MAX_DESIGNS} designs; delete some first")
+
+
+def _found(session: Session, number: int) -> _Row:
+    row = session.get(_Row, number) if 0 < number < 1 << 63 else None
+    if row is None:
+        raise DesignError("the design is no longer in the library; search again")
+    return row
+
+
+def _readable(rows: Iterable[_Row]) -> Iterator[Design]:
+    """The designs of rows; one that was spoilt from outside must not hide the others."""
+    for row in rows:
+        with suppress(DesignError):
+            yield _design(row)
+
+
+def _design(row: _Row) -> Design:
+    try:
+        sketch, look = of_tree(json.loads(row.tree))
+    except (ValueError, RecursionError, DesignError):
+        raise DesignError(f"design {row.number} of the library is damaged; delete it") from None
+    return Design(sketch, look, _names(row), row.thumbnail, row.number, row.changed)
+
+
+def _names(row: _Row) -> tuple[str, ...]:
+    return tuple(tag.name for tag in row.tags)
+
+
+def _tree(design: Design) -> str:
+    return json.dumps(as_tree(design.sketch, design.look), ensure_ascii=False, sort_keys=True)
+
+
+def _identity(design: Design) -> tuple[str, tuple[str, ...]]:
+    return _tree(design), design.tags
+
+
+def _words(design: Design) -> str:
+    """What `search` looks in: one text in small letters."""
+    sketch = design.sketch
+    shown = [PATTERNS[s.pattern].title for s in sketch.strokes if s.pattern in PATTERNS]
+    named = [f"{stroke.pattern} {stroke.dye}" for stroke in sketch.strokes]
+    whole = [sketch.title, *design.tags, sketch.base, sketch.kind, *named, *shown]
+    return " ".join(" ".join(whole).lower().replace("_", " ").split())
+
+
+def _checked(design: Design) -> Design:
+    title = checked_title(design.title)
+    # What is kept must be what is read again.
+    sketch, _ = of_tree(as_tree(replace(design.sketch, title=title), design.look))
+    return replace(
+        design, sketch=sketch, tags=checked_tags(design.tags), thumbnail=_picture(design.thumbnail)
+    )
+
+
+def checked_tags(tags: Iterable[object]) -> tuple[str, ...]:
+    """Tags in small letters, each once. Raises DesignError."""
+    names = []
+    for tag in tags:
+        if not isinstance(tag, str) or len(tag) > MAX_TAG or not tag.isprintable() or "," in tag:
+            raise DesignError(f"a tag is a word or two of at most {MAX_TAG} letters, no comma")
+        names.append(" ".join(tag.lower().split()))
+    unique = tuple(dict.fromkeys(name for name in names if name))
+    if len(unique) > MAX_TAGS:
+        raise DesignError(f"a design has at most {MAX_TAGS} tags; leave some out")
+    return unique
+
+
+def _picture(data: bytes) -> bytes:
+    """A thumbnail drawn anew from its pixels, so that nothing else in it is kept."""
+    from drapery.render.encode.png import png_bytes
+
+    if not data:
+        return b""
+    if len(data) > MAX_THUMBNAIL or max(png_size(data, "the thumbnail")) > MAX_THUMBNAIL_SIDE:
+        raise DesignError(
+            f"the thumbnail is over {MAX_THUMBNAIL_SIDE} pixels a side or {MAX_THUMBNAIL} bytes"
+        )
+    return png_bytes(read_png(data, "the thumbnail"))
+
+
+def _outside(design: Design) -> dict[str, Any]:
+    """A design as the exported library has it."""
+    return as_tree(design.sketch, design.look) | {
+        "tags": list(design.tags),
+        "thumbnail": b64encode(design.thumbnail).decode(),
+    }
+
+
+def _read(data: bytes) -> list[Design]:
+    if len(data) > MAX_IMPORT:
+        raise DesignError(f"the file is over {MAX_IMPORT >> 20} MiB; no library is that large")
+    try:
+        whole = json.loads(data)
+    except (ValueError, RecursionError):
+        raise DesignError("the file is no library: choose one that was exported here") from None
+    if not isinstance(whole, dict) or not isinstance(whole.get("designs"), list):
+        raise DesignError("the file is no library: choose one that was exported here")
+    if whole.get(_MARK) != VERSION:
+        raise DesignError(
+            f"the file's {_MARK} must be {VERSION}; bring Drapery up to date, or export it anew"
+        )
+    if len(whole["designs"]) > MAX_DESIGNS:
+        raise DesignError(f"the file has over {MAX_DESIGNS} designs; split it")
+    return [_inside(tree, f"design {n}") for n, tree in enumerate(whole["designs"], 1)]
+
+
+def _inside(tree: object, at: str) -> Design:
+    try:
+        sketch, look = of_tree(tree)
+        assert isinstance(tree, dict)  # else of_tree has refused it
+        tags, picture = tree.get("tags", []), tree.get("thumbnail", "")
+        if not isinstance(tags, list) or not isinstance(picture, str):
+            raise DesignError("tags must be a list, thumbnail a text; export the library anew")
+        return _checked(Design(sketch, look, tuple(tags), b64decode(picture, validate=True)))
+    except (DraperyError, ValueError) as error:
+        raise DesignError(f"{at}: {error}") from None

@@ -1,0 +1,140 @@
+"""What the page exports is what the command line writes; what is stopped leaves nothing."""
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from drapery.banner.design import Banner, Layer
+from drapery.errors import DraperyError, OptionError
+from drapery.settings import Settings
+from drapery.studio import exports
+from drapery.studio.exports import Export, count_frames, make
+from drapery.studio.snippets import KINDS, Order, file_name
+
+BANNER = Banner("red", (Layer("creeper", "lime"), Layer("gradient", "blue")))
+LOOK = Settings(size=(40, 48), wind=5.0, samples=4, pixel=2, background="#302050", view="hero")
+WORDS = (
+    *("--size", "40x48", "--wind", "5", "--samples", "4", "--pixel", "2"),
+    *("--background", "#302050", "--view", "hero"),
+)
+TIMES = ("--seconds", "0.5", "--fps", "10")
+TEXT = "red creeper:lime gradient:blue"
+
+COMMANDS = {
+    "png": ("render", TEXT, *WORDS),
+    "face": ("flat", TEXT, "--scale", "5"),
+    **dict.fromkeys(("gif", "apng", "webp", "mp4"), ("animate", TEXT, *TIMES, *WORDS)),
+    "glb": ("model", TEXT, *TIMES, "--wind", "5", "--view", "hero"),
+}
+
+
+def order_of(kind: str) -> Order:
+    return Order(BANNER, LOOK, kind, seconds=0.5, fps=10.0, scale=5)
+
+
+@pytest.mark.parametrize("kind", COMMANDS)
+def test_the_bytes_are_those_of_the_command(kind: str, tmp_path: Path, drapery) -> None:
+    order = order_of(kind)
+    for name in ("page", "line"):
+        (tmp_path / name).mkdir()
+    make(order, tmp_path / "page" / file_name(order))
+    code, _, err = drapery(*COMMANDS[kind], "-o", tmp_path / "line" / file_name(order))
+    assert code == 0, err
+    page, line = ((tmp_path / name / file_name(order)).read_bytes() for name in ("page", "line"))
+    assert page == line
+
+
+def test_the_design_is_what_show_writes(tmp_path: Path, drapery) -> None:
+    make(order_of("json"), tmp_path / "banner.json")
+    assert (tmp_path / "banner.json").read_text() == drapery("show", TEXT, "--as", "json")[1]
+
+
+def test_every_kind_is_tested() -> None:
+    assert {*COMMANDS, "json"} == set(KINDS)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_progress_goes_to_the_end(kind: str, tmp_path: Path) -> None:
+    order, told = order_of(kind), []
+    make(order, tmp_path / file_name(order), lambda done, total: told.append((done, total)))
+    total = count_frames(order)
+    assert told[-1] == (total, total)
+    assert [done for done, _ in told] == sorted(done for done, _ in told)
+
+
+def stop_after(frames: int) -> Callable[[int, int], None]:
+    def progress(done: int, total: int) -> None:
+        if done >= frames:
+            raise exports.StoppedError("stopped")
+
+    return progress
+
+
+@pytest.mark.parametrize("kind", ["png", "face", "gif", "apng", "webp", "mp4", "glb"])
+def test_what_is_stopped_leaves_nothing(kind: str, tmp_path: Path) -> None:
+    order = order_of(kind)
+    target = tmp_path / file_name(order)
+    with pytest.raises(exports.StoppedError):
+        make(order, target, stop_after(1))
+    assert [*tmp_path.iterdir()] == []
+    target.write_text("older")
+    with pytest.raises(exports.StoppedError):
+        make(order, target, stop_after(0))
+    assert target.read_text() == "older" and len([*tmp_path.iterdir()]) == 1
+
+
+def export(order: Order, folder: Path) -> Export:
+    return Export(order, folder / file_name(order), file_name(order))
+
+
+def test_a_thread_makes_it_and_tells(tmp_path: Path) -> None:
+    work = export(order_of("gif"), tmp_path)
+    work.start()
+    assert work.wait(30)
+    assert (work.state, work.done, work.total, work.fault) == ("done", 5, 5, "")
+    assert work.path.read_bytes()[:6] == b"GIF89a"
+
+
+def test_a_thread_stops_and_leaves_nothing(tmp_path: Path) -> None:
+    work = export(Order(BANNER, Settings(size=(256, 256)), "apng", seconds=60.0), tmp_path)
+    work.start()
+    start = time.monotonic()
+    while work.done < 2 and time.monotonic() < start + 30:
+        time.sleep(0.005)
+    work.stop()
+    assert work.wait(5)
+    assert work.state == "stopped" and 2 <= work.done < work.total
+    assert [*tmp_path.iterdir()] == []
+    assert not [thread for thread in threading.enumerate() if thread.name == "export"]
+
+
+def test_a_fault_is_one_line(tmp_path: Path) -> None:
+    work = export(Order(BANNER, Settings(packs=(tmp_path / "none.zip",))), tmp_path)
+    work.start()
+    assert work.wait(30)
+    assert work.state == "failed" and "does not exist" in work.fault
+    assert [*tmp_path.iterdir()] == []
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        Order(BANNER, LOOK, "exe"),
+        Order(BANNER, LOOK, "../../x"),
+        Order(BANNER, Settings(view="nowhere")),
+        Order(BANNER, Settings(), "gif", fps=0.0),
+        Order(BANNER, Settings(), "gif", seconds=float("nan")),
+        Order(BANNER, Settings(size=(8192, 8192)), "gif", seconds=60.0),
+        Order(BANNER, Settings(), "glb", seconds=1e9),
+        Order(BANNER, Settings(), "face", scale=9999),
+        Order(None, Settings(), "json"),
+    ],
+)
+def test_orders_out_of_bounds_are_refused(order: Order, tmp_path: Path) -> None:
+    with pytest.raises((OptionError, DraperyError)) as fault:
+        make(order, tmp_path / "x.png")
+    assert "\n" not in str(fault.value)
+    assert [*tmp_path.iterdir()] == []

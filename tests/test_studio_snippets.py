@@ -1,0 +1,132 @@
+"""What is copied as a command or as Python makes the very file that the page makes."""
+
+import ast
+import inspect
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
+
+from drapery.banner.design import Banner, Layer
+from drapery.banner.formats import parse_banner
+from drapery.banner.formats.shorthand import write
+from drapery.commands import animate, flat, model, render
+from drapery.settings import Settings
+from drapery.studio import snippets
+from drapery.studio.exports import make
+from drapery.studio.snippets import Order, as_command, as_python
+
+BANNER = Banner("white", (Layer("creeper", "lime"), Layer("border", "black")))
+SMALL = Settings(size=(48, 64), view="iso", background="#204080", wind=6.5, shadow=True)
+
+
+def run_shell(command: str, folder: Path) -> None:
+    environment = os.environ | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+    subprocess.run(
+        ["/bin/sh", "-c", command], cwd=folder, env=environment, check=True, capture_output=True
+    )
+
+
+def run_python(lines: str, folder: Path) -> None:
+    subprocess.run([sys.executable, "-c", lines], cwd=folder, check=True, capture_output=True)
+
+
+@pytest.fixture
+def pack(tmp_path: Path) -> Path:
+    return zip_pack(tmp_path / "it's a pack.zip", {META: mcmeta(), CREEPER: plain(0, 0, 255, 255)})
+
+
+ORDERS = {
+    "png": Order(BANNER, SMALL),
+    "shield": Order(Banner("red", (Layer("flow", "blue"),), "shield"), Settings(size=(32, 32))),
+    "face": Order(BANNER, SMALL, "face", scale=3),
+    "gif": Order(BANNER, SMALL, "gif", seconds=0.5, fps=8.0),
+    "glb": Order(BANNER, SMALL, "glb", seconds=0.5, fps=8.0),
+    "json": Order(BANNER, SMALL, "json"),
+}
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_both_make_what_the_page_makes(name: str, tmp_path: Path) -> None:
+    order = ORDERS[name]
+    file = snippets.file_name(order)
+    make(order, tmp_path / file)
+    wanted = (tmp_path / file).read_bytes()
+    for folder, run, code in (
+        (tmp_path / "shell", run_shell, as_command(order)),
+        (tmp_path / "python", run_python, as_python(order)),
+    ):
+        folder.mkdir()
+        run(code, folder)
+        assert (folder / file).read_bytes() == wanted, code
+
+
+def test_a_pack_is_called_as_its_owner_calls_it(pack: Path, tmp_path: Path) -> None:
+    hidden = tmp_path / "upload-1"
+    pack.rename(hidden)
+    order = Order(BANNER, Settings(packs=(hidden,), size=(32, 32)))
+    called = {str(hidden): pack.name}
+    command, lines = as_command(order, called), as_python(order, called)
+    assert str(hidden) not in command + lines
+    make(order, tmp_path / "banner.png")
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    hidden.rename(folder / pack.name)
+    for run, code in ((run_shell, command), (run_python, lines)):
+        run(code, folder)
+        assert (folder / "banner.png").read_bytes() == (tmp_path / "banner.png").read_bytes()
+        (folder / "banner.png").unlink()
+
+
+def test_only_what_is_off_its_default_is_said() -> None:
+    assert as_command(Order(BANNER, Settings())) == (
+        'drapery render "white creeper:lime border:black" -o banner.png'
+    )
+    assert as_command(Order(Banner("red"), Settings(pbr=True, size=(64, 64)), "apng")) == (
+        "drapery animate red -o banner.apng --size 64x64 --pbr"
+    )
+    assert as_python(Order(Banner("red"), Settings(view="iso"))) == (
+        "from drapery import Banner, draw\n\n"
+        'banner = Banner.parse("red")\ndraw(banner, view="iso").save("banner.png")\n'
+    )
+
+
+@pytest.mark.parametrize(
+    ("names", "command"),
+    [
+        (snippets.PICTURE_OPTIONS, render),
+        (snippets.PICTURE_OPTIONS, animate),
+        (snippets.MODEL_OPTIONS, model),
+        (snippets.FACE_OPTIONS, flat),
+    ],
+)
+def test_the_commands_have_these_options_and_no_others(names, command) -> None:
+    other = {"ctx", "out", "design", "form", "number", "seconds", "fps", "matte", "scale", "back"}
+    taken = set(inspect.signature(command.run).parameters) - other
+    assert taken == {"pack" if name == "packs" else name for name in names}
+
+
+paths = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), min_size=1)
+
+
+@given(paths)
+def test_no_name_of_a_pack_breaks_out(name: str) -> None:
+    order = Order(BANNER, Settings(packs=(name,)))
+    assert shlex.split(as_command(order))[-2:] == ["--pack", name]
+    calls = [node for node in ast.walk(ast.parse(as_python(order))) if isinstance(node, ast.Call)]
+    given_packs = [word.value for call in calls for word in call.keywords if word.arg == "packs"]
+    assert [ast.literal_eval(packs) for packs in given_packs] == [[name]]
+
+
+@given(st.sampled_from(("white", "red")), st.sampled_from(("acme:x.json", "creeper", "a:b/c")))
+def test_a_design_reads_back(base: str, pattern: str) -> None:
+    banner = Banner(base, (Layer(pattern, "lime"),))
+    command = as_command(Order(banner, Settings()))
+    assert parse_banner(shlex.split(command)[2]) == banner
+    assert write(banner) in command
