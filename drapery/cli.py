@@ -21,6 +21,7 @@ from drapery.commands import (
     serve,
     sheet,
     show,
+    studio,
 )
 from drapery.commands.notices import adopt_warnings, say
 from drapery.errors import DraperyError
@@ -44,6 +45,7 @@ for name, command in {
     "packs": packs,
     "batch": batch,
     "serve": serve,
+    "studio": studio,
     "doctor": doctor,
 }.items():
     app.command(name, context_settings=getattr(command, "CONTEXT", None))(command.run)

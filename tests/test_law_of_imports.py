@@ -35,6 +35,10 @@ LAW: dict[str, set[str]] = {
     "drapery.serve": {
         *("errors", "settings", "banner", "style", "render", "pictures", "batch"),
     },
+    "drapery.studio": {
+        *("errors", "mesh", "settings", "cloth", "banner", "render", "style", "scenes"),
+        *("pictures", "compare", "sheets"),
+    },
 }
 TOP_FLOOR = {"drapery.cli", "drapery.commands", "drapery.__main__", "drapery"}
 

@@ -1,0 +1,1 @@
+"""The page where people design a banner and watch it wave: `drapery studio`."""

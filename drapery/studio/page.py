@@ -1,0 +1,100 @@
+"""The page: where each panel stands. A new panel is a file in `panels/` and a line in PANELS."""
+
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from nicegui import Client, ui
+
+from drapery.studio.session import Session, open_session
+
+if TYPE_CHECKING:
+    from drapery.studio.app import House
+
+Place = Literal["left", "stage", "under", "side"]
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One part of the page.
+
+    name: its module in `panels/`, whose `build(session)` draws it. title: its heading and tab.
+    icon: of its tab, by its name among Material's. place: `left` and `under` the stage it is
+    always seen on a wide window; at the `side` it shares the room by tabs. On a phone all but
+    the stage and the palette are tabs.
+    """
+
+    name: str
+    title: str
+    icon: str
+    place: Place
+
+
+PANELS = (Panel("face", "Flat", "crop_portrait", "stage"),)
+
+FIRST_TAB = "patterns"
+
+house: "House"
+"""What the studio was started with; `app.make_app` sets it."""
+
+_ROOM = Path(__file__).parent
+
+
+@ui.page("/")
+def studio(client: Client) -> None:
+    """One tab's page, with a session of its own that ends with the tab."""
+    session = open_session(house.settings)
+    client.on_delete(session.close)
+    build(session)
+
+
+def build(session: Session) -> None:
+    """Draw the whole page for a session."""
+    from drapery.studio.panels import bar
+
+    _head(session)
+    with ui.element("div").classes("studio").props(f'data-token="{session.token}"'):
+        with ui.element("header").classes("bar"):
+            bar.build(session)
+        for place in ("left", "stage", "under"):
+            with ui.element("div").classes(place):
+                _panels(session, place)
+        _tabs()
+        with ui.element("div").classes("side"):
+            _panels(session, "side")
+
+
+def _head(session: Session) -> None:
+    # Inline, since each is small and a page that is whole at once does not jump.
+    for sheet in sorted(_ROOM.glob("*.css")):
+        ui.add_head_html(f"<style>{sheet.read_text()}</style>")
+    ui.add_head_html(f'<script type="module">{(_ROOM / "studio.js").read_text()}</script>')
+
+
+def _panels(session: Session, place: str) -> None:
+    for panel in PANELS:
+        if panel.place == place:
+            section = ui.element("section").classes(f"panel panel-{panel.name}")
+            section.props(f'id="panel-{panel.name}" aria-label="{panel.title}"')
+            if panel.name == FIRST_TAB:
+                section.props("data-active")
+            with section:
+                import_module(f"drapery.studio.panels.{panel.name}").build(session)
+
+
+def _tabs() -> None:
+    with ui.element("div").classes("tabs").props('role="tablist" aria-label="Panels"'):
+        for panel in PANELS:
+            if panel.place == "stage" or panel.name == "palette":
+                continue
+            first = panel.name == FIRST_TAB
+            tab = ui.element("button").classes(f"tab tab-{panel.place}")
+            tab.props(
+                f'id="tab-{panel.name}" type="button" role="tab" data-panel="{panel.name}"'
+                f' aria-controls="panel-{panel.name}" aria-selected="{str(first).lower()}"'
+                f' tabindex="{0 if first else -1}"'
+            )
+            with tab:
+                ui.icon(panel.icon).props('aria-hidden="true"')
+                ui.element("span").classes("tab-title").add_slot("default", panel.title)

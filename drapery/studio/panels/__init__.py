@@ -1,0 +1,1 @@
+"""The parts of the page, one file each: `build(session)` draws the part where it is called."""

@@ -1,0 +1,144 @@
+"""A design while it is being worked on: strokes that keep their names while they move."""
+
+import random
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS, Banner, Layer
+from drapery.banner.dyes import DYE_NAMES
+from drapery.banner.patterns import PATTERN_NAMES
+from drapery.errors import DesignError
+
+MAX_TITLE = 80
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """One pattern in one dye.
+
+    number: names the stroke within its sketch, wherever it moves. hidden: kept, but not drawn.
+    """
+
+    number: int
+    pattern: str
+    dye: str
+    hidden: bool = False
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """A design under work: its field's dye and its strokes, lowest first."""
+
+    base: str = "white"
+    strokes: tuple[Stroke, ...] = ()
+    kind: Literal["banner", "shield"] = "banner"
+    title: str = ""
+
+
+def banner_of(sketch: Sketch) -> Banner:
+    """The banner that the sketch shows; hidden strokes are left out. Raises DesignError."""
+    shown = (stroke for stroke in sketch.strokes if not stroke.hidden)
+    layers = tuple(Layer(stroke.pattern, stroke.dye) for stroke in shown)
+    return Banner(sketch.base, layers, sketch.kind)
+
+
+def sketch_of(banner: Banner, title: str = "") -> Sketch:
+    """The sketch of a banner, its strokes numbered from 1."""
+    layers = enumerate(banner.layers, 1)
+    strokes = tuple(Stroke(number, layer.pattern, layer.dye) for number, layer in layers)
+    return Sketch(banner.base, strokes, banner.kind, title[:MAX_TITLE])
+
+
+def add(sketch: Sketch, pattern: str, dye: str) -> Sketch:
+    """Lay a stroke on top. Raises DesignError for what is unknown, or beyond sixteen."""
+    layer = Layer(pattern, dye)
+    return _insert(sketch, len(sketch.strokes), layer.pattern, layer.dye)
+
+
+def duplicate(sketch: Sketch, number: int) -> Sketch:
+    """Lay a stroke like this one on it. Raises DesignError."""
+    place = place_of(sketch, number)
+    stroke = sketch.strokes[place]
+    return _insert(sketch, place + 1, stroke.pattern, stroke.dye, stroke.hidden)
+
+
+def move(sketch: Sketch, number: int, place: int) -> Sketch:
+    """Put a stroke at a place, counted from 0 at the bottom; beyond the ends is at the end.
+
+    Raises DesignError.
+    """
+    stroke = sketch.strokes[place_of(sketch, number)]
+    rest = [each for each in sketch.strokes if each != stroke]
+    rest.insert(max(0, place), stroke)
+    return replace(sketch, strokes=tuple(rest))
+
+
+def recolour(sketch: Sketch, number: int, dye: str) -> Sketch:
+    """Give a stroke another dye. Raises DesignError."""
+    place = place_of(sketch, number)
+    layer = Layer(sketch.strokes[place].pattern, dye)
+    return _changed(sketch, place, replace(sketch.strokes[place], dye=layer.dye))
+
+
+def repattern(sketch: Sketch, number: int, pattern: str) -> Sketch:
+    """Give a stroke another pattern. Raises DesignError."""
+    place = place_of(sketch, number)
+    layer = Layer(pattern, sketch.strokes[place].dye)
+    return _changed(sketch, place, replace(sketch.strokes[place], pattern=layer.pattern))
+
+
+def hide(sketch: Sketch, number: int) -> Sketch:
+    """Hide a stroke, or show it where it was hidden. Raises DesignError."""
+    place = place_of(sketch, number)
+    stroke = sketch.strokes[place]
+    return _changed(sketch, place, replace(stroke, hidden=not stroke.hidden))
+
+
+def remove(sketch: Sketch, number: int) -> Sketch:
+    """Take a stroke away. Raises DesignError."""
+    place = place_of(sketch, number)
+    return replace(sketch, strokes=sketch.strokes[:place] + sketch.strokes[place + 1 :])
+
+
+def clear(sketch: Sketch) -> Sketch:
+    """Take all strokes away."""
+    return replace(sketch, strokes=())
+
+
+def dye_field(sketch: Sketch, dye: str) -> Sketch:
+    """Give the field another dye. Raises DesignError."""
+    return replace(sketch, base=Banner(dye).base)
+
+
+def random_sketch(seed: int) -> Sketch:
+    """A design by chance, the same for the same seed: two to six patterns in a few dyes."""
+    chance = random.Random(seed)
+    dyes = chance.sample(DYE_NAMES, 3)
+    patterns = chance.sample(PATTERN_NAMES[1:], chance.randint(2, LOOM_LAYERS))
+    # No layer in the dye of the one below it: where they overlap, one would not be seen.
+    layers: list[Layer] = []
+    for pattern in patterns:
+        below = layers[-1].dye if layers else dyes[0]
+        layers.append(Layer(pattern, chance.choice([dye for dye in dyes if dye != below])))
+    return sketch_of(Banner(dyes[0], tuple(layers)))
+
+
+def place_of(sketch: Sketch, number: int) -> int:
+    """Where a stroke lies, from 0 at the bottom. Raises DesignError."""
+    for place, stroke in enumerate(sketch.strokes):
+        if stroke.number == number:
+            return place
+    raise DesignError(f"there is no layer {number} any more: choose one of the list")
+
+
+def _insert(sketch: Sketch, place: int, pattern: str, dye: str, hidden: bool = False) -> Sketch:
+    if len(sketch.strokes) >= MAX_LAYERS:
+        raise DesignError(f"the game shows at most {MAX_LAYERS} layers: remove one first")
+    number = 1 + max((stroke.number for stroke in sketch.strokes), default=0)
+    stroke = Stroke(number, pattern, dye, hidden)
+    return replace(sketch, strokes=(*sketch.strokes[:place], stroke, *sketch.strokes[place:]))
+
+
+def _changed(sketch: Sketch, place: int, stroke: Stroke) -> Sketch:
+    strokes = (*sketch.strokes[:place], stroke, *sketch.strokes[place + 1 :])
+    return replace(sketch, strokes=strokes)
