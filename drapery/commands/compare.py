@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 ENDINGS = (".png", ".gif", ".html", ".json")
 
 
+@o.pictured("design", "texture")
 def run(
-    ctx: typer.Context,
     subjects: Annotated[
         list[str],
         typer.Argument(
@@ -44,38 +44,13 @@ def run(
     cost: Annotated[
         bool, typer.Option("--cost", help="Quads drawn and time for a frame as well.")
     ] = False,
-    form: o.FromOption = None,
-    number: o.NumberOption = None,
-    pack: o.PackOption = None,
-    format: o.FormatOption = None,
-    kind: o.KindOption = "auto",
-    pose: o.PoseOption = "cloth",
-    placement: o.PlacementOption = "standing",
-    rotation: o.RotationOption = 0,
-    facing: o.FacingOption = None,
-    view: o.ViewOption = "front",
-    size: o.SizeOption = "512x512",
-    grid: o.GridOption = "5x9",
-    solver: o.SolverOption = "desbrun",
-    wind: o.WindOption = 4.0,
-    time: o.TimeOption = 3.0,
-    seed: o.SeedOption = 0,
     layers: Annotated[
         str, typer.Option(help="One mode, or stacked,flat to compare the two.")
     ] = "stacked",
-    pbr: o.PbrOption = False,
-    thickness: o.ThicknessOption = 1.0,
-    background: o.BackgroundOption = "transparent",
-    samples: o.SamplesOption = 1,
-    pixel: o.PixelOption = 1,
-    light: o.LightOption = "game",
-    block_light: o.BlockLightOption = 0,
-    sky_light: o.SkyLightOption = 15,
-    daylight: o.DaylightOption = 1.0,
-    shadow: o.ShadowOption = False,
     backend: Annotated[
         str, typer.Option(help="One backend, or soft,pyrender to compare the two.")
     ] = "auto",
+    **words: Any,
 ) -> None:
     """Hold pictures against the first; exit code 0 same, 1 different, 2 bad input."""
     from drapery.compare.comparison import compare_variants
@@ -87,10 +62,11 @@ def run(
     within("tolerance", tolerance, 0, 255)
     within("pixels", pixels, 0, 2**31)
     modes, backends = layers.split(","), backend.split(",")
-    words = ctx.params | {"layers": modes[0], "backend": backends[0]}
-    settings = Settings(**o.options_of(words))
+    first = {"layers": modes[0], "backend": backends[0]}
+    settings = Settings(**o.options_of(words | first))
+    reading = {name: words[name] for name in ("form", "number")}
     with compile_notice():
-        chosen = draw_variants(subjects, settings, modes, backends, form=form, number=number)
+        chosen = draw_variants(subjects, settings, modes, backends, **reading)
         pairs = compare_variants(chosen, perceptual=perceptual)
         costs = {v.label: _cost(v) for v in chosen} if cost else {}
     for pair in pairs:

@@ -1,8 +1,9 @@
 """The options that several commands share."""
 
-from collections.abc import Mapping
+import inspect
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 import typer
 
@@ -90,6 +91,63 @@ SkyLightOption = Annotated[int, typer.Option(help="Light level of the sky, 0 to 
 DaylightOption = Annotated[float, typer.Option(help="1 at noon, 0 at night.")]
 ShadowOption = Annotated[bool, typer.Option("--shadow", help="A soft shadow on the floor.")]
 BackendOption = Annotated[str, typer.Option(help="auto, soft or pyrender.")]
+
+
+Command = TypeVar("Command", bound=Callable[..., None])
+
+
+def picture(
+    design: OptionalDesign = None,
+    form: FromOption = None,
+    number: NumberOption = None,
+    pack: PackOption = None,
+    format: FormatOption = None,
+    kind: KindOption = "auto",
+    texture: TextureOption = None,
+    pose: PoseOption = "cloth",
+    placement: PlacementOption = "standing",
+    rotation: RotationOption = 0,
+    facing: FacingOption = None,
+    view: ViewOption = "front",
+    size: SizeOption = "512x512",
+    grid: GridOption = "5x9",
+    solver: SolverOption = "desbrun",
+    wind: WindOption = 4.0,
+    time: TimeOption = 3.0,
+    seed: SeedOption = 0,
+    layers: LayersOption = "stacked",
+    pbr: PbrOption = False,
+    thickness: ThicknessOption = 1.0,
+    background: BackgroundOption = "transparent",
+    samples: SamplesOption = 1,
+    pixel: PixelOption = 1,
+    light: LightOption = "game",
+    block_light: BlockLightOption = 0,
+    sky_light: SkyLightOption = 15,
+    daylight: DaylightOption = 1.0,
+    shadow: ShadowOption = False,
+    backend: BackendOption = "auto",
+) -> None:
+    """The options of a picture, in the order in which help lists them."""
+
+
+def pictured(*without: str) -> Callable[[Command], Command]:
+    """Give a command that takes any words the options of `picture` after its own.
+
+    without: those that it has no use for. One that it declares itself stays its own.
+    """
+
+    def extend(command: Command) -> Command:
+        own = dict(inspect.signature(command).parameters)
+        del own["words"]
+        shared = inspect.signature(picture).parameters
+        added = {n: p for n, p in shared.items() if n not in own and n not in without}
+        every = [p.replace(kind=p.KEYWORD_ONLY) for p in (own | added).values()]
+        command.__signature__ = inspect.Signature(every)  # type: ignore[attr-defined]
+        command.__annotations__ |= {name: p.annotation for name, p in added.items()}
+        return command
+
+    return extend
 
 
 def options_of(words: Mapping[str, Any]) -> Options:

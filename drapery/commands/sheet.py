@@ -1,7 +1,7 @@
 """`drapery sheet`: many labelled pictures on one sheet."""
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -49,37 +49,22 @@ def write_patterns(
 
 
 @app.command("rotations")
+@o.pictured("placement", "rotation", "facing")
 def write_rotations(
-    ctx: typer.Context,
     out: SheetOption,
-    design: o.OptionalDesign = None,
-    form: o.FromOption = None,
-    number: o.NumberOption = None,
-    pack: o.PackOption = None,
-    format: o.FormatOption = None,
-    kind: o.KindOption = "auto",
-    texture: o.TextureOption = None,
-    pose: o.PoseOption = "cloth",
     view: o.ViewOption = "hero",
     size: Annotated[str, typer.Option(help="Size of each picture in pixels.")] = "144x192",
-    grid: o.GridOption = "5x9",
-    wind: o.WindOption = 4.0,
-    time: o.TimeOption = 3.0,
-    seed: o.SeedOption = 0,
-    layers: o.LayersOption = "stacked",
-    thickness: o.ThicknessOption = 1.0,
-    background: o.BackgroundOption = "transparent",
-    backend: o.BackendOption = "auto",
+    **words: Any,
 ) -> None:
     """One thing in all sixteen rotations."""
     from drapery.settings import Settings
     from drapery.sheets.drawn import rotations_sheet
     from drapery.sheets.sheet import check_sheet_target
 
-    settings = Settings(**o.options_of(ctx.params))
+    settings = Settings(**o.options_of(words | {"view": view, "size": size}))
     check_sheet_target(out)
     with compile_notice():
-        rotations_sheet(o.design_of(ctx.params), settings).save(out)
+        rotations_sheet(o.design_of(words), settings).save(out)
 
 
 @app.command("packs")
