@@ -1,0 +1,137 @@
+"""A studio in a process of its own, and a Chromium without a window to look at it with."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, TypeVar
+
+import pytest
+
+T = TypeVar("T")
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+DRIVER = shutil.which("chromedriver")
+
+FLAGS = (
+    "--headless=new --no-sandbox --disable-gpu --use-angle=swiftshader"
+    " --enable-unsafe-swiftshader --disable-quic --no-first-run"
+    " --disable-background-networking --disable-component-update --disable-sync"
+    " --disable-dev-shm-usage --force-prefers-reduced-motion"
+).split()
+
+WIDE = (1280, 800)
+PHONE = (390, 844)
+
+
+class Studio:
+    """A studio that runs. address: of its page. folder: where it may write."""
+
+    def __init__(self, folder: Path, *options: str) -> None:
+        self.folder = folder
+        command = [sys.executable, "-m", "drapery", "studio", "--no-open", "--port", "0"]
+        library = ["--library", str(folder / "library.sqlite")]
+        environment = os.environ | {"TMPDIR": str(folder), "XDG_DATA_HOME": str(folder)}
+        self.process = subprocess.Popen(
+            [*command, *library, *options], stderr=subprocess.PIPE, text=True, env=environment
+        )
+        self.log: list[str] = []
+        self.address = self._address()
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _address(self) -> str:
+        assert self.process.stderr is not None
+        for line in self.process.stderr:
+            self.log.append(line)
+            if found := re.search(r"the studio is at (http://\S+?);", line):
+                return found.group(1)
+        raise AssertionError("the studio did not start: " + "".join(self.log))
+
+    def _read(self) -> None:
+        # A pipe that nobody reads fills up and holds the server.
+        assert self.process.stderr is not None
+        self.log.extend(self.process.stderr)
+
+    def stop(self) -> int:
+        """Ask it to end, and its exit code."""
+        self.process.send_signal(signal.SIGTERM)
+        try:
+            return self.process.wait(10)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise
+
+
+@pytest.fixture(scope="session")
+def studio() -> Iterator[Studio]:
+    """A studio at a free port with a library of its own."""
+    pytest.importorskip("nicegui")
+    with tempfile.TemporaryDirectory() as folder:
+        studio = Studio(Path(folder))
+        yield studio
+        studio.stop()
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Any]:
+    """A browser of its own profile; skipped only where there is no Chromium or driver."""
+    if CHROMIUM is None or DRIVER is None:
+        pytest.skip("Chromium and its driver are not installed (apt: chromium, chromium-driver)")
+    with tempfile.TemporaryDirectory() as folder:
+        driver = open_browser(Path(folder))
+        yield driver
+        driver.quit()
+
+
+def open_browser(folder: Path) -> Any:
+    """A Chromium whose profile and downloads lie in a folder."""
+    from selenium.webdriver import Chrome, ChromeOptions, ChromeService
+
+    options = ChromeOptions()
+    options.binary_location = str(CHROMIUM)
+    for flag in (*FLAGS, f"--user-data-dir={folder / 'profile'}"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    downloads = {"download.default_directory": str(folder / "downloads")}
+    options.add_experimental_option("prefs", downloads)
+    driver = Chrome(options=options, service=ChromeService(str(DRIVER)))
+    driver.set_script_timeout(10)
+    resize(driver, WIDE)
+    return driver
+
+
+def resize(driver: Any, size: tuple[int, int], *, dark: bool = False) -> None:
+    """The size of what is seen [CSS pixels], and whether the system's theme is dark."""
+    metrics = {"width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": False}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    theme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [theme]})
+
+
+def open_page(driver: Any, studio: Studio, query: str = "") -> None:
+    """Load the page anew and wait until it answers."""
+    driver.get_log("browser")
+    driver.get(studio.address + query)
+    wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
+
+
+def wait_until(truth: Callable[[], T], seconds: float = 8.0) -> T:
+    """What a question answers, once that is true; AssertionError after so long [s]."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if answer := truth():
+            return answer
+        time.sleep(0.03)
+    raise AssertionError(f"still not so after {seconds} s")
+
+
+def console_errors(driver: Any) -> list[str]:
+    """What the browser's console calls severe since the page was opened."""
+    return [entry["message"] for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
