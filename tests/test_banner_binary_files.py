@@ -17,6 +17,7 @@ from drapery.banner.design import Banner
 from drapery.banner.formats import Found, read_design
 from drapery.banner.formats.binary import BINARY_FORMS
 from drapery.banner.formats.files import banners_in, find_in_bytes, is_binary
+from drapery.banner.formats.lz4 import unlz4
 from drapery.banner.formats.palettes import bits_for, packed_pieces, unpack, varint_pieces
 from drapery.banner.formats.tree import OMINOUS
 from drapery.errors import DesignError
@@ -161,7 +162,7 @@ def test_a_players_file_is_searched_as_a_whole():
     assert found(data) == {"f.Inventory[0]": RED, "f.EnderItems[0]": SHIELD}
 
 
-@pytest.mark.parametrize("kind", [1, 2, 3])
+@pytest.mark.parametrize("kind", [1, 2, 3, 4])
 def test_a_region_names_chunk_and_block(tmp_path: Path, kind: int):
     chunks = {
         (3, -1): make.chunk("1.18", {(48, 71, -9): (make.block_id(RED), make.entity(RED))}),
@@ -189,12 +190,32 @@ def test_a_broken_chunk_does_not_hide_the_others(tmp_path: Path):
         list(banners_in(path))
 
 
-def test_lz4_and_unknown_compression_are_named(tmp_path: Path):
-    for kind, name in ((4, "LZ4"), (9, "unknown")):
-        chunk = struct.pack(">IB", 50, kind) + bytes(49)
-        path = make.save(tmp_path / "r.0.0.mca", make.region({(3, 0): chunk}))
-        with pytest.raises(DesignError, match=rf"chunk 3,0: .*method {kind} \({name}\)"):
-            list(banners_in(path))
+@pytest.mark.parametrize(("kind", "name"), [(9, "unknown"), (127, "one of a mod's own")])
+def test_an_unknown_compression_is_named(tmp_path: Path, kind: int, name: str):
+    chunk = struct.pack(">IB", 50, kind) + bytes(49)
+    path = make.save(tmp_path / "r.0.0.mca", make.region({(3, 0): chunk}))
+    with pytest.raises(DesignError, match=rf"chunk 3,0: .*method {kind} \({name}\)"):
+        list(banners_in(path))
+
+
+def test_a_stream_of_lz4_blocks_is_unwrapped_and_what_is_broken_named():
+    text = bytes(range(256)) * 999
+    packed = make.PACKERS[4](text)
+    assert unlz4(packed, "f", len(text)) == text
+    raw = struct.pack("<8sBiii", b"LZ4Block", 0x16, 3, 3, 0) + b"abc"
+    end = struct.pack("<8sBiii", b"LZ4Block", 0x16, 0, 0, 0)
+    assert unlz4(raw + packed, "f", len(text) + 3) == b"abc" + text
+    for data, fault in (
+        (packed[:-1], "cut off"),
+        (packed[:30], "broken LZ4 data"),
+        (b"x" + packed, "no LZ4 block at byte 0"),
+        (raw[:-1] + end + end, "no LZ4 block at byte 24"),
+        (raw[:-1], "of 3 bytes has 2"),
+        (struct.pack("<8sBiii", b"LZ4Block", 0x26, 9, -1, 0), "no LZ4 block"),
+        (struct.pack("<8sBiii", b"LZ4Block", 0x26, 9, 2**31 - 1, 0), "over"),
+    ):
+        with pytest.raises(DesignError, match=fault):
+            unlz4(data, "f", len(text))
 
 
 def test_a_chunk_too_large_for_a_region_has_its_own_file(tmp_path: Path):

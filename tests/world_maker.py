@@ -6,6 +6,7 @@ import struct
 import zlib
 from pathlib import Path
 
+import lz4.block
 import nbtlib
 from nbtlib import Byte, ByteArray, Compound, Int, IntArray, List, LongArray, Short, String
 
@@ -225,7 +226,18 @@ def chunk(era: str, blocks: dict[tuple, tuple[str | None, dict]], padding: int =
     return {"Level": {"Sections": sections, "TileEntities": entities}}
 
 
-PACKERS = {1: gzip.compress, 2: zlib.compress, 3: bytes, 4: bytes}
+def lz4_blocks(data: bytes, size: int = 1 << 16) -> bytes:
+    """What lz4-java writes; the checksums are left at 0."""
+    head = struct.Struct("<8sBiii")
+    pieces = []
+    for start in range(0, len(data), size):
+        piece = data[start : start + size]
+        packed = lz4.block.compress(piece, store_size=False)
+        pieces += [head.pack(b"LZ4Block", 0x26, len(packed), len(piece), 0), packed]
+    return b"".join([*pieces, head.pack(b"LZ4Block", 0x16, 0, 0, 0)])
+
+
+PACKERS = {1: gzip.compress, 2: zlib.compress, 3: bytes, 4: lz4_blocks}
 
 
 def region(chunks: dict[tuple[int, int], dict | bytes], kind: int = 2) -> bytes:

@@ -15,6 +15,7 @@ from drapery.banner.formats import chunk
 from drapery.banner.formats.blocks import OnError, raise_error
 from drapery.banner.formats.compression import check_size, inflate
 from drapery.banner.formats.found import Found
+from drapery.banner.formats.lz4 import unlz4
 from drapery.banner.formats.nbt import read_nbt
 from drapery.errors import DesignError
 
@@ -28,7 +29,8 @@ MAX_RATIO = 100
 """How many times a file all its chunks may unpack to, so that a bomb cannot hide in each of
 them. A chunk takes a sector at least, and one of air unpacks to some twenty sectors."""
 
-KINDS = {1: "gzip", 2: "zlib", 3: "none", 4: "LZ4", 127: "one of a mod's own"}
+KINDS = {1: "gzip", 2: "zlib", 3: "none", 127: "one of a mod's own"}
+_LZ4 = 4
 _OWN_FILE = 0x80
 _WORDS = (b"banner", b"Banner", b"shield")
 """A chunk without any of these in its bytes bears no design and need not be read further."""
@@ -131,6 +133,8 @@ def _own_file(folder: Path | None, name: str, where: str) -> bytes:
 
 
 def _unwrap(data: bytes, kind: int, where: str) -> bytes:
+    if kind == _LZ4:
+        return unlz4(data, where, MAX_CHUNK)
     if kind not in (1, 2, 3):
         name = KINDS.get(kind, "unknown")
         raise DesignError(
