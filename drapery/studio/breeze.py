@@ -76,6 +76,16 @@ def _around(degrees: float) -> float:
     return (degrees + 180.0) % 360.0 - 180.0
 
 
+def heading_of(turned: float) -> float:
+    """Where a wind blows to that is turned so far [degrees], -180..180; 0 is the banner's front."""
+    return _around(turned + OWN_HEADING)
+
+
+def turned_to(heading: float) -> float:
+    """How far a wind is turned that blows to a heading [degrees]."""
+    return _around(heading - OWN_HEADING)
+
+
 def carried_on(before: Wind, after: Wind, time: float) -> Wind:
     """A wind that takes over from another at a time [s], its gusts and swell in their midst.
 

@@ -228,7 +228,8 @@ class Live:
         return self._shadow[1]
 
     def _looks(self, body: Body) -> list[Look]:
-        return [worn.dress(self.time) for worn in (*body.parts, *body.panels)]
+        dresses = [part.dress for part in body.parts] + [panel.dress for panel in body.panels]
+        return [dress(self.time) for dress in dresses]
 
     def _drawn(self, sheet: Sheet) -> Mesh:
         """The sheet as it is drawn: thick, in its place; the game's own where no cloth is asked."""

@@ -134,7 +134,7 @@ class Told:
             "panes": _pane_headers(topology, panes),
             "grip": [_run(starts, first + g) for first in _firsts(panes) for g in shown.grip],
         }
-        arrays = {
+        arrays: dict[str, NDArray[Any]] = {
             "uvs": topology.uvs,
             "triangles": topology.triangles.astype(np.uint32),
             "triangleLooks": topology.triangle_look,
@@ -261,7 +261,7 @@ def _same(a: Topology | None, b: Topology) -> bool:
     """Whether two draw lists look alike but for where their vertices are."""
     if a is None or a is b:
         return a is b
-    pairs = [
+    pairs: list[tuple[NDArray[Any], NDArray[Any]]] = [
         (a.triangles, b.triangles),
         (a.triangle_look, b.triangle_look),
         (a.uvs, b.uvs),

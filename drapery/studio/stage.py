@@ -19,7 +19,7 @@ from drapery.banner.packs import Packs, open_packs
 from drapery.cloth.pins import PinName
 from drapery.errors import DraperyError
 from drapery.scenes.staging import STEP
-from drapery.studio.breeze import OWN_HEADING, Breeze
+from drapery.studio.breeze import Breeze
 from drapery.studio.live import Live
 from drapery.studio.panes import Shown
 from drapery.studio.player import Player
@@ -295,8 +295,3 @@ def stage_of(session: Session) -> Stage:
     if session.token not in _STAGES:
         _STAGES[session.token] = Stage(session)
     return _STAGES[session.token]
-
-
-def heading_of(turned: float) -> float:
-    """Where a wind blows to that is turned so far [degrees], -180..180; 0 is the banner's front."""
-    return (turned + OWN_HEADING + 180.0) % 360.0 - 180.0

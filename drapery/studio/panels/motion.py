@@ -1,0 +1,174 @@
+"""What moves the live banner and how it hangs: wind, cloth, place and light."""
+
+import math
+from typing import get_args
+
+from nicegui import ui
+
+from drapery.cloth import SOLVERS
+from drapery.settings import MAX_LIGHT, ROTATIONS, Facing, Placement
+from drapery.studio.breeze import STRONGEST, heading_of, turned_to
+from drapery.studio.panels.controls import Controls
+from drapery.studio.session import Session
+from drapery.studio.stage import stage_of
+
+GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (17, 33), (25, 49), (33, 65))
+PINS = {
+    None: "as the banner",
+    "top": "the whole top",
+    "corners": "top corners",
+    "three-corners": "three corners",
+    "four-corners": "all four corners",
+    "none": "nothing: let it fall",
+}
+NOON = 12.0
+
+
+def build(session: Session) -> None:
+    """Four groups of controls."""
+    controls = Controls(session)
+    with ui.element("div").classes("motion"):
+        for title, draw in (
+            ("Wind", _wind),
+            ("Cloth", _cloth),
+            ("Place", _place),
+            ("Light", _light),
+        ):
+            with (
+                ui.element("div")
+                .classes("motion-group")
+                .props(f'role="group" aria-label="{title}"')
+            ):
+                ui.element("h3").add_slot("default", title)
+                draw(session, controls)
+    controls.follow()
+
+
+def _wind(session: Session, controls: Controls) -> None:
+    stage = stage_of(session)
+    controls.slider(
+        "Speed",
+        (0, STRONGEST / 2, 0.1),
+        lambda: session.settings.wind,
+        lambda speed: session.adjust(wind=float(speed)),
+        "{:.1f} m/s".format,
+    )
+    controls.slider(
+        "Direction",
+        (-180, 180, 1),
+        lambda: round(heading_of(stage.wishes.turned)),
+        lambda heading: stage.wish(turned=turned_to(float(heading))),
+        "{:.0f}°".format,
+    )
+    controls.slider(
+        "Gusts",
+        (0, 1.5, 0.05),
+        lambda: stage.wishes.gusts,
+        lambda gusts: stage.wish(gusts=float(gusts)),
+        "{:.2f}".format,
+    )
+    controls.switch("It blows", lambda: stage.wishes.on, lambda on: stage.wish(on=bool(on)))
+
+
+def _cloth(session: Session, controls: Controls) -> None:
+    stage = stage_of(session)
+    controls.select(
+        "Solver",
+        {name: name for name in SOLVERS},
+        lambda: session.settings.solver,
+        lambda name: session.adjust(solver=name),
+    )
+    # A list holds only what it offers; a link may bring another grid.
+    grids = dict.fromkeys((*GRIDS, tuple(session.settings.grid)))
+    controls.select(
+        "Grid",
+        {f"{columns}x{rows}": f"{columns} × {rows}" for columns, rows in sorted(grids)},
+        lambda: "{}x{}".format(*session.settings.grid),
+        lambda text: session.adjust(grid=tuple(map(int, text.split("x")))),
+    )
+    controls.select("Held at", PINS, lambda: stage.wishes.pins, lambda pins: stage.wish(pins=pins))
+    controls.slider(
+        "Thickness",
+        (0, 4, 0.25),
+        lambda: session.settings.thickness,
+        lambda texels: session.adjust(thickness=float(texels)),
+        "{:g} texels".format,
+    )
+
+
+def _place(session: Session, controls: Controls) -> None:
+    words = {"standing": "on its pole", "wall": "on a wall", "item": "item in its slot"}
+    controls.select(
+        "Placement",
+        {name: words[name] for name in get_args(Placement)},
+        lambda: session.settings.placement,
+        lambda name: session.adjust(placement=name, rotation=0, facing=None),
+    )
+    controls.slider(
+        "Rotation",
+        (0, ROTATIONS - 1, 1),
+        lambda: _rotation(session),
+        lambda number: _rotate(session, int(number)),
+        lambda number: f"{number * 360 / ROTATIONS:g}°",
+    )
+
+
+def _rotation(session: Session) -> int:
+    """In sixteenths, of what stands and of what hangs on a wall alike."""
+    return round(session.settings.turned * ROTATIONS / 360)
+
+
+def _rotate(session: Session, number: int) -> None:
+    """Turn it; on a wall to the nearest of four sides."""
+    if session.settings.placement == "wall":
+        sides = get_args(Facing)
+        session.adjust(facing=sides[round(number / 4) % len(sides)])
+    else:
+        session.adjust(rotation=number)
+
+
+def _light(session: Session, controls: Controls) -> None:
+    chosen = [hour_of(session.settings.daylight)]
+
+    def hour() -> float:
+        # Morning and evening have the same light: the hour that was chosen is kept beside it.
+        daylight = session.settings.daylight
+        return chosen[0] if daylight_at(chosen[0]) == daylight else hour_of(daylight)
+
+    def choose(value: float) -> None:
+        chosen[0] = float(value)
+        session.adjust(daylight=daylight_at(chosen[0]))
+
+    controls.slider(
+        "Time of day",
+        (0, 24, 0.25),
+        hour,
+        choose,
+        lambda hour: f"{int(hour)}:{int(hour % 1 * 60):02d}",
+    )
+    for label, option in (("Sky light", "sky_light"), ("Torch light", "block_light")):
+        controls.slider(
+            label,
+            (0, MAX_LIGHT, 1),
+            lambda option=option: getattr(session.settings, option),
+            lambda level, option=option: session.adjust(**{option: int(level)}),
+        )
+    controls.switch(
+        "Shaded",
+        lambda: session.settings.light == "game",
+        lambda on: session.adjust(light="game" if on else "flat"),
+    )
+
+
+def daylight_at(hour: float) -> float:
+    """How bright the sky is at an hour 0..24: 1 about noon, 0 in the night, in between at dusk."""
+    return min(1.0, max(0.0, 0.5 + 2 * math.cos(math.tau * (hour - NOON) / 24)))
+
+
+def hour_of(daylight: float) -> float:
+    """An hour from noon to midnight whose sky is so bright, in quarters of an hour."""
+    if daylight >= 1.0:
+        return NOON
+    if daylight <= 0.0:
+        return 24.0
+    return round(4 * (NOON + 24 * math.acos((daylight - 0.5) / 2) / math.tau)) / 4
