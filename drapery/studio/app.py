@@ -23,7 +23,7 @@ from drapery.studio.sketch import banner_of
 RECONNECT = 2.0
 """How long a session waits for its tab to come back [s]."""
 
-ROUTES: tuple[str, ...] = ()
+ROUTES: tuple[str, ...] = ("stream",)
 """Modules of this room with an `add_routes(app)` of their own."""
 
 
@@ -106,6 +106,8 @@ def run(
         ws_max_size=1 << 20,
         timeout_graceful_shutdown=1,
         server_header=False,
+        # Positions of a moving cloth hardly shrink, and shrinking them takes longer than sending.
+        ws_per_message_deflate=False,
     )
     listening = _listen(host, port)
     named = f"[{host}]" if ":" in host else host

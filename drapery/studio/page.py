@@ -31,7 +31,11 @@ class Panel:
     place: Place
 
 
-PANELS = (Panel("face", "Flat", "crop_portrait", "stage"),)
+PANELS = (
+    Panel("live", "Live", "air", "stage"),
+    Panel("face", "Flat", "crop_portrait", "stage"),
+    Panel("motion", "Motion", "tune", "under"),
+)
 
 FIRST_TAB = "patterns"
 
