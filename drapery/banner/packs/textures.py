@@ -12,7 +12,7 @@ from drapery.errors import PackError
 
 TICKS_PER_SECOND = 20
 
-MAX_SHEET = 512
+MAX_SHEET = 2048
 """Largest side of a banner's or shield's sheet [px]."""
 
 LAST_MASK_FORMAT = 4
@@ -64,7 +64,7 @@ def animated(texels: Texels, mcmeta: bytes | None, name: str) -> Texture:
 
 
 def check_sheet(texture: Texture, name: str) -> None:
-    """Raise PackError unless the texture is a square sheet of up to 512 px."""
+    """Raise PackError unless the texture is a square sheet of at most MAX_SHEET px."""
     height, width = texture.frames[0].shape[:2]
     if height != width:
         raise PackError(
