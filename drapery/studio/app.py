@@ -2,8 +2,9 @@
 
 import asyncio
 import socket
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
 from urllib.parse import urlencode
@@ -17,13 +18,17 @@ from drapery.settings import Settings
 from drapery.studio import page
 from drapery.studio.art import face_png, pattern_sheet
 from drapery.studio.guard import LOOPBACK, Guard
-from drapery.studio.session import Session, find_session
+from drapery.studio.incoming import incoming_of
+from drapery.studio.session import Session, close_all, find_session
 from drapery.studio.sketch import banner_of
 
 RECONNECT = 2.0
 """How long a session waits for its tab to come back [s]."""
 
-ROUTES: tuple[str, ...] = ("stream",)
+ROUTES: tuple[str, ...] = (
+    "incoming",
+    "stream",
+)
 """Modules of this room with an `add_routes(app)` of their own."""
 
 
@@ -40,7 +45,7 @@ class House:
 
 def make_app(house: House, *, hosts: frozenset[str] | None = LOOPBACK, token: str | None) -> Guard:
     """The studio as an ASGI application; one in a process."""
-    app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
+    app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None, lifespan=_until_the_end)
     _add_pictures(app)
     for name in ROUTES:
         import_module(f"drapery.studio.{name}").add_routes(app)
@@ -59,6 +64,12 @@ def make_app(house: House, *, hosts: frozenset[str] | None = LOOPBACK, token: st
     return Guard(app, hosts, token)
 
 
+@asynccontextmanager
+async def _until_the_end(_: FastAPI) -> AsyncIterator[None]:
+    yield
+    close_all()
+
+
 def session_of(token: str) -> Session:
     """The session of a request's token; unknown ones are 404."""
     session = find_session(token)
@@ -72,6 +83,21 @@ def _add_pictures(app: FastAPI) -> None:
     def face(token: str) -> Response:
         session = session_of(token)
         return _picture(lambda: face_png(banner_of(session.sketch), session.packs()), "no-store")
+
+    @app.get("/steps/{token}/{count}.png")
+    def step(token: str, count: int) -> Response:
+        session = session_of(token)
+        whole = banner_of(session.sketch)
+        part = replace(whole, layers=whole.layers[: max(0, count)])
+        return _picture(lambda: face_png(part, session.packs(), 2), "no-store")
+
+    @app.get("/found/{token}/{number}.png")
+    def found(token: str, number: int) -> Response:
+        session = session_of(token)
+        banners = incoming_of(session).found
+        if not 0 <= number < len(banners):
+            raise HTTPException(404, "no such banner")
+        return _picture(lambda: face_png(banners[number].banner, session.packs(), 2), "no-store")
 
     @app.get("/patterns/{token}.png")
     def patterns(token: str, base: str, dye: str) -> Response:

@@ -1,6 +1,7 @@
 """Small pictures of designs and patterns, drawn from the session's packs, as PNG files."""
 
-from functools import lru_cache
+from weakref import WeakKeyDictionary
+from zlib import crc32
 
 import numpy as np
 
@@ -17,33 +18,41 @@ from drapery.banner.sprites import (
 from drapery.pictures import face_pixels
 from drapery.render.encode.png import png_bytes
 from drapery.render.frame import Pixels
-
-CELL = (20, 40)
-"""Width and height of one pattern in the sheet [texels of a 64 x 64 pack]."""
+from drapery.studio.session import Session
 
 FACE_SCALE = 8
 
 
-def face_png(banner: Banner, packs: Packs) -> bytes:
-    """The plain face, 160 x 320 pixels; of a shield 96 x 176. Raises PackError."""
-    return png_bytes(_face(banner, packs))
-
-
-def _face(banner: Banner, packs: Packs) -> Pixels:
+def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
+    """The plain face, 20 x 40 units of `scale` pixels; of a shield 12 x 22. Raises PackError."""
     if banner.kind == "banner":
-        return face_pixels(banner, packs, FACE_SCALE)
-    region = SHIELD_REGIONS["front"]
-    return _sampled(region, composite(shield_layers(banner, packs)), FACE_SCALE)
+        return png_bytes(face_pixels(banner, packs, scale))
+    sheet = composite(shield_layers(banner, packs))
+    return png_bytes(_sampled(SHIELD_REGIONS["front"], sheet, scale))
 
 
-@lru_cache(maxsize=48)
+def pattern_names(packs: Packs) -> tuple[str, ...]:
+    """`packs.patterns()`, asked once for as long as they are open."""
+    if packs not in _names:
+        _names[packs] = packs.patterns()
+    return _names[packs]
+
+
+_names: WeakKeyDictionary[Packs, tuple[str, ...]] = WeakKeyDictionary()
+_sheets: WeakKeyDictionary[Packs, dict[tuple[str, str], bytes]] = WeakKeyDictionary()
+
+
 def pattern_sheet(packs: Packs, base: str, dye: str) -> bytes:
     """All patterns of the packs side by side, in one dye on a field of another.
 
-    Cells of 20 x 40 pixels in the order of `packs.patterns()`. Raises PackError, DesignError.
+    Cells of 20 x 40 pixels in the order of `pattern_names`. Raises PackError, DesignError.
     """
-    cells = [_cell(packs, Banner(base, (Layer(name, dye),))) for name in packs.patterns()]
-    return png_bytes(np.concatenate(cells, axis=1))
+    kept = _sheets.setdefault(packs, {})
+    if (base, dye) not in kept:
+        banners = [Banner(base, (Layer(name, dye),)) for name in pattern_names(packs)]
+        cells = [_cell(packs, banner) for banner in banners]
+        kept[base, dye] = png_bytes(np.concatenate(cells, axis=1))
+    return kept[base, dye]
 
 
 def _cell(packs: Packs, banner: Banner) -> Pixels:
@@ -57,3 +66,10 @@ def _sampled(region: Region, sheet: Pixels, scale: int) -> Pixels:
     down = (np.arange(height) * 2 + 1) * texels.shape[0] // (2 * height)
     across = (np.arange(width) * 2 + 1) * texels.shape[1] // (2 * width)
     return np.ascontiguousarray(texels[down][:, across])
+
+
+def sheet_address(session: Session, dye: str) -> str:
+    """Where the page finds `pattern_sheet` for the session's packs and field, in a dye."""
+    settings = session.settings
+    mark = crc32(repr((settings.packs, settings.format)).encode())
+    return f"/patterns/{session.token}.png?base={session.sketch.base}&dye={dye}&packs={mark:x}"

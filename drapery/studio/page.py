@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING, Literal
 
 from nicegui import Client, ui
 
+from drapery.studio.desk import desk_of
+from drapery.studio.incoming import incoming_of
 from drapery.studio.session import Session, open_session
+from drapery.studio.widgets import words
 
 if TYPE_CHECKING:
     from drapery.studio.app import House
@@ -32,9 +35,14 @@ class Panel:
 
 
 PANELS = (
+    Panel("palette", "Dyes", "palette", "left"),
+    Panel("layers", "Layers", "layers", "left"),
     Panel("live", "Live", "air", "stage"),
     Panel("face", "Flat", "crop_portrait", "stage"),
     Panel("motion", "Motion", "tune", "under"),
+    Panel("patterns", "Patterns", "grid_view", "side"),
+    Panel("text", "Text", "code", "side"),
+    Panel("loom", "Loom", "handyman", "side"),
 )
 
 FIRST_TAB = "patterns"
@@ -42,6 +50,7 @@ FIRST_TAB = "patterns"
 house: "House"
 """What the studio was started with; `app.make_app` sets it."""
 
+_DETAIL = "(event) => emit(event.detail)"
 _ROOM = Path(__file__).parent
 
 
@@ -55,10 +64,11 @@ def studio(client: Client) -> None:
 
 def build(session: Session) -> None:
     """Draw the whole page for a session."""
-    from drapery.studio.panels import bar
+    from drapery.studio.panels import bar, shortcuts
 
     _head(session)
-    with ui.element("div").classes("studio").props(f'data-token="{session.token}"'):
+    desk = desk_of(session)
+    with ui.element("div").classes("studio").props(f'data-token="{session.token}"') as root:
         with ui.element("header").classes("bar"):
             bar.build(session)
         for place in ("left", "stage", "under"):
@@ -67,6 +77,11 @@ def build(session: Session) -> None:
         _tabs()
         with ui.element("div").classes("side"):
             _panels(session, "side")
+    shortcuts.build()
+    root.on("act", lambda event: bar.act(session, desk, str(event.args)), js_handler=_DETAIL)
+    root.on(
+        "pasted", lambda event: incoming_of(session).read_text(str(event.args)), js_handler=_DETAIL
+    )
 
 
 def _head(session: Session) -> None:
@@ -101,4 +116,4 @@ def _tabs() -> None:
             )
             with tab:
                 ui.icon(panel.icon).props('aria-hidden="true"')
-                ui.element("span").classes("tab-title").add_slot("default", panel.title)
+                words(panel.title).classes("tab-title")

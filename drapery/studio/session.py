@@ -150,3 +150,9 @@ def find_session(token: str) -> Session | None:
 def open_count() -> int:
     """How many sessions are open."""
     return len(_SESSIONS)
+
+
+def close_all() -> None:
+    """End all sessions, as when the server stops."""
+    for session in [*_SESSIONS.values()]:
+        session.close()

@@ -1,0 +1,187 @@
+// What the page does by itself: tabs, theme, shortcuts, copying, and files dropped on it.
+const WIDE = window.matchMedia("(min-width: 1000px)");
+const root = () => document.querySelector(".studio");
+
+const studio = (window.studio = {
+  get ready() {
+    return !!(root() && window.socket?.connected);
+  },
+  copy,
+  tab,
+});
+
+// Tabs. On a wide window those of the left and under the stage are always seen.
+function tab(name) {
+  for (const each of document.querySelectorAll(".tab")) {
+    const chosen = each.dataset.panel === name;
+    each.setAttribute("aria-selected", chosen);
+    each.tabIndex = chosen ? 0 : -1;
+    document.getElementById(each.dataset.panel && `panel-${each.dataset.panel}`)?.toggleAttribute("data-active", chosen);
+  }
+}
+
+function seenTabs() {
+  return [...document.querySelectorAll(".tab")].filter((each) => each.offsetParent);
+}
+
+WIDE.addEventListener("change", () => {
+  const chosen = document.querySelector('.tab[aria-selected="true"]');
+  if (!chosen?.offsetParent && seenTabs().length) tab(seenTabs()[0].dataset.panel);
+});
+
+// Theme: as the system has it, until one chooses.
+function theme(choice) {
+  window.Quasar?.Dark.set(choice === "dark" ? true : choice === "light" ? false : "auto");
+}
+
+function turnTheme() {
+  const choice = document.body.classList.contains("body--dark") ? "light" : "dark";
+  try {
+    localStorage.setItem("drapery-theme", choice);
+  } catch {}
+  theme(choice);
+}
+
+// Copying. The clipboard proper is there only over https or on this machine.
+async function copy(text, from) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = Object.assign(document.createElement("textarea"), { value: text });
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+  }
+  if (!from) return;
+  const words = from.querySelector(".copy-words") ?? from;
+  const before = (words.dataset.before ??= words.textContent);
+  words.textContent = "Copied";
+  setTimeout(() => (words.textContent = before), 1500);
+}
+
+// Shortcuts, while no field has the focus.
+const KEYS = {
+  "ctrl+z": "undo", "ctrl+shift+z": "redo", "ctrl+y": "redo", "ctrl+d": "duplicate",
+  r: "chance", b: "kind", m: "mode", h: "hide", delete: "remove", backspace: "remove",
+  "alt+arrowup": "up", "alt+arrowdown": "down", escape: "none",
+};
+
+function typing(target) {
+  return target.closest?.("input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=true], [role=combobox], [role=listbox]");
+}
+
+function act(what) {
+  root()?.dispatchEvent(new CustomEvent("act", { detail: what }));
+}
+
+window.addEventListener("keydown", (event) => {
+  if (event.defaultPrevented || event.isComposing || !root()) return;
+  const dialog = document.getElementById("shortcuts");
+  if (dialog.open) {
+    if (event.key === "Escape" || event.key === "?") {
+      dialog.close();
+      event.preventDefault();
+    }
+    return;
+  }
+  if (typing(event.target) || document.querySelector(".q-dialog, .q-menu")) return;
+  const name =
+    (event.ctrlKey || event.metaKey ? "ctrl+" : "") + (event.altKey ? "alt+" : "") +
+    (event.shiftKey && event.ctrlKey ? "shift+" : "") + event.key.toLowerCase();
+  if (event.key === "?") dialog.showModal();
+  else if (event.key === "/") {
+    tab("patterns");
+    document.querySelector(".panel-patterns input")?.focus();
+  } else if (KEYS[name]) act(KEYS[name]);
+  else return;
+  event.preventDefault();
+});
+
+document.addEventListener("keydown", (event) => {
+  const here = event.target.closest?.(".tab");
+  const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 1, ArrowUp: -1 }[event.key];
+  if (!here || !step) return;
+  const tabs = seenTabs();
+  const next = tabs[(tabs.indexOf(here) + step + tabs.length) % tabs.length];
+  tab(next.dataset.panel);
+  next.focus();
+  event.preventDefault();
+  event.stopPropagation();
+});
+
+document.addEventListener("click", (event) => {
+  const pressed = (kind) => event.target.closest?.(kind);
+  const copying = pressed("[data-copy]");
+  if (copying) copy(document.getElementById(copying.dataset.copy).value, copying);
+  else if (pressed(".tab")) tab(pressed(".tab").dataset.panel);
+  else if (pressed(".theme")) turnTheme();
+  else if (pressed(".help")) document.getElementById("shortcuts").showModal();
+  else if (pressed("#shortcuts .button") || event.target.id === "shortcuts") document.getElementById("shortcuts").close();
+});
+
+// A design pasted anywhere, or dropped as a file.
+document.addEventListener("paste", (event) => {
+  if (typing(event.target)) return;
+  const text = event.clipboardData.getData("text/plain");
+  if (text.trim()) root()?.dispatchEvent(new CustomEvent("pasted", { detail: text }));
+});
+
+async function send(file) {
+  const response = await fetch(`/designs/${root().dataset.token}?name=${encodeURIComponent(file.name.slice(-80))}`, { method: "POST", body: file });
+  if (!response.ok) throw new Error(await response.text());
+}
+
+studio.readFile = async (file) => {
+  try {
+    await send(file);
+  } catch {
+    window.Quasar?.Notify.create({ type: "negative", position: "top", message: `${file.name}: it could not be sent; is the studio still running?` });
+  }
+};
+
+const own = (event) => event.target.closest?.(".drop, .q-uploader");
+const holdsFiles = (event) => event.dataTransfer?.types.includes("Files");
+
+document.addEventListener("dragover", (event) => {
+  if (!holdsFiles(event)) return;
+  event.preventDefault();
+  document.body.classList.toggle("dropping", !own(event));
+});
+document.addEventListener("dragleave", (event) => {
+  if (!event.relatedTarget) document.body.classList.remove("dropping");
+});
+document.addEventListener("drop", (event) => {
+  document.body.classList.remove("dropping");
+  if (!holdsFiles(event) || own(event)) return;
+  event.preventDefault();
+  const file = event.dataTransfer.files[0];
+  if (file) studio.readFile(file);
+});
+document.addEventListener("change", (event) => {
+  if (event.target.id !== "design-file" || !event.target.files[0]) return;
+  studio.readFile(event.target.files[0]);
+  event.target.value = "";
+});
+
+// The page's elements come a moment after this script.
+new MutationObserver((_, observer) => {
+  if (!root() || !window.Quasar) return;
+  observer.disconnect();
+  let stored = null;
+  try {
+    stored = localStorage.getItem("drapery-theme");
+  } catch {}
+  if (stored) setTimeout(() => theme(stored));
+}).observe(document.documentElement, { childList: true, subtree: true });
+
+// The text field reads what is pasted into it at once, and by Ctrl+Enter.
+function readText() {
+  const area = document.getElementById("design-text");
+  if (area.value.trim()) area.dispatchEvent(new CustomEvent("read", { detail: area.value }));
+}
+document.addEventListener("paste", (event) => event.target.id === "design-text" && setTimeout(readText));
+document.addEventListener("click", (event) => event.target.closest?.("#read-text") && readText());
+document.addEventListener("keydown", (event) => {
+  if (event.target.id === "design-text" && event.key === "Enter" && (event.ctrlKey || event.metaKey)) readText();
+});

@@ -1,0 +1,109 @@
+"""Designs that come from outside: pasted text, and files dropped on the page."""
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path, PurePosixPath
+
+from fastapi import FastAPI, HTTPException, Request, Response
+from starlette.concurrency import run_in_threadpool
+
+from drapery.banner.formats import read_designs
+from drapery.banner.formats.door import parse_banners
+from drapery.banner.formats.found import Found
+from drapery.errors import DraperyError
+from drapery.studio.session import Session, find_session
+
+MAX_FILE = 64 << 20
+"""The largest file of designs [bytes]; a region with all its chunks is about 16 MiB."""
+
+MAX_FOUND = 200
+"""The most banners of one file that are offered."""
+
+_SUFFIXES = (
+    *(".json", ".mcfunction", ".snbt", ".txt"),
+    *(".dat", ".litematic", ".mca", ".mcstructure", ".nbt", ".schem", ".schematic"),
+)
+
+
+class Incoming:
+    """What was read last. found: the banners; line: what was wrong; name: of the file, or ""."""
+
+    def __init__(self) -> None:
+        self.found: tuple[Found, ...] = ()
+        self.line = ""
+        self.notes: tuple[str, ...] = ()
+        self.name = ""
+        self._listeners: list[Callable[[], None]] = []
+
+    def listen(self, call: Callable[[], None]) -> None:
+        """Call this whenever something has been read."""
+        self._listeners.append(call)
+
+    def read_text(self, text: str) -> None:
+        """Read a text in any form; never a file of this machine, whatever the text says."""
+        self._take("", *_read(lambda: parse_banners(text)))
+
+    async def read_file(self, path: Path, name: str) -> None:
+        """Read a file that came under a name."""
+        found, line, notes = await run_in_threadpool(_read, lambda: read_designs(path))
+        self._take(name, found, line.replace(str(path), name), notes)
+
+    def _take(self, name: str, found: list[Found], line: str, notes: list[str]) -> None:
+        self.found, self.line, self.name = tuple(found), line, name
+        self.notes = tuple(notes[:3])
+        for call in self._listeners:
+            call()
+
+
+def _read(read: Callable[[], list[Found]]) -> tuple[list[Found], str, list[str]]:
+    """What was found, what was wrong, and what was warned of."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UserWarning)
+        try:
+            found, line = read(), ""
+        except DraperyError as error:
+            found, line = [], str(error)
+    return found, line, [str(each.message) for each in caught]
+
+
+_INCOMING: dict[str, Incoming] = {}
+
+
+def incoming_of(session: Session) -> Incoming:
+    """What came into a session."""
+    if session.token not in _INCOMING:
+        _INCOMING[session.token] = Incoming()
+        session.on_close(lambda: _INCOMING.pop(session.token, None))
+    return _INCOMING[session.token]
+
+
+def add_routes(app: FastAPI) -> None:
+    """Take files: the body of a POST, under our own name and within a limit."""
+
+    @app.post("/designs/{token}")
+    async def take(request: Request, token: str, name: str = "") -> Response:
+        session = find_session(token)
+        if session is None:
+            raise HTTPException(404, "no such session: reload the page")
+        incoming = incoming_of(session)
+        shown = PurePosixPath(name.replace("\\", "/")).name[:80] or "the file"
+        suffix = PurePosixPath(shown).suffix.lower()
+        path = session.folder / f"design{suffix if suffix in _SUFFIXES else ''}"
+        if await _write(request, path):
+            await incoming.read_file(path, shown)
+        else:
+            incoming._take(shown, [], f"{shown} is over {MAX_FILE >> 20} MiB: cut it down", [])
+        path.unlink(missing_ok=True)
+        return Response(status_code=204)
+
+
+async def _write(request: Request, path: Path) -> bool:
+    """The request's body as a file; False where it is too long."""
+    length = 0
+    with path.open("wb") as file:
+        async for chunk in request.stream():
+            length += len(chunk)
+            if length > MAX_FILE:
+                return False
+            file.write(chunk)
+    return True

@@ -1,0 +1,153 @@
+// The layers, topmost first. Drag a row by mouse or finger, or move it by Alt and an arrow key.
+const START = 4; // How far the pointer goes before it drags [px].
+
+export default {
+  template: `
+    <ol class="rows" aria-label="Layers, topmost first" @keydown="key" @focusin="remember">
+      <li v-for="row in shown" :key="row.number" class="layer" :data-number="row.number"
+        :class="{ chosen: row.number === chosen, concealed: row.hidden, dragged: row.number === dragged }"
+        @pointerdown="grab($event, row)">
+        <span class="grip" aria-hidden="true" title="Drag to move">⠿</span>
+        <button type="button" class="row-main" data-part="main" :aria-pressed="row.number === chosen"
+          :aria-label="name(row)" @click="pick(row)">
+          <span class="row-place" aria-hidden="true">{{ row.place + 1 }}</span>
+          <span class="cell thumb" :style="cell(row)"></span>
+          <span class="row-words" aria-hidden="true">
+            <span class="row-title">{{ row.title }}</span>
+            <span class="row-dye"><i class="dot" :style="{ backgroundColor: row.colour }"></i>{{ row.dyeTitle }}</span>
+          </span>
+        </button>
+        <span class="row-tools">
+          <button type="button" class="tool" data-part="hide" :aria-pressed="row.hidden"
+            :aria-label="(row.hidden ? 'Show ' : 'Hide ') + name(row)" :title="row.hidden ? 'Show (H)' : 'Hide (H)'"
+            @click="act('hide', row)"><i class="material-icons" aria-hidden="true">{{ row.hidden ? 'visibility_off' : 'visibility' }}</i></button>
+          <button type="button" class="tool" data-part="duplicate" :aria-label="'Duplicate ' + name(row)"
+            title="Duplicate (Ctrl+D)" @click="act('duplicate', row)"><i class="material-icons" aria-hidden="true">content_copy</i></button>
+          <button type="button" class="tool" data-part="remove" :aria-label="'Remove ' + name(row)"
+            title="Remove (Delete)" @click="act('remove', row)"><i class="material-icons" aria-hidden="true">close</i></button>
+        </span>
+      </li>
+      <li class="layer layer-field" :class="{ chosen: chosen === 'field' }" key="field">
+        <span class="grip" aria-hidden="true"></span>
+        <button type="button" class="row-main" data-part="main" :aria-pressed="chosen === 'field'"
+          :aria-label="'Field, ' + field.dyeTitle" @click="$emit('choose', 'field')">
+          <span class="row-place" aria-hidden="true"></span>
+          <span class="thumb" :style="{ backgroundColor: field.colour }"></span>
+          <span class="row-words" aria-hidden="true"><span class="row-title">Field</span>
+            <span class="row-dye"><i class="dot" :style="{ backgroundColor: field.colour }"></i>{{ field.dyeTitle }}</span></span>
+        </button>
+      </li>
+    </ol>`,
+  props: { rows: Array, field: Object, chosen: [Number, String], count: Number },
+  emits: ["choose", "act"],
+  data: () => ({ order: null, dragged: null }),
+  computed: {
+    shown() {
+      if (!this.order) return this.rows;
+      return this.order.map((number) => this.rows.find((row) => row.number === number)).filter(Boolean);
+    },
+  },
+  watch: {
+    rows() {
+      if (this.dragged === null) this.order = null;
+    },
+  },
+  updated() {
+    this.refocus();
+  },
+  beforeUnmount() {
+    this.drop?.(false);
+  },
+  methods: {
+    name(row) {
+      return `Layer ${row.place + 1}, ${row.dyeTitle} ${row.title}`;
+    },
+    cell(row) {
+      const last = Math.max(1, this.count - 1);
+      return {
+        backgroundImage: `url("${row.sheet}")`,
+        backgroundSize: `${this.count * 100}% 100%`,
+        backgroundPosition: `${(row.index / last) * 100}% 0`,
+      };
+    },
+    pick(row) {
+      // The click that ends a drag is none.
+      if (!this.justDragged) this.$emit("choose", row.number);
+    },
+    act(what, row, place = 0) {
+      this.$emit("act", { what, number: row.number, place });
+    },
+    remember(event) {
+      const row = event.target.closest(".layer");
+      this.focused = { number: Number(row?.dataset.number), part: event.target.dataset.part, at: this.index(row) };
+    },
+    index(row) {
+      return [...this.$el.children].indexOf(row);
+    },
+    // A row that moves in the page loses the focus, and one that is removed takes it along.
+    refocus() {
+      if (!this.focused || document.activeElement !== document.body) return;
+      const rows = [...this.$el.children];
+      const row = rows.find((each) => Number(each.dataset.number) === this.focused.number);
+      const next = row ?? rows[Math.min(this.focused.at, rows.length - 1)];
+      (next?.querySelector(`[data-part="${this.focused.part}"]`) ?? next?.querySelector("button"))?.focus();
+    },
+    key(event) {
+      const row = this.rows.find((each) => each.number === Number(event.target.closest(".layer").dataset.number));
+      const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+      if (step && event.altKey && row) this.act("move", row, row.place + step);
+      else if (step && !event.ctrlKey && !event.metaKey) this.walk(event.target, -step);
+      else if (event.key === "Delete" && row) this.act("remove", row);
+      else if (event.key.toLowerCase() === "h" && row && !event.ctrlKey && !event.metaKey) this.act("hide", row);
+      else if (event.key.toLowerCase() === "d" && row && (event.ctrlKey || event.metaKey)) this.act("duplicate", row);
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+    },
+    walk(target, step) {
+      const rows = [...this.$el.children];
+      const next = rows[this.index(target.closest(".layer")) + step];
+      (next?.querySelector(`[data-part="${target.dataset.part}"]`) ?? next?.querySelector("button"))?.focus();
+    },
+    grab(event, row) {
+      const finger = event.pointerType !== "mouse";
+      if (event.button !== 0 || event.target.closest(".tool")) return;
+      if (finger && !event.target.closest(".grip")) return;
+      const from = event.clientY;
+      this.justDragged = false;
+      const go = (move) => {
+        if (this.dragged === null && Math.abs(move.clientY - from) < START) return;
+        move.preventDefault();
+        this.dragged = row.number;
+        this.justDragged = true;
+        this.put(row.number, move.clientY);
+      };
+      const stop = (end) => this.drop(end.type === "pointerup");
+      const escape = (press) => press.key === "Escape" && this.drop(false);
+      const ears = [["pointermove", go], ["pointerup", stop], ["pointercancel", stop], ["keydown", escape]];
+      for (const [name, call] of ears) window.addEventListener(name, call);
+      this.drop = (done) => {
+        for (const [name, call] of ears) window.removeEventListener(name, call);
+        const place = this.order ? this.order.length - 1 - this.order.indexOf(row.number) : row.place;
+        const moved = done && this.dragged !== null && place !== row.place;
+        this.dragged = null;
+        if (moved) this.act("move", row, place);
+        else this.order = null;
+        this.drop = null;
+        // After the click that the browser makes of this.
+        setTimeout(() => (this.justDragged = false));
+      };
+    },
+    put(number, y) {
+      const rows = [...this.$el.querySelectorAll(".layer:not(.layer-field)")];
+      const others = rows.filter((each) => Number(each.dataset.number) !== number);
+      const above = others.filter((each) => {
+        const box = each.getBoundingClientRect();
+        return y > box.top + box.height / 2;
+      });
+      const order = others.map((each) => Number(each.dataset.number));
+      order.splice(above.length, 0, number);
+      this.order = order;
+    },
+  },
+};

@@ -1,0 +1,72 @@
+"""The layers in their order, and what can be done to each."""
+
+from typing import Any
+
+from nicegui import ui
+
+from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS
+from drapery.banner.dyes import DYES
+from drapery.studio.art import pattern_names, sheet_address
+from drapery.studio.components import LayerList, value_of
+from drapery.studio.desk import Desk, desk_of
+from drapery.studio.notices import faults
+from drapery.studio.panels.palette import colour_of
+from drapery.studio.session import Session
+from drapery.studio.sketch import Stroke
+from drapery.studio.words import dye_words, pattern_words
+
+
+def build(session: Session) -> None:
+    """The list with its count, and a warning of what the loom cannot make."""
+    desk = desk_of(session)
+    with ui.element("div").classes("heading-line"):
+        ui.html("Layers", sanitize=False, tag="h2").classes("heading")
+        count = ui.label().classes("count")
+    warning = ui.label().classes("warning").props('role="status"')
+    rows = LayerList().classes("rows-holder")
+
+    def show() -> None:
+        shown = sum(not stroke.hidden for stroke in session.sketch.strokes)
+        count.set_text(f"{shown} of {LOOM_LAYERS if session.survival else MAX_LAYERS}")
+        too_many = session.survival and shown > LOOM_LAYERS
+        count.classes(add="over" if too_many else "", remove="" if too_many else "over")
+        warning.set_text(_TOO_MANY if too_many else "")
+        warning.set_visibility(too_many)
+        rows.show(**_shown(session, desk))
+
+    def act(wish: Any) -> None:
+        with faults():
+            desk.act(str(wish["what"]), int(wish["number"]), int(wish.get("place", 0)))
+
+    def choose(wish: Any) -> None:
+        desk.choose("field" if wish == "field" else int(wish))
+
+    rows.on("act", lambda event: act(value_of(event)))
+    rows.on("choose", lambda event: choose(value_of(event)))
+    show()
+    desk.listen(show)
+    session.listen("packs", show)
+
+
+_TOO_MANY = f"A loom stops at {LOOM_LAYERS} layers. This needs a command."
+
+
+def _shown(session: Session, desk: Desk) -> dict[str, Any]:
+    sketch = session.sketch
+    names = pattern_names(session.packs())
+    rows = [_row(session, names, place, each) for place, each in enumerate(sketch.strokes)]
+    field = {"dyeTitle": dye_words(sketch.base), "colour": colour_of(DYES[sketch.base])}
+    return {"rows": rows[::-1], "field": field, "chosen": desk.chosen, "count": len(names)}
+
+
+def _row(session: Session, names: tuple[str, ...], place: int, stroke: Stroke) -> dict[str, Any]:
+    return {
+        "number": stroke.number,
+        "place": place,
+        "index": names.index(stroke.pattern) if stroke.pattern in names else 0,
+        "title": pattern_words(stroke.pattern),
+        "dyeTitle": dye_words(stroke.dye),
+        "colour": colour_of(DYES[stroke.dye]),
+        "sheet": sheet_address(session, stroke.dye),
+        "hidden": stroke.hidden,
+    }

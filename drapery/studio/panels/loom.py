@@ -1,0 +1,85 @@
+"""The design as work at the loom: what to have at hand, and the steps."""
+
+from collections import Counter
+from html import escape
+from itertools import count
+
+from nicegui import ui
+
+from drapery.banner.design import LOOM_LAYERS, Banner
+from drapery.banner.loom import fits_loom, simplified, steps
+from drapery.errors import DraperyError
+from drapery.studio.desk import desk_of
+from drapery.studio.notices import faults
+from drapery.studio.session import Session
+from drapery.studio.sketch import banner_of, sketch_of
+from drapery.studio.widgets import button, words
+from drapery.studio.words import dye_words, pattern_words
+
+
+def build(session: Session) -> None:
+    """The recipe, and a way to leave out what nobody sees."""
+    version = count()
+    words("Loom recipe", "h2").classes("heading")
+    warning = words("", "p").classes("warning").props('role="status"')
+    with ui.element("div").classes("line") as spare:
+        hint = words("", "span").classes("hint grow")
+        button("Leave out layers that change nothing", lambda: simplify(session), text="Leave out")
+    recipe = ui.html("", sanitize=False).classes("recipe")
+
+    def show() -> None:
+        try:
+            banner = banner_of(session.sketch)
+            unseen = len(banner.layers) - len(simplified(banner, session.packs()).layers)
+        except DraperyError:
+            return
+        warning.set_text(f"A loom stops at {LOOM_LAYERS} layers; these are {len(banner.layers)}.")
+        warning.set_visibility(not fits_loom(banner))
+        some = "one layer changes" if unseen == 1 else f"{unseen} layers change"
+        hint.set_text(f"{some.capitalize()} nothing that one sees.")
+        spare.set_visibility(unseen > 0)
+        recipe.set_content(_recipe(banner, f"/steps/{session.token}", next(version)))
+
+    show()
+    session.listen("sketch", show)
+    session.listen("packs", show)
+
+
+def simplify(session: Session) -> None:
+    """Leave out the layers that change no texel."""
+    with faults():
+        banner = simplified(banner_of(session.sketch), session.packs())
+        desk_of(session).lay_out(sketch_of(banner, session.sketch.title))
+
+
+def _recipe(banner: Banner, address: str, version: int) -> str:
+    dyes = Counter(layer.dye for layer in banner.layers)
+    goods = [f"1 {_lower(banner.base)} {banner.kind}"]
+    goods += [f"{number} {_lower(dye)} dye" for dye, number in dyes.items()]
+    goods += sorted({step.item for step in steps(banner) if step.item})
+    items = "".join(f"<li>{escape(each)}</li>" for each in goods)
+    rows = "".join(
+        _row(
+            f"{address}/{number}.png?v={version}",
+            _did(step.layer.dye, step.layer.pattern),
+            step.item,
+        )
+        for number, step in enumerate(steps(banner), 1)
+    )
+    return f'<h3>To have at hand</h3><ul class="goods">{items}</ul><h3>Steps</h3>' + (
+        f'<ol class="steps">{rows}</ol>' if rows else '<p class="hint">Nothing: it is plain.</p>'
+    )
+
+
+def _row(address: str, did: str, item: str | None) -> str:
+    needs = f'<span class="hint">with {escape(item)}</span>' if item else ""
+    picture = f'<img src="{escape(address)}" alt="" width="30" height="60" loading="lazy">'
+    return f"<li>{picture}<span><b>{escape(did)}</b>{needs}</span></li>"
+
+
+def _did(dye: str, pattern: str) -> str:
+    return f"{dye_words(dye)} {pattern_words(pattern)}"
+
+
+def _lower(dye: str) -> str:
+    return dye_words(dye).lower()

@@ -1,0 +1,76 @@
+// All patterns as they look in the chosen dyes: cells of one picture. Arrow keys go about in it.
+export default {
+  template: `
+    <div class="patterns">
+      <div class="patterns-head">
+        <input v-model="wanted" type="search" class="field" placeholder="Find a pattern  ( / )"
+          aria-label="Find a pattern by its name" @keydown.enter="first" @keydown.esc="leave">
+        <div v-if="canSwap" class="segments" role="group" aria-label="What a pattern does">
+          <button type="button" :aria-pressed="!swaps" @click="$emit('swaps', false)">Add</button>
+          <button type="button" :aria-pressed="swaps" @click="$emit('swaps', true)">Change layer</button>
+        </div>
+      </div>
+      <div class="pattern-grid" role="group" :aria-label="label" @keydown="key">
+        <button v-for="(pattern, index) in found" :key="pattern.name" type="button" class="pattern"
+          :data-pattern="pattern.name" :aria-label="pattern.title" :title="pattern.title"
+          :tabindex="index === at ? 0 : -1" :aria-pressed="swaps ? pattern.name === current : null"
+          @focus="at = index" @click="$emit('pattern', pattern.name)">
+          <span class="cell" :style="cell(pattern.index)"></span>
+        </button>
+      </div>
+      <p v-if="!found.length" class="hint">No pattern is called so.</p>
+      <p class="sr" role="status">{{ wanted ? found.length + ' patterns' : '' }}</p>
+    </div>`,
+  props: {
+    patterns: Array, sheet: String, label: String, swaps: Boolean, canSwap: Boolean, current: String,
+  },
+  emits: ["pattern", "swaps"],
+  data: () => ({ wanted: "", at: 0 }),
+  computed: {
+    found() {
+      const wanted = this.wanted.trim().toLowerCase();
+      const all = this.patterns.map((pattern, index) => ({ ...pattern, index }));
+      if (!wanted) return all;
+      return all.filter((p) => (p.title + " " + p.name.replaceAll("_", " ")).toLowerCase().includes(wanted));
+    },
+  },
+  watch: {
+    wanted() {
+      this.at = 0;
+    },
+  },
+  methods: {
+    cell(index) {
+      const last = Math.max(1, this.patterns.length - 1);
+      return {
+        backgroundImage: `url("${this.sheet}")`,
+        backgroundSize: `${this.patterns.length * 100}% 100%`,
+        backgroundPosition: `${(index / last) * 100}% 0`,
+      };
+    },
+    first(event) {
+      event.preventDefault();
+      if (this.found.length) this.$emit("pattern", this.found[0].name);
+    },
+    leave(event) {
+      event.stopPropagation();
+      if (this.wanted) this.wanted = "";
+      else event.target.blur();
+    },
+    key(event) {
+      const buttons = [...this.$el.querySelectorAll(".pattern")];
+      const here = buttons.indexOf(document.activeElement);
+      if (here < 0 || event.altKey || event.ctrlKey || event.metaKey) return;
+      const top = buttons[0].offsetTop;
+      const columns = buttons.filter((button) => button.offsetTop === top).length;
+      const next = {
+        ArrowRight: here + 1, ArrowLeft: here - 1, ArrowDown: here + columns, ArrowUp: here - columns,
+        Home: 0, End: buttons.length - 1,
+      }[event.key];
+      if (next === undefined) return;
+      event.preventDefault();
+      event.stopPropagation();
+      buttons[Math.min(Math.max(next, 0), buttons.length - 1)].focus();
+    },
+  },
+};

@@ -1,0 +1,53 @@
+"""Buttons and switches of the page: plain elements, each with its label."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from nicegui import ui
+from nicegui.element import Element
+
+Press = Callable[[], object]
+
+
+def button(label: str, press: Press, *, icon: str = "", text: str = "", key: str = "") -> Element:
+    """A button. label: what it does, for all; icon, text: what it shows; key: its shortcut."""
+    element = ui.element("button").classes("button")
+    element.props("type=button")
+    element.props.update({"aria-label": label, "title": f"{label} ({key})" if key else label})
+    with element:
+        if icon:
+            ui.icon(icon).props("aria-hidden=true")
+        if text:
+            words(text)
+    return element.on("click", lambda: press())
+
+
+def words(text: str, tag: str = "span") -> Element:
+    """A piece of text in an element of its own; never read as HTML."""
+    element = ui.label(text)
+    element.tag = tag
+    return element
+
+
+class Segments:
+    """Buttons side by side of which one is pressed.
+
+    options: what can be chosen, and its words. choose: takes what was pressed.
+    """
+
+    def __init__(self, label: str, options: Mapping[str, str], choose: Callable[[str], Any]):
+        self._buttons: dict[str, Element] = {}
+        with ui.element("div").classes("segments") as group:
+            group.props("role=group").props.update({"aria-label": label})
+            for name, title in options.items():
+                element = words(title, "button").props("type=button")
+                element.on("click", lambda name=name: choose(name))
+                self._buttons[name] = element
+
+    def show(self, chosen: str) -> None:
+        """Mark what is chosen."""
+        for name, element in self._buttons.items():
+            pressed = "true" if name == chosen else "false"
+            if element.props.get("aria-pressed") != pressed:
+                element.props["aria-pressed"] = pressed
+                element.update()
