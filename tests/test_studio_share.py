@@ -16,7 +16,7 @@ from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError
 from drapery.render.views import VIEWS
 from drapery.settings import Settings
-from drapery.studio.share import MAX_JSON, MAX_LINK, VERSION, read_link, write_link
+from drapery.studio.share import MAX_JSON, MAX_LINK, VERSION, begun, read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
 
 patterns = st.one_of(
@@ -83,6 +83,15 @@ def test_files_stay_behind(tmp_path: Path) -> None:
     assert read_link(link)[1] == Settings(wind=3.0)
 
 
+def test_a_link_is_laid_over_what_the_studio_was_started_with() -> None:
+    own = Settings(packs=("a.zip",), format=46, wind=9.0, backend="soft")
+    link = write_link(FULL, Settings(view="iso"))
+    wanted = Settings(packs=("a.zip",), format=46, view="iso", backend="soft")
+    settings, sketch = begun(own, link)
+    assert settings == wanted and sketch.title == "Flag"
+    assert begun(own, write_link(FULL, Settings(format=4)))[0].format == 4
+
+
 def made(tree: Any) -> str:
     """A link of any JSON, as an ill-meaning person makes it."""
     data = tree if isinstance(tree, bytes) else json.dumps(tree).encode()
@@ -97,6 +106,7 @@ GOOD: dict[str, Any] = {"base": "red", "layers": [{"pattern": "creeper", "color"
     [
         {"packs": ["/etc"]},
         {"texture": "/etc/passwd"},
+        {"kind": "cape"},
         {"backend": "os"},
         {"__class__": 1},
         {"view": "../../x"},

@@ -8,7 +8,8 @@ from typing import TypeVar
 
 from drapery.banner.design import Banner
 from drapery.errors import DraperyError, OptionError
-from drapery.studio.snippets import KINDS, LOOPS, Order, options_for
+from drapery.studio.session import Session
+from drapery.studio.snippets import KINDS, LOOPS, Order, file_name, options_for
 
 MAX_PIXELS = 1 << 31
 """Of all frames together: 512 x 512 for six minutes at 20 frames/s."""
@@ -185,3 +186,74 @@ class Export:
             self.state = "stopped" if self._stop.is_set() else "done"
         if self.state != "done":
             self.path.unlink(missing_ok=True)
+
+
+class Exports:
+    """The exports of one session: one at a time, and the last one's file.
+
+    current: the one that was started last.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self.current: Export | None = None
+        self._number = 0
+
+    @property
+    def number(self) -> int:
+        """Names the current export."""
+        return self._number
+
+    def start(self, order: Order, stem: str = "banner") -> Export:
+        """Begin another export; the one before is stopped and its file goes.
+
+        Raises OptionError for an order out of bounds, or while too many are under way.
+        """
+        check(order)
+        with _COUNTING:
+            _RUNNING[:] = [export for export in _RUNNING if export.state == "running"]
+            busy = [export for export in _RUNNING if export is not self.current]
+            if len(busy) >= MAX_RUNNING:
+                raise OptionError(f"{MAX_RUNNING} exports are under way; wait for one to end")
+            self.clear()
+            self._number += 1
+            # A name of ours; only the ending comes from the order.
+            path = self._session.folder / f"export-{self._number}{Path(file_name(order)).suffix}"
+            self.current = Export(order, path, file_name(order, stem))
+            _RUNNING.append(self.current)
+        self.current.start()
+        return self.current
+
+    def finished(self, number: int) -> Export | None:
+        """The export of this number, if its file is there."""
+        work = self.current
+        return work if work and number == self._number and work.state == "done" else None
+
+    def clear(self) -> None:
+        """Stop what is under way, and forget the file."""
+        if self.current is not None:
+            self.current.stop()
+            if self.current.state != "running":
+                self.current.path.unlink(missing_ok=True)
+            self.current = None
+
+
+MAX_RUNNING = 4
+_RUNNING: list[Export] = []
+_COUNTING = threading.Lock()
+_EXPORTS: dict[str, Exports] = {}
+
+
+def exports_of(session: Session) -> Exports:
+    """The exports of a session; they end with it."""
+    if session.token not in _EXPORTS:
+        own = _EXPORTS[session.token] = Exports(session)
+        session.on_close(own.clear)
+        session.on_close(lambda: _EXPORTS.pop(session.token, None))
+    return _EXPORTS[session.token]
+
+
+def stem_of(title: str) -> str:
+    """A file's name for a title: letters, digits and dashes."""
+    kept = "".join(letter if letter.isalnum() else " " for letter in title.lower())
+    return "-".join(kept.split())[:60] or "banner"

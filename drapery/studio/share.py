@@ -23,8 +23,8 @@ MAX_LINK = 4096
 MAX_JSON = 16 << 10
 """What a link may unpack to [bytes]."""
 
-OWN = frozenset({"packs", "texture", "backend"})
-"""Options that name files, or what is installed: the machine's own, so they are not shared."""
+OWN = frozenset({"packs", "texture", "kind", "backend"})
+"""Options that name files, want one, or name what is installed: they stay on their machine."""
 SHARED = tuple(field.name for field in fields(Settings) if field.name not in OWN)
 
 _LETTERS = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_")
@@ -53,6 +53,23 @@ def read_link(text: str) -> tuple[Sketch, Settings]:
             f"the link is of version {word[0]!r}, and {VERSION!r} is read; bring Drapery up to date"
         )
     return of_tree(_parsed(_inflated(word[1:])))
+
+
+def begun(own: Settings, word: str) -> tuple[Settings, Sketch]:
+    """What a page begins with whose address has this link: the studio's own settings and these.
+
+    Raises DesignError.
+    """
+    sketch, look = read_link(word)
+    return over(own, look), sketch
+
+
+def over(own: Settings, look: Settings) -> Settings:
+    """The shared options of `look`; all others, and a format that it leaves open, are our own."""
+    chosen = {name: getattr(look, name) for name in SHARED}
+    if look.format is None:
+        chosen["format"] = own.format
+    return replace(own, **chosen)
 
 
 def as_tree(sketch: Sketch, look: Settings) -> dict[str, Any]:
@@ -91,7 +108,7 @@ def of_tree(tree: object) -> tuple[Sketch, Settings]:
 
 def look_of(words: object) -> Settings:
     """Checked options from what JSON held. Raises DesignError, also for options never shared."""
-    from drapery.batch.options import check_options
+    from drapery.options import check_options
     from drapery.render.views import VIEWS
 
     if not isinstance(words, dict):

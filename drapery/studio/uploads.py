@@ -26,7 +26,6 @@ class Purpose:
 
 PURPOSES = {
     "pack": Purpose(256 << 20, 16),
-    "design": Purpose(32 << 20, 4),
     "library": Purpose(64 << 20, 1),
 }
 MAX_SESSION = 1 << 30

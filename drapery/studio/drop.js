@@ -1,0 +1,61 @@
+// A field for files: choose them, or drop them on it. Each is sent as the plain body of a POST.
+export default {
+  template: `
+    <div :class="['drop', { 'drop-over': over }]"
+         @dragover.prevent="over = true" @dragleave="over = false" @drop.prevent="drop">
+      <label class="drop-label">
+        <input type="file" class="drop-input" :accept="accept" :multiple="multiple"
+               :disabled="busy" @change="choose" />
+        <span>{{ busy ? "Sending " + sending : label }}</span>
+      </label>
+      <progress v-if="busy" class="drop-progress" max="1" :value="share"
+                :aria-label="'Sending ' + sending"></progress>
+    </div>`,
+  props: { address: String, label: String, accept: String, multiple: Boolean, most: Number },
+  data() {
+    return { over: false, busy: false, share: 0, sending: "" };
+  },
+  methods: {
+    choose(event) {
+      const files = [...event.target.files];
+      event.target.value = "";
+      this.send(files);
+    },
+    drop(event) {
+      this.over = false;
+      const files = [...event.dataTransfer.files];
+      this.send(this.multiple ? files : files.slice(0, 1));
+    },
+    async send(files) {
+      if (this.busy) return;
+      this.busy = true;
+      for (const file of files) this.$emit("sent", await this.post(file));
+      this.busy = false;
+    },
+    post(file) {
+      const name = file.name.slice(0, 200);
+      if (file.size > this.most) {
+        return { line: `${name} is over ${Math.floor(this.most / 1048576)} MiB; send a smaller one` };
+      }
+      this.sending = name;
+      this.share = 0;
+      return new Promise((resolve) => {
+        const request = new XMLHttpRequest();
+        const prefix = window.path_prefix ?? "";
+        request.open("POST", `${prefix}${this.address}?name=${encodeURIComponent(name)}`);
+        request.upload.onprogress = (event) => (this.share = event.loaded / (event.total || 1));
+        request.onload = () => resolve(answer(request.responseText, name));
+        request.onerror = () => resolve({ line: `${name} could not be sent; send it again` });
+        request.send(file);
+      });
+    },
+  },
+};
+
+function answer(text, name) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return { line: `${name} could not be sent; reload the page` };
+  }
+}
