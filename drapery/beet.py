@@ -16,6 +16,7 @@ from beet.library.base import Pack
 
 from drapery.banner.patterns import PATTERNS
 from drapery.errors import DraperyError
+from drapery.settings import Settings
 from drapery.testing.case_check import check_cases, update_cases
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.failures import clear, write_report
@@ -84,9 +85,7 @@ def _cases(ctx: Context, opts: DraperyOptions, packs: tuple[str, ...]) -> tuple[
         Case(
             name=re.sub(r"[^A-Za-z0-9._-]", "-", name),
             design=design,
-            packs=packs,
-            size=opts.size,
-            view=opts.view,
+            settings=Settings(packs=packs, size=opts.size, view=opts.view),
         )
         for name, design in designs.items()
     )

@@ -18,6 +18,7 @@ LAW: dict[str, set[str]] = {
     "drapery.errors": set(),
     "drapery.mesh": set(),
     "drapery.settings": {"errors"},
+    "drapery.options": {"errors", "settings"},
     "drapery.cloth": {"errors", "mesh"},
     "drapery.banner": {"errors", "assets"},
     "drapery.assets": {"errors", "banner"},
@@ -27,17 +28,17 @@ LAW: dict[str, set[str]] = {
     "drapery.pictures": {"errors", "mesh", "settings", "banner", "render", "scenes"},
     "drapery.compare": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
     "drapery.sheets": {"errors", "settings", "banner", "render", "pictures", "compare"},
-    "drapery.beet": {"errors", "banner", "testing"},
-    "drapery.testing": {"errors", "settings", "banner", "render", "pictures", "compare"},
+    "drapery.beet": {"errors", "settings", "banner", "testing"},
+    "drapery.testing": {"errors", "options", "settings", "banner", "render", "pictures", "compare"},
     "drapery.batch": {
-        *("errors", "settings", "banner", "style", "render", "pictures", "compare"),
+        *("errors", "options", "settings", "banner", "style", "render", "pictures", "compare"),
     },
     "drapery.serve": {
-        *("errors", "settings", "banner", "style", "render", "pictures", "batch"),
+        *("errors", "options", "settings", "banner", "style", "render", "pictures", "batch"),
     },
     "drapery.studio": {
         *("errors", "mesh", "settings", "cloth", "banner", "render", "style", "scenes"),
-        *("pictures", "compare", "sheets"),
+        *("options", "pictures", "compare", "sheets"),
     },
 }
 TOP_FLOOR = {"drapery.cli", "drapery.commands", "drapery.__main__", "drapery"}

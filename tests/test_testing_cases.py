@@ -6,8 +6,6 @@ import pytest
 from conftest import Run
 from PIL import Image, PngImagePlugin
 
-from drapery.settings import Options
-from drapery.testing.cases import Case
 from drapery.testing.golden import LAYERS_KEY
 
 CASES = """
@@ -33,10 +31,6 @@ def file_of(folder: Path, text: str) -> Path:
     return path
 
 
-def test_a_case_has_every_option_of_a_picture() -> None:
-    assert Options.__optional_keys__ <= set(Case.model_fields)
-
-
 def test_capes_and_rotations_are_kept_and_found_again(drapery: Run, tmp_path: Path) -> None:
     Image.new("RGBA", (64, 32), "red").save(tmp_path / "cape.png")
     file = file_of(tmp_path, CASES)
@@ -49,6 +43,13 @@ def test_a_bad_option_names_its_case(drapery: Run, tmp_path: Path) -> None:
     file = file_of(tmp_path, ONE_CASE + "wind = 999\n")
     code, _, err = drapery("golden", "check", file, "--report", tmp_path / "report")
     assert code == 2 and "case 'one': wind 999" in err.splitlines()[-1]
+
+
+def test_a_word_that_is_no_option_is_told_with_the_next_best(drapery: Run, tmp_path: Path) -> None:
+    file = file_of(tmp_path, ONE_CASE + "wnid = 9\nhashed = true\n")
+    code, _, err = drapery("golden", "check", file)
+    assert (code, err.count("\n")) == (2, 1)
+    assert "case 'one': 'wnid' is no option; did you mean wind?" in err
 
 
 @pytest.mark.parametrize("command", ["update", "check"])

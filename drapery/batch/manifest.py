@@ -9,9 +9,9 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from drapery.banner.design import Banner
-from drapery.batch.options import NAMES, check_options, one_line, unknown
 from drapery.batch.rows import Fault, Row, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
+from drapery.options import NAMES, check_options, one_line, unknown
 from drapery.settings import Settings
 
 MAX_JOBS = 1_000_000

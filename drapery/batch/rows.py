@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from drapery.banner.design import Banner
-from drapery.batch.options import one_line
 from drapery.errors import DesignError, DraperyError, OptionError
+from drapery.options import one_line
 
 MAX_TEXT = 512 << 20
 MAX_YAML = 16 << 20

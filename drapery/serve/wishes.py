@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from drapery.batch.manifest import Request
-from drapery.batch.options import check_options, unknown
 from drapery.errors import DraperyError, OptionError
+from drapery.options import check_options, unknown
 from drapery.settings import Settings, within
 
 STRANGERS = (

@@ -8,10 +8,10 @@ from drapery.banner.design import Banner
 from drapery.banner.formats import read_design
 from drapery.banner.packs import open_packs
 from drapery.errors import DraperyError
-from drapery.pictures import draw
+from drapery.pictures import draw_with
 from drapery.render.encode.output import make_folder, replacing
 from drapery.render.frame import Frame
-from drapery.settings import Options
+from drapery.settings import Settings
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
 from drapery.testing.failures import keep_failure
@@ -40,7 +40,7 @@ def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[Outcome
     Raises a DraperyError that names the case where one cannot be drawn.
     """
     for case in cases.case:
-        frame, notes = _draw(case, folder)
+        frame, notes = _draw(case)
         path = _golden_path(cases, case, folder)
         yield Outcome(case.name, _fault(case, path, frame, notes, report))
 
@@ -51,7 +51,7 @@ def update_cases(cases: CaseFile, folder: Path) -> Iterator[Outcome]:
     Raises OutputError, or a DraperyError that names the case where one cannot be drawn.
     """
     for case in cases.case:
-        frame, notes = _draw(case, folder)
+        frame, notes = _draw(case)
         path = _golden_path(cases, case, folder)
         new = fingerprint(frame) if case.hashed else encode(frame, notes)
         changed = not path.exists() or path.read_bytes() != new
@@ -69,24 +69,23 @@ def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
     return sorted(path for path in found if path not in used)
 
 
-def _draw(case: Case, folder: Path) -> tuple[Frame, list[LayerNote] | None]:
-    options = case.options(folder)
+def _draw(case: Case) -> tuple[Frame, list[LayerNote] | None]:
     try:
         banner = None if case.design is None else read_design(case.design)
-        frame = draw(banner, **options)
-        return frame, _notes(banner, options)
+        frame = draw_with(banner, case.settings)
+        return frame, _notes(banner, case.settings)
     except DraperyError as error:
         raise type(error)(f"case {case.name!r}: {error}") from None
 
 
-def _notes(banner: Banner | None, options: Options) -> list[LayerNote] | None:
+def _notes(banner: Banner | None, settings: Settings) -> list[LayerNote] | None:
     if banner is None:
         return None
-    return layer_notes(banner, open_packs(options["packs"], format=options["format"]))
+    return layer_notes(banner, open_packs(settings.packs, format=settings.format))
 
 
 def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:
-    backend = "" if case.backend in ("auto", "soft") else f"-{case.backend}"
+    backend = "" if case.settings.backend in ("auto", "soft") else f"-{case.settings.backend}"
     ending = "sha256" if case.hashed else "png"
     return folder / cases.goldens / f"{case.name}{backend}.{ending}"
 

@@ -19,27 +19,19 @@ has a `texture` in place of a design.
 import re
 import tomllib
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from drapery.errors import OptionError
-from drapery.settings import (
-    Facing,
-    Kind,
-    LayerMode,
-    Lighting,
-    Options,
-    Placement,
-    Pose,
-    Samples,
-    Settings,
-    SolverName,
-    pair,
-)
+from drapery.options import NAMES, check_options, unknown
+from drapery.settings import Settings
 
 MAX_FILE = 4 << 20
 MAX_CASES = 100_000
+DEFAULTS = Settings(size=(256, 256))
+OWN = ("name", "design", "tolerance", "pixels", "hashed")
+"""Keys of a case beside the options of its picture."""
 
 
 class Case(BaseModel):
@@ -52,47 +44,7 @@ class Case(BaseModel):
     tolerance: int = Field(default=0, ge=0, le=255)
     pixels: int = Field(default=0, ge=0)
     hashed: bool = False
-    packs: tuple[str, ...] = ()
-    format: int | None = Settings.format
-    kind: Kind = Settings.kind
-    texture: str | None = None
-    pose: Pose = Settings.pose
-    placement: Placement = Settings.placement
-    rotation: int = Settings.rotation
-    facing: Facing | None = Settings.facing
-    view: str = Settings.view
-    size: tuple[int, int] = (256, 256)
-    grid: tuple[int, int] = Settings.grid
-    solver: SolverName = Settings.solver
-    wind: float = Settings.wind
-    time: float = Settings.time
-    seed: int = Settings.seed
-    layers: LayerMode = Settings.layers
-    pbr: bool = Settings.pbr
-    thickness: float = Settings.thickness
-    background: str = Settings.background
-    samples: Samples = Settings.samples
-    pixel: int = Settings.pixel
-    light: Lighting = Settings.light
-    block_light: int = Settings.block_light
-    sky_light: int = Settings.sky_light
-    daylight: float = Settings.daylight
-    shadow: bool = Settings.shadow
-    backend: str = Settings.backend
-
-    @field_validator("size", "grid", mode="before")
-    @classmethod
-    def _as_pair(cls, value: Any) -> Any:
-        return pair("size or grid", value) if isinstance(value, str) else value
-
-    def options(self, folder: Path) -> Options:
-        """The case's picture options, with paths from the file's folder."""
-        chosen = self.model_dump(include=set(Options.__optional_keys__))
-        paths = {
-            "packs": tuple(folder / pack for pack in self.packs),
-            "texture": None if self.texture is None else folder / self.texture,
-        }
-        return cast(Options, chosen | paths)
+    settings: Settings = DEFAULTS
 
 
 class CaseFile(BaseModel):
@@ -108,18 +60,35 @@ class CaseFile(BaseModel):
 def read_cases(path: Path) -> CaseFile:
     """Read a file of cases. Raises OptionError, naming the file, the case and the key."""
     raw = _load(path)
-    defaults = raw.get("defaults")
+    defaults = raw.get("defaults", {})
     cases = raw.get("case")
     if isinstance(defaults, dict) and isinstance(cases, list):
-        raw["case"] = [{**defaults, **c} if isinstance(c, dict) else c for c in cases]
+        raw["case"] = [
+            _case(path, number, defaults | words) if isinstance(words, dict) else words
+            for number, words in enumerate(cases, 1)
+        ]
     try:
         read = CaseFile.model_validate(raw)
     except ValidationError as error:
         raise OptionError(f"{path}: {_first_fault(error)}") from None
-    except OptionError as error:
-        raise OptionError(f"{path}: {error}") from None
     _check_names(path, read.case)
     return read
+
+
+def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
+    """A case's own words, and its checked settings. Raises OptionError."""
+    own = {name: value for name, value in words.items() if name in OWN}
+    options = {name: value for name, value in words.items() if name in NAMES}
+    known = NAMES.union(OWN)
+    faults = [unknown(name, known) for name in words if name not in known]
+    settings = check_options({"size": DEFAULTS.size} | options, path.parent)
+    if isinstance(settings, list):
+        faults += settings
+    if faults:
+        name = words.get("name", number)
+        more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+        raise OptionError(f"{path}: case {name!r}: {faults[0]}{more}")
+    return own | {"settings": settings}
 
 
 def _load(path: Path) -> dict[str, Any]:
