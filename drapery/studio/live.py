@@ -197,7 +197,8 @@ class Live:
             worn.append(self._looks(self._other))
         panes = tuple(Pane(self._scene(meshes, looks), self._framing(meshes)) for looks in worn)
         under = int(self._settings.shadow)
-        grip = frozenset(range(first + under, len(meshes) + under))
+        soft = self._settings.pose == "cloth"
+        grip = frozenset(range(first + under, len(meshes) + under) if soft else ())
         return Shown(panes, len(panes), grip, self._heading(), self._cut())
 
     def _cut(self) -> object:

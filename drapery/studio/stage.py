@@ -10,7 +10,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -127,10 +127,7 @@ class Stage:
 
     def reset(self) -> None:
         """The cloth back to rest, the scene back to its start."""
-        self.do(lambda live: live.reset())
-        if self._player is not None:
-            self._player.restart()
-        self._spoil()
+        self.do(self._restart)
 
     def look_anew(self) -> None:
         """Frame what is seen as the named view does."""
@@ -172,6 +169,12 @@ class Stage:
                 self._picture = self.version, self._look()
             return self._picture[1]
 
+    def _restart(self, live: Live) -> None:
+        live.reset()
+        if self._player is not None:
+            self._player.restart()
+            self._player.step()
+
     def _look(self) -> Shown | None:
         if self._player is not None:
             return self._player.now
@@ -192,19 +195,32 @@ class Stage:
                 call()
 
     async def _run(self) -> None:
+        try:
+            await self._keep_moving()
+        except Exception as error:  # a fault of ours: say so rather than stand still in silence
+            self.fault = f"the live cloth has stopped ({type(error).__name__}); reload the page"
+            self.version += 1
+            self._wake()
+            raise
+
+    async def _keep_moving(self) -> None:
         clock = asyncio.get_running_loop().time
         due = clock()
         while True:
             ticks = min(int((clock() - due) / STEP) + 1, BEHIND)
             fault, version = self.fault, self.version
-            await in_thread(lambda ticks=ticks: self._turn(ticks))  # type: ignore[misc]
+            await in_thread(partial(self._turn, ticks))
             if self.version != version:
-                self._pulse.set()
-                self._pulse = asyncio.Event()
+                self._wake()
             if self.fault != fault or (not self._keys and self._has_steered()):
                 self._tell()
             due = max(due + ticks * STEP, clock() - STEP)
             await asyncio.sleep(max(0.0, due - clock()))
+
+    def _wake(self) -> None:
+        """Let those who wait for something new go on."""
+        self._pulse.set()
+        self._pulse = asyncio.Event()
 
     def _has_steered(self) -> bool:
         """Whether keys have made another wind; it is then what is wished for."""
@@ -228,6 +244,9 @@ class Stage:
         stale, self._stale = self._stale, False
         try:
             if stale:
+                if self._live is None:
+                    # The first picture does not wait for the kernels.
+                    ticks = 0
                 self._renew()
             for call in inputs:
                 if self._live is not None:

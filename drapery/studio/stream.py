@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from fastapi import FastAPI, WebSocket, WebSocketDisconnect
 
-from drapery.errors import OptionError
+from drapery.errors import DraperyError, OptionError
 from drapery.studio.breeze import KEYS
 from drapery.studio.live import Ray
 from drapery.studio.messages import Told
@@ -39,7 +39,7 @@ class Viewer:
         self.hidden = False
         self.sent = self.drawn = 0
         self._fault = ""
-        self._again = True
+        self._shaped = False
         self._ready = asyncio.Event()
 
     def hear(self, said: dict[str, Any]) -> None:
@@ -55,9 +55,7 @@ class Viewer:
         seen = -1
         while True:
             await self._credit()
-            if not self._again:
-                await self.stage.after(seen)
-            self._again = False
+            await self.stage.after(seen)
             seen = self.stage.version
             if self.stage.fault != self._fault:
                 self._fault = self.stage.fault
@@ -67,13 +65,18 @@ class Viewer:
                 await socket.send_bytes(message)
 
     async def _credit(self) -> None:
-        while self.hidden or self.sent - self.drawn >= UNDER_WAY:
+        """Wait until the viewer is there, has said how large it is, and has drawn."""
+        while self.hidden or not self._shaped or self.sent - self.drawn >= UNDER_WAY:
             self._ready.clear()
             await self._ready.wait()
 
     def _messages(self) -> list[bytes]:
         shown = self.stage.shown()
-        return [] if shown is None else self.told.messages(shown)
+        try:
+            return [] if shown is None else self.told.messages(shown)
+        except DraperyError as error:
+            self.stage.fault = str(error)
+            return []
 
     def _drawn(self, value: Any) -> None:
         self.drawn = min(self.sent, self.drawn + int(_number(value, 0, 16)))
@@ -89,13 +92,14 @@ class Viewer:
             self.stage.leave()
         elif self.hidden and not value:
             self.stage.enter()
-        self.hidden, self._again = bool(value), True
+        self.hidden = bool(value)
 
     def _shape(self, value: Any) -> None:
         columns, rows = (int(_number(side, 1, 16384)) for side in _list(value, 2))
         self.stage.size = columns, rows
         self.told.reframe((columns, rows))
-        self._again = True
+        self._shaped = True
+        self.stage.do(lambda live: None)  # seen anew, if time stands too
 
     def _press(self, value: Any) -> None:
         keys, azimuth = _list(value, 2)
@@ -156,12 +160,13 @@ async def live_socket(socket: WebSocket, token: str, which: str = "all") -> None
     except (ValueError, TypeError, OptionError):
         await socket.close(WRONG)
     finally:
+        # Without a pause in between: whoever cancels this task may not stop its end.
         talking.cancel()
-        await asyncio.gather(talking, return_exceptions=True)
         stage.do(lambda live: live.let_go())
         stage.press((), 0.0)
         stage.viewers -= 1
         viewer.leave()
+        await asyncio.gather(talking, return_exceptions=True)
 
 
 async def _listen(socket: WebSocket, viewer: Viewer) -> None:

@@ -7,6 +7,7 @@ import { azimuth, Orbit } from "./orbit.js";
 import { meetsCloth } from "./picking.js";
 import { Stream } from "./stream.js";
 
+const SLOW = 40; // milliseconds for a picture
 const NO_WEBGL =
   "The live cloth needs WebGL 2, which this browser does not offer: turn on its hardware acceleration, or use another.";
 
@@ -62,6 +63,7 @@ export class Viewer {
     if (header.kind === "scene") {
       this.sceneMessage = { header, arrays };
       this.drawing.setScene(header, arrays);
+      this.untried = header.samples > 1 && !this.coarse;
       this.resize();
       this.label(header);
     } else if (header.version === this.drawing.scene?.header.version) {
@@ -107,9 +109,19 @@ export class Viewer {
     if (this.gl.isContextLost() || !this.cameras.length) return;
     const rects = this.rects(this.canvas.width, this.canvas.height);
     const matrices = rects.map(([, , width, height], number) => clipMatrix(this.camera(number), width / height));
+    const start = performance.now();
     this.drawing.draw(rects, matrices);
+    if (this.untried) this.judge(start);
     if (this.wind) this.state({ wind: this.wind, azimuth: this.azimuth() });
     else this.state({ wind: null });
+  }
+
+  // Where a picture takes too long, one sample a pixel must do.
+  judge(start) {
+    this.untried = false;
+    this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.coarse = performance.now() - start > SLOW;
+    if (this.coarse) this.resize();
   }
 
   camera(number) {
@@ -168,7 +180,7 @@ export class Viewer {
     if (!clientWidth || !clientHeight) return this.hide();
     // More samples a pixel are drawn as a larger picture, which the browser makes smaller.
     const ratio = window.devicePixelRatio || 1;
-    const finer = (this.drawing.scene?.header.samples ?? 1) > 1 && ratio < 1.5 ? 2 : 1;
+    const finer = (this.drawing.scene?.header.samples ?? 1) > 1 && ratio < 1.5 && !this.coarse ? 2 : 1;
     const [width, height] = [clientWidth, clientHeight].map((side) => Math.round(side * ratio * finer));
     if (this.canvas.width !== width || this.canvas.height !== height) {
       Object.assign(this.canvas, { width, height });

@@ -1,0 +1,540 @@
+"""The live cloth: it moves as pictures do, goes where a hand pulls it, and tells what is new."""
+
+import asyncio
+import json
+import threading
+from dataclasses import replace
+from itertools import islice
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("nicegui")
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import open_packs
+from drapery.errors import OptionError
+from drapery.render.drawlist import draw_list
+from drapery.render.light import GAME_LIGHT
+from drapery.render.soft import draw_scene
+from drapery.scenes.staging import STEP, still
+from drapery.settings import Settings
+from drapery.studio.breeze import (
+    OWN_HEADING,
+    Breeze,
+    carried_on,
+    heading_of,
+    steered,
+    turned_to,
+    wind_of,
+)
+from drapery.studio.hanging import Weave, grabbed, hang, pulled, rewoven, within_reach
+from drapery.studio.live import Live, Ray
+from drapery.studio.messages import Told, pack, unpack
+from drapery.studio.player import Player
+from drapery.studio.session import find_session, open_session
+from drapery.studio.sketch import sketch_of
+from drapery.studio.stage import stage_of
+from drapery.studio.stream import UNDER_WAY, UNKNOWN, WRONG, add_routes
+
+DESIGN = Banner.parse("white creeper:lime border:black")
+SETTINGS = Settings(wind=6.0, time=1.5, size=(96, 96))
+SHAPE = {"shape": [96, 96]}
+
+
+def a_live(**options: Any) -> Live:
+    return Live(DESIGN, open_packs(()), replace(SETTINGS, **options))
+
+
+def straight_at(point: np.ndarray) -> Ray:
+    """A line of sight along -z through a point."""
+    towards = np.array([0.0, 0.0, -1.0])
+    return Ray(point + np.array([0.0, 0.0, 5.0]), towards, towards)
+
+
+@pytest.mark.parametrize("options", [{}, {"placement": "wall", "facing": "east"}])
+def test_left_alone_it_is_the_picture(options: dict[str, Any]) -> None:
+    live = a_live(**options)
+    live.step(round(SETTINGS.time / STEP))
+    pane = live.shown().panes[0]
+    picture = still(DESIGN, open_packs(()), replace(SETTINGS, **options))
+    for mine, own in zip(pane.scene.models, picture.models, strict=True):
+        assert np.array_equal(mine.mesh.positions, own.mesh.positions)
+        assert np.array_equal(mine.mesh.normals, own.mesh.normals)
+    assert pane.framing(1.0) == picture.camera
+    seen = replace(pane.scene, camera=pane.framing(1.0))
+    assert np.array_equal(draw_scene(seen).pixels, draw_scene(picture).pixels)
+
+
+def stirred() -> Live:
+    """A live banner after a gale, a hand and another solver."""
+    live = a_live()
+    live.step(20)
+    live.press(("d", "e"), 30.0)
+    live.step(15)
+    live.press((), 0.0)
+    live.grab(straight_at(np.array([0.5, 0.6, 0.5])))
+    live.pull(straight_at(np.array([0.9, 1.2, 0.5])))
+    live.step(15)
+    live.wear(DESIGN, open_packs(()), replace(SETTINGS, solver="xpbd"))
+    live.let_go()
+    live.step(15)
+    return live
+
+
+def test_same_inputs_same_bits() -> None:
+    one, other = stirred(), stirred()
+    assert np.array_equal(one.particles()[0], other.particles()[0])
+    assert one.breeze == other.breeze and one.time == other.time
+
+
+def test_another_design_leaves_the_motion() -> None:
+    changed, left = a_live(), a_live()
+    changed.step(30)
+    changed.wear(Banner.parse("red skull:black"), open_packs(()), replace(SETTINGS, thickness=3.0))
+    changed.step(30)
+    left.step(60)
+    assert np.array_equal(changed.particles()[0], left.particles()[0])
+
+
+def test_packs_side_by_side_wear_one_motion() -> None:
+    live = a_live()
+    live.wear(DESIGN, open_packs(()), SETTINGS, open_packs(()))
+    live.step(10)
+    left, right = (pane.scene.models for pane in live.shown().panes)
+    assert all(a.mesh is b.mesh for a, b in zip(left, right, strict=True))
+
+
+def test_a_fault_changes_nothing() -> None:
+    live = a_live()
+    live.step(5)
+    with pytest.raises(OptionError):
+        live.wear(DESIGN, open_packs(()), replace(SETTINGS, kind="cape"))
+    live.step(5)
+    whole = a_live()
+    whole.step(10)
+    assert np.array_equal(live.particles()[0], whole.particles()[0])
+
+
+def test_reset_begins_again() -> None:
+    live = stirred()
+    fresh = a_live(solver="xpbd")
+    fresh.blow(live.breeze)
+    live.reset()
+    fresh.reset()
+    live.step(20)
+    fresh.step(20)
+    assert np.array_equal(live.particles()[0], fresh.particles()[0])
+
+
+WEAVE = Weave((5, 9), (0.8, 1.6), "top", "desbrun")
+
+
+@pytest.mark.parametrize("solver", ["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"])
+def test_a_hand_takes_a_particle_where_it_wants(solver: str) -> None:
+    live = a_live(wind=0.0, solver=solver)
+    live.step(5)
+    before = live.particles()[0].copy()
+    corner = len(before) - 1
+    origin = still_origin(live)
+    assert live.grab(straight_at(before[corner] + origin))
+    goal = before[corner] + np.array([0.15, 0.3, 0.0])
+    live.pull(straight_at(goal + origin))
+    live.step(60)
+    assert np.allclose(live.particles()[0][corner], goal, atol=1e-3)
+    live.let_go()
+    live.step(8)
+    assert live.particles()[0][corner][1] < goal[1] - 0.02
+
+
+def still_origin(live: Live) -> np.ndarray:
+    """Where the flag's frame lies in the world, from its pinned corner."""
+    shown = live.shown().panes[0].scene.models[1].mesh.positions
+    half = len(live.particles()[0])
+    middle = (shown[:half] + shown[half : 2 * half]) / 2
+    return middle[0] - live.particles()[0][0]
+
+
+def test_a_hand_does_not_tear_the_cloth() -> None:
+    held = grabbed(hang(WEAVE), 44)
+    far = within_reach(held, np.array([9.0, 3.0, 2.0]))
+    rest = held.whole.rest_positions
+    for pin in range(5):
+        flat = np.linalg.norm(rest[44] - rest[pin])
+        assert np.linalg.norm(far - rest[pin]) <= flat * 0.99 + 2e-3
+    near = rest[44] + np.array([-0.1, 0.2, 0.1])
+    assert np.array_equal(within_reach(held, near), near)
+    assert pulled(hang(WEAVE), far).hand is None
+
+
+def test_what_is_held_moves_no_faster_than_a_hand() -> None:
+    live = a_live(wind=0.0)
+    live.grab(straight_at(live.particles()[0][44] + still_origin(live)))
+    places = []
+    live.pull(straight_at(np.array([5.0, 5.0, 0.0])))
+    for _ in range(30):
+        live.step()
+        places.append(live.particles()[0][44].copy())
+    assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() <= 0.2 + 1e-6
+
+
+def test_pins_that_come_back_are_gone_to_gently() -> None:
+    live = a_live(wind=8.0)
+    live.hold("corners")
+    live.step(40)
+    sagged = live.particles()[0][2].copy()
+    live.hold("top")
+    live.step(1)
+    assert np.linalg.norm(live.particles()[0][2] - sagged) <= 0.2
+    live.step(60)
+    assert np.array_equal(live.particles()[0][:5, 1], np.zeros(5, np.float32))
+    live.hold("none")
+    live.step(60)
+    assert live.particles()[0].max(axis=0)[1] < -1
+
+
+def test_another_grid_goes_on_from_the_same_shape() -> None:
+    hanging = hang(WEAVE)
+    finer = rewoven(hanging, replace(WEAVE, shape=(9, 17)))
+    assert np.allclose(finer.positions, hang(finer.weave).positions, atol=1e-6)
+    live = a_live()
+    live.step(40)
+    coarse = live.particles()[0].copy()
+    live.wear(DESIGN, open_packs(()), replace(SETTINGS, grid=(9, 17)))
+    fine = live.particles()[0].reshape(17, 9, 3)
+    assert np.allclose(fine[::2, ::2].reshape(-1, 3), coarse, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("key", "azimuth", "heading"),
+    [("w", 0, 180), ("s", 0, 0), ("d", 0, 90), ("a", 0, -90), ("w", 90, -90), ("d", 180, -90)],
+)
+def test_keys_send_the_wind_as_the_viewer_sees_it(key: str, azimuth: float, heading: float) -> None:
+    breeze = Breeze()
+    for _ in range(180):
+        breeze = steered(breeze, (key,), azimuth, STEP)
+    assert abs((heading_of(breeze.turned) - heading + 180) % 360 - 180) < 1e-6
+
+
+def test_keys_make_the_wind_weaker_and_stronger_within_bounds() -> None:
+    breeze = Breeze(4.0)
+    assert steered(breeze, "e", 0, 0.5).speed == 6.5
+    assert steered(breeze, "q", 0, 5.0).speed == 0.0
+    assert steered(breeze, "e", 0, 50.0).speed == 40.0
+    assert steered(breeze, "", 0, 1.0) == breeze
+
+
+def test_headings_and_turns_are_inverse() -> None:
+    assert heading_of(0.0) == pytest.approx(OWN_HEADING)
+    assert [turned_to(heading_of(t)) for t in (-170, -30, 0, 90)] == pytest.approx(
+        [-170, -30, 0, 90]
+    )
+
+
+def test_a_changed_wind_goes_on_where_it_was() -> None:
+    before, time = wind_of(Breeze(4.0)), 61.7
+    after = carried_on(before, wind_of(Breeze(4.3)), time)
+    phase = float(np.asarray(after.phases))
+    swells = phase / after.sine_period
+    assert abs(swells - round(swells)) < 1e-6
+    old, new = (4.0 * time / 1.5) % 4096, (4.3 * (time + phase) / 1.5) % 4096
+    assert abs(old - new) < 0.1
+    assert carried_on(before, wind_of(Breeze(4.0, turned=40)), time).phases == before.phases
+
+
+def told_positions(told: Told, live: Live, seen: dict[str, Any]) -> list[str]:
+    """Take a moment's messages as a viewer does; their kinds."""
+    kinds = []
+    for message in told.messages(live.shown()):
+        header, arrays = unpack(message)
+        kinds.append(header["kind"])
+        if header["kind"] == "scene":
+            seen.update(header, **arrays)
+            seen["positions"] = np.full((header["vertices"], 3), np.nan, np.float32)
+            seen["light"] = np.full(header["vertices"], np.nan, np.float32)
+            continue
+        at = 0
+        for first, count in header["runs"]:
+            seen["positions"][first : first + count] = arrays["positions"].reshape(-1, 3)[
+                at : at + count
+            ]
+            seen["light"][first : first + count] = arrays["light"][at : at + count]
+            at += count
+        assert at == len(arrays["light"])
+    return kinds
+
+
+def test_messages_tell_what_is_drawn() -> None:
+    live, told, seen = a_live(), Told(), {}
+    for number in range(4):
+        kinds = told_positions(told, live, seen)
+        assert kinds == (["scene", "moment"] if number == 0 else ["moment"])
+        drawing = draw_list(live.shown().panes[0].scene.models)
+        assert np.array_equal(seen["positions"], drawing.positions)
+        assert np.array_equal(seen["light"], drawing.brightness(GAME_LIGHT))
+        assert np.array_equal(seen["triangles"].reshape(-1, 3), drawing.topology.triangles)
+        live.step(3)
+    live.wear(Banner.parse("red"), open_packs(()), replace(SETTINGS, daylight=0.0))
+    assert told_positions(told, live, seen) == ["scene", "moment"]
+    # Night falls on the wood too, which does not move.
+    live.wear(Banner.parse("red"), open_packs(()), replace(SETTINGS, block_light=9))
+    assert told_positions(told, live, seen) == ["moment"]
+    live.step()
+    assert told_positions(told, live, seen) == ["moment"]
+
+
+def test_a_moment_is_as_long_as_what_moves() -> None:
+    live, told = a_live(), Told()
+    told.messages(live.shown())
+    live.step()
+    shown = live.shown()
+    (message,) = told.messages(shown)
+    header, arrays = unpack(message)
+    vertices = 2 * 45 + 4 * 24  # two sheets of 5 x 9 particles and a rim of 24 edges
+    assert [run[1] for run in header["runs"]] == [vertices]
+    assert sum(array.nbytes for array in arrays.values()) == 16 * vertices
+    assert len(message) < 16 * vertices + 512
+    (nothing,) = told.messages(shown)
+    assert len(nothing) < 512
+
+
+def test_pack_and_unpack_are_inverse() -> None:
+    arrays = {"a": np.arange(3, dtype=np.uint8), "b": np.array([1.5], np.float32)}
+    header, back = unpack(pack({"kind": "é"}, arrays))
+    assert header == {"kind": "é"}
+    assert all(np.array_equal(back[name], array) for name, array in arrays.items())
+
+
+def test_a_camera_is_told_once_a_cut() -> None:
+    live, told = a_live(), Told()
+    told.reframe((200, 100))
+    first = [unpack(message)[0] for message in told.messages(live.shown())][-1]
+    assert first["cameras"]["cut"] is True
+    live.step()
+    (again,) = told.messages(live.shown())
+    assert "cameras" not in unpack(again)[0]
+    live.look_anew()
+    (anew,) = told.messages(live.shown())
+    assert unpack(anew)[0]["cameras"]["cut"] is True
+
+
+@pytest.mark.parametrize("shape", [(300, 200), (200, 300)])
+def test_upright_viewers_stack_what_is_side_by_side(shape: tuple[int, int]) -> None:
+    live, told = a_live(), Told()
+    live.wear(DESIGN, open_packs(()), SETTINGS, open_packs(()))
+    told.reframe(shape)
+    header, _ = unpack(told.messages(live.shown())[0])
+    assert header["columns"] == (2 if shape[0] > shape[1] else 1)
+    only, _ = unpack(Told("right", shape).messages(live.shown())[0])
+    assert len(header["panes"]) == 2 and len(only["panes"]) == 1
+
+
+def test_a_scene_comes_round_again() -> None:
+    player = Player("fold", (96, 96))
+    player._shot = replace(player._shot, count=5)
+    first = [player.step() for _ in range(5)]
+    again = [player.step() for _ in range(5)]
+    for one, other in zip(first, again, strict=True):
+        assert one.panes[0].scene is other.panes[0].scene
+    pictures = islice(player.entry.play(player.parameters, player._shot), 5)
+    for shown, picture in zip(first, pictures, strict=True):
+        parts = picture.pictures
+        for pane, scene in zip(shown.panes, parts, strict=True):
+            for a, b in zip(pane.scene.models, scene.models, strict=True):
+                assert np.array_equal(a.mesh.positions, b.mesh.positions)
+
+
+def test_a_finished_picture_is_hung_up_as_it_is() -> None:
+    shown = Player("julia", (96, 96)).step()
+    (pane,) = shown.panes
+    assert pane.flat
+    scene = replace(pane.scene, camera=pane.framing(1.0))
+    width, height = scene.size
+    assert width == height
+    assert np.array_equal(draw_scene(scene).pixels, pane.scene.models[0].looks[0].coats[0].texels)
+
+
+def an_app() -> Any:
+    from fastapi import FastAPI
+
+    app = FastAPI()
+    add_routes(app)
+    return app
+
+
+@pytest.fixture
+def client() -> Any:
+    from starlette.testclient import TestClient
+
+    with TestClient(an_app()) as client:
+        yield client
+
+
+def moments(socket: Any, count: int) -> list[dict[str, Any]]:
+    """The next moments in which something has moved, each said to be drawn."""
+    found: list[dict[str, Any]] = []
+    while len(found) < count:
+        header, arrays = unpack(socket.receive_bytes())
+        socket.send_json({"drawn": 1})
+        if header["kind"] == "moment" and header["runs"]:
+            found.append({**header, **arrays})
+    return found
+
+
+def test_the_socket_streams_the_motion_of_pictures(client: Any) -> None:
+    session = open_session(SETTINGS, sketch_of(DESIGN))
+    with client.websocket_connect(f"/live/{session.token}") as socket:
+        socket.send_json(SHAPE)
+        told = [m["positions"].reshape(-1, 3)[-186:] for m in moments(socket, 12)]
+    session.close()
+    pictures = flags(400)
+    places = [place_of(flag, pictures) for flag in told]
+    assert places == sorted(places) and len(set(places)) == len(places)
+
+
+def test_the_socket_waits_for_the_viewer(client: Any) -> None:
+    session = open_session(SETTINGS, sketch_of(DESIGN))
+    stage = stage_of(session)
+    with client.websocket_connect(f"/live/{session.token}") as socket:
+        socket.send_json(SHAPE)
+        first, _ = unpack(socket.receive_bytes())
+        second, _ = unpack(socket.receive_bytes())
+        assert [first["kind"], second["kind"]] == ["scene", "moment"]
+        version = stage.version
+        wait_for(lambda: stage.version > version + 30)
+        # All that has been sent meanwhile lies unread; the next moment skips what was not sent.
+        socket.send_json({"drawn": UNDER_WAY})
+        third = moments(socket, 1)[0]["positions"].reshape(-1, 3)[-186:]
+    pictures = flags(400)
+    assert place_of(third, pictures) > 30
+    session.close()
+
+
+def flags(count: int) -> list[np.ndarray]:
+    """The flag at its first ticks, as it is drawn."""
+    live, found = a_live(), []
+    for _ in range(count):
+        found.append(live.shown().panes[0].scene.models[1].mesh.positions.astype(np.float32))
+        live.step()
+    return found
+
+
+def place_of(flag: np.ndarray, pictures: list[np.ndarray]) -> int:
+    return next(n for n, known in enumerate(pictures) if np.array_equal(known, flag))
+
+
+def wait_for(truth: Any, seconds: float = 5.0) -> None:
+    import time
+
+    end = time.monotonic() + seconds
+    while not truth():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def test_unknown_tabs_and_nonsense_are_turned_away(client: Any) -> None:
+    from starlette.websockets import WebSocketDisconnect
+
+    with client.websocket_connect("/live/nobody") as socket:
+        with pytest.raises(WebSocketDisconnect) as caught:
+            socket.receive_bytes()
+        assert caught.value.code == UNKNOWN
+    session = open_session(SETTINGS, sketch_of(DESIGN))
+    for nonsense in (
+        "{",
+        "[1]",
+        '{"dance": 1}',
+        '{"shape": [0, 5]}',
+        '{"shape": "wide"}',
+        '{"keys": ["w", NaN]}',
+        '{"grab": [1, 2, 3]}',
+        json.dumps({"pull": [0.0] * 9}),
+        '{"drawn": -1}',
+        "x" * 4000,
+    ):
+        with client.websocket_connect(f"/live/{session.token}") as socket:
+            socket.send_text(nonsense)
+            with pytest.raises(WebSocketDisconnect) as caught:
+                socket.receive_bytes()
+            assert caught.value.code == WRONG, nonsense
+    wait_for(lambda: not stage_of(session).moving)
+    session.close()
+
+
+def test_nothing_is_left_of_closed_sockets(client: Any) -> None:
+    session = open_session(SETTINGS, sketch_of(DESIGN))
+    threads: list[int] = []
+    for number in range(40):
+        with client.websocket_connect(f"/live/{session.token}") as socket:
+            socket.send_json(SHAPE)
+            moments(socket, 2)
+        if number in (9, 39):
+            wait_for(lambda: not stage_of(session).moving)
+            threads.append(threading.active_count())
+            assert live_tasks(client) == []
+    assert threads[0] == threads[1]
+    assert stage_of(session).viewers == 0
+    session.close()
+    assert find_session(session.token) is None
+
+
+def live_tasks(client: Any) -> list[str]:
+    """The names of the live cloths' tasks in the server's loop."""
+
+    async def names() -> list[str]:
+        every = (task.get_name() for task in asyncio.all_tasks())
+        return [name for name in every if name.startswith("live")]
+
+    return client.portal.call(names)
+
+
+def test_keys_and_hands_reach_the_cloth_over_the_socket(client: Any) -> None:
+    session = open_session(replace(SETTINGS, wind=2.0), sketch_of(DESIGN))
+    stage = stage_of(session)
+    with client.websocket_connect(f"/live/{session.token}") as socket:
+        socket.send_json(SHAPE)
+        moments(socket, 3)
+        socket.send_json({"keys": ["e", 0.0]})
+        watch(socket, lambda moment: moment["wind"][0] >= 4.0)
+        socket.send_json({"keys": ["", 0.0]})
+        wait_for(lambda: session.settings.wind >= 4.0)
+        socket.send_json({"switch": 1})
+        watch(socket, lambda moment: not moment["wind"][2])
+        assert not stage.wishes.on
+        goal = np.array([1.1, 1.0])
+        socket.send_json({"grab": [0.6, 0.4, 5.0, 0, 0, -1, 0, 0, -1]})
+        socket.send_json({"pull": [*goal, 5.0, 0, 0, -1, 0, 0, -1]})
+        watch(socket, lambda moment: away_from(goal, moment) < 0.03)
+        socket.send_json({"drop": 1})
+        watch(socket, lambda moment: away_from(goal, moment) > 0.15)
+    session.close()
+
+
+def watch(socket: Any, truth: Any) -> None:
+    """Look at moments until something is true of one."""
+    for _ in range(600):
+        if truth(moments(socket, 1)[0]):
+            return
+    raise AssertionError("it has not come about")
+
+
+def away_from(place: np.ndarray, moment: dict[str, Any]) -> float:
+    """How far the nearest vertex is from a place of the picture, x and y [m]."""
+    vertices = moment["positions"].reshape(-1, 3)[:, :2]
+    return float(np.linalg.norm(vertices - place, axis=1).min())
+
+
+def test_a_hidden_viewer_costs_nothing(client: Any) -> None:
+    session = open_session(SETTINGS, sketch_of(DESIGN))
+    stage = stage_of(session)
+    with client.websocket_connect(f"/live/{session.token}") as socket:
+        socket.send_json(SHAPE)
+        moments(socket, 2)
+        socket.send_json({"hidden": True})
+        wait_for(lambda: not stage.moving)
+        socket.send_json({"hidden": False})
+        wait_for(lambda: stage.moving)
+        moments(socket, 2)
+        session.close()
+        wait_for(lambda: not stage.moving)
