@@ -26,6 +26,8 @@ RECONNECT = 2.0
 """How long a session waits for its tab to come back [s]."""
 
 ROUTES: tuple[str, ...] = (
+    "downloads",
+    "uploads",
     "incoming",
     "stream",
 )

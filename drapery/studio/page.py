@@ -5,11 +5,17 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from fastapi import Request
 from nicegui import Client, ui
 
+from drapery.errors import DraperyError
+from drapery.settings import Settings
 from drapery.studio.desk import desk_of
 from drapery.studio.incoming import incoming_of
+from drapery.studio.notices import tell
 from drapery.studio.session import Session, open_session
+from drapery.studio.share import begun
+from drapery.studio.sketch import Sketch
 from drapery.studio.widgets import words
 
 if TYPE_CHECKING:
@@ -43,6 +49,9 @@ PANELS = (
     Panel("patterns", "Patterns", "grid_view", "side"),
     Panel("text", "Text", "code", "side"),
     Panel("loom", "Loom", "handyman", "side"),
+    Panel("packs", "Packs", "inventory_2", "side"),
+    Panel("export", "Export", "ios_share", "side"),
+    Panel("library", "Library", "collections_bookmark", "side"),
 )
 
 FIRST_TAB = "patterns"
@@ -57,9 +66,23 @@ _ROOM = Path(__file__).parent
 @ui.page("/")
 def studio(client: Client) -> None:
     """One tab's page, with a session of its own that ends with the tab."""
-    session = open_session(house.settings)
+    settings, sketch, fault = opened(house.settings, client.request)
+    session = open_session(settings, sketch)
     client.on_delete(session.close)
     build(session)
+    if fault:
+        ui.timer(0.5, lambda: tell(fault, "fault"), once=True)
+
+
+def opened(own: Settings, request: Request | None) -> tuple[Settings, Sketch | None, str]:
+    """What the page begins with: the design of a link, or why that is none."""
+    word = request.query_params.get("d") if request is not None else None
+    if not word:
+        return own, None, ""
+    try:
+        return *begun(own, word), ""
+    except DraperyError as error:
+        return own, None, str(error)
 
 
 def build(session: Session) -> None:

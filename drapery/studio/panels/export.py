@@ -2,23 +2,24 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from nicegui import ui
+from nicegui.element import Element
 
 from drapery.errors import DraperyError
 from drapery.render.views import VIEWS
 from drapery.settings import MAX_SIDE
 from drapery.studio.exports import MAX_SCALE, Export, exports_of, stem_of
 from drapery.studio.notices import faults, tell
-from drapery.studio.panels.controls import Controls
-from drapery.studio.panels.copying import copy_field
+from drapery.studio.panels.fields import Fields, copy_field
 from drapery.studio.session import Session
 from drapery.studio.share import write_link
 from drapery.studio.shelf import shelf_of
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import LOOPS, Order, as_command, as_python
+from drapery.studio.widgets import button, words
 
 KINDS = {
     "png": "PNG, a still",
@@ -30,10 +31,13 @@ KINDS = {
     "glb": "GLB, a 3-D model that waves",
     "json": "JSON, the design",
 }
-SAMPLES = {1: "1: hard pixels", 4: "4: smooth", 16: "16: smoothest"}
-PIXELS = {1: "off", 2: "2", 4: "4", 8: "8", 16: "16"}
 PICTURES = frozenset({"png", *LOOPS})
 MOVING = frozenset({*LOOPS, "glb"})
+VIEW_WORDS = {name: name.capitalize() for name in VIEWS} | {"gui": "Item", "iso": "Corner"}
+SAMPLES = {"1": "hard", "4": "smooth", "16": "smoothest"}
+PIXELS = {"1": "off"} | {str(size): f"{size} × {size}" for size in (2, 4, 8, 16)}
+GROUNDS = {"transparent": "transparent", "colour": "one colour"}
+SKY = "#a8c8e8"
 TICK = 0.15
 """How often progress is shown [s]."""
 TIDY = 0.5
@@ -42,33 +46,41 @@ TIDY = 0.5
 
 @dataclass
 class Choice:
-    """What the panel holds that is no option of a picture."""
+    """What is chosen here and is no option of a picture."""
 
     kind: str = "png"
     seconds: float = 4.0
     fps: float = 20.0
     scale: int = 8
+    colour: str = SKY
+    changed: list[Callable[[], None]] = field(default_factory=list)
+
+    def set(self, **values: Any) -> None:
+        """Choose something else; tells who listens."""
+        for name, value in values.items():
+            setattr(self, name, value)
+        for call in self.changed:
+            call()
 
 
 def build(session: Session) -> None:
     """Options, the button with its progress, then what can be copied."""
     choice = Choice()
-    controls = Controls(session)
-    with ui.element("div").classes("stack export"):
-        copies: list[Callable[[], None]] = []
+    words("Make a file", "h2").classes("heading")
+    fit = _options(session, choice)
+    _button(session, choice)
+    words("Take it elsewhere", "h2").classes("heading")
+    copy = _copies(session, choice)
 
-        def show() -> None:
-            for copy in copies:
-                copy()
+    def show() -> None:
+        fit()
+        copy()
 
-        _options(session, choice, controls, show)
-        _button(session, choice)
-        copies.append(_copies(session, choice))
-    controls.follow()
     show()
-    session.listen("sketch", show)
+    choice.changed.append(show)
+    session.listen("sketch", copy)
     session.listen("settings", show)
-    session.listen("packs", show)
+    session.listen("packs", copy)
     _keep_address(session)
 
 
@@ -76,177 +88,159 @@ def order_of(session: Session, choice: Choice) -> Order:
     """What is ordered by the page as it stands. Raises DesignError."""
     # A cape or elytra wears a texture, no design.
     banner = None if session.settings.texture is not None else banner_of(session.sketch)
-    return Order(banner, session.settings, choice.kind, choice.seconds, choice.fps, choice.scale)
+    look = session.settings
+    return Order(banner, look, choice.kind, choice.seconds, choice.fps, choice.scale)
 
 
-def _options(
-    session: Session, choice: Choice, controls: Controls, show: Callable[[], None]
-) -> None:
-    """The kind of file, then the options that count for it."""
-    shown: list[tuple[ui.element, frozenset[str]]] = []
+Groups = list[tuple[Element, Callable[[], bool]]]
 
-    def choose(event: Any) -> None:
-        choice.kind = event.value
-        fit()
-        show()
+
+def _options(session: Session, choice: Choice) -> Callable[[], None]:
+    """The kind of file and the options that count for it; the callable shows them anew."""
+    fields, groups = Fields(), Groups()
+    with ui.element("div").classes("options"):
+        fields.choice("File", KINDS, lambda: choice.kind, lambda kind: choice.set(kind=kind))
+        with _only(groups, lambda: choice.kind in PICTURES):
+            _sides(session, fields)
+        with _only(groups, lambda: choice.kind in MOVING):
+            _times(choice, fields)
+        with _only(groups, lambda: choice.kind == "face"):
+            _number(fields, "Pixels a texel", choice, "scale", (1, MAX_SCALE), int)
+        with _only(groups, lambda: choice.kind in PICTURES | {"glb"}):
+            _pick(session, fields, "View", "view", VIEW_WORDS, str)
+            _own(session, fields, "Gusts, by number", "seed", (0, 2**32 - 1), int)
+        with _only(groups, lambda: choice.kind == "png"):
+            _own(session, fields, "After so long [s]", "time", (0, 3600), float)
+        with _only(groups, lambda: choice.kind in PICTURES):
+            _pick(session, fields, "Edges", "samples", SAMPLES, int)
+            _pick(session, fields, "Pixel art", "pixel", PIXELS, int)
+        _ground(session, choice, fields, groups)
 
     def fit() -> None:
-        for element, kinds in shown:
-            element.set_visibility(choice.kind in kinds)
+        fields.refresh()
+        for group, counts in groups:
+            group.set_visibility(counts())
 
-    kind = ui.select(KINDS, value=choice.kind, label="File", on_change=choose)
-    kind.props('dense outlined options-dense aria-label="Kind of file"').classes("export-kind")
-    with ui.element("div").classes("export-options"):
-        numbers = Numbers(session, show)
-        with _for(shown, PICTURES):
-            numbers.own("Width", (1, MAX_SIDE), lambda: session.settings.size[0], _width(session))
-            numbers.own("Height", (1, MAX_SIDE), lambda: session.settings.size[1], _height(session))
-        with _for(shown, MOVING):
-            numbers.of(choice, "seconds", "Seconds", (0.05, 3600))
-            numbers.of(choice, "fps", "Frames/s", (1, 120))
-        with _for(shown, frozenset({"face"})):
-            numbers.of(choice, "scale", "Pixels a texel", (1, MAX_SCALE), whole=True)
-        with _for(shown, PICTURES | {"glb"}):
-            _picks(session, controls, "View", "view", {name: name for name in VIEWS})
-        with _for(shown, frozenset({"png"})):
-            numbers.own(
-                "Hung for [s]",
-                (0, 3600),
-                lambda: session.settings.time,
-                lambda time: session.adjust(time=float(time)),
-            )
-        with _for(shown, PICTURES):
-            _picks(session, controls, "Samples", "samples", SAMPLES)
-            _picks(session, controls, "Pixel art", "pixel", PIXELS)
-            _background(session, controls)
-            controls.switch(
-                "Shadow",
-                lambda: session.settings.shadow,
-                lambda on: session.adjust(shadow=bool(on)),
-            )
-    fit()
+    return fit
 
 
 @contextmanager
-def _for(shown: list[tuple[ui.element, frozenset[str]]], kinds: frozenset[str]) -> Iterator[None]:
-    """A group of options that is seen for these kinds only."""
-    with ui.element("div").classes("export-group") as group:
+def _only(groups: Groups, counts: Callable[[], bool]) -> Iterator[None]:
+    """Options that are shown only where they count."""
+    with ui.element("div").classes("option-group") as group:
         yield
-    shown.append((group, kinds))
+    groups.append((group, counts))
 
 
-def _picks(
-    session: Session, controls: Controls, label: str, option: str, choices: Mapping[Any, str]
-) -> None:
-    controls.select(
-        label,
-        choices,
-        lambda: getattr(session.settings, option),
-        lambda value: session.adjust(**{option: value}),
+def _sides(session: Session, fields: Fields) -> None:
+    size = lambda: session.settings.size  # noqa: E731
+    resize = lambda *sides: session.adjust(size=sides)  # noqa: E731
+    bounds = (1, MAX_SIDE)
+    fields.number("Width", bounds, lambda: size()[0], lambda width: resize(int(width), size()[1]))
+    fields.number(
+        "Height", bounds, lambda: size()[1], lambda height: resize(size()[0], int(height))
     )
 
 
-def _width(session: Session) -> Callable[[float], None]:
-    return lambda pixels: session.adjust(size=(int(pixels), session.settings.size[1]))
+def _times(choice: Choice, fields: Fields) -> None:
+    _number(fields, "Seconds", choice, "seconds", (0.05, 3600), float)
+    _number(fields, "Frames/s", choice, "fps", (1, 120), float)
 
 
-def _height(session: Session) -> Callable[[float], None]:
-    return lambda pixels: session.adjust(size=(session.settings.size[0], int(pixels)))
+def _number(
+    fields: Fields,
+    label: str,
+    choice: Choice,
+    name: str,
+    bounds: tuple[float, float],
+    kind: type[int] | type[float],
+) -> None:
+    get = lambda: getattr(choice, name)  # noqa: E731
+    step = "1" if kind is int else "any"
+    fields.number(label, bounds, get, lambda value: choice.set(**{name: kind(value)}), step)
 
 
-def _background(session: Session, controls: Controls) -> None:
-    """Transparent, or one colour."""
-    kept = ["#a8c8e8"]
+def _own(
+    session: Session,
+    fields: Fields,
+    label: str,
+    option: str,
+    bounds: tuple[float, float],
+    kind: type[int] | type[float],
+) -> None:
+    """A number that is an option of the picture."""
+    get = lambda: getattr(session.settings, option)  # noqa: E731
+    step = "1" if kind is int else "any"
+    fields.number(label, bounds, get, lambda n: session.adjust(**{option: kind(n)}), step)
 
-    def clear() -> bool:
+
+def _pick(
+    session: Session,
+    fields: Fields,
+    label: str,
+    option: str,
+    names: Mapping[str, str],
+    kind: type[int] | type[str],
+) -> None:
+    """An option of the picture that is one of several."""
+    get = lambda: str(getattr(session.settings, option))  # noqa: E731
+    fields.choice(label, names, get, lambda name: session.adjust(**{option: kind(name)}))
+
+
+def _ground(session: Session, choice: Choice, fields: Fields, groups: Groups) -> None:
+    """Background and shadow."""
+
+    def plain() -> bool:
         return session.settings.background == "transparent"
 
+    def choose(name: str) -> None:
+        session.adjust(background=choice.colour if name == "colour" else "transparent")
+
+    def paint(colour: str) -> None:
+        session.adjust(background=colour)
+        choice.colour = colour
+
     def colour() -> str:
-        if not clear():
-            kept[0] = "#" + session.settings.background.removeprefix("#").lower()
-        return kept[0]
+        return choice.colour if plain() else "#" + session.settings.background.removeprefix("#")
 
-    def paint(event: Any) -> None:
-        if event.value and event.value != colour():
-            with faults():
-                session.adjust(background=str(event.value))
-
-    def show() -> None:
-        field.set_value(colour())
-        field.set_visibility(not clear())
-
-    controls.switch(
-        "Transparent",
-        clear,
-        lambda on: session.adjust(background="transparent" if on else kept[0]),
-    )
-    field = ui.input("Background", value=colour(), on_change=paint).classes("control")
-    field.props('type=color dense outlined debounce=200 aria-label="Colour of the background"')
-    show()
-    session.listen("settings", show)
+    with _only(groups, lambda: choice.kind in PICTURES):
+        fields.choice("Background", GROUNDS, lambda: "transparent" if plain() else "colour", choose)
+        with _only(groups, lambda: not plain()):
+            fields.colour("Its colour", colour, paint)
+        fields.tick(
+            "Shadow", lambda: session.settings.shadow, lambda on: session.adjust(shadow=bool(on))
+        )
 
 
-class Numbers:
-    """Fields for numbers."""
+class _Progress:
+    """How far an export is, and a way to stop it."""
 
-    def __init__(self, session: Session, show: Callable[[], None]) -> None:
-        self._session, self._show = session, show
+    def __init__(self, stop: Callable[[], None]) -> None:
+        with ui.element("div").classes("going") as self._row:
+            self._bar = ui.element("progress").props("max=1 aria-label=Progress")
+            self._words = words("").classes("hint").props("role=status")
+            button("Stop the export", stop, text="Cancel")
+        self.hide()
 
-    def own(
-        self,
-        label: str,
-        bounds: tuple[float, float],
-        get: Callable[[], float],
-        change: Callable[[float], object],
-    ) -> None:
-        """A number that is an option of the picture."""
-        field = self._field(label, bounds, get, change)
-        self._session.listen("settings", lambda: field.set_value(get()))
+    def hide(self) -> None:
+        self._row.set_visibility(False)
 
-    def of(
-        self,
-        choice: Choice,
-        name: str,
-        label: str,
-        bounds: tuple[float, float],
-        *,
-        whole: bool = False,
-    ) -> None:
-        """A number of the file alone."""
-
-        def change(value: float) -> None:
-            setattr(choice, name, int(value) if whole else float(value))
-            self._show()
-
-        self._field(label, bounds, lambda: getattr(choice, name), change)
-
-    def _field(
-        self,
-        label: str,
-        bounds: tuple[float, float],
-        get: Callable[[], float],
-        change: Callable[[float], object],
-    ) -> ui.number:
-        def changed(event: Any) -> None:
-            # An empty field is one that is being typed in.
-            if event.value is not None and event.value != get():
-                with faults():
-                    change(event.value)
-
-        least, most = bounds
-        field = ui.number(label, value=get(), min=least, max=most, on_change=changed)
-        field.classes("control").props("dense outlined debounce=300")
-        field.props["aria-label"] = label
-        return field
+    def show(self, work: Export) -> None:
+        self._row.set_visibility(True)
+        self._bar.props["value"] = work.done / work.total
+        self._bar.update()
+        still = "drawing" if work.total == 1 else "moving the cloth"
+        self._words.set_text(f"{work.done} of {work.total} frames" if work.done else still)
 
 
 def _button(session: Session, choice: Choice) -> None:
-    """Export, with its progress, and a way to stop it."""
+    """Export, then a link to the file."""
     own = exports_of(session)
 
     def start() -> None:
         with faults():
             own.start(order_of(session, choice), stem_of(session.sketch.title))
+            link.set_visibility(False)
             timer.activate()
             follow()
 
@@ -256,39 +250,31 @@ def _button(session: Session, choice: Choice) -> None:
 
     def follow() -> None:
         work = own.current
-        running = work is not None and work.state == "running"
-        going.set_visibility(running)
-        button.set_enabled(not running)
-        if work is None:
+        if work is not None and work.state == "running":
+            progress.show(work)
             return
-        bar.set_value(work.done / work.total)
-        words.set_text(f"{work.done} of {work.total}" if work.done else "moving the cloth")
-        if not running:
-            timer.deactivate()
+        progress.hide()
+        timer.deactivate()
+        if work is not None:
             finish(work)
 
     def finish(work: Export) -> None:
         if work.state == "failed":
             tell(shelf_of(session).in_plain_words(work.fault), "fault")
         elif work.state == "stopped":
-            tell("Stopped; nothing was written")
+            tell("Stopped; nothing was kept")
         else:
             address = f"/export/{session.token}/{own.number}"
-            size = work.path.stat().st_size
-            link.set_text(f"{work.name}, {shown_size(size)}")
             link.props["href"] = address
+            link.set_text(f"{work.name}, {shown_size(work.path.stat().st_size)}")
             link.set_visibility(True)
             ui.download.from_url(address)
 
-    with ui.element("div").classes("export-go"):
-        button = ui.button("Export", icon="download", on_click=start).props("no-caps unelevated")
-        link = ui.link("", "#").classes("export-link").props("download")
+    with ui.element("div").classes("line"):
+        button("Export the file", start, icon="download", text="Export").classes("primary")
+        link = words("", "a").classes("export-link").props("download")
         link.set_visibility(False)
-    with ui.element("div").classes("export-going").props('role="status"') as going:
-        bar = ui.linear_progress(0.0, show_value=False).props('aria-label="Progress"')
-        words = ui.label("").classes("hint")
-        ui.button("Cancel", icon="close", on_click=stop).props("flat dense no-caps")
-    going.set_visibility(False)
+    progress = _Progress(stop)
     timer = ui.timer(TICK, follow, active=False)
 
 
@@ -302,33 +288,34 @@ def shown_size(count: int) -> str:
 def _copies(session: Session, choice: Choice) -> Callable[[], None]:
     """The link, the command and the lines of Python; the callable writes them anew."""
     request = ui.context.client.request
-    base = str(request.base_url)
-    link = copy_field("Share link: the whole design, without packs")
-    command = copy_field("Command that makes this file", rows=2)
-    python = copy_field("Python that makes this file", rows=4)
+    base = str(request.base_url) if request is not None else "/"
+    link = copy_field("share-link", "Link to the whole design, without packs", 2)
+    command = copy_field("as-command", "Command that makes this file", 3)
+    python = copy_field("as-python", "Python that makes this file", 5)
 
     def show() -> None:
-        called = shelf_of(session).called
-        stem = stem_of(session.sketch.title)
+        called, stem = shelf_of(session).called, stem_of(session.sketch.title)
         try:
             order = order_of(session, choice)
-            link(f"{base}?d={write_link(session.sketch, session.settings)}")
-            command(as_command(order, called, stem))
-            python(as_python(order, called, stem))
         except DraperyError as error:
             tell(str(error), "fault")
+            return
+        link(f"{base}?d={write_link(session.sketch, session.settings)}")
+        command(as_command(order, called, stem))
+        python(as_python(order, called, stem))
 
     return show
 
 
 def _keep_address(session: Session) -> None:
     """Let the page's address follow the design, so that loading it again brings all back."""
-    written = [write_link(session.sketch, session.settings)]
+    written = write_link(session.sketch, session.settings)
 
     def tidy() -> None:
+        nonlocal written
         word = write_link(session.sketch, session.settings)
-        if word != written[0]:
-            written[0] = word
+        if word != written:
+            written = word
             ui.run_javascript(f"history.replaceState(history.state, '', '?d={word}')")
 
     ui.timer(TIDY, tidy)

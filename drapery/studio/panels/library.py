@@ -1,9 +1,9 @@
 """The library: designs that are kept, found, opened and put away again."""
 
 from base64 import b64encode
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from nicegui import run, ui
 
@@ -11,14 +11,17 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.errors import DraperyError
 from drapery.studio import page
+from drapery.studio.components import value_of
 from drapery.studio.desk import desk_of
 from drapery.studio.drop import Drop
 from drapery.studio.notices import tell
+from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.share import SHARED, over
 from drapery.studio.shared_library import library_at
 from drapery.studio.sketch import MAX_TITLE, banner_of
 from drapery.studio.uploads import uploads_of
+from drapery.studio.widgets import button, words
 
 if TYPE_CHECKING:
     from drapery.studio.library import Design, Library
@@ -27,73 +30,114 @@ T = TypeVar("T")
 
 PAGE = 24
 """Designs that are shown at first, and more by every More."""
+LATER = 1.2
+"""When the library is first read, after the page has been built [s]."""
+PAUSE = 0.25
+"""A search follows the typing at most so often [s]."""
 
 
 def build(session: Session) -> None:
     """The form that keeps the design, the search, what it finds, and the whole library's door."""
-    with ui.element("div").classes("stack library"):
-        Shelves(session)
+    Shelves(session)
 
 
 class Shelves:
-    """The panel of one tab.
-
-    open: the number of the design that is being worked on, 0 for one that is not kept yet.
-    """
+    """The panel of one tab."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
+        # The design that is being worked on, by its number; 0 for one that is not kept yet.
         self._open = 0
+        self._title = session.sketch.title
+        self._tags = ""
+        self._words = ""
+        self._tag = ""
+        self._names: dict[str, int] = {}
         self._most = PAGE
-        self._gone: Design | None = None
         self._form()
         self._search()
-        self._undo_bar = ui.element("div").classes("undo-bar").props("role=status")
-        self._undo_bar.set_visibility(False)
-        self._found = ui.element("ul").classes("designs").props('aria-label="Designs"')
-        self._count = ui.label("").classes("hint").props("role=status")
-        self._more = ui.button("More", on_click=self._show_more).props("flat dense no-caps")
+        self._undo = ui.element("div").classes("line undo").props("role=status")
+        self._undo.set_visibility(False)
+        self._found = ui.element("ul").classes("designs").props("aria-label=Designs")
+        self._count = words("", "p").classes("hint").props("role=status")
+        self._more = button("More designs", self._show_more, text="More")
+        self._more.set_visibility(False)
         self._doors()
         session.listen("sketch", self._follow)
         # The database is not needed for the first picture.
         ui.timer(LATER, self._refresh, once=True)
 
     def _form(self) -> None:
-        with ui.element("div").classes("save-form"):
-            self._title = _field("Title", maxlength=MAX_TITLE)
-            self._tags = _field("Tags, with commas between")
-            with ui.element("div").classes("save-buttons"):
-                self._save = _button("save", "Save", self._save_open)
-                self._save_new = _button("add", "Save as new", self._save_as_new)
-        self._save_new.set_visibility(False)
-        self._title.set_value(self._session.sketch.title)
-        self._title.on("keydown.enter", self._save_open)
+        words("Keep this design", "h2").classes("heading")
+        self._fields = Fields()
+        with ui.element("div").classes("options"):
+            self._fields.line(
+                "Title",
+                lambda: self._title,
+                lambda text: self._take(title=str(text)),
+                maxlength=MAX_TITLE,
+            )
+            self._fields.line(
+                "Tags, with commas between",
+                lambda: self._tags,
+                lambda text: self._take(tags=str(text)),
+            )
+        with ui.element("div").classes("line"):
+            self._save = button("Save", self._save_open, icon="save", text="Save")
+            self._save.classes("primary")
+            self._new = button("Save as a new design", self._save_new, text="Save as new")
+        self._new.set_visibility(False)
+
+    def _take(self, *, title: str | None = None, tags: str | None = None) -> None:
+        self._title = self._title if title is None else title
+        self._tags = self._tags if tags is None else tags
 
     def _search(self) -> None:
+        words("Find", "h2").classes("heading")
         with ui.element("div").classes("search"):
-            self._words = _field("Search title, tag, dye or pattern").props(
-                "debounce=250 clearable"
+            field = ui.element("input").classes("field").props("type=search maxlength=200")
+            label = "Title, tag, dye or pattern"
+            field.props.update({"placeholder": label, "aria-label": f"Search: {label}"})
+            field.on(
+                "input",
+                lambda event: self._search_for(words=str(value_of(event))),
+                js_handler="(e) => emit(e.target.value)",
+                throttle=PAUSE,
+                leading_events=False,
             )
-            self._words.props("type=search")
-            self._tag = ui.select({"": "all tags"}, value="", label="Tag")
-            self._tag.props('dense outlined options-dense aria-label="Tag"')
-        self._words.on_value_change(self._search_anew)
-        self._tag.on_value_change(self._search_anew)
+            self._tag_choice()
+
+    @ui.refreshable_method
+    def _tag_choice(self) -> None:
+        names = {"": "all tags"} | {name: f"{name} ({n})" for name, n in self._names.items()}
+        Fields().choice("Tag", names, lambda: self._tag, lambda tag: self._later(tag=str(tag)))
+
+    def _later(self, **wanted: str) -> None:
+        ui.timer(0, lambda: self._search_for(**wanted), once=True)
+
+    async def _search_for(self, *, words: str | None = None, tag: str | None = None) -> None:
+        self._words = self._words if words is None else words
+        self._tag = self._tag if tag is None else tag
+        self._most = PAGE
+        await self._refresh()
 
     def _doors(self) -> None:
-        with ui.element("div").classes("doors"):
-            ui.link("Export the library", f"/library/{self._session.token}").props("download")
-            Drop(
-                self._session,
-                "library",
-                "Import a library (.json)",
-                self._import,
-                endings=".json,application/json",
-            )
+        words("The whole library", "h2").classes("heading")
+        with ui.element("div").classes("line"):
+            export = words("Export it as a file", "a").props("download").classes("export-link")
+            export.props["href"] = f"/library/{self._session.token}"
+        Drop(
+            self._session,
+            "library",
+            "Drop an exported library here, or choose it (.json)",
+            self._import,
+            endings=".json,application/json",
+        )
 
     def _follow(self) -> None:
-        if self._title.value != self._session.sketch.title:
-            self._title.set_value(self._session.sketch.title)
+        if self._title != self._session.sketch.title:
+            self._title = self._session.sketch.title
+            self._fields.refresh()
 
     async def _do(self, act: "Callable[[Library], T]") -> T | None:
         """What the library answers, in a thread; None where it refused, which the user is told."""
@@ -108,52 +152,60 @@ class Shelves:
             return None
 
     async def _refresh(self) -> None:
-        words, tag = str(self._words.value or ""), self._tag.value or None
-        found = await self._do(lambda library: library.search(words, tag, most=self._most))
-        tags = await self._do(lambda library: library.tags())
-        if found is None or tags is None or self._session.closed:
+        wanted, tag, most = self._words, self._tag or None, self._most
+
+        def ask(library: "Library") -> "tuple[list[Design], int, dict[str, int]]":
+            return *library.search(wanted, tag, most=most), library.tags()
+
+        answer = await self._do(ask)
+        # A later search may have come back earlier.
+        stale = (wanted, tag, most) != (self._words, self._tag or None, self._most)
+        if answer is None or stale or self._session.closed:
             return
-        designs, count = found
-        self._tag.set_options({"": "all tags"} | {t: f"{t} ({n})" for t, n in tags.items()})
+        designs, count, names = answer
+        if names != self._names:
+            self._names = names
+            self._tag_choice.refresh()
         self._found.clear()
         with self._found:
             for design in designs:
                 with ui.element("li").classes("design").props(f"data-design={design.number}"):
                     self._card(design)
-        self._count.set_text(_counted(count, bool(words or tag)))
+        self._count.set_text(_counted(count, bool(wanted or tag)))
         self._more.set_visibility(count > len(designs))
 
     def _card(self, design: "Design") -> None:
         name = design.title or "Untitled"
         opened = ui.element("button").classes("design-open").props("type=button")
-        opened.props["aria-label"] = f"Open {name}"
+        opened.props.update({"aria-label": f"Open {name}", "title": f"Open {name}"})
         opened.on("click", lambda: self._open_design(design.number))
         with opened:
-            picture = ui.element("img").props('alt="" aria-hidden=true')
+            picture = ui.element("img").props('alt=""')
             picture.props["src"] = f"data:image/png;base64,{b64encode(design.thumbnail).decode()}"
-        with ui.element("div").classes("design-words"):
-            ui.label(name).classes("design-title").tooltip(name)
-            ui.label(", ".join(design.tags)).classes("hint")
+        words(name).classes("design-title").props.update({"title": name})
+        words(", ".join(design.tags)).classes("hint design-tags")
         with ui.element("div").classes("design-acts"):
-            _act("edit", f"Rename or tag {name}", lambda: self._edit(design))
-            _act("delete", f"Delete {name}", lambda: self._remove(design.number))
+            edit = button(f"Rename or tag {name}", lambda: self._edit(design), icon="edit")
+            gone = button(f"Delete {name}", lambda: self._remove(design.number), icon="delete")
+        edit.classes("small")
+        gone.classes("small")
 
     async def _save_open(self) -> None:
         await self._keep(self._open)
 
-    async def _save_as_new(self) -> None:
+    async def _save_new(self) -> None:
         await self._keep(0)
 
     async def _keep(self, number: int) -> None:
         session = self._session
-        sketch = replace(session.sketch, title=str(self._title.value or "").strip())
-        tags = _split(self._tags.value)
-        look, drawn = session.settings, (banner_of(sketch), session.packs())
+        sketch = replace(session.sketch, title=self._title.strip())
+        look, packs, tags = session.settings, session.packs(), _split(self._tags)
 
         def keep(library: "Library") -> int:
             from drapery.studio.library import Design
 
-            design = Design(sketch, look, tags, thumbnail(*drawn), number)
+            picture = thumbnail(banner_of(sketch), packs)
+            design = Design(sketch, look, tags, picture, number)
             if number:
                 library.change(design)
                 return number
@@ -169,8 +221,7 @@ class Shelves:
 
     def _set_open(self, number: int) -> None:
         self._open = number
-        self._save.set_text("Save changes" if number else "Save")
-        self._save_new.set_visibility(bool(number))
+        self._new.set_visibility(bool(number))
 
     async def _open_design(self, number: int) -> None:
         design = await self._do(lambda library: library.get(number))
@@ -179,31 +230,35 @@ class Shelves:
         session = self._session
         chosen = over(session.settings, design.look)
         session.adjust(**{name: getattr(chosen, name) for name in SHARED})
+        self._take(title=design.title, tags=", ".join(design.tags))
         desk_of(session).lay_out(design.sketch)
-        self._title.set_value(design.title)
-        self._tags.set_value(", ".join(design.tags))
+        self._fields.refresh()
         self._set_open(number)
         tell(f"Opened {design.title or 'a design without a title'}")
 
     def _edit(self, design: "Design") -> None:
         """A dialog for title and tags."""
+        wanted = {"title": design.title, "tags": ", ".join(design.tags)}
 
         async def keep() -> None:
-            sketch = replace(design.sketch, title=str(title.value or "").strip())
-            changed = replace(design, sketch=sketch, tags=_split(tags.value))
-            done = await self._do(lambda library: (library.change(changed), True)[1])
-            if done:
+            sketch = replace(design.sketch, title=wanted["title"].strip())
+            changed = replace(design, sketch=sketch, tags=_split(wanted["tags"]))
+            if await self._do(lambda library: library.change(changed) or True):
                 dialog.close()
                 await self._refresh()
 
-        with self._found, ui.dialog() as dialog, ui.card().classes("stack dialog"):
-            title = _field("Title", maxlength=MAX_TITLE)
-            tags = _field("Tags, with commas between")
-            title.set_value(design.title)
-            tags.set_value(", ".join(design.tags))
-            with ui.element("div").classes("save-buttons"):
-                _button("check", "Keep", keep)
-                _button("close", "Cancel", dialog.close)
+        def line(label: str, name: str, most: int) -> None:
+            take = lambda text: wanted.update({name: str(text)})  # noqa: E731
+            fields.line(label, lambda: wanted[name], take, maxlength=most)
+
+        with ui.dialog() as dialog, ui.element("div").classes("studio-dialog"):
+            words("Rename or tag", "h2").classes("heading")
+            fields = Fields()
+            line("Title", "title", MAX_TITLE)
+            line("Tags, with commas between", "tags", 500)
+            with ui.element("div").classes("line"):
+                button("Keep title and tags", keep, text="Keep").classes("primary")
+                button("Change nothing", dialog.close, text="Cancel")
         dialog.on("hide", dialog.delete)
         dialog.open()
 
@@ -213,16 +268,16 @@ class Shelves:
             return
         if number == self._open:
             self._set_open(0)
-        self._undo_bar.clear()
-        with self._undo_bar:
-            ui.label(f"Deleted {gone.title or 'a design without a title'}")
-            _button("undo", "Put it back", lambda: self._put_back(gone))
-        self._undo_bar.set_visibility(True)
+        self._undo.clear()
+        with self._undo:
+            words(f"Deleted {gone.title or 'a design without a title'}")
+            button("Put the design back", lambda: self._put_back(gone), text="Put it back")
+        self._undo.set_visibility(True)
         await self._refresh()
 
     async def _put_back(self, gone: "Design") -> None:
         if await self._do(lambda library: library.add(gone)):
-            self._undo_bar.set_visibility(False)
+            self._undo.set_visibility(False)
             await self._refresh()
 
     async def _import(self, number: int) -> None:
@@ -234,17 +289,9 @@ class Shelves:
             tell(f"{fresh} designs added" + (f", {known} were here already" if known else ""))
             await self._refresh()
 
-    async def _search_anew(self) -> None:
-        self._most = PAGE
-        await self._refresh()
-
     async def _show_more(self) -> None:
         self._most += PAGE
         await self._refresh()
-
-
-LATER = 1.5
-"""When the library is first read, after the page has been built [s]."""
 
 
 def thumbnail(banner: Banner, packs: Packs) -> bytes:
@@ -258,30 +305,11 @@ def thumbnail(banner: Banner, packs: Packs) -> bytes:
     return png_bytes(face[step // 2 :: step, step // 2 :: step].copy())
 
 
-def _split(text: object) -> tuple[str, ...]:
-    return tuple(part.strip() for part in str(text or "").split(",") if part.strip())
+def _split(text: str) -> tuple[str, ...]:
+    return tuple(part.strip() for part in text.split(",") if part.strip())
 
 
 def _counted(count: int, searched: bool) -> str:
     if not count:
         return "Nothing found" if searched else "Nothing is kept here yet"
     return "1 design" if count == 1 else f"{count} designs"
-
-
-def _field(label: str, **props: Any) -> ui.input:
-    field = ui.input(label).props("dense outlined")
-    field.props["aria-label"] = label
-    field.props.update(props)
-    return field
-
-
-def _button(
-    icon: str, words: str, call: Callable[[], Awaitable[None]] | Callable[[], None]
-) -> ui.button:
-    return ui.button(words, icon=icon, on_click=call).props("flat dense no-caps")
-
-
-def _act(icon: str, words: str, call: Callable[[], Awaitable[None]] | Callable[[], None]) -> None:
-    button = ui.button(icon=icon, on_click=call).props("flat dense size=sm")
-    button.props["aria-label"] = words
-    button.tooltip(words)

@@ -8,12 +8,14 @@ from nicegui import run, ui
 from drapery.errors import DraperyError
 from drapery.studio.drop import Drop
 from drapery.studio.notices import faults, tell
+from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.shelf import Entry, Shelf, shelf_of
 from drapery.studio.stage import stage_of
+from drapery.studio.widgets import button, words
 
 NOBODY = "nobody"
-"""The choice of nothing to compare with."""
+OWN_ART = "Drapery's own art"
 
 
 def build(session: Session) -> None:
@@ -30,17 +32,12 @@ def build(session: Session) -> None:
         else:
             tell(f"{entry.name}: {summary}")
 
-    with ui.element("div").classes("stack"):
-        Drop(
-            session,
-            "pack",
-            "Drop resource packs here, or choose them (.zip, .jar)",
-            take,
-            endings=".zip,.jar,application/zip",
-            multiple=True,
-        )
-        _list(session, shelf)
-        _comparison(session, shelf)
+    words("Resource packs", "h2").classes("heading")
+    label = "Drop packs here, or choose them (.zip, .jar)"
+    Drop(session, "pack", label, take, endings=".zip,.jar,application/zip", multiple=True)
+    _list(session, shelf)
+    words("Side by side", "h2").classes("heading")
+    _comparison(session, shelf)
 
 
 def _list(session: Session, shelf: Shelf) -> None:
@@ -50,12 +47,17 @@ def _list(session: Session, shelf: Shelf) -> None:
             for entry in reversed(shelf.entries):
                 with ui.element("li").classes("pack").props(f"data-pack={entry.number}"):
                     _row(session, shelf, entry)
-            with ui.element("li").classes("pack"), ui.element("div").classes("pack-name"):
-                ui.label("Drapery's own art")
-                ui.label("beneath all others").classes("hint")
+            with ui.element("li").classes("pack"):
+                _name(OWN_ART, "beneath all others")
 
     entries()
     session.listen("packs", entries.refresh)
+
+
+def _name(name: str, summary: str) -> None:
+    with ui.element("div").classes("pack-name"):
+        words(name).props.update({"title": name})
+        words(summary).classes("hint")
 
 
 def _row(session: Session, shelf: Shelf, entry: Entry) -> None:
@@ -67,55 +69,51 @@ def _row(session: Session, shelf: Shelf, entry: Entry) -> None:
         if session.settings.packs == before:
             session.tell("packs")
 
-    switch = ui.checkbox(
-        value=entry.on, on_change=lambda: act(lambda: shelf.switch(entry.number))
-    ).props("dense")
-    switch.props["aria-label"] = f"Use {entry.name}"
-    with ui.element("div").classes("pack-name"):
-        ui.label(entry.name).tooltip(entry.name)
-        ui.label(entry.summary).classes("hint")
+    switch = ui.element("input").props("type=checkbox")
+    switch.props.update({"checked": entry.on, "aria-label": f"Use {entry.name}"})
+    switch.on("change", lambda: act(lambda: shelf.switch(entry.number)))
+    _name(entry.name, entry.summary)
     acts: tuple[tuple[str, str, Callable[[], None]], ...] = (
         ("arrow_upward", "Higher", lambda: shelf.move(entry.number, 1)),
         ("arrow_downward", "Lower", lambda: shelf.move(entry.number, -1)),
         ("close", "Remove", lambda: shelf.remove(entry.number)),
     )
-    for icon, words, call in acts:
-        button = ui.button(icon=icon, on_click=lambda call=call: act(call))
-        button.props("flat dense size=sm").tooltip(words)
-        button.props["aria-label"] = f"{words}: {entry.name}"
+    for icon, label, call in acts:
+        button(f"{label}: {entry.name}", lambda call=call: act(call), icon=icon).classes("small")
 
 
 def _comparison(session: Session, shelf: Shelf) -> None:
-    version = count()
+    version, other = count(), NOBODY
 
     def choices() -> dict[str, str]:
         packs = {str(entry.number): entry.name for entry in reversed(shelf.entries)}
-        return {NOBODY: "nothing", "own": "Drapery's own art"} | packs
+        return {NOBODY: "nothing", "own": OWN_ART} | packs
 
-    def chosen() -> str:
-        return str(select.value) if select.value in choices() else NOBODY
-
-    def compare() -> None:
-        other = chosen()
+    def choose(name: str) -> None:
+        nonlocal other
+        other = name if name in choices() else NOBODY
         with faults():
             stage_of(session).wish(beside=_paths(shelf, other))
         pictures.refresh()
 
-    def follow() -> None:
-        kept = chosen()
-        select.set_options(choices(), value=kept)
-        compare()
+    @ui.refreshable
+    def chooser() -> None:
+        Fields().choice("Compare with", choices(), lambda: other, choose)
 
     @ui.refreshable
     def pictures() -> None:
-        other = chosen()
         if other != NOBODY:
             with ui.element("div").classes("versus"):
                 _side(session, "now", "Your packs in their order", next(version))
                 _side(session, other, choices()[other], next(version))
 
-    select = ui.select(choices(), value=NOBODY, label="Compare with", on_change=compare)
-    select.props('dense outlined options-dense aria-label="Compare with"').classes("control")
+    def follow() -> None:
+        chooser.refresh()
+        # What is compared with may be gone, or be another file now.
+        if other != NOBODY:
+            choose(other)
+
+    chooser()
     pictures()
     session.listen("packs", follow)
     session.listen("sketch", pictures.refresh)
@@ -132,13 +130,13 @@ def _side(session: Session, which: str, caption: str, version: int) -> None:
     """The design and all patterns, drawn from one stack of packs."""
     sketch = session.sketch
     dye = sketch.strokes[-1].dye if sketch.strokes else "black"
-    others = (sketch.base, "white", "black")
-    field = next(each for each in others if each != dye)
+    field = next(each for each in (sketch.base, "white", "black") if each != dye)
     address = f"/compare/{session.token}/{which}"
     with ui.element("figure").classes("versus-side"):
-        with ui.element("figcaption"):
-            ui.label(caption)
+        words(caption, "figcaption")
         for what, query in (("face", ""), ("patterns", f"&base={field}&dye={dye}")):
             picture = ui.element("img").classes(f"versus-{what}")
-            picture.props["src"] = f"{address}/{what}.png?v={version}{query}"
-            picture.props["alt"] = f"{'Design' if what == 'face' else 'Patterns'}: {caption}"
+            title = "Design" if what == "face" else "Patterns"
+            picture.props.update(
+                {"src": f"{address}/{what}.png?v={version}{query}", "alt": f"{title}: {caption}"}
+            )

@@ -1,0 +1,129 @@
+"""Labelled fields: numbers, choices, colours, ticks and lines of text, by the browser's own.
+
+A field shows what `get` says, and says it anew at every `refresh`; what the user makes of it goes
+to `change`, and a fault in that is told and taken back.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from nicegui import ui
+from nicegui.element import Element
+
+from drapery.studio.components import value_of
+from drapery.studio.notices import faults
+from drapery.studio.widgets import button, words
+
+Get = Callable[[], Any]
+Change = Callable[[Any], object]
+
+
+@dataclass(frozen=True)
+class _Shown:
+    element: Element
+    prop: str
+    get: Get
+
+
+class Fields:
+    """The fields of one form."""
+
+    def __init__(self) -> None:
+        self._shown: list[_Shown] = []
+
+    def refresh(self) -> None:
+        """Show what is so now."""
+        for field in self._shown:
+            value = field.get()
+            if field.element.props.get(field.prop) != value:
+                field.element.props[field.prop] = value
+                field.element.update()
+
+    def number(
+        self, label: str, bounds: tuple[float, float], get: Get, change: Change, step: str = "1"
+    ) -> None:
+        """A number; an empty field is put back."""
+        least, most = bounds
+        kind = {"type": "number", "min": least, "max": most, "step": step}
+
+        def changed(text: Any) -> None:
+            if _is_number(text):
+                change(float(text))
+
+        self._field(label, "input", kind, "value", lambda: f"{get():g}", changed)
+
+    def choice(self, label: str, options: Mapping[str, str], get: Get, change: Change) -> None:
+        """One of several, by their names."""
+        with self._field(label, "select", {}, "value", get, change):
+            for name, title in options.items():
+                words(title, "option").props.update({"value": name})
+
+    def tick(self, label: str, get: Get, change: Change) -> None:
+        """Yes or no."""
+        kind = {"type": "checkbox"}
+        field = self._field(label, "input", kind, "checked", get, change, "e.target.checked")
+        field.classes(remove="field")
+
+    def colour(self, label: str, get: Get, change: Change) -> None:
+        """A colour, `#rrggbb`."""
+        self._field(label, "input", {"type": "color"}, "value", get, change)
+
+    def line(self, label: str, get: Get, change: Change, **props: Any) -> Element:
+        """A line of text."""
+        return self._field(label, "input", {"type": "text"} | props, "value", get, change)
+
+    def _field(
+        self,
+        label: str,
+        tag: str,
+        kind: Mapping[str, Any],
+        prop: str,
+        get: Get,
+        change: Change,
+        value: str = "e.target.value",
+    ) -> Element:
+        def changed(event: Any) -> None:
+            # So much the browser shows already.
+            element.props[prop] = value_of(event)
+            with faults():
+                change(value_of(event))
+            self.refresh()
+
+        with ui.element("label").classes("option"):
+            words(label)
+            element = ui.element(tag).classes("field")
+            element.props.update({**kind, prop: get()})
+        element.on("change", changed, js_handler=f"(e) => emit({value})")
+        self._shown.append(_Shown(element, prop, get))
+        return element
+
+
+def _is_number(text: object) -> bool:
+    try:
+        return abs(float(str(text))) < float("inf")
+    except ValueError:
+        return False
+
+
+def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:
+    """A text to read, with a button that copies it; the callable puts a text into it.
+
+    name: its id on the page.
+    """
+    with ui.element("div").classes("copy"):
+        with ui.element("div").classes("copy-head"):
+            words(label, "h3")
+            press = button(f"Copy: {label}", lambda: None, icon="content_copy")
+            with press:
+                words("Copy").classes("copy-words")
+            press.props.update({"data-copy": name})
+        area = ui.element("textarea").classes("field code").props("readonly")
+        area.props.update({"id": name, "rows": rows, "aria-label": label, "spellcheck": "false"})
+
+    def show(text: str) -> None:
+        if area.props.get("value") != text:
+            area.props["value"] = text
+            area.update()
+
+    return show
