@@ -154,15 +154,20 @@ def add_routes(app: FastAPI) -> None:
     async def upload(token: str, purpose: str, request: Request, name: str = "") -> JSONResponse:
         session = find_session(token)
         if session is None or purpose not in PURPOSES:
-            return JSONResponse({"line": "no such page any more: reload it"}, 404)
+            return _refusal("no such page any more: reload it", 404)
         try:
             _check_length(request, purpose, shown_name(name))
             kept = await uploads_of(session).receive(request.stream(), purpose, name)
         except DraperyError as error:
-            return JSONResponse({"line": str(error)}, 413)
+            return _refusal(str(error), 413)
         except OSError as error:
-            return JSONResponse({"line": f"the file cannot be kept: {error.strerror}"}, 507)
+            return _refusal(f"the file cannot be kept: {error.strerror}", 507)
         return JSONResponse({"number": kept.number})
+
+
+def _refusal(line: str, status: int) -> JSONResponse:
+    # Else the server would go on to take in the rest of the body, if only to drop it.
+    return JSONResponse({"line": line}, status, {"Connection": "close"})
 
 
 def _check_length(request: Request, purpose: str, name: str) -> None:
