@@ -75,6 +75,7 @@ class Live:
         self.ticks = 0
         self._settings = settings
         self._cuts = 0
+        self._disturbed = False
         self._keys: tuple[str, ...] = ()
         self._azimuth = 0.0
         self._sheets: list[Sheet] = []
@@ -87,6 +88,12 @@ class Live:
     def time(self) -> float:
         """How long it has moved [s]."""
         return self.ticks * STEP
+
+    @property
+    def is_picture(self) -> bool:
+        """Whether it hangs as in a picture of this `time`: nothing but its own wind moved it."""
+        own = replace(Breeze(), speed=self.breeze.speed, seed=self.breeze.seed)
+        return not self._disturbed and self.pins is None and self.breeze == own
 
     def wear(
         self, design: Banner | None, packs: Packs, settings: Settings, beside: Packs | None = None
@@ -114,6 +121,7 @@ class Live:
 
     def blow(self, breeze: Breeze) -> None:
         """Another wind from now on."""
+        self._disturbed |= self.ticks > 0
         self.breeze = breeze
         wind = wind_of(breeze)
         self._wind = wind if self._wind is None else carried_on(self._wind, wind, self.time)
@@ -133,6 +141,7 @@ class Live:
     def reset(self) -> None:
         """Back to the start: the cloth at rest, in the same wind."""
         self.ticks = 0
+        self._disturbed = False
         self._held = None
         self._wind = wind_of(self.breeze)
         self._shadow = None
@@ -150,6 +159,7 @@ class Live:
         if not found:
             return False
         _, number, particle = min(found)
+        self._disturbed = True
         self._held = number
         self._change(number, grabbed(self._sheets[number].hanging, particle))
         return True
@@ -199,7 +209,7 @@ class Live:
         under = int(self._settings.shadow)
         soft = self._settings.pose == "cloth"
         grip = frozenset(range(first + under, len(meshes) + under) if soft else ())
-        return Shown(panes, len(panes), grip, self._heading(), self._cut())
+        return Shown(panes, len(panes), grip, self._heading(), self._cut(), self.time)
 
     def _cut(self) -> object:
         asked = self._settings
@@ -255,6 +265,7 @@ class Live:
         if old is not None and old.hanging.weave == weave:
             hanging = old.hanging
         else:
+            self._disturbed |= self.ticks > 0
             hanging = hang(weave) if old is None else rewoven(old.hanging, weave)
         cloth = hanging.whole
         same = old is not None and old.panel.skin == panel.skin and old.hanging.whole is cloth

@@ -160,6 +160,7 @@ class Told:
         header: dict[str, Any] = {
             "kind": "moment",
             "version": self._version,
+            "time": round(shown.time, 4),
             "runs": runs,
             "tints": [pane.pane.scene.light.tint for pane in panes],
         }

@@ -34,7 +34,8 @@ class Shown:
     """All that is seen.
 
     columns: panes in a row. grip: the models of each pane that a hand can take. wind: None where
-    nothing can be steered. cut: another value than before asks the viewer to look anew.
+    nothing can be steered. cut: another value than before asks the viewer to look anew. time: how
+    long the cloth has moved [s].
     """
 
     panes: tuple[Pane, ...]
@@ -42,6 +43,7 @@ class Shown:
     grip: frozenset[int] = frozenset()
     wind: Wind | None = None
     cut: object = None
+    time: float = 0.0
 
 
 def shown_picture(picture: Picture) -> Shown:

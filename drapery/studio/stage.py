@@ -5,6 +5,7 @@ page's own loop only hands over and waits.
 """
 
 import asyncio
+import math
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -29,6 +30,10 @@ from drapery.studio.sketch import banner_of
 BEHIND = 4
 """Ticks that are caught up at once; what is further behind is left out, and time runs slower."""
 THREADS = 2
+FIRST = 2.0
+"""How long the cloth waits for its first picture to be seen [s]."""
+LONGEST = 60.0
+"""Later moments are not asked of pictures, which are simulated from the start [s]."""
 
 T = TypeVar("T")
 Input = Callable[[Live], object]
@@ -83,6 +88,7 @@ class Stage:
         self._told: list[Callable[[], None]] = []
         self._stale = True
         self._keys: tuple[str, ...] = ()
+        self._paused = False
         self._lookers = 0
         self._task: asyncio.Task[None] | None = None
         self._pulse = asyncio.Event()
@@ -206,16 +212,31 @@ class Stage:
     async def _keep_moving(self) -> None:
         clock = asyncio.get_running_loop().time
         due = clock()
+        patience = due + FIRST
         while True:
             ticks = min(int((clock() - due) / STEP) + 1, BEHIND)
+            if self._picture[1] is None and clock() < patience:
+                ticks = 0  # the first picture need not wait for the kernels
             fault, version = self.fault, self.version
             await in_thread(partial(self._turn, ticks))
             if self.version != version:
                 self._wake()
             if self.fault != fault or (not self._keys and self._has_steered()):
                 self._tell()
+            self._note_pause()
             due = max(due + ticks * STEP, clock() - STEP)
             await asyncio.sleep(max(0.0, due - clock()))
+
+    def _note_pause(self) -> None:
+        """A moment at which it is stopped is what a picture shows too, if pictures can."""
+        stopped = self.wishes.paused and not self._paused
+        self._paused = self.wishes.paused
+        live = self._live
+        if not stopped or self._player is not None or live is None or not live.is_picture:
+            return
+        if 0 < live.time <= LONGEST:
+            # Rounded down, lest the picture take one step more.
+            self._session.adjust(time=math.floor(live.time * 1e6) / 1e6)
 
     def _wake(self) -> None:
         """Let those who wait for something new go on."""
@@ -244,9 +265,6 @@ class Stage:
         stale, self._stale = self._stale, False
         try:
             if stale:
-                if self._live is None:
-                    # The first picture does not wait for the kernels.
-                    ticks = 0
                 self._renew()
             for call in inputs:
                 if self._live is not None:

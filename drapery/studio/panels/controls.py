@@ -28,8 +28,8 @@ class Controls:
 
     def follow(self) -> None:
         """Show what the session holds from now on; call it once all controls are there."""
-        for event in ("settings", "scene", "sketch"):
-            self._session.listen(event, self.refresh)  # type: ignore[arg-type]
+        self._session.listen("settings", self.refresh)
+        self._session.listen("scene", self.refresh)
         stage_of(self._session).listen(self.refresh)
 
     def refresh(self) -> None:

@@ -14,12 +14,12 @@ from drapery.studio.stage import stage_of
 
 GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (17, 33), (25, 49), (33, 65))
 PINS = {
-    None: "as the banner",
-    "top": "the whole top",
-    "corners": "top corners",
-    "three-corners": "three corners",
-    "four-corners": "all four corners",
-    "none": "nothing: let it fall",
+    None: "its own",
+    "top": "top",
+    "corners": "2 corners",
+    "three-corners": "3 corners",
+    "four-corners": "4 corners",
+    "none": "nothing",
 }
 NOON = 12.0
 
@@ -97,7 +97,7 @@ def _cloth(session: Session, controls: Controls) -> None:
 
 
 def _place(session: Session, controls: Controls) -> None:
-    words = {"standing": "on its pole", "wall": "on a wall", "item": "item in its slot"}
+    words = {"standing": "pole", "wall": "wall", "item": "item slot"}
     controls.select(
         "Placement",
         {name: words[name] for name in get_args(Placement)},
@@ -146,17 +146,21 @@ def _light(session: Session, controls: Controls) -> None:
         choose,
         lambda hour: f"{int(hour)}:{int(hour % 1 * 60):02d}",
     )
-    for label, option in (("Sky light", "sky_light"), ("Torch light", "block_light")):
-        controls.slider(
-            label,
-            (0, MAX_LIGHT, 1),
-            lambda option=option: getattr(session.settings, option),
-            lambda level, option=option: session.adjust(**{option: int(level)}),
-        )
+    _level(session, controls, "Sky light", "sky_light")
+    _level(session, controls, "Torch light", "block_light")
     controls.switch(
         "Shaded",
         lambda: session.settings.light == "game",
         lambda on: session.adjust(light="game" if on else "flat"),
+    )
+
+
+def _level(session: Session, controls: Controls, label: str, option: str) -> None:
+    controls.slider(
+        label,
+        (0, MAX_LIGHT, 1),
+        lambda: getattr(session.settings, option),
+        lambda level: session.adjust(**{option: int(level)}),
     )
 
 

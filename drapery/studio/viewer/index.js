@@ -69,6 +69,7 @@ export class Viewer {
     } else if (header.version === this.drawing.scene?.header.version) {
       this.drawing.setMoment(header, arrays);
       this.wind = header.wind ?? null;
+      this.time = header.time;
       if (header.cameras) this.look(header.cameras);
     }
     this.redraw();
