@@ -21,11 +21,11 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 DRIVER = shutil.which("chromedriver")
 
 FLAGS = (
-    "--headless=new --no-sandbox --disable-gpu --use-angle=swiftshader"
-    " --enable-unsafe-swiftshader --disable-quic --no-first-run"
-    " --disable-background-networking --disable-component-update --disable-sync"
-    " --disable-dev-shm-usage --force-prefers-reduced-motion"
-).split()
+    *("--headless=new", "--no-sandbox", "--no-first-run", "--disable-dev-shm-usage"),
+    *("--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
+    *("--disable-quic", "--disable-sync", "--disable-component-update"),
+    *("--disable-background-networking", "--force-prefers-reduced-motion"),
+)
 
 WIDE = (1280, 800)
 PHONE = (390, 844)

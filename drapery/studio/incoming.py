@@ -46,7 +46,7 @@ class Incoming:
     async def read_file(self, path: Path, name: str) -> None:
         """Read a file that came under a name."""
         found, line, notes = await run_in_threadpool(_read, lambda: read_designs(path))
-        self._take(name, found, line.replace(str(path), name), notes)
+        self._take(name, found, line.replace(str(path), name).replace(path.name, name), notes)
 
     def _take(self, name: str, found: list[Found], line: str, notes: list[str]) -> None:
         self.found, self.line, self.name = tuple(found), line, name

@@ -23,7 +23,7 @@ def tell(line: str, tone: Tone = "done") -> None:
     ui.notify(
         line,
         type=_TYPES[tone],
-        position="top",
+        position="bottom",
         multi_line=len(line) > 60,
         close_button="Close" if tone != "done" else False,
         timeout={"fault": 10_000, "warning": 7_000, "done": 1_800}[tone],

@@ -136,7 +136,7 @@ studio.readFile = async (file) => {
   try {
     await send(file);
   } catch {
-    window.Quasar?.Notify.create({ type: "negative", position: "top", message: `${file.name}: it could not be sent; is the studio still running?` });
+    window.Quasar?.Notify.create({ type: "negative", position: "bottom", message: `${file.name}: it could not be sent; is the studio still running?` });
   }
 };
 

@@ -25,7 +25,7 @@ def build(session: Session) -> None:
     with ui.element("div").classes("bar-group"):
         undo = button("Undo", session.undo, icon="undo", key="Ctrl+Z").classes("undo")
         redo = button("Redo", session.redo, icon="redo", key="Ctrl+Shift+Z").classes("redo")
-    with ui.element("div").classes("bar-group"):
+    with ui.element("div").classes("bar-group bar-design"):
         button("A design by chance", lambda: chance(session), icon="casino", key="R")
         button(
             "Remove all layers", lambda: session.edit(clear(session.sketch)), icon="layers_clear"

@@ -16,7 +16,10 @@ from drapery.studio.sketch import banner_of, sketch_of
 from drapery.studio.widgets import button, words
 from drapery.studio.words import in_words
 
-_PLACEHOLDER = "Paste a /give command, an item, JSON, the address of a banner editor, or write: white creeper:lime"
+_PLACEHOLDER = (
+    "Paste a /give command, an item, JSON, the address of a banner editor,"
+    " or write: white creeper:lime"
+)
 
 
 def build(session: Session) -> None:
