@@ -72,13 +72,15 @@ class Stage:
     """The live cloth of a session.
 
     version: counts what can be seen. fault: why the last change did not come about; "" where it
-    did. size: of the viewer [pixels]. viewers: how many are connected, hidden ones too.
+    did. note: what takes a while. size: of the viewer [pixels]. viewers: how many are connected,
+    hidden ones too.
     """
 
     def __init__(self, session: Session) -> None:
         self.wishes = Wishes()
         self.version = 0
         self.fault = ""
+        self.note = ""
         self.size = (640, 480)
         self.viewers = 0
         self._session = session
@@ -111,7 +113,10 @@ class Stage:
         self.wishes = after
         self._spoil()
         if after.scene != before.scene:
+            self.note = f"{after.scene} is being prepared" if after.scene else ""
             self._session.tell("scene")
+            self.version += 1
+            self._wake()
 
     def listen(self, call: Callable[[], None]) -> None:
         """Call this whenever keys have changed the wishes, or a fault has come or gone."""
@@ -271,9 +276,9 @@ class Stage:
                     call(self._live)
             moved = self._move(ticks)
             if stale:
-                self.fault = ""
+                self.fault = self.note = ""
         except DraperyError as error:
-            self.fault, moved = str(error), True
+            self.fault, self.note, moved = str(error), "", True
         if stale or inputs or moved:
             self.version += 1
 

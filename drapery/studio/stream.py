@@ -38,7 +38,7 @@ class Viewer:
         self.told = Told(which)
         self.hidden = False
         self.sent = self.drawn = 0
-        self._fault = ""
+        self._line = ""
         self._shaped = False
         self._ready = asyncio.Event()
 
@@ -57,9 +57,10 @@ class Viewer:
             await self._credit()
             await self.stage.after(seen)
             seen = self.stage.version
-            if self.stage.fault != self._fault:
-                self._fault = self.stage.fault
-                await socket.send_text(json.dumps({"fault": self._fault}))
+            line = self.stage.fault or self.stage.note
+            if line != self._line:
+                self._line = line
+                await socket.send_text(json.dumps({"line": line}))
             for message in await in_thread(self._messages):
                 self.sent += 1
                 await socket.send_bytes(message)

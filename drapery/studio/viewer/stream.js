@@ -26,7 +26,7 @@ export class Stream {
       if (Object.keys(this.first).length) this.socket.send(JSON.stringify(this.first));
     };
     this.socket.onmessage = ({ data }) => {
-      if (typeof data === "string") this.tell(JSON.parse(data).fault ?? "");
+      if (typeof data === "string") this.tell(JSON.parse(data).line ?? "");
       else this.hear(unpack(data));
     };
     this.socket.onclose = (event) => this.closed(event);

@@ -1,0 +1,214 @@
+"""The live cloth in a real browser: it waves, obeys keys and hands, and looks as pictures do."""
+
+import base64
+import io
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from selenium.webdriver import ActionChains, Keys
+from selenium.webdriver.common.by import By
+from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
+
+from drapery.banner.design import Banner
+from drapery.pictures import draw
+
+pytest_plugins = ["studio_browser"]
+
+VIEWER = "document.querySelector('.viewer').viewer"
+
+
+@pytest.fixture
+def page(chromium: Any, studio: Studio) -> Any:
+    resize(chromium, WIDE)
+    open_page(chromium, studio)
+    wait_until(lambda: ask(chromium, "drawing?.scene?.light[0] > 0"))
+    return chromium
+
+
+def ask(page: Any, what: str) -> Any:
+    """A field of the viewer's."""
+    return page.execute_script(f"const viewer = {VIEWER}; return viewer?.{what}")
+
+
+def positions(page: Any) -> np.ndarray:
+    """Where all vertices are in the browser, shape [V, 3]."""
+    text = page.execute_script(
+        f"const bytes = new Uint8Array({VIEWER}.drawing.scene.positions.slice().buffer);"
+        " let text = ''; for (const byte of bytes) text += String.fromCharCode(byte);"
+        " return btoa(text)"
+    )
+    return np.frombuffer(base64.b64decode(text), np.float32).reshape(-1, 3)
+
+
+def canvas(page: Any) -> Any:
+    return page.find_element(By.CSS_SELECTOR, ".viewer-canvas")
+
+
+def picture(page: Any) -> np.ndarray:
+    """The canvas's pixels, shape [H, W, 4]."""
+    url = ask(page, "snapshot()")
+    return np.asarray(Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2]))))
+
+
+def press(page: Any, key: str, seconds: float) -> None:
+    ActionChains(page).key_down(key).pause(seconds).key_up(key).perform()
+
+
+def shows(page: Any, text: str) -> bool:
+    return text in page.find_element(By.CSS_SELECTOR, ".viewer").text
+
+
+def test_it_waves_and_says_how_often(page: Any) -> None:
+    before = positions(page)
+    wait_until(lambda: np.abs(positions(page) - before).max() > 0.02)
+    rate = wait_until(
+        lambda: (
+            (found := int(page.find_element(By.CSS_SELECTOR, ".viewer-rate").text.split()[0])) > 5
+            and found
+        )
+    )
+    print(f"{rate} frames/s")
+    assert console_errors(page) == []
+
+
+def test_keys_steer_the_wind(page: Any) -> None:
+    canvas(page).send_keys("")
+    heading = ask(page, "wind")[1]
+    press(page, "a", 0.5)
+    wait_until(lambda: abs(ask(page, "wind")[1] - heading) > 30)
+    press(page, "e", 0.4)
+    wait_until(lambda: ask(page, "wind")[0] > 5)
+    speed = page.find_element(By.CSS_SELECTOR, "#panel-motion .control-value")
+    wait_until(lambda: float(speed.text.split()[0]) > 5)
+    page.execute_script("document.activeElement.blur()")
+    press(page, Keys.SPACE, 0.0)
+    wait_until(lambda: shows(page, "no wind"))
+    press(page, Keys.SPACE, 0.0)
+    wait_until(lambda: not shows(page, "no wind"))
+
+
+def test_keys_of_a_text_are_no_wind(page: Any) -> None:
+    wind = ask(page, "wind")
+    field = page.find_element(By.CSS_SELECTOR, "#panel-patterns input")
+    field.send_keys("weak sea")
+    assert field.get_attribute("value") == "weak sea"
+    assert ask(page, "wind") == wind and not ask(page, "hands.held.size")
+
+
+def test_a_point_of_the_cloth_follows_the_mouse(page: Any) -> None:
+    press(page, Keys.SPACE, 0.0)
+    wait_until(lambda: shows(page, "no wind"))
+    page.find_element(By.CSS_SELECTOR, '[aria-label="Back to rest"]').click()
+    wait_until(lambda: ask(page, "time") < 0.5)
+    x, y = seen_at(page, flag(page)[np.argmax(flag(page) @ [1, -1, 0])])
+    free = (x + 60, y - 90)  # beside the flag, where nothing hangs
+    assert gap(page, free) > 0.15
+    hand = ActionChains(page)
+    hand.move_to_element_with_offset(canvas(page), *from_middle(page, (x - 8, y - 8)))
+    hand.click_and_hold()
+    for _ in range(4):
+        hand.move_by_offset(17, -20)
+    hand.perform()
+    assert ask(page, "hands.pulling") is True
+    wait_until(lambda: gap(page, free) < 0.06)
+    ActionChains(page).release().perform()
+    assert ask(page, "hands.pulling") is False
+    wait_until(lambda: gap(page, free) > 0.1)
+
+
+def test_the_background_is_walked_round(page: Any) -> None:
+    azimuth = ask(page, "azimuth()")
+    hand = ActionChains(page)
+    hand.move_to_element_with_offset(canvas(page), *from_middle(page, (20, 300)))
+    hand.click_and_hold().move_by_offset(100, 0).release().perform()
+    assert ask(page, "azimuth()") == pytest.approx(azimuth - math.degrees(0.75), abs=1)
+    assert ask(page, "hands.pulling") is False
+    hand.double_click().perform()
+    assert ask(page, "azimuth()") == pytest.approx(azimuth, abs=0.1)
+
+
+def flag(page: Any) -> np.ndarray:
+    first, count = ask(page, "drawing.scene.header.grip")[0]
+    return positions(page)[first : first + count]
+
+
+def seen_at(page: Any, point: np.ndarray) -> tuple[float, float]:
+    """Where a point is seen from straight before it [CSS pixels of the canvas]."""
+    box, camera = canvas(page).size, ask(page, "cameras[0]")
+    scale = box["height"] / camera["height"]
+    right, up = (point[:2] - camera["target"][:2]) * scale
+    return box["width"] / 2 + right, box["height"] / 2 - up
+
+
+def from_middle(page: Any, at: tuple[float, float]) -> tuple[int, int]:
+    box = canvas(page).size
+    return round(at[0] - box["width"] / 2), round(at[1] - box["height"] / 2)
+
+
+def gap(page: Any, at: tuple[float, float]) -> float:
+    """How far the nearest vertex of the cloth is from a line of sight [m]."""
+    ray = np.array(ask(page, f"ray({at[0]}, {at[1]})")).reshape(3, 3)
+    away = flag(page) - ray[0]
+    along = ray[1] / np.linalg.norm(ray[1])
+    return float(np.linalg.norm(np.cross(away, along), axis=1).min())
+
+
+def choose(page: Any, label: str, text: str) -> None:
+    """Take one of a list."""
+    page.find_element(By.CSS_SELECTOR, f'input[aria-label="{label}"]').click()
+    option = wait_until(
+        lambda: [
+            item
+            for item in page.find_elements(By.CSS_SELECTOR, ".q-menu .q-item")
+            if item.text.startswith(text)
+        ]
+    )
+    page.execute_script("arguments[0].click()", option[0])  # the list may still be unfolding
+
+
+def test_scenes_are_played_and_left_again(page: Any) -> None:
+    panes = "return document.querySelectorAll('.viewer-labels > div').length"
+    choose(page, "Scene", "fold")
+    wait_until(lambda: page.execute_script(panes) == 2, 20)
+    assert shows(page, "as printed") and shows(page, "right sign")
+    before = positions(page)
+    wait_until(lambda: np.abs(positions(page) - before).max() > 1e-3)
+    choose(page, "Scene", "your banner")
+    wait_until(lambda: page.execute_script(panes) == 0)
+    assert console_errors(page) == []
+
+
+@pytest.mark.parametrize("view", ["Front", "Hero"])
+def test_it_looks_as_a_picture_does(page: Any, view: str) -> None:
+    reset, pause = (
+        page.find_element(By.CSS_SELECTOR, f'[aria-label="{label}"]')
+        for label in ("Back to rest", "Pause or go on")
+    )
+    wait_until(lambda: ask(page, "time") > 0.2)
+    reset.click()
+    wait_until(lambda: ask(page, "time") < 0.2)
+    wait_until(lambda: ask(page, "time") > 0.8)
+    pause.click()
+    wait_until(lambda: is_still(page))
+    page.find_element(By.CSS_SELECTOR, f'[aria-label="View: {view}"]').click()
+    wait_until(lambda: (ask(page, "cameras[0].height") is None) == (view == "Hero"))
+    box = canvas(page).size
+    time = math.floor(ask(page, "time") * 60 + 0.5) / 60 - 1e-6
+    own = draw(Banner(), time=time, view=view.lower(), size=(box["width"], box["height"])).pixels
+    seen = picture(page)
+    assert seen.shape == own.shape
+    shown = own[..., 3] > 0
+    assert shown.mean() > 0.1
+    off = np.abs(seen.astype(int) - own).max(axis=-1)
+    # A handful of pixels at edges round otherwise on the graphics card.
+    assert (off > 2).sum() < 0.01 * shown.sum(), (off > 2).sum()
+    assert np.median(off[shown]) == 0
+
+
+def is_still(page: Any) -> bool:
+    before = ask(page, "time")
+    page.execute_async_script("setTimeout(arguments[0], 120)")
+    return ask(page, "time") == before
