@@ -1,7 +1,10 @@
 """What is ordered becomes a file, by the code that the commands use; in a thread that can stop."""
 
+import os
+import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
@@ -174,6 +177,7 @@ class Export:
             raise StoppedError("the export was stopped")
 
     def _run(self) -> None:
+        _step_back()
         try:
             make(self.order, self.path, self._tell)
         except StoppedError:
@@ -236,6 +240,13 @@ class Exports:
             if self.current.state != "running":
                 self.current.path.unlink(missing_ok=True)
             self.current = None
+
+
+def _step_back() -> None:
+    """Let the live cloth go first. On Linux a thread has its own niceness, and its threads too."""
+    if sys.platform == "linux":
+        with suppress(OSError):
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 5)
 
 
 MAX_RUNNING = 4

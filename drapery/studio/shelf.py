@@ -26,6 +26,11 @@ class Entry:
     on: bool = True
     summary: str = ""
 
+    @property
+    def title(self) -> str:
+        """The name without folders."""
+        return Path(self.name).name or self.name
+
 
 class Shelf:
     """The packs of one session, the lowest first; later ones win. It keeps `settings.packs`."""

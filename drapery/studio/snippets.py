@@ -18,7 +18,7 @@ KINDS = (*STILLS, "face", *LOOPS, "glb", "json")
 PICTURE_OPTIONS = tuple(field.name for field in fields(Settings))
 MODEL_OPTIONS = (
     *("packs", "format", "kind", "texture", "pose", "placement", "rotation", "facing"),
-    *("view", "grid", "wind", "time", "seed", "thickness"),
+    *("view", "grid", "solver", "wind", "time", "seed", "thickness"),
 )
 """Options of `drapery model`; the others mean nothing in a 3-D file."""
 FACE_OPTIONS = ("packs", "format")
@@ -123,7 +123,12 @@ def _flags(order: Order, called: Mapping[str, str]) -> Iterator[str]:
         elif isinstance(value, tuple):
             yield from (flag, "x".join(map(str, value)))
         else:
-            yield from (flag, str(value))
+            yield from (flag, plain(value))
+
+
+def plain(value: object) -> str:
+    """The value as a person writes it: 4.0 is 4, and nothing is rounded."""
+    return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
 
 
 def _quoted(word: str) -> str:

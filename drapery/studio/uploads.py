@@ -48,7 +48,7 @@ class Uploads:
     """The files of one session."""
 
     def __init__(self, session: Session) -> None:
-        self._session_closed = lambda: session.closed
+        self._session = session
         self._folder = session.folder
         self._kept: dict[int, Upload] = {}
         self._coming: dict[int, tuple[str, int]] = {}
@@ -69,7 +69,7 @@ class Uploads:
             raise
         finally:
             del self._coming[number]
-        if self._session_closed():
+        if self._session.closed:
             path.unlink(missing_ok=True)
             raise DesignError(f"{shown}: the page is gone; open it again")
         self._kept[number] = Upload(number, purpose, shown, path, size)

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -108,9 +109,9 @@ def _options(session: Session, choice: Choice) -> Callable[[], None]:
             _number(fields, "Pixels a texel", choice, "scale", (1, MAX_SCALE), int)
         with _only(groups, lambda: choice.kind in PICTURES | {"glb"}):
             _pick(session, fields, "View", "view", VIEW_WORDS, str)
-            _own(session, fields, "Gusts, by number", "seed", (0, 2**32 - 1), int)
+            _own(session, fields, "Gusts (seed)", "seed", (0, 2**32 - 1), int)
         with _only(groups, lambda: choice.kind == "png"):
-            _own(session, fields, "After so long [s]", "time", (0, 3600), float)
+            _own(session, fields, "Seconds in the wind", "time", (0, 3600), float)
         with _only(groups, lambda: choice.kind in PICTURES):
             _pick(session, fields, "Edges", "samples", SAMPLES, int)
             _pick(session, fields, "Pixel art", "pixel", PIXELS, int)
@@ -132,14 +133,18 @@ def _only(groups: Groups, counts: Callable[[], bool]) -> Iterator[None]:
     groups.append((group, counts))
 
 
+Bounds = tuple[float, float]
+Kind = type[int] | type[float]
+
+
 def _sides(session: Session, fields: Fields) -> None:
-    size = lambda: session.settings.size  # noqa: E731
-    resize = lambda *sides: session.adjust(size=sides)  # noqa: E731
-    bounds = (1, MAX_SIDE)
-    fields.number("Width", bounds, lambda: size()[0], lambda width: resize(int(width), size()[1]))
-    fields.number(
-        "Height", bounds, lambda: size()[1], lambda height: resize(size()[0], int(height))
-    )
+    def resize(place: int, side: float) -> None:
+        width, height = session.settings.size
+        session.adjust(size=(int(side), height) if place == 0 else (width, int(side)))
+
+    for place, label in enumerate(("Width", "Height")):
+        get = partial(lambda place: session.settings.size[place], place)
+        fields.number(label, (1, MAX_SIDE), get, partial(resize, place))
 
 
 def _times(choice: Choice, fields: Fields) -> None:
@@ -148,30 +153,29 @@ def _times(choice: Choice, fields: Fields) -> None:
 
 
 def _number(
-    fields: Fields,
-    label: str,
-    choice: Choice,
-    name: str,
-    bounds: tuple[float, float],
-    kind: type[int] | type[float],
+    fields: Fields, label: str, choice: Choice, name: str, bounds: Bounds, kind: Kind
 ) -> None:
-    get = lambda: getattr(choice, name)  # noqa: E731
-    step = "1" if kind is int else "any"
-    fields.number(label, bounds, get, lambda value: choice.set(**{name: kind(value)}), step)
+    """A number of the file alone."""
+
+    def change(number: float) -> None:
+        choice.set(**{name: kind(number)})
+
+    fields.number(label, bounds, partial(getattr, choice, name), change, _step(kind))
 
 
 def _own(
-    session: Session,
-    fields: Fields,
-    label: str,
-    option: str,
-    bounds: tuple[float, float],
-    kind: type[int] | type[float],
+    session: Session, fields: Fields, label: str, option: str, bounds: Bounds, kind: Kind
 ) -> None:
     """A number that is an option of the picture."""
-    get = lambda: getattr(session.settings, option)  # noqa: E731
-    step = "1" if kind is int else "any"
-    fields.number(label, bounds, get, lambda n: session.adjust(**{option: kind(n)}), step)
+
+    def change(number: float) -> None:
+        session.adjust(**{option: kind(number)})
+
+    fields.number(label, bounds, lambda: getattr(session.settings, option), change, _step(kind))
+
+
+def _step(kind: Kind) -> str:
+    return "1" if kind is int else "any"
 
 
 def _pick(
@@ -183,8 +187,11 @@ def _pick(
     kind: type[int] | type[str],
 ) -> None:
     """An option of the picture that is one of several."""
-    get = lambda: str(getattr(session.settings, option))  # noqa: E731
-    fields.choice(label, names, get, lambda name: session.adjust(**{option: kind(name)}))
+
+    def change(name: str) -> None:
+        session.adjust(**{option: kind(name)})
+
+    fields.choice(label, names, lambda: str(getattr(session.settings, option)), change)
 
 
 def _ground(session: Session, choice: Choice, fields: Fields, groups: Groups) -> None:
@@ -289,7 +296,7 @@ def _copies(session: Session, choice: Choice) -> Callable[[], None]:
     """The link, the command and the lines of Python; the callable writes them anew."""
     request = ui.context.client.request
     base = str(request.base_url) if request is not None else "/"
-    link = copy_field("share-link", "Link to the whole design, without packs", 2)
+    link = copy_field("share-link", "Link to this design (packs stay here)", 2)
     command = copy_field("as-command", "Command that makes this file", 3)
     python = copy_field("as-python", "Python that makes this file", 5)
 

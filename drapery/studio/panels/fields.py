@@ -13,6 +13,7 @@ from nicegui.element import Element
 
 from drapery.studio.components import value_of
 from drapery.studio.notices import faults
+from drapery.studio.snippets import plain
 from drapery.studio.widgets import button, words
 
 Get = Callable[[], Any]
@@ -51,7 +52,7 @@ class Fields:
             if _is_number(text):
                 change(float(text))
 
-        self._field(label, "input", kind, "value", lambda: f"{get():g}", changed)
+        self._field(label, "input", kind, "value", lambda: plain(get()), changed)
 
     def choice(self, label: str, options: Mapping[str, str], get: Get, change: Change) -> None:
         """One of several, by their names."""

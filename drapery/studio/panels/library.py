@@ -240,15 +240,20 @@ class Shelves:
         """A dialog for title and tags."""
         wanted = {"title": design.title, "tags": ", ".join(design.tags)}
 
-        async def keep() -> None:
+        def change(library: "Library") -> bool:
             sketch = replace(design.sketch, title=wanted["title"].strip())
-            changed = replace(design, sketch=sketch, tags=_split(wanted["tags"]))
-            if await self._do(lambda library: library.change(changed) or True):
+            library.change(replace(design, sketch=sketch, tags=_split(wanted["tags"])))
+            return True
+
+        async def keep() -> None:
+            if await self._do(change):
                 dialog.close()
                 await self._refresh()
 
         def line(label: str, name: str, most: int) -> None:
-            take = lambda text: wanted.update({name: str(text)})  # noqa: E731
+            def take(text: object) -> None:
+                wanted[name] = str(text)
+
             fields.line(label, lambda: wanted[name], take, maxlength=most)
 
         with ui.dialog() as dialog, ui.element("div").classes("studio-dialog"):

@@ -1,6 +1,7 @@
 """Resource packs: dropped here, put in order, switched, and seen side by side."""
 
 from collections.abc import Callable
+from functools import partial
 from itertools import count
 
 from nicegui import run, ui
@@ -24,7 +25,7 @@ def build(session: Session) -> None:
 
     async def take(number: int) -> None:
         try:
-            summary = await run.io_bound(shelf.check, number)
+            summary = await run.io_bound(shelf.check, number) or ""
             entry = shelf.adopt(number, summary)
         except DraperyError as error:
             shelf.refuse(number)
@@ -48,15 +49,15 @@ def _list(session: Session, shelf: Shelf) -> None:
                 with ui.element("li").classes("pack").props(f"data-pack={entry.number}"):
                     _row(session, shelf, entry)
             with ui.element("li").classes("pack"):
-                _name(OWN_ART, "beneath all others")
+                _name(OWN_ART, OWN_ART, "beneath all others")
 
     entries()
     session.listen("packs", entries.refresh)
 
 
-def _name(name: str, summary: str) -> None:
+def _name(title: str, name: str, summary: str) -> None:
     with ui.element("div").classes("pack-name"):
-        words(name).props.update({"title": name})
+        words(title).props.update({"title": name})
         words(summary).classes("hint")
 
 
@@ -70,23 +71,23 @@ def _row(session: Session, shelf: Shelf, entry: Entry) -> None:
             session.tell("packs")
 
     switch = ui.element("input").props("type=checkbox")
-    switch.props.update({"checked": entry.on, "aria-label": f"Use {entry.name}"})
+    switch.props.update({"checked": entry.on, "aria-label": f"Use {entry.title}"})
     switch.on("change", lambda: act(lambda: shelf.switch(entry.number)))
-    _name(entry.name, entry.summary)
+    _name(entry.title, entry.name, entry.summary)
     acts: tuple[tuple[str, str, Callable[[], None]], ...] = (
         ("arrow_upward", "Higher", lambda: shelf.move(entry.number, 1)),
         ("arrow_downward", "Lower", lambda: shelf.move(entry.number, -1)),
         ("close", "Remove", lambda: shelf.remove(entry.number)),
     )
     for icon, label, call in acts:
-        button(f"{label}: {entry.name}", lambda call=call: act(call), icon=icon).classes("small")
+        button(f"{label}: {entry.title}", partial(act, call), icon=icon).classes("small")
 
 
 def _comparison(session: Session, shelf: Shelf) -> None:
     version, other = count(), NOBODY
 
     def choices() -> dict[str, str]:
-        packs = {str(entry.number): entry.name for entry in reversed(shelf.entries)}
+        packs = {str(entry.number): entry.title for entry in reversed(shelf.entries)}
         return {NOBODY: "nothing", "own": OWN_ART} | packs
 
     def choose(name: str) -> None:
