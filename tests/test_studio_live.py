@@ -536,5 +536,18 @@ def test_a_hidden_viewer_costs_nothing(client: Any) -> None:
         socket.send_json({"hidden": False})
         wait_for(lambda: stage.moving)
         moments(socket, 2)
+
+
+def test_a_tab_that_closes_ends_its_sockets(client: Any) -> None:
+    from starlette.websockets import WebSocketDisconnect
+
+    session = open_session(SETTINGS, sketch_of(DESIGN))
+    stage = stage_of(session)
+    with client.websocket_connect(f"/live/{session.token}") as socket:
+        socket.send_json(SHAPE)
+        moments(socket, 2)
         session.close()
         wait_for(lambda: not stage.moving)
+        with pytest.raises(WebSocketDisconnect) as caught:
+            moments(socket, 100)
+        assert caught.value.code == UNKNOWN

@@ -29,7 +29,7 @@ from drapery.studio.sketch import banner_of
 
 BEHIND = 4
 """Ticks that are caught up at once; what is further behind is left out, and time runs slower."""
-THREADS = 2
+THREADS = 4
 FIRST = 2.0
 """How long the cloth waits for its first picture to be seen [s]."""
 LONGEST = 60.0
@@ -73,7 +73,7 @@ class Stage:
 
     version: counts what can be seen. fault: why the last change did not come about; "" where it
     did. note: what takes a while. size: of the viewer [pixels]. viewers: how many are connected,
-    hidden ones too.
+    hidden ones too. closed: whether its tab is gone.
     """
 
     def __init__(self, session: Session) -> None:
@@ -83,6 +83,7 @@ class Stage:
         self.note = ""
         self.size = (640, 480)
         self.viewers = 0
+        self.closed = False
         self._session = session
         self._live: Live | None = None
         self._player: Player | None = None
@@ -97,6 +98,7 @@ class Stage:
         self._owed = 0.0
         self._lock = threading.Lock()
         self._picture: tuple[int, Shown | None] = (-1, None)
+        self._beside: tuple[object, Packs] | None = None
         for event in ("sketch", "settings", "packs"):
             session.listen(event, self._spoil)
         session.on_close(self.close)
@@ -108,8 +110,7 @@ class Stage:
         """
         before, after = self.wishes, replace(self.wishes, **options)
         Breeze(0.0, after.turned, after.gusts)
-        if after.beside is not None and after.beside != before.beside:
-            _opened(after.beside, self._session.settings.format)
+        self._open_beside(after.beside)
         self.wishes = after
         self._spoil()
         if after.scene != before.scene:
@@ -147,7 +148,7 @@ class Stage:
     def enter(self) -> None:
         """Somebody looks: it begins to move."""
         self._lookers += 1
-        if self._task is None:
+        if self._task is None and not self.closed:
             self._task = asyncio.get_running_loop().create_task(self._run(), name="live cloth")
 
     def leave(self) -> None:
@@ -158,7 +159,10 @@ class Stage:
 
     def close(self) -> None:
         """The tab is gone."""
+        self.closed = True
         self._stop()
+        self.version += 1
+        self._wake()
         _STAGES.pop(self._session.token, None)
         self._live = self._player = None
         self._told.clear()
@@ -190,6 +194,16 @@ class Stage:
         if self._player is not None:
             return self._player.now
         return self._live.shown() if self._live is not None else None
+
+    def _open_beside(self, paths: tuple[str | Path, ...] | None) -> Packs | None:
+        """The packs beside those of the settings, opened once for as long as they stay."""
+        if paths is None:
+            self._beside = None
+            return None
+        key = paths, self._session.settings.format
+        if self._beside is None or self._beside[0] != key:
+            self._beside = key, open_packs(paths, format=key[1])
+        return self._beside[1]
 
     def _stop(self) -> None:
         if self._task is not None:
@@ -307,7 +321,7 @@ class Stage:
                 player.step()
                 self._player = player
         settings, packs = session.settings, session.packs()
-        beside = None if wishes.beside is None else _opened(wishes.beside, settings.format)
+        beside = self._open_beside(wishes.beside)
         design = _design(session)
         if self._live is None:
             self._live = Live(design, packs, settings)
@@ -322,11 +336,6 @@ class Stage:
 def _design(session: Session) -> Banner | None:
     """What the sketch shows; nothing where a texture is worn instead."""
     return None if session.settings.texture is not None else banner_of(session.sketch)
-
-
-@cache
-def _opened(paths: tuple[str | Path, ...], format: int | None) -> Packs:
-    return open_packs(paths, format=format)
 
 
 _STAGES: dict[str, Stage] = {}

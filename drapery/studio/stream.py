@@ -56,6 +56,9 @@ class Viewer:
         while True:
             await self._credit()
             await self.stage.after(seen)
+            if self.stage.closed:
+                await socket.close(UNKNOWN)
+                return
             seen = self.stage.version
             line = self.stage.fault or self.stage.note
             if line != self._line:
