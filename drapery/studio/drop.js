@@ -11,11 +11,34 @@ export default {
       <progress v-if="busy" class="drop-progress" max="1" :value="share"
                 :aria-label="'Sending ' + sending"></progress>
     </div>`,
-  props: { address: String, label: String, accept: String, multiple: Boolean, most: Number },
+  props: {
+    address: String, label: String, accept: String, multiple: Boolean, most: Number,
+    // The tab to turn to where files of these endings are dropped elsewhere on the page.
+    tab: String,
+  },
   data() {
     return { over: false, busy: false, share: 0, sending: "" };
   },
+  mounted() {
+    if (!this.tab) return;
+    this.catch = (event) => this.catches(event);
+    document.addEventListener("drop", this.catch, true);
+  },
+  beforeUnmount() {
+    if (this.tab) document.removeEventListener("drop", this.catch, true);
+  },
   methods: {
+    catches(event) {
+      const files = [...(event.dataTransfer?.files ?? [])];
+      const endings = this.accept.split(",").filter((each) => each.startsWith("."));
+      const wanted = files.filter((file) => endings.some((each) => file.name.toLowerCase().endsWith(each)));
+      if (!wanted.length || event.target.closest?.(".drop")) return;
+      event.preventDefault();
+      event.stopPropagation();
+      document.body.classList.remove("dropping");
+      window.studio?.tab(this.tab);
+      this.send(wanted);
+    },
     choose(event) {
       const files = [...event.target.files];
       event.target.value = "";

@@ -14,7 +14,8 @@ class Drop(ui.element, component="drop.js"):
     """A field that can be clicked, reached by Tab and dropped on.
 
     purpose: one of PURPOSES. take: is called with the number of each file that came in whole;
-    what was refused is told to the user here. endings: as `.zip,.jar`; "" is any.
+    what was refused is told to the user here. endings: as `.zip,.jar`; "" is any. tab: the
+    panel to turn to for files of these endings that are dropped anywhere; "" leaves them alone.
     """
 
     def __init__(
@@ -26,12 +27,14 @@ class Drop(ui.element, component="drop.js"):
         *,
         endings: str = "",
         multiple: bool = False,
+        tab: str = "",
     ) -> None:
         super().__init__()
         self._props["address"] = f"/upload/{session.token}/{purpose}"
         self._props["label"] = label
         self._props["accept"] = endings
         self._props["multiple"] = multiple
+        self._props["tab"] = tab
         self._props["most"] = PURPOSES[purpose].most
 
         async def sent(event: Any) -> None:

@@ -279,6 +279,8 @@ class Shelves:
             button("Put the design back", lambda: self._put_back(gone), text="Put it back")
         self._undo.set_visibility(True)
         await self._refresh()
+        # What was pressed is gone; whoever uses keys goes on from here.
+        ui.run_javascript("document.querySelector('.undo button')?.focus()")
 
     async def _put_back(self, gone: "Design") -> None:
         if await self._do(lambda library: library.add(gone)):

@@ -1,7 +1,6 @@
 """Resource packs: dropped here, put in order, switched, and seen side by side."""
 
 from collections.abc import Callable
-from functools import partial
 from itertools import count
 
 from nicegui import run, ui
@@ -35,7 +34,8 @@ def build(session: Session) -> None:
 
     words("Resource packs", "h2").classes("heading")
     label = "Drop packs here, or choose them (.zip, .jar)"
-    Drop(session, "pack", label, take, endings=".zip,.jar,application/zip", multiple=True)
+    endings = ".zip,.jar,application/zip"
+    Drop(session, "pack", label, take, endings=endings, multiple=True, tab="packs")
     _list(session, shelf)
     words("Side by side", "h2").classes("heading")
     _comparison(session, shelf)
@@ -80,7 +80,17 @@ def _row(session: Session, shelf: Shelf, entry: Entry) -> None:
         ("close", "Remove", lambda: shelf.remove(entry.number)),
     )
     for icon, label, call in acts:
-        button(f"{label}: {entry.title}", partial(act, call), icon=icon).classes("small")
+
+        def press(label: str = label, call: Callable[[], None] = call) -> None:
+            act(call)
+            _focus(f'[data-pack="{entry.number}"] [aria-label^="{label}"]')
+
+        button(f"{label}: {entry.title}", press, icon=icon).classes("small")
+
+
+def _focus(selector: str) -> None:
+    """Back to what was pressed, which has been drawn anew."""
+    ui.run_javascript(f"setTimeout(() => document.querySelector(`{selector}`)?.focus(), 60)")
 
 
 def _comparison(session: Session, shelf: Shelf) -> None:
