@@ -47,6 +47,12 @@ def canvas(page: Any) -> Any:
     return page.find_element(By.CSS_SELECTOR, ".viewer-canvas")
 
 
+def frame_rate(page: Any) -> int:
+    """What the viewer says of itself [frames/s]; 0 before it has counted."""
+    shown = page.find_element(By.CSS_SELECTOR, ".viewer-rate").text.split()
+    return int(shown[0]) if shown else 0
+
+
 def picture(page: Any) -> np.ndarray:
     """The canvas's pixels, shape [H, W, 4]."""
     url = ask(page, "snapshot()")
@@ -64,12 +70,7 @@ def shows(page: Any, text: str) -> bool:
 def test_it_waves_and_says_how_often(page: Any) -> None:
     before = positions(page)
     wait_until(lambda: np.abs(positions(page) - before).max() > 0.02)
-    rate = wait_until(
-        lambda: (
-            (found := int(page.find_element(By.CSS_SELECTOR, ".viewer-rate").text.split()[0])) > 5
-            and found
-        )
-    )
+    rate = wait_until(lambda: (found := frame_rate(page)) > 5 and found)
     print(f"{rate} frames/s")
     assert console_errors(page) == []
 

@@ -43,6 +43,8 @@ from drapery.style.kinds import body_of
 
 SHADOW_TICKS = 6
 """A contact shadow is drawn anew after so many ticks."""
+SWINGS = ((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7))
+"""How far cloth in a breeze goes from where it hangs: to both sides, and out to the front [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,13 +68,15 @@ class Sheet:
 class Live:
     """A body in the wind.
 
-    breeze: what blows. pins: what of the cloth is held; None is the body's own choice.
+    breeze: what blows. pins: what of the cloth is held; None is the body's own choice. roomy:
+    whether its views leave room for what it may do next; else they are those of pictures.
     """
 
     def __init__(self, design: Banner | None, packs: Packs, settings: Settings) -> None:
         self.breeze = Breeze(settings.wind, seed=settings.seed)
         self.pins: PinName | None = None
         self.ticks = 0
+        self.roomy = False
         self._settings = settings
         self._cuts = 0
         self._disturbed = False
@@ -230,7 +234,14 @@ class Live:
         )
 
     def _framing(self, meshes: list[Mesh]) -> "_Framing":
-        return _Framing(self._settings.view, tuple(meshes), self._body.camera)
+        points = [mesh.positions for mesh in meshes]
+        if self.roomy and self._settings.pose == "cloth":
+            points += [
+                self._placed(sheet, sheet.hanging.whole.rest_positions + swing)
+                for sheet in self._sheets
+                for swing in np.array(SWINGS)
+            ]
+        return _Framing(self._settings.view, tuple(points), self._body.camera)
 
     def _shadow_of(self, models: list[Model]) -> Model:
         if self._shadow is None or abs(self.ticks - self._shadow[0]) >= SHADOW_TICKS:
@@ -320,14 +331,13 @@ class _Framing:
     """A camera for pictures of any shape."""
 
     view: str
-    meshes: tuple[Mesh, ...]
+    points: tuple[Array, ...]
     own: Camera | None
 
     def __call__(self, aspect: float) -> Camera:
         if self.own is not None:
             return self.own
-        points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in self.meshes])
-        return frame_view(self.view, points, aspect)
+        return frame_view(self.view, np.concatenate(self.points), aspect)
 
 
 def _light(body: Body, settings: Settings) -> Light:

@@ -30,6 +30,8 @@ from drapery.studio.sketch import banner_of
 BEHIND = 4
 """Ticks that are caught up at once; what is further behind is left out, and time runs slower."""
 THREADS = 4
+LONG = 0.8
+"""A turn that takes longer is one to be told of [s]."""
 FIRST = 2.0
 """How long the cloth waits for its first picture to be seen [s]."""
 LONGEST = 60.0
@@ -114,7 +116,7 @@ class Stage:
         self.wishes = after
         self._spoil()
         if after.scene != before.scene:
-            self.note = f"{after.scene} is being prepared" if after.scene else ""
+            self.note = f"The scene {after.scene} is getting ready." if after.scene else ""
             self._session.tell("scene")
             self.version += 1
             self._wake()
@@ -237,7 +239,7 @@ class Stage:
             if self._picture[1] is None and clock() < patience:
                 ticks = 0  # the first picture need not wait for the kernels
             fault, version = self.fault, self.version
-            await in_thread(partial(self._turn, ticks))
+            await self._patiently(partial(self._turn, ticks))
             if self.version != version:
                 self._wake()
             if self.fault != fault or (not self._keys and self._has_steered()):
@@ -261,6 +263,22 @@ class Stage:
         """Let those who wait for something new go on."""
         self._pulse.set()
         self._pulse = asyncio.Event()
+
+    async def _patiently(self, call: Callable[[], None]) -> None:
+        """Make a turn in a thread; what takes long, as kernels do the first time, is told."""
+        turn = asyncio.ensure_future(in_thread(call))
+        try:
+            done, _ = await asyncio.wait({turn}, timeout=LONG)
+            if not done and not self.note:
+                self.note = "One moment: what is used for the first time has to get ready."
+                self.version += 1
+                self._wake()
+                await turn
+                self.note = ""
+                self.version += 1
+            await turn
+        finally:
+            turn.cancel()
 
     def _has_steered(self) -> bool:
         """Whether keys have made another wind; it is then what is wished for."""
@@ -297,6 +315,8 @@ class Stage:
             self.version += 1
 
     def _move(self, ticks: int) -> bool:
+        if self._live is not None:
+            self._live.roomy = not self.wishes.paused
         if self.wishes.paused or ticks <= 0:
             return False
         if self._player is None:
