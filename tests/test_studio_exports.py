@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -11,7 +11,8 @@ from drapery.banner.design import Banner, Layer
 from drapery.errors import DraperyError, OptionError
 from drapery.settings import Settings
 from drapery.studio import exports
-from drapery.studio.exports import Export, count_frames, make
+from drapery.studio.exports import Export, count_frames, exports_of, make, stem_of
+from drapery.studio.session import Session
 from drapery.studio.snippets import KINDS, Order, file_name
 
 BANNER = Banner("red", (Layer("creeper", "lime"), Layer("gradient", "blue")))
@@ -138,3 +139,68 @@ def test_orders_out_of_bounds_are_refused(order: Order, tmp_path: Path) -> None:
         make(order, tmp_path / "x.png")
     assert "\n" not in str(fault.value)
     assert [*tmp_path.iterdir()] == []
+
+
+@pytest.fixture
+def session() -> Iterator[Session]:
+    opened = Session()
+    yield opened
+    opened.close()
+
+
+LONG = Order(BANNER, Settings(size=(128, 128)), "apng", seconds=60.0)
+
+
+def test_a_second_export_takes_the_place_of_the_first(session: Session) -> None:
+    own = exports_of(session)
+    first = own.start(LONG)
+    second = own.start(order_of("json"), "flag")
+    assert first.wait(20) and second.wait(20)
+    assert (first.state, second.state, second.name) == ("stopped", "done", "flag.json")
+    assert own.finished(2) is second and own.finished(1) is None
+    assert [path.name for path in session.folder.iterdir()] == ["export-2.json"]
+    own.start(order_of("face")).wait(20)
+    assert [path.name for path in session.folder.iterdir()] == ["export-3.png"]
+
+
+def test_a_tab_that_closes_stops_its_export() -> None:
+    session = Session()
+    work, folder = exports_of(session).start(LONG), session.folder
+    session.close()
+    assert work.wait(20) and not folder.exists()
+
+
+def test_so_many_at_once_and_no_more(session: Session) -> None:
+    others = [Session() for _ in range(exports.MAX_RUNNING)]
+    work = [exports_of(other).start(LONG) for other in others]
+    with pytest.raises(OptionError, match="under way"):
+        exports_of(session).start(order_of("json"))
+    # Whoever has one may have another instead of it.
+    work.append(exports_of(others[0]).start(LONG))
+    for other in others:
+        other.close()
+    assert all(each.wait(20) for each in work)
+    assert exports_of(session).start(order_of("json")).wait(20)
+
+
+@pytest.mark.parametrize("kind", ["exe", "../x", "png/../../x", ""])
+def test_no_order_names_a_file(session: Session, kind: str) -> None:
+    with pytest.raises(OptionError):
+        exports_of(session).start(Order(BANNER, LOOK, kind))
+    assert exports_of(session).current is None
+
+
+@pytest.mark.parametrize(
+    ("title", "stem"),
+    [
+        ("Lime Ghost!", "lime-ghost"),
+        ("../../etc/passwd", "etc-passwd"),
+        ("Żółw 2", "żółw-2"),
+        ("", "banner"),
+        ("...", "banner"),
+        ("\r\nSet-Cookie: x", "set-cookie-x"),
+        ("x" * 80, "x" * 60),
+    ],
+)
+def test_files_are_named_by_the_title(title: str, stem: str) -> None:
+    assert stem_of(title) == stem

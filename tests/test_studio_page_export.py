@@ -7,6 +7,7 @@ import re
 import socket
 from base64 import b64encode
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -321,7 +322,7 @@ def test_the_library_keeps_finds_and_opens(page: Page, downloads: Path, tmp_path
     wait_until(lambda: titles(other) == ["Zweite", "Lime Ghost"])
     other.click("library", "Delete Zweite")
     wait_until(lambda: titles(other) == ["Lime Ghost"])
-    other.click("library", "Put the design back")
+    other.click("library", "Put it back")
     wait_until(lambda: titles(other) == ["Zweite", "Lime Ghost"])
     status, dumped = fetch(page.studio, "GET", f"/library/{other.token}")
     assert status == 200 and len(json.loads(dumped)["designs"]) == 2
@@ -331,6 +332,28 @@ def test_the_library_keeps_finds_and_opens(page: Page, downloads: Path, tmp_path
     (tmp_path / "broken.json").write_text("{")
     drop(other, "library", tmp_path / "broken.json")
     other.notice("the file is no library")
+
+
+def test_no_text_becomes_code(page: Page, tmp_path: Path) -> None:
+    evil = '<img src=x onerror="window.hit = 1">{{7 * 191}}\'"'
+    link = write_link(replace(DESIGN, title=evil), Settings())
+    other = Page(page.driver, page.studio, f"?d={link}")
+    other.tab("library")
+    other.fill("library", "Tags", evil[:30] + "," + evil[-12:])
+    other.click("library", "Save")
+    other.notice("Saved <img")
+    wait_until(lambda: evil in titles(other))
+    other.click("library", f"Rename or tag {evil}")
+    other.click("", "Change nothing")
+    other.click("library", f"Delete {evil}")
+    wait_until(lambda: evil not in titles(other))
+    pack = zip_pack(tmp_path / "{{7 * 191}}<img src=x onerror=hit()>.zip", {META: mcmeta()})
+    drop(other, "packs", pack)
+    other.notice("{{7 * 191}}<img src=x onerror=hit()>.zip")
+    other.fill("packs", "Compare with", "1")
+    wait_until(lambda: other.run("return document.querySelectorAll('.versus img').length"))
+    assert "1337" not in other.run("return document.body.innerText")
+    assert other.run("return window.hit ?? null") is None
 
 
 def fetch(

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 from fastapi import Request
 from nicegui import Client, ui
@@ -56,7 +56,7 @@ PANELS = (
 
 FIRST_TAB = "patterns"
 
-house: "House"
+house = cast("House", None)
 """What the studio was started with; `app.make_app` sets it."""
 
 _DETAIL = "(event) => emit(event.detail)"

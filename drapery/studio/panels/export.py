@@ -32,6 +32,12 @@ KINDS = {
     "glb": "GLB, a 3-D model that waves",
     "json": "JSON, the design",
 }
+HINTS = {
+    "gif": "A GIF has no half transparency and at most 50 frames/s.",
+    "mp4": "A video has no transparency: without a background it lies on white.",
+    "glb": "The model has its own size and light; it loops in Blender and on the web.",
+    "face": "As banner sites show it, whatever the wind.",
+}
 PICTURES = frozenset({"png", *LOOPS})
 MOVING = frozenset({*LOOPS, "glb"})
 VIEW_WORDS = {name: name.capitalize() for name in VIEWS} | {"gui": "Item", "iso": "Corner"}
@@ -117,8 +123,11 @@ def _options(session: Session, choice: Choice) -> Callable[[], None]:
             _pick(session, fields, "Pixel art", "pixel", PIXELS, int)
         _ground(session, choice, fields, groups)
 
+    hint = words("", "p").classes("hint")
+
     def fit() -> None:
         fields.refresh()
+        hint.set_text(HINTS.get(choice.kind, ""))
         for group, counts in groups:
             group.set_visibility(counts())
 

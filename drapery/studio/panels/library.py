@@ -83,10 +83,12 @@ class Shelves:
                 lambda text: self._take(tags=str(text)),
             )
         with ui.element("div").classes("line"):
-            self._save = button("Save", self._save_open, icon="save", text="Save")
-            self._save.classes("primary")
+            self._save = button("Save", self._save_new, icon="save", text="Save")
+            self._over = button("Save changes", self._save_over, icon="save", text="Save changes")
             self._new = button("Save as a new design", self._save_new, text="Save as new")
-        self._new.set_visibility(False)
+        for each in (self._save, self._over):
+            each.classes("primary")
+        self._set_open(0)
 
     def _take(self, *, title: str | None = None, tags: str | None = None) -> None:
         self._title = self._title if title is None else title
@@ -190,7 +192,7 @@ class Shelves:
         edit.classes("small")
         gone.classes("small")
 
-    async def _save_open(self) -> None:
+    async def _save_over(self) -> None:
         await self._keep(self._open)
 
     async def _save_new(self) -> None:
@@ -201,27 +203,32 @@ class Shelves:
         sketch = replace(session.sketch, title=self._title.strip())
         look, packs, tags = session.settings, session.packs(), _split(self._tags)
 
-        def keep(library: "Library") -> int:
+        def keep(library: "Library") -> "tuple[int, Design | None]":
             from drapery.studio.library import Design
 
             picture = thumbnail(banner_of(sketch), packs)
             design = Design(sketch, look, tags, picture, number)
-            if number:
-                library.change(design)
-                return number
-            return library.add(design)
+            if not number:
+                return library.add(design), None
+            before = library.get(number)
+            library.change(design)
+            return number, before
 
         kept = await self._do(keep)
         if kept is None:
             return
         session.edit(sketch)
-        self._set_open(kept)
+        self._set_open(kept[0])
         tell(f"Saved {sketch.title or 'without a title'}")
+        if kept[1] is not None:
+            self._offer(f"Changed {_title(kept[1])}", "Keep the old one too", kept[1])
         await self._refresh()
 
     def _set_open(self, number: int) -> None:
         self._open = number
-        self._new.set_visibility(bool(number))
+        self._save.set_visibility(not number)
+        for each in (self._over, self._new):
+            each.set_visibility(bool(number))
 
     async def _open_design(self, number: int) -> None:
         design = await self._do(lambda library: library.get(number))
@@ -234,7 +241,8 @@ class Shelves:
         desk_of(session).lay_out(design.sketch)
         self._fields.refresh()
         self._set_open(number)
-        tell(f"Opened {design.title or 'a design without a title'}")
+        self._undo.set_visibility(False)
+        tell(f"Opened {_title(design)}")
 
     def _edit(self, design: "Design") -> None:
         """A dialog for title and tags."""
@@ -273,14 +281,18 @@ class Shelves:
             return
         if number == self._open:
             self._set_open(0)
-        self._undo.clear()
-        with self._undo:
-            words(f"Deleted {gone.title or 'a design without a title'}")
-            button("Put the design back", lambda: self._put_back(gone), text="Put it back")
-        self._undo.set_visibility(True)
+        self._offer(f"Deleted {_title(gone)}", "Put it back", gone)
         await self._refresh()
         # What was pressed is gone; whoever uses keys goes on from here.
         ui.run_javascript("document.querySelector('.undo button')?.focus()")
+
+    def _offer(self, line: str, offer: str, design: "Design") -> None:
+        """What has just been done, and a way to have the design as it was."""
+        self._undo.clear()
+        with self._undo:
+            words(line)
+            button(offer, lambda: self._put_back(design), text=offer)
+        self._undo.set_visibility(True)
 
     async def _put_back(self, gone: "Design") -> None:
         if await self._do(lambda library: library.add(gone)):
@@ -314,6 +326,10 @@ def thumbnail(banner: Banner, packs: Packs) -> bytes:
 
 def _split(text: str) -> tuple[str, ...]:
     return tuple(part.strip() for part in text.split(",") if part.strip())
+
+
+def _title(design: "Design") -> str:
+    return design.title or "a design without a title"
 
 
 def _counted(count: int, searched: bool) -> str:

@@ -23,6 +23,7 @@ def build(session: Session) -> None:
     shelf = shelf_of(session)
 
     async def take(number: int) -> None:
+        reading.set_text("Reading all its patterns …")
         try:
             summary = await run.io_bound(shelf.check, number) or ""
             entry = shelf.adopt(number, summary)
@@ -31,11 +32,14 @@ def build(session: Session) -> None:
             tell(str(error), "fault")
         else:
             tell(f"{entry.name}: {summary}")
+        finally:
+            reading.set_text("")
 
     words("Resource packs", "h2").classes("heading")
     label = "Drop packs here, or choose them (.zip, .jar)"
     endings = ".zip,.jar,application/zip"
     Drop(session, "pack", label, take, endings=endings, multiple=True, tab="packs")
+    reading = words("", "p").classes("hint").props("role=status")
     _list(session, shelf)
     words("Side by side", "h2").classes("heading")
     _comparison(session, shelf)
