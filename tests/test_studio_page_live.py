@@ -209,6 +209,18 @@ def test_it_looks_as_a_picture_does(page: Any, view: str) -> None:
     assert np.median(off[shown]) == 0
 
 
+def test_it_comes_back_when_the_graphics_card_does(page: Any) -> None:
+    page.find_element(By.CSS_SELECTOR, '[aria-label="Pause or go on"]').click()
+    wait_until(lambda: is_still(page))
+    before = picture(page)
+    lost = "drawing.gl.getExtension('WEBGL_lose_context')"
+    page.execute_script(f"window.loss = {VIEWER}.{lost}; loss.loseContext()")
+    wait_until(lambda: shows(page, "graphics card"))
+    page.execute_script("loss.restoreContext()")
+    wait_until(lambda: not shows(page, "graphics card"))
+    assert np.array_equal(picture(page), before)
+
+
 def is_still(page: Any) -> bool:
     before = ask(page, "time")
     page.execute_async_script("setTimeout(arguments[0], 120)")

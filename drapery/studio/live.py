@@ -83,6 +83,7 @@ class Live:
         self._keys: tuple[str, ...] = ()
         self._azimuth = 0.0
         self._sheets: list[Sheet] = []
+        self._captions: tuple[str, ...] = ("",)
         self._held: int | None = None
         self._shadow: tuple[int, Model] | None = None
         self._wind: Wind | None = None
@@ -100,12 +101,17 @@ class Live:
         return not self._disturbed and self.pins is None and self.breeze == own
 
     def wear(
-        self, design: Banner | None, packs: Packs, settings: Settings, beside: Packs | None = None
+        self,
+        design: Banner | None,
+        packs: Packs,
+        settings: Settings,
+        beside: Packs | None = None,
+        captions: tuple[str, str] = ("", ""),
     ) -> None:
         """Show this from now on; cloth that is made as before moves on undisturbed.
 
-        beside: other packs, to show the same design side by side in both. Raises OptionError or
-        PackError; nothing has changed then.
+        beside: other packs, to show the same design side by side in both, under captions. Raises
+        OptionError or PackError; nothing has changed then.
         """
         before = self._settings
         body = body_of(design, packs, settings)
@@ -113,6 +119,7 @@ class Live:
         sheets = self._rehung(body, settings)
         self._body, self._other, self._settings, self._sheets = body, other, settings, sheets
         self._parts = [_turned(part.mesh, settings) for part in body.parts]
+        self._captions = captions if other is not None else ("",)
         self._shadow = None
         # What keys have made of the wind stays, unless the settings ask for another.
         if (settings.wind, settings.seed) != (before.wind, before.seed):
@@ -209,7 +216,10 @@ class Live:
         worn = [self._looks(self._body)]
         if self._other is not None:
             worn.append(self._looks(self._other))
-        panes = tuple(Pane(self._scene(meshes, looks), self._framing(meshes)) for looks in worn)
+        panes = tuple(
+            Pane(self._scene(meshes, looks), self._framing(meshes), caption)
+            for looks, caption in zip(worn, self._captions, strict=True)
+        )
         under = int(self._settings.shadow)
         soft = self._settings.pose == "cloth"
         grip = frozenset(range(first + under, len(meshes) + under) if soft else ())

@@ -25,6 +25,7 @@ from drapery.studio.live import Live
 from drapery.studio.panes import Shown
 from drapery.studio.player import Player
 from drapery.studio.session import Session
+from drapery.studio.shelf import shelf_of
 from drapery.studio.sketch import banner_of
 
 BEHIND = 4
@@ -207,6 +208,12 @@ class Stage:
             self._beside = key, open_packs(paths, format=key[1])
         return self._beside[1]
 
+    def _captions(self) -> tuple[str, str]:
+        """What stands side by side."""
+        called = shelf_of(self._session).called
+        others = [called.get(str(path), str(path)) for path in self.wishes.beside or ()]
+        return "your packs", ", ".join(Path(name).name for name in others) or "our own art"
+
     def _stop(self) -> None:
         if self._task is not None:
             self._task.cancel()
@@ -310,7 +317,8 @@ class Stage:
             if stale:
                 self.fault = self.note = ""
         except DraperyError as error:
-            self.fault, self.note, moved = str(error), "", True
+            self.fault = shelf_of(self._session).in_plain_words(str(error))
+            self.note, moved = "", True
         if stale or inputs or moved:
             self.version += 1
 
@@ -345,7 +353,7 @@ class Stage:
         design = _design(session)
         if self._live is None:
             self._live = Live(design, packs, settings)
-        self._live.wear(design, packs, settings, beside)
+        self._live.wear(design, packs, settings, beside, self._captions())
         if wishes.pins != self._live.pins:
             self._live.hold(wishes.pins)
         breeze = replace(self._live.breeze, turned=wishes.turned, gusts=wishes.gusts, on=wishes.on)

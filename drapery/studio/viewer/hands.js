@@ -6,7 +6,10 @@ const STEERING = {
   KeyW: "w", KeyA: "a", KeyS: "s", KeyD: "d", KeyQ: "q", KeyE: "e",
   ArrowUp: "w", ArrowLeft: "a", ArrowDown: "s", ArrowRight: "d",
 };
-const WRITING = "input, textarea, select, [contenteditable=''], [contenteditable=true], [role=textbox]";
+const WRITING =
+  "input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=''],"
+  + " [contenteditable=true], [role=textbox], [role=combobox], [role=listbox]";
+const BEFORE = "dialog[open], .q-dialog, .q-menu"; // what lies over the page has the keys
 
 const viewers = new Set();
 
@@ -125,7 +128,7 @@ export class Hands {
       if (key && this.held.delete(key)) this.steer();
       return;
     }
-    if (event.target.closest?.(WRITING)) return;
+    if (event.defaultPrevented || event.target.closest?.(WRITING) || document.querySelector(BEFORE)) return;
     const elsewhere = !inside && event.target !== document.body;
     if (elsewhere && (event.code === "Space" || event.code.startsWith("Arrow"))) return;
     if (event.code === "Space") {
