@@ -29,7 +29,7 @@ def _sheet_filtered(g, other, filter_, sheet):
     sheet_kernels.filter_sheet(g, other, filter_, sheet)
 
 
-def velocities(cloth, lanes=2):
+def velocities(cloth, lanes=8):
     values = np.random.default_rng(0).normal(size=(len(cloth.inv_mass), 3, lanes))
     values[cloth.inv_mass == 0] = 0
     return values
@@ -61,7 +61,7 @@ def test_products_along_rows_and_columns_are_the_matrix(pins, factors, monkeypat
 @pytest.mark.parametrize("pins", PINS)
 def test_a_sheets_columns_solved_are_the_columns_multiplied(pins):
     cloth = grid(17, 12, 0.8, 1.6, pins=pins)
-    sheet, values = sheet_of(cloth, *wind_faces(cloth)), velocities(cloth, 1)
+    sheet, values = sheet_of(cloth, *wind_faces(cloth)), velocities(cloth)
     g = np.zeros((3, sheet.plane))
     lanes = np.arange(204) // 17 * sheet.width + np.arange(204) % 17
     g[:, lanes] = values[:, :, 0].T

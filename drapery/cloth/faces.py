@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from drapery.cloth.cloth import Cloth
 from drapery.mesh import Array
 
-SAMPLE_SPACING = 0.9
+SAMPLE_SPACING = 1.25
 """Most distance between samples of the wind on a grid [m]; gusts are wider."""
 
 

@@ -201,16 +201,17 @@ def sheet_filter(cloth: Cloth, dt: float, width: int) -> SheetFilter:
         for offset in range(3)
     ]
     near, far, inverse_diagonal = _pentadiagonal(*bands)
+    whole = -(-width // 16) * 16
     release = _release(V, U, _spectrum(cloth, r, c, dt), pins, hangs)
     held = _widened(release.T.reshape(-1, rows, columns), width)
     return SheetFilter(
-        _widened(_widened(U.T, width).T, width),
-        _widened(_widened(U, width).T, width),
-        _widened(near, width),
-        _widened(far, width),
-        _widened(inverse_diagonal, width),
+        _widened(_widened(U.T, width).T, whole),
+        _widened(_widened(U, width).T, whole),
+        _widened(near, whole),
+        _widened(far, whole),
+        _widened(inverse_diagonal, whole, 1.0),
         int(hangs),
-        held.reshape(len(held), rows * width),
+        _widened(held.reshape(len(held), rows * width), -(-rows * width // 16) * 16),
     )
 
 
@@ -232,9 +233,9 @@ def _pentadiagonal(diagonal: Array, near: Array, far: Array) -> tuple[Array, Arr
     return one, two, inverse
 
 
-def _widened(values: Array, width: int) -> Array:
-    """The last axis filled up with zeros."""
-    wide = np.zeros((*values.shape[:-1], width))
+def _widened(values: Array, width: int, filling: float = 0.0) -> Array:
+    """The last axis filled up."""
+    wide = np.full((*values.shape[:-1], width), filling)
     wide[..., : values.shape[-1]] = values
     return wide
 

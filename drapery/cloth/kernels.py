@@ -15,6 +15,7 @@ from numba.extending import overload
 from drapery.cloth import exact
 from drapery.cloth.compiled import kernel
 from drapery.cloth.filters import BandFilter
+from drapery.cloth.simd import fill, flushed, larger, load, root, span, store
 from drapery.cloth.spin import NoSpin
 from drapery.cloth.wind import CROSSWIND
 
@@ -50,48 +51,49 @@ def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) 
     """g += dt/m · F: a spring longer than its rest length pulls both ends together."""
     tiny = x.dtype.type(TINY)
     for s in range(springs.rest.size):
-        i, j = springs.pairs[s, 0], springs.pairs[s, 1]
+        i, j = 3 * np.intp(springs.pairs[s, 0]), 3 * np.intp(springs.pairs[s, 1])
         length = springs.rest[s]
-        least = length * tiny
-        pull = dt * springs.stiffness[s]
-        pull_i, pull_j = pull * inv_mass[i], pull * inv_mass[j]
-        for lane in range(x.shape[1]):
-            dx = x[3 * j, lane] - x[3 * i, lane]
-            dy = x[3 * j + 1, lane] - x[3 * i + 1, lane]
-            dz = x[3 * j + 2, lane] - x[3 * i + 2, lane]
-            d = np.sqrt(dx * dx + dy * dy + dz * dz)
-            strain = (d - length) / max(d, least)
-            g[3 * i, lane] += pull_i * strain * dx
-            g[3 * i + 1, lane] += pull_i * strain * dy
-            g[3 * i + 2, lane] += pull_i * strain * dz
-            g[3 * j, lane] -= pull_j * strain * dx
-            g[3 * j + 1, lane] -= pull_j * strain * dy
-            g[3 * j + 2, lane] -= pull_j * strain * dz
+        least, pull = fill(length * tiny), dt * springs.stiffness[s]
+        pull_i, pull_j = pull * inv_mass[i // 3], pull * inv_mass[j // 3]
+        for lane in range(0, x.shape[1], span(x)):
+            dx = load(x, j, lane) - load(x, i, lane)
+            dy = load(x, j + 1, lane) - load(x, i + 1, lane)
+            dz = load(x, j + 2, lane) - load(x, i + 2, lane)
+            d = root(dx * dx + dy * dy + dz * dz)
+            strain = (d - length) / larger(d, least)
+            add(g, i, lane, pull_i * strain, dx, dy, dz)
+            add(g, j, lane, -pull_j * strain, dx, dy, dz)
+
+
+@kernel
+def add(x: Any, row: Any, lane: Any, part: Any, dx: Any, dy: Any, dz: Any) -> None:
+    """x[row : row + 3, lane ...] += part · (dx, dy, dz)."""
+    store(x, row, lane, load(x, row, lane) + part * dx)
+    store(x, row + 1, lane, load(x, row + 1, lane) + part * dy)
+    store(x, row + 2, lane, load(x, row + 2, lane) + part * dz)
 
 
 @kernel
 def shorten(x: Any, links: Any) -> None:
     """Provot's correction: links over their longest length are pulled back to it, in order."""
     for s in range(links.longest.size):
-        i, j = links.pairs[s, 0], links.pairs[s, 1]
-        most = links.longest[s]
-        part_i, part_j = links.share_i[s], links.share_j[s]
-        for lane in range(x.shape[1]):
-            dx = x[3 * j, lane] - x[3 * i, lane]
-            dy = x[3 * j + 1, lane] - x[3 * i + 1, lane]
-            dz = x[3 * j + 2, lane] - x[3 * i + 2, lane]
-            d = max(np.sqrt(dx * dx + dy * dy + dz * dz), most)
+        i, j = 3 * np.intp(links.pairs[s, 0]), 3 * np.intp(links.pairs[s, 1])
+        most = fill(links.longest[s])
+        part_i, part_j = links.share_i[s], -links.share_j[s]
+        for lane in range(0, x.shape[1], span(x)):
+            dx = load(x, j, lane) - load(x, i, lane)
+            dy = load(x, j + 1, lane) - load(x, i + 1, lane)
+            dz = load(x, j + 2, lane) - load(x, i + 2, lane)
+            d = larger(root(dx * dx + dy * dy + dz * dz), most)
             excess = (d - most) / d
-            x[3 * i, lane] += part_i * excess * dx
-            x[3 * i + 1, lane] += part_i * excess * dy
-            x[3 * i + 2, lane] += part_i * excess * dz
-            x[3 * j, lane] -= part_j * excess * dx
-            x[3 * j + 1, lane] -= part_j * excess * dy
-            x[3 * j + 2, lane] -= part_j * excess * dz
+            if part_i != 0:
+                add(x, i, lane, part_i * excess, dx, dy, dz)
+            if part_j != 0:
+                add(x, j, lane, part_j * excess, dx, dy, dz)
 
 
 @kernel
-def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any, work: Any) -> None:
+def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any) -> None:
     """Three noises of unit rms at points `at` [3, L], into out [3, L].
 
     `first` [L] is added to the cell number along axis 0, which repeats after `cells`. The three
@@ -99,45 +101,72 @@ def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any, work: A
     """
     F = at.dtype.type
     one, count, scale = F(1), F(cells), F(1 / (127.5 * GUST_RMS))
-    six, ten, fifteen, middle = F(6), F(10), F(15), F(127.5)
-    for axis in range(at.shape[0]):
-        for lane in range(at.shape[1]):
-            # np.floor would keep the loop from being vectorised.
-            cell = F(np.int32(at[axis, lane]))
-            cell = cell - one if cell > at[axis, lane] else cell
-            work[3 + axis, lane] = at[axis, lane] - cell
-            work[axis, lane] = cell
-            out[axis, lane] = 0
     for lane in range(at.shape[1]):
-        cell = work[0, lane] + first[lane]
-        turns = cell / count
-        whole = F(np.int32(turns))
-        work[0, lane] = cell - count * (whole - one if whole > turns else whole)
-    for corner in range(8):
-        di, dj, dk = F(corner & 1), F((corner >> 1) & 1), F(corner >> 2)
-        for lane in range(at.shape[1]):
-            i = work[0, lane] + di
-            i = i if i < count else i - count
-            h = np.uint32(np.uint32(np.int32(i)) * np.uint32(0x9E3779B1))
-            h ^= np.uint32(np.uint32(np.int32(work[1, lane] + dj)) * np.uint32(0x27D4EB2F))
-            h ^= np.uint32(np.uint32(np.int32(work[2, lane] + dk)) * np.uint32(0x165667B1))
-            # The 32-bit finaliser of MurmurHash3 (Appleby 2011).
-            h = np.uint32(h ^ seed)
-            h = np.uint32(np.uint32(h ^ (h >> np.uint32(16))) * np.uint32(0x85EBCA6B))
-            h = np.uint32(np.uint32(h ^ (h >> np.uint32(13))) * np.uint32(0xC2B2AE35))
-            h = np.uint32(h ^ (h >> np.uint32(16)))
-            x, y, z = work[3, lane] - di, work[4, lane] - dj, work[5, lane] - dk
-            # Perlin's fade, 6 a⁵ - 15 a⁴ + 10 a³, on each axis.
-            a, b, c = one - abs(x), one - abs(y), one - abs(z)
-            weight = a * a * a * (a * (a * six - fifteen) + ten) * scale
-            weight *= b * b * b * (b * (b * six - fifteen) + ten)
-            weight *= c * c * c * (c * (c * six - fifteen) + ten)
-            p = F(np.int32(h & np.uint32(255))) - middle
-            q = F(np.int32((h >> np.uint32(8)) & np.uint32(255))) - middle
-            r = F(np.int32((h >> np.uint32(16)) & np.uint32(255))) - middle
-            out[0, lane] += weight * (p * x + q * y + r * z)
-            out[1, lane] += weight * (q * x + r * y + p * z)
-            out[2, lane] += weight * (r * x + p * y + q * z)
+        i, j, k = below(at[0, lane]), below(at[1, lane]), below(at[2, lane])
+        x, y, z = at[0, lane] - i, at[1, lane] - j, at[2, lane] - k
+        i += first[lane]
+        turns = i / count
+        i -= count * below(turns)
+        next_i = i + one if i + one < count else i + one - count
+        h = seed ^ spread(i, np.uint32(0x9E3779B1)), seed ^ spread(next_i, np.uint32(0x9E3779B1))
+        m = spread(j, np.uint32(0x27D4EB2F)), spread(j + one, np.uint32(0x27D4EB2F))
+        n = spread(k, np.uint32(0x165667B1)), spread(k + one, np.uint32(0x165667B1))
+        u, v, w = faded(x), faded(y), faded(z)
+        none = x * F(0), x * F(0), x * F(0)
+        near = (one - v) * (one - w), v * (one - w), (one - v) * w, v * w
+        p = corner(none, h[0] ^ m[0] ^ n[0], (one - u) * near[0], x, y, z)
+        p = corner(p, h[1] ^ m[0] ^ n[0], u * near[0], x - one, y, z)
+        p = corner(p, h[0] ^ m[1] ^ n[0], (one - u) * near[1], x, y - one, z)
+        p = corner(p, h[1] ^ m[1] ^ n[0], u * near[1], x - one, y - one, z)
+        p = corner(p, h[0] ^ m[0] ^ n[1], (one - u) * near[2], x, y, z - one)
+        p = corner(p, h[1] ^ m[0] ^ n[1], u * near[2], x - one, y, z - one)
+        p = corner(p, h[0] ^ m[1] ^ n[1], (one - u) * near[3], x, y - one, z - one)
+        p = corner(p, h[1] ^ m[1] ^ n[1], u * near[3], x - one, y - one, z - one)
+        out[0, lane], out[1, lane], out[2, lane] = scale * p[0], scale * p[1], scale * p[2]
+
+
+@kernel
+def below(x: Any) -> Any:
+    """The whole number at or below x. np.floor would keep a loop from being vectorised."""
+    whole = type(x)(np.int32(x))
+    return whole - type(x)(1) if whole > x else whole
+
+
+@kernel
+def faded(x: Any) -> Any:
+    """Perlin's fade, 6 x⁵ - 15 x⁴ + 10 x³."""
+    F = type(x)
+    return x * x * x * (x * (x * F(6) - F(15)) + F(10))
+
+
+@kernel
+def spread(cell: Any, factor: Any) -> Any:
+    """A cell's number along one axis as bits."""
+    return np.uint32(np.uint32(np.int32(cell)) * factor)
+
+
+@kernel
+def folded(h: Any, places: Any) -> Any:
+    """Bits and themselves some places down."""
+    return np.uint32(h ^ np.uint32(h >> places))
+
+
+@kernel
+def corner(sums: Any, h: Any, weight: Any, x: Any, y: Any, z: Any) -> Any:
+    """The three sums with a corner's part added: its gradient, from bits h, times the way to it."""
+    F = type(x)
+    # The 32-bit finaliser of MurmurHash3 (Appleby 2011).
+    h = folded(np.uint32(h), np.uint32(16))
+    h = folded(np.uint32(h * np.uint32(0x85EBCA6B)), np.uint32(13))
+    h = folded(np.uint32(h * np.uint32(0xC2B2AE35)), np.uint32(16))
+    p = F(np.int32(h & np.uint32(255))) - F(127.5)
+    q = F(np.int32((h >> np.uint32(8)) & np.uint32(255))) - F(127.5)
+    r = F(np.int32((h >> np.uint32(16)) & np.uint32(255))) - F(127.5)
+    return (
+        sums[0] + weight * (p * x + q * y + r * z),
+        sums[1] + weight * (q * x + r * y + p * z),
+        sums[2] + weight * (r * x + p * y + q * z),
+    )
 
 
 @kernel
@@ -173,7 +202,7 @@ def blow(
                 at[axis, lane] = scale * (ex * px + ey * py + ez * pz) + middle
         for lane in range(x.shape[1]):
             at[0, lane] -= drift[lane]
-        gradient_noise(noise, at, first, numbers[15], seed, work)
+        gradient_noise(noise, at, first, numbers[15], seed)
         for axis in range(at.shape[0]):
             e0, e1, e2 = F(numbers[axis]), F(numbers[3 + axis]), F(numbers[6 + axis])
             for lane in range(x.shape[1]):
@@ -186,48 +215,51 @@ def blow(
 
 @kernel
 def add_wind_velocities(
-    g: Any, x: Any, v: Any, faces: Any, wind: Any, pressure: Any, inv_mass: Any, dt: Any, work: Any
+    g: Any, x: Any, v: Any, faces: Any, wind: Any, pressure: Any, inv_mass: Any, dt: Any
 ) -> None:
     """g += dt/m · F of one wind, whose velocity at the control particles is `wind` [3C, L].
 
-    v may be g. work: [9 or more, L].
+    v may be g.
     """
     tiny = x.dtype.type(1e-30)
-    part, normal, force = work[0], work[3:6], work[6:9]
     for i in range(inv_mass.size):
         if inv_mass[i] == 0:
             continue
-        for side in range(faces.begin[i], faces.begin[i + 1]):
-            a, b = 3 * faces.sides[side, 0], 3 * faces.sides[side, 1]
-            c, d = 3 * faces.sides[side, 2], 3 * faces.sides[side, 3]
-            share, keep = faces.shares[side], x.dtype.type(side > faces.begin[i])
-            for lane in range(x.shape[1]):
-                px, qx = x[b, lane] - x[a, lane], x[d, lane] - x[c, lane]
-                py, qy = x[b + 1, lane] - x[a + 1, lane], x[d + 1, lane] - x[c + 1, lane]
-                pz, qz = x[b + 2, lane] - x[a + 2, lane], x[d + 2, lane] - x[c + 2, lane]
-                normal[0, lane] = keep * normal[0, lane] + share * (py * qz - pz * qy)
-                normal[1, lane] = keep * normal[1, lane] + share * (pz * qx - px * qz)
-                normal[2, lane] = keep * normal[2, lane] + share * (px * qy - py * qx)
-        p, q = 3 * faces.controls[i, 0], 3 * faces.controls[i, 1]
-        r, s = 3 * faces.controls[i, 2], 3 * faces.controls[i, 3]
-        wp, wq, wr, ws = faces.weights[i]
-        for axis in range(normal.shape[0]):
-            for lane in range(x.shape[1]):
-                force[axis, lane] = (
-                    (wp * wind[p + axis, lane] + wq * wind[q + axis, lane])
-                    + (wr * wind[r + axis, lane] + ws * wind[s + axis, lane])
-                    - v[3 * i + axis, lane]
-                )
+        p, q = 3 * np.intp(faces.controls[i, 0]), 3 * np.intp(faces.controls[i, 1])
+        r, s = 3 * np.intp(faces.controls[i, 2]), 3 * np.intp(faces.controls[i, 3])
+        wp, wq = faces.weights[i, 0], faces.weights[i, 1]
+        wr, ws = faces.weights[i, 2], faces.weights[i, 3]
         push = x.dtype.type(dt * inv_mass[i] * pressure)
-        # Two loops: with more rows at once the compiler gives up telling them apart.
-        for lane in range(x.shape[1]):
-            nx, ny, nz = normal[0, lane], normal[1, lane], normal[2, lane]
-            area = np.sqrt(nx * nx + ny * ny + nz * nz) + tiny
-            head_on = nx * force[0, lane] + ny * force[1, lane] + nz * force[2, lane]
-            part[lane] = push * head_on / area
-        for axis in range(normal.shape[0]):
-            for lane in range(x.shape[1]):
-                g[3 * i + axis, lane] += part[lane] * normal[axis, lane]
+        for lane in range(0, x.shape[1], span(x)):
+            nx, ny, nz = vector_area(x, faces, i, lane)
+            head_on = fill(x.dtype.type(0))
+            for axis in range(3):
+                flow = (wp * load(wind, p + axis, lane) + wq * load(wind, q + axis, lane)) + (
+                    wr * load(wind, r + axis, lane) + ws * load(wind, s + axis, lane)
+                )
+                along = nx if axis == 0 else ny if axis == 1 else nz
+                head_on = head_on + along * (flow - load(v, 3 * i + axis, lane))
+            area = root(nx * nx + ny * ny + nz * nz) + tiny
+            add(g, 3 * i, lane, push * head_on / area, nx, ny, nz)
+
+
+@kernel
+def vector_area(x: Any, faces: Any, i: Any, lane: Any) -> Any:
+    """Of the faces around particle i."""
+    nx = ny = nz = fill(x.dtype.type(0))
+    for side in range(faces.begin[i], faces.begin[i + 1]):
+        a, b = 3 * np.intp(faces.sides[side, 0]), 3 * np.intp(faces.sides[side, 1])
+        c, d = 3 * np.intp(faces.sides[side, 2]), 3 * np.intp(faces.sides[side, 3])
+        share = faces.shares[side]
+        px, qx = load(x, b, lane) - load(x, a, lane), load(x, d, lane) - load(x, c, lane)
+        py = load(x, b + 1, lane) - load(x, a + 1, lane)
+        qy = load(x, d + 1, lane) - load(x, c + 1, lane)
+        pz = load(x, b + 2, lane) - load(x, a + 2, lane)
+        qz = load(x, d + 2, lane) - load(x, c + 2, lane)
+        nx = nx + share * (py * qz - pz * qy)
+        ny = ny + share * (pz * qx - px * qz)
+        nz = nz + share * (px * qy - py * qx)
+    return nx, ny, nz
 
 
 @kernel
@@ -246,8 +278,8 @@ def frame_velocity(mean: Any, v: Any, pins: Any) -> None:
 def subtract_frame(g: Any, v: Any, mean: Any) -> None:
     """g = v - mean."""
     for row in range(v.shape[0]):
-        for lane in range(v.shape[1]):
-            g[row, lane] = v[row, lane] - mean[row % 3, lane]
+        for lane in range(0, v.shape[1], span(v)):
+            store(g, row, lane, load(v, row, lane) - load(mean, row % 3, lane))
 
 
 def filter_velocities(both: Any, filter: Any, pins: Any) -> None:
@@ -277,23 +309,20 @@ def filter_by_products(both: Any, filter: Any, pins: Any) -> None:
             both[1, 3 * pins[row // 3] + row % 3, lane] = 0
     for p in range(filter.products.shape[0]):
         begin, size, base, stride, source = filter.products[p]
-        rows, out = both[source], both[1 - source]
+        rows, out, ahead = both[source], both[1 - source], 3 * stride
         for row in range(3 * size):
-            o, axis = row // 3, row % 3
-            to = out[3 * (base + o * stride) + axis]
-            part = filter.matrices[begin + o * size : begin + (o + 1) * size]
-            for lane in range(to.size):
-                to[lane] = 0
-            for i in range(0, size - 3, 4):
-                a, b, c, d = part[i], part[i + 1], part[i + 2], part[i + 3]
-                at, step = 3 * (base + i * stride) + axis, 3 * stride
-                w, x, y, z = rows[at], rows[at + step], rows[at + 2 * step], rows[at + 3 * step]
-                for lane in range(to.size):
-                    to[lane] += a * w[lane] + b * x[lane] + c * y[lane] + d * z[lane]
-            for i in range(size // 4 * 4, size):
-                a, w = part[i], rows[3 * (base + i * stride) + axis]
-                for lane in range(to.size):
-                    to[lane] += a * w[lane]
+            to = 3 * (base + row // 3 * stride) + row % 3
+            part = filter.matrices[begin + row // 3 * size : begin + (row // 3 + 1) * size]
+            for lane in range(0, both.shape[2], span(both)):
+                total = other = fill(both.dtype.type(0))
+                at = 3 * base + row % 3
+                for i in range(0, size - 1, 2):
+                    total = total + part[i] * load(rows, at, lane)
+                    other = other + part[i + 1] * load(rows, at + ahead, lane)
+                    at += 2 * ahead
+                if size % 2 == 1:
+                    total = total + part[size - 1] * load(rows, at, lane)
+                store(out, to, lane, total + other)
     for p in range(filter.release.shape[1]):
         for axis in range(3):
             for lane in range(both.shape[2]):
@@ -430,20 +459,21 @@ def add_uniform(g: Any, mean: Any, inv_mass: Any, numbers: Any, push: Any, start
         if inv_mass[row // 3] == 0:
             continue
         fall = F(numbers[0] * numbers[3 + row % 3])
-        if push.size > 0:
-            for lane in range(g.shape[1]):
-                g[row, lane] += dt * push[row, np.uintp(start) + np.uintp(lane)]
-        for lane in range(g.shape[1]):
-            g[row, lane] = (g[row, lane] + mean[row % 3, lane] + fall) * slow
+        for lane in range(0, g.shape[1], span(g)):
+            speed = load(g, row, lane)
+            if push.size > 0:
+                speed = speed + dt * load(push, row, start + lane)
+            store(g, row, lane, (speed + load(mean, row % 3, lane) + fall) * slow)
 
 
 @kernel
 def move(x: Any, u: Any, old: Any, dt: Any) -> None:
     """old = x; x += dt u."""
     for row in range(x.shape[0]):
-        for lane in range(x.shape[1]):
-            old[row, lane] = x[row, lane]
-            x[row, lane] += dt * u[row, lane]
+        for lane in range(0, x.shape[1], span(x)):
+            here = load(x, row, lane)
+            store(old, row, lane, here)
+            store(x, row, lane, here + dt * load(u, row, lane))
 
 
 @kernel
@@ -463,8 +493,8 @@ def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any)
 @kernel
 def set_velocities(v: Any, x: Any, old: Any, dt: Any) -> None:
     """v = (x - old) / dt, flushed to 0 below STILL."""
-    still, none, rate = x.dtype.type(STILL), x.dtype.type(0), x.dtype.type(1 / dt)
+    still, rate = x.dtype.type(STILL), x.dtype.type(1 / dt)
     for row in range(x.shape[0]):
-        for lane in range(x.shape[1]):
-            speed = (x[row, lane] - old[row, lane]) * rate
-            v[row, lane] = none if abs(speed) < still else speed
+        for lane in range(0, x.shape[1], span(x)):
+            speed = (load(x, row, lane) - load(old, row, lane)) * rate
+            store(v, row, lane, flushed(speed, still))

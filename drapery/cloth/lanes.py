@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from drapery.cloth.pins import PinPath
+from drapery.cloth.simd import lanes_of, whole
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array
@@ -23,19 +24,49 @@ BLOCK_BYTES = 1 << 18
 
 
 def to_lanes(values: Array) -> Array:
-    """[B, N, 3] as contiguous [3N, B]; no copy of what `from_lanes` returned."""
-    return np.ascontiguousarray(values.transpose(1, 2, 0)).reshape(-1, len(values))
+    """[B, N, 3] as contiguous [3N, L], with B filled up to whole registers by copies of the last.
+
+    No copy of what `from_lanes` returned.
+    """
+    rows, count = 3 * values.shape[1], len(values)
+    lanes = whole(count, values.dtype)
+    held = values.base
+    if (
+        isinstance(held, np.ndarray)
+        and held.shape == (rows, lanes)
+        and held.dtype == values.dtype
+        and held.flags.c_contiguous
+        and from_lanes(held, count).__array_interface__ == values.__array_interface__
+    ):
+        return held
+    return filled(values.transpose(1, 2, 0).reshape(rows, count), lanes)
 
 
-def from_lanes(lanes: Array) -> Array:
-    """[3N, B] seen as [B, N, 3]."""
-    return lanes.reshape(-1, 3, lanes.shape[1]).transpose(2, 0, 1)
+def from_lanes(lanes: Array, count: int) -> Array:
+    """[3N, L] seen as [B, N, 3] for the first B = count lanes."""
+    return lanes.reshape(-1, 3, lanes.shape[1]).transpose(2, 0, 1)[:count]
 
 
-def block_width(particles: int, itemsize: int) -> int:
-    """Cloths to a block: a power of two, 8 to 256."""
-    fit = BLOCK_BYTES // (6 * particles * itemsize)
-    return int(min(256, max(8, 1 << max(fit, 1).bit_length() - 1)))
+def filled(values: Array, lanes: int) -> Array:
+    """The last axis filled up by copies of its last part."""
+    more = [(0, 0)] * (values.ndim - 1) + [(0, lanes - values.shape[-1])]
+    if not values.size:
+        return np.zeros((*values.shape[:-1], 0), values.dtype)
+    return np.ascontiguousarray(np.pad(values, more, mode="edge"))
+
+
+def block_width(particles: int, values: Array, threads: int) -> int:
+    """Cloths to a block, whole registers: of the widths that stay in cache, the one that leaves
+    the busiest thread the least. values: their positions, [3N, L]."""
+    register = lanes_of(values.dtype)
+    most = BLOCK_BYTES // (6 * particles * values.itemsize) // register * register
+    most = min(256, max(register, most))
+
+    def busiest(width: int) -> int:
+        blocks = -(-int(values.shape[1]) // width)
+        return -(-blocks // threads) * width
+
+    return min(range(most, most // 2, -register), key=busiest)
 
 
 def run_blocks(work: Callable[[int, int], None], count: int, width: int, threads: int) -> None:
@@ -97,5 +128,5 @@ def pin_targets(path: PinPath | None, state: State, dt: float, steps: int, pinne
                 f"pin path gave positions of shape {place.shape}; "
                 f"give {(pinned, 3)} or {(count, pinned, 3)}"
             )
-        targets.append(to_lanes(place.reshape(-1, pinned, 3)))
+        targets.append(to_lanes(place) if place.ndim == 3 else place.reshape(-1, 1))
     return np.stack(targets)

@@ -1,8 +1,7 @@
 """The inner loops over one grid laid out as a plane of lanes; see `sheets`.
 
-As in `kernels`, with arrays [3, lanes]. A loop touches few arrays: with more the compiler cannot
-tell them apart and leaves it scalar. Indices that are sums are unsigned, or each would first be
-asked whether it counts from the end.
+As in `kernels`, with arrays [3, lanes]. Loops go on to the end of a whole register: what they are
+given there changes nothing.
 """
 
 from typing import Any
@@ -12,6 +11,9 @@ import numpy as np
 from drapery.cloth import kernels
 from drapery.cloth.compiled import kernel
 from drapery.cloth.kernels import STILL, TINY
+from drapery.cloth.simd import fill, flushed, larger, root, span
+from drapery.cloth.simd import load as get
+from drapery.cloth.simd import store as put
 from drapery.cloth.wind import Gusts
 
 LIMIT, SOLVE = 0, 1
@@ -41,67 +43,77 @@ def store(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
 
 
 @kernel
+def ways(x: Any, a: Any, b: Any) -> Any:
+    """From the lanes at a to those at b."""
+    return (
+        get(x, 0, b) - get(x, 0, a),
+        get(x, 1, b) - get(x, 1, a),
+        get(x, 2, b) - get(x, 2, a),
+    )
+
+
+@kernel
 def add_spring_velocities(g: Any, x: Any, pulls: Any, work: Any) -> None:
-    """g += dt/m · F, where the parts are dt k / m. work: [2, size]."""
-    tiny = x.dtype.type(TINY)
+    """g += dt/m · F, where the parts are dt k / m. work: see `move_both`."""
+    tiny, lead = x.dtype.type(TINY), work.shape[1] // 2
     for entry in range(pulls.a.size):
-        a, b = np.uintp(pulls.a[entry]), np.uintp(pulls.b[entry])
-        start, count = np.uintp(pulls.start[entry]), pulls.lanes[entry]
-        for n in range(count):
-            dx = x[0, b + np.uintp(n)] - x[0, a + np.uintp(n)]
-            dy = x[1, b + np.uintp(n)] - x[1, a + np.uintp(n)]
-            dz = x[2, b + np.uintp(n)] - x[2, a + np.uintp(n)]
-            length = pulls.length[start + np.uintp(n)]
-            d = np.sqrt(dx * dx + dy * dy + dz * dz)
-            work[0, n] = (d - length) / max(d, length * tiny)
-        for axis in range(3):
-            for n in range(count):
-                work[1, n] = work[0, n] * (x[axis, b + np.uintp(n)] - x[axis, a + np.uintp(n)])
-            for n in range(count):
-                g[axis, a + np.uintp(n)] += pulls.part_i[start + np.uintp(n)] * work[1, n]
-            for n in range(count):
-                g[axis, b + np.uintp(n)] -= pulls.part_j[start + np.uintp(n)] * work[1, n]
+        a, b, start = pulls.a[entry], pulls.b[entry], pulls.start[entry]
+        for n in range(0, pulls.lanes[entry], span(x)):
+            dx, dy, dz = ways(x, a + n, b + n)
+            length = get(pulls.values, 0, start + n)
+            d = root(dx * dx + dy * dy + dz * dz)
+            strain = (d - length) / larger(d, length * tiny)
+            put(work, 0, lead + n, strain * dx)
+            put(work, 1, lead + n, strain * dy)
+            put(work, 2, lead + n, strain * dz)
+        move_both(g, pulls, entry, work)
+
+
+@kernel
+def move_both(x: Any, pulls: Any, entry: Any, work: Any) -> None:
+    """x_a += part_i w, x_b -= part_j w, in one go over the lanes from a on.
+
+    work: [3, 2 · L] of which w is the second half, with zeros in front of it.
+    """
+    a, start, lead = pulls.a[entry], pulls.start[entry], work.shape[1] // 2
+    shift = pulls.b[entry] - a
+    for axis in range(3):
+        for n in range(0, pulls.lanes[entry], span(x)):
+            gain = get(pulls.values, 1, start + n) * get(work, axis, lead + n)
+            loss = get(pulls.values, 2, start + n - shift) * get(work, axis, lead + n - shift)
+            put(x, axis, a + n, get(x, axis, a + n) + (gain - loss))
+        for n in range(pulls.lanes[entry], pulls.lanes[entry] + shift, span(x)):
+            loss = get(pulls.values, 2, start + n - shift) * get(work, axis, lead + n - shift)
+            put(x, axis, a + n, get(x, axis, a + n) - loss)
 
 
 @kernel
 def pull(x: Any, pulls: Any, begin: Any, end: Any, form: Any, work: Any) -> None:
     """Entries begin..end: x_a += part_i e (x_b - x_a), x_b -= part_j e (x_b - x_a).
 
-    e is the strain by the form. work: [2, size].
+    e is the strain of XPBD's constraint, or of lengths over the longest only. work: see
+    `move_both`.
     """
+    lead, none = work.shape[1] // 2, fill(x.dtype.type(0))
     for entry in range(begin, end):
-        a, b = np.uintp(pulls.a[entry]), np.uintp(pulls.b[entry])
-        start, count = np.uintp(pulls.start[entry]), pulls.lanes[entry]
-        if form == SOLVE:
-            for n in range(count):
-                dx = x[0, b + np.uintp(n)] - x[0, a + np.uintp(n)]
-                dy = x[1, b + np.uintp(n)] - x[1, a + np.uintp(n)]
-                dz = x[2, b + np.uintp(n)] - x[2, a + np.uintp(n)]
-                length = pulls.length[start + np.uintp(n)]
-                square, rest = dx * dx + dy * dy + dz * dz, length * length
-                work[0, n] = (square - rest) / (square + rest)
-        else:
-            for n in range(count):
-                dx = x[0, b + np.uintp(n)] - x[0, a + np.uintp(n)]
-                dy = x[1, b + np.uintp(n)] - x[1, a + np.uintp(n)]
-                dz = x[2, b + np.uintp(n)] - x[2, a + np.uintp(n)]
-                length = pulls.length[start + np.uintp(n)]
-                d = max(np.sqrt(dx * dx + dy * dy + dz * dz), length)
-                work[0, n] = (d - length) / d
-        apart = a >= b + np.uintp(count) or b >= a + np.uintp(count)
-        for axis in range(3):
-            if apart:
-                for n in range(count):
-                    d = work[0, n] * (x[axis, b + np.uintp(n)] - x[axis, a + np.uintp(n)])
-                    x[axis, a + np.uintp(n)] += pulls.part_i[start + np.uintp(n)] * d
-                    x[axis, b + np.uintp(n)] -= pulls.part_j[start + np.uintp(n)] * d
+        a, b, start = pulls.a[entry], pulls.b[entry], pulls.start[entry]
+        crossing, held = pulls.crossing[entry], pulls.held[entry]
+        for n in range(0, pulls.lanes[entry], span(x)):
+            dx, dy, dz = ways(x, a + n, b + n)
+            length = get(pulls.values, 0, start + n)
+            rest = length * length
+            square = larger(dx * dx + dy * dy + dz * dz, rest if form == LIMIT else none)
+            e = (square - rest) / (square + rest)
+            if crossing:
+                put(work, 0, lead + n, e * dx)
+                put(work, 1, lead + n, e * dy)
+                put(work, 2, lead + n, e * dz)
             else:
-                for n in range(count):
-                    work[1, n] = work[0, n] * (x[axis, b + np.uintp(n)] - x[axis, a + np.uintp(n)])
-                for n in range(count):
-                    x[axis, a + np.uintp(n)] += pulls.part_i[start + np.uintp(n)] * work[1, n]
-                for n in range(count):
-                    x[axis, b + np.uintp(n)] -= pulls.part_j[start + np.uintp(n)] * work[1, n]
+                if not held:
+                    kernels.add(x, 0, a + n, get(pulls.values, 1, start + n) * e, dx, dy, dz)
+                kernels.add(x, 0, b + n, -get(pulls.values, 2, start + n) * e, dx, dy, dz)
+        if crossing:
+            move_both(x, pulls, entry, work)
 
 
 @kernel
@@ -134,7 +146,7 @@ def wind_room(sheet: Any, dtype: Any) -> Any:
         np.empty((3, samples), dtype),
         np.empty((3, samples), dtype),
         np.empty((18, samples), dtype),
-        np.zeros((12, sheet.width + 2), dtype),
+        np.zeros((6, sheet.width + 64), dtype),
     )
 
 
@@ -158,7 +170,7 @@ def add_wind(
 ) -> None:
     """g += dt/m · F of one wind; see `kernels.add_wind_velocities`. v may be g.
 
-    room: at, wind and work of the samples, and work [12, width + 2].
+    room: at, wind and work of the samples, and work [6, width and two registers].
     """
     at, wind, samples_work, work = room
     for sample in range(sheet.controls.size):
@@ -168,62 +180,49 @@ def add_wind(
     pressure = y.dtype.type(dt * gusts.numbers[number, 16])
     for row in range(sheet.rows):
         relative_wind(work, v, wind, sheet, row)
-        normals(work, y, sheet, row)
-        press(g, work, sheet, row, pressure)
+        press(g, y, work, sheet, row, pressure)
 
 
 @kernel
 def relative_wind(work: Any, v: Any, wind: Any, sheet: Any, row: Any) -> None:
     """Wind less velocity along a row, into work[0:3]."""
     low, first = sheet.low[row], sheet.above[row] * sheet.across.shape[0]
-    line = np.uintp(row * sheet.width)
+    line, samples = row * sheet.width, sheet.across.shape[0]
     for axis in range(3):
-        for lane in range(sheet.width):
-            work[axis, lane] = -v[axis, line + np.uintp(lane)]
-        for column in range(sheet.across.shape[0]):
-            above = wind[axis, first + column]
-            below = wind[axis, first + sheet.across.shape[0] + column]
-            flow = above + low * (below - above)
-            for lane in range(sheet.width):
-                work[axis, lane] += flow * sheet.across[column, lane]
+        for lane in range(0, sheet.width, span(v)):
+            flow = -get(v, axis, line + lane)
+            for column in range(samples):
+                above = wind[axis, first + column]
+                below = wind[axis, first + samples + column]
+                flow = flow + (above + low * (below - above)) * get(sheet.across, column, lane)
+            put(work, axis, lane, flow)
 
 
 @kernel
-def normals(work: Any, y: Any, sheet: Any, row: Any) -> None:
-    """Vector areas along a row, into work[6:9]: a quarter of (right - left) x (above - below)."""
-    line, last = np.uintp(row * sheet.width), sheet.columns - 1
-    up = np.uintp(max(row - 1, 0) * sheet.width)
-    down = np.uintp(min(row + 1, sheet.rows - 1) * sheet.width)
+def press(g: Any, y: Any, work: Any, sheet: Any, row: Any, pressure: Any) -> None:
+    """g += pressure / m (u · n) n / |n| along a row with u in work[0:3].
+
+    n: vector areas, a quarter of (right - left) x (above - below).
+    """
+    line, last, edge = row * sheet.width, sheet.columns - 1, span(y)
+    up, down = max(row - 1, 0) * sheet.width, min(row + 1, sheet.rows - 1) * sheet.width
     for axis in range(3):
         # work[3:6] is the row with its ends doubled.
-        for lane in range(sheet.width):
-            work[3 + axis, lane + 1] = y[axis, line + np.uintp(lane)]
-        work[3 + axis, 0], work[3 + axis, last + 2] = work[3 + axis, 1], work[3 + axis, last + 1]
-    quarter = y.dtype.type(0.25)
-    for axis in range(3):
-        for lane in range(sheet.width):
-            work[9 + axis, lane] = quarter * (work[3 + axis, lane + 2] - work[3 + axis, lane])
-    for axis in range(3):
-        for lane in range(sheet.width):
-            work[3 + axis, lane] = y[axis, up + np.uintp(lane)] - y[axis, down + np.uintp(lane)]
-    for lane in range(sheet.width):
-        work[6, lane] = work[10, lane] * work[5, lane] - work[11, lane] * work[4, lane]
-        work[7, lane] = work[11, lane] * work[3, lane] - work[9, lane] * work[5, lane]
-        work[8, lane] = work[9, lane] * work[4, lane] - work[10, lane] * work[3, lane]
-
-
-@kernel
-def press(g: Any, work: Any, sheet: Any, row: Any, pressure: Any) -> None:
-    """g += pressure / m (u · n) n / |n| with u in work[0:3] and n in work[6:9]."""
-    tiny, line = g.dtype.type(1e-30), np.uintp(row * sheet.width)
-    for lane in range(sheet.width):
-        nx, ny, nz = work[6, lane], work[7, lane], work[8, lane]
-        area = np.sqrt(nx * nx + ny * ny + nz * nz) + tiny
-        head_on = nx * work[0, lane] + ny * work[1, lane] + nz * work[2, lane]
-        work[9, lane] = pressure * sheet.inv_mass[line + np.uintp(lane)] * head_on / area
-    for axis in range(3):
-        for lane in range(sheet.width):
-            g[axis, line + np.uintp(lane)] += work[9, lane] * work[6 + axis, lane]
+        for lane in range(0, sheet.width, span(y)):
+            put(work, 3 + axis, edge + lane, get(y, axis, line + lane))
+        work[3 + axis, edge - 1] = y[axis, line]
+        work[3 + axis, edge + last + 1] = y[axis, line + last]
+    tiny, quarter = g.dtype.type(1e-30), g.dtype.type(0.25)
+    for lane in range(0, sheet.width, span(y)):
+        px = quarter * (get(work, 3, edge + lane + 1) - get(work, 3, edge + lane - 1))
+        py = quarter * (get(work, 4, edge + lane + 1) - get(work, 4, edge + lane - 1))
+        pz = quarter * (get(work, 5, edge + lane + 1) - get(work, 5, edge + lane - 1))
+        qx, qy, qz = ways(y, down + lane, up + lane)
+        nx, ny, nz = py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx
+        head_on = nx * get(work, 0, lane) + ny * get(work, 1, lane) + nz * get(work, 2, lane)
+        area = root(nx * nx + ny * ny + nz * nz) + tiny
+        push = pressure * get(sheet.inv_mass, row, lane) * head_on / area
+        kernels.add(g, 0, line + lane, push, nx, ny, nz)
 
 
 @kernel
@@ -237,63 +236,54 @@ def add_push(g: Any, sheet: Any, push: Any, dt: Any, cloth: Any) -> None:
 @kernel
 def transform(out: Any, values: Any, matrix: Any, sheet: Any) -> None:
     """Each row: out = sum_c values[c] matrix[c]; lanes beside the grid are 0."""
-    width = sheet.width
-    for row in range(3 * sheet.rows):
-        axis, line = row // sheet.rows, np.uintp(row % sheet.rows * width)
-        for lane in range(width):
-            out[axis, line + np.uintp(lane)] = 0
-        for c in range(0, width, 8):
-            at = line + np.uintp(c)
-            a0, a1 = values[axis, at], values[axis, at + np.uintp(1)]
-            a2, a3 = values[axis, at + np.uintp(2)], values[axis, at + np.uintp(3)]
-            a4, a5 = values[axis, at + np.uintp(4)], values[axis, at + np.uintp(5)]
-            a6, a7 = values[axis, at + np.uintp(6)], values[axis, at + np.uintp(7)]
-            for lane in range(width):
-                out[axis, line + np.uintp(lane)] += (
-                    (a0 * matrix[c, lane] + a1 * matrix[c + 1, lane])
-                    + (a2 * matrix[c + 2, lane] + a3 * matrix[c + 3, lane])
-                ) + (
-                    (a4 * matrix[c + 4, lane] + a5 * matrix[c + 5, lane])
-                    + (a6 * matrix[c + 6, lane] + a7 * matrix[c + 7, lane])
-                )
+    width, none = sheet.width, fill(out.dtype.type(0))
+    for row in range(sheet.rows):
+        line = row * width
+        for lane in range(0, width, span(out)):
+            # Three axes and two halves of the sum: enough for the processor to do at once.
+            x = y = z = none
+            u = v = w = none
+            for c in range(0, width, 2):
+                near, far = get(matrix, c, lane), get(matrix, c + 1, lane)
+                x, u = x + values[0, line + c] * near, u + values[0, line + c + 1] * far
+                y, v = y + values[1, line + c] * near, v + values[1, line + c + 1] * far
+                z, w = z + values[2, line + c] * near, w + values[2, line + c + 1] * far
+            put(out, 0, line + lane, x + u)
+            put(out, 1, line + lane, y + v)
+            put(out, 2, line + lane, z + w)
 
 
 @kernel
 def solve_columns(w: Any, filter: Any, sheet: Any) -> None:
     """Each wave's column by its band of two, in place: L, D and back by the transpose of L."""
     width, count = sheet.width, filter.inverse.shape[0]
-    one, two = np.uintp(width), np.uintp(2 * width)
-    for axis in range(3):
-        for r in range(count):
-            line = np.uintp((filter.first + r) * width)
-            if r > 0:
-                for lane in range(width):
-                    at = line + np.uintp(lane)
-                    w[axis, at] -= filter.near[r, lane] * w[axis, at - one]
-            if r > 1:
-                for lane in range(width):
-                    at = line + np.uintp(lane)
-                    w[axis, at] -= filter.far[r, lane] * w[axis, at - two]
-        for r in range(count - 1, -1, -1):
-            line = np.uintp((filter.first + r) * width)
-            for lane in range(width):
-                w[axis, line + np.uintp(lane)] *= filter.inverse[r, lane]
-            if r < count - 1:
-                for lane in range(width):
-                    at = line + np.uintp(lane)
-                    w[axis, at] -= filter.near[r + 1, lane] * w[axis, at + one]
-            if r < count - 2:
-                for lane in range(width):
-                    at = line + np.uintp(lane)
-                    w[axis, at] -= filter.far[r + 2, lane] * w[axis, at + two]
+    for r in range(1, count):
+        for lane in range(0, width, span(w)):
+            at = (filter.first + r) * width + lane
+            near, far = get(filter.near, r, lane), get(filter.far, r, lane)
+            for axis in range(3):
+                value = get(w, axis, at) - near * get(w, axis, at - width)
+                if r > 1:
+                    value = value - far * get(w, axis, at - 2 * width)
+                put(w, axis, at, value)
+    for r in range(count - 1, -1, -1):
+        for lane in range(0, width, span(w)):
+            at = (filter.first + r) * width + lane
+            for axis in range(3):
+                value = get(w, axis, at) * get(filter.inverse, r, lane)
+                if r < count - 1:
+                    value = value - get(filter.near, r + 1, lane) * get(w, axis, at + width)
+                if r < count - 2:
+                    value = value - get(filter.far, r + 2, lane) * get(w, axis, at + 2 * width)
+                put(w, axis, at, value)
 
 
 @kernel
 def filter_sheet(g: Any, other: Any, filter: Any, sheet: Any) -> None:
     """g = W g with pins at 0; see `filters.SheetFilter`. other is as large as g."""
     for axis in range(3):
-        for lane in range(sheet.size):
-            g[axis, lane] *= sheet.free[lane]
+        for lane in range(0, sheet.size, span(g)):
+            put(g, axis, lane, get(g, axis, lane) * get(sheet.free, 0, lane))
     transform(other, g, filter.into, sheet)
     solve_columns(other, filter, sheet)
     transform(g, other, filter.back, sheet)
@@ -303,8 +293,8 @@ def filter_sheet(g: Any, other: Any, filter: Any, sheet: Any) -> None:
     for p in range(filter.release.shape[0]):
         for axis in range(3):
             part = other[axis, p]
-            for lane in range(sheet.size):
-                g[axis, lane] += part * filter.release[p, lane]
+            for lane in range(0, sheet.size, span(g)):
+                put(g, axis, lane, get(g, axis, lane) + part * get(filter.release, p, lane))
 
 
 @kernel
@@ -316,8 +306,8 @@ def subtract_mean(g: Any, v: Any, mean: Any, sheet: Any) -> None:
             mean[axis] += v[axis, lane_of(sheet.pins[p], sheet)]
         mean[axis] /= v.dtype.type(max(1, sheet.pins.size))
         part = mean[axis]
-        for lane in range(sheet.size):
-            g[axis, lane] = v[axis, lane] - part
+        for lane in range(0, sheet.size, span(g)):
+            put(g, axis, lane, get(v, axis, lane) - part)
 
 
 @kernel
@@ -327,17 +317,18 @@ def fall(g: Any, mean: Any, sheet: Any, numbers: Any) -> None:
     slow = F(1 / (1 + numbers[0] * numbers[1]))
     for axis in range(3):
         gain = mean[axis] + F(numbers[0] * numbers[3 + axis])
-        for lane in range(sheet.size):
-            g[axis, lane] = (g[axis, lane] + gain) * slow * sheet.free[lane]
+        for lane in range(0, sheet.size, span(g)):
+            put(g, axis, lane, (get(g, axis, lane) + gain) * slow * get(sheet.free, 0, lane))
 
 
 @kernel
 def move(y: Any, g: Any, old: Any, dt: Any, sheet: Any) -> None:
     """old = y; y += dt g."""
     for axis in range(3):
-        for lane in range(sheet.size):
-            old[axis, lane] = y[axis, lane]
-            y[axis, lane] += dt * g[axis, lane]
+        for lane in range(0, sheet.size, span(g)):
+            here = get(y, axis, lane)
+            put(old, axis, lane, here)
+            put(y, axis, lane, here + dt * get(g, axis, lane))
 
 
 @kernel
@@ -347,34 +338,40 @@ def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
     slow = F(1 / (1 + dt * numbers[1]))
     for axis in range(3):
         gain = F(dt * numbers[3 + axis])
-        for lane in range(sheet.size):
-            v[axis, lane] = ((v[axis, lane] + gain) * slow - gain) * sheet.free[lane]
+        for lane in range(0, sheet.size, span(v)):
+            speed = (get(v, axis, lane) + gain) * slow - gain
+            put(v, axis, lane, speed * get(sheet.free, 0, lane))
 
 
 @kernel
 def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, substep: Any) -> None:
-    """As `xpbd.drift`."""
+    """y goes on as fast as in the last substep, or at first with v, and falls; old is y before."""
     F = y.dtype.type
     h = F(numbers[0])
     for axis in range(3):
         gain = F(numbers[0] * numbers[0] * numbers[3 + axis])
-        if substep == 0:
-            for lane in range(sheet.size):
-                here = y[axis, lane]
-                y[axis, lane] = here + (h * v[axis, lane] + gain) * sheet.free[lane]
-                old[axis, lane] = here
-        else:
-            for lane in range(sheet.size):
-                here = y[axis, lane]
-                y[axis, lane] = here + ((here - old[axis, lane]) + gain) * sheet.free[lane]
-                old[axis, lane] = here
+        for lane in range(0, sheet.size, span(y)):
+            here = get(y, axis, lane)
+            way = h * get(v, axis, lane) if substep == 0 else here - get(old, axis, lane)
+            put(y, axis, lane, here + (way + gain) * get(sheet.free, 0, lane))
+            put(old, axis, lane, here)
 
 
 @kernel
 def set_velocities(v: Any, y: Any, old: Any, h: Any, sheet: Any) -> None:
     """v = (y - old) / h, flushed to 0 below STILL."""
-    still, none, rate = y.dtype.type(STILL), y.dtype.type(0), y.dtype.type(1 / h)
+    still, rate = y.dtype.type(STILL), y.dtype.type(1 / h)
     for axis in range(3):
-        for lane in range(sheet.size):
-            speed = (y[axis, lane] - old[axis, lane]) * rate
-            v[axis, lane] = none if abs(speed) < still else speed
+        for lane in range(0, sheet.size, span(y)):
+            speed = (get(y, axis, lane) - get(old, axis, lane)) * rate
+            put(v, axis, lane, flushed(speed, still))
+
+
+@kernel
+def add_velocities(v: Any, y: Any, old: Any, dt: Any, sheet: Any) -> None:
+    """v += (y - old) / dt."""
+    rate = y.dtype.type(1 / dt)
+    for axis in range(3):
+        for lane in range(0, sheet.size, span(y)):
+            gain = (get(y, axis, lane) - get(old, axis, lane)) * rate
+            put(v, axis, lane, get(v, axis, lane) + gain)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces
+from drapery.cloth.links import link_groups
 from drapery.mesh import Array
 
 LEAST_COLUMNS = 16
@@ -24,6 +25,10 @@ MOST_PINS = 4
 """Most pins beside a whole top row."""
 REGISTER = 8
 """Rows are filled up to a multiple of this, a register of 256 bits."""
+AT_ONCE = 0.75
+"""Part of the corrections along a sheet's rows, which are made at once."""
+LANES = 16
+"""Loops go on to a multiple of this, the most numbers that `simd` loads at once."""
 
 
 class Sheet(NamedTuple):
@@ -34,7 +39,8 @@ class Sheet(NamedTuple):
     fills each such plane, [K], or -1 for each column's own. pins: particles, [P]. free: 1 for
     those that move, [size]. inv_mass: [1/kg], [size]. controls: wind samples, [S]. above: the
     first of the two sample lines around each row, [R]; low: how far the row is towards the
-    second, [R]. across: weights of sample columns, [C', width].
+    second, [R]. across: weights of sample columns, [C', width and
+    more].
     """
 
     rows: int
@@ -55,17 +61,18 @@ class Sheet(NamedTuple):
 class Pulls(NamedTuple):
     """Pulls between lanes a + n and b + n for n below their number of lanes, in order.
 
-    a, b, lanes, start: [E]; the lengths and parts of entry e begin at start[e].
-    length: [m]; part_i, part_j: of the difference that each end takes, 0 where there is no pull.
+    a, b, lanes, start: [E]; the values of entry e begin at start[e]. held: whether no a moves, [E].
+    crossing: whether lanes may be both an a and a b, [E]. values: [3, V]; length [m], then the
+    parts of the difference that each end takes: 0 where there is no pull, and between entries.
     """
 
     a: NDArray[np.int64]
     b: NDArray[np.int64]
     lanes: NDArray[np.int64]
     start: NDArray[np.int64]
-    length: Array
-    part_i: Array
-    part_j: Array
+    held: NDArray[np.bool_]
+    crossing: NDArray[np.bool_]
+    values: Array
 
 
 class Pairs(NamedTuple):
@@ -83,6 +90,10 @@ class Piece(NamedTuple):
     a: int
     b: int
     values: Array
+
+    @property
+    def crosses(self) -> bool:
+        return abs(self.b - self.a) < int(self.values.shape[1])
 
 
 def is_sheet(cloth: Cloth) -> bool:
@@ -103,10 +114,11 @@ def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> Sheet:
     assert cloth.grid_shape is not None
     rows, columns = cloth.grid_shape
     width = -(-columns // REGISTER) * REGISTER
-    inv_mass = np.zeros((rows, width))
+    size = rows * width
+    inv_mass = np.zeros((rows, _whole(width)))
     inv_mass[:, :columns] = cloth.inv_mass.reshape(rows, columns)
     samples = len(np.unique(controls % columns))
-    across = np.zeros((samples, width))
+    across = np.zeros((samples, _whole(width)))
     for corner in range(4):
         sample = faces.controls[:columns, corner] % samples
         np.add.at(across, (sample, np.arange(columns)), faces.weights[:columns, corner])
@@ -115,12 +127,14 @@ def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> Sheet:
         rows=rows,
         columns=columns,
         width=width,
-        size=rows * width,
-        plane=2 * rows * width,
+        size=size,
+        plane=_whole(2 * size) + 4 * LANES,
         anchors=np.array([-1]) if hangs(cloth) else pins,
         pins=pins,
-        free=(inv_mass > 0).astype(float).ravel(),
-        inv_mass=inv_mass.ravel(),
+        free=np.pad((inv_mass[:, :width] > 0).astype(float).ravel(), (0, _whole(size) - size))[
+            None
+        ],
+        inv_mass=inv_mass,
         controls=controls,
         above=(faces.controls[::columns, 0] // samples).astype(np.int64),
         low=faces.weights[::columns, 2:].sum(axis=1),
@@ -131,28 +145,43 @@ def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> Sheet:
 def pulls(pieces: Sequence[Piece]) -> Pulls:
     """Pieces in order. Those with the same values share them."""
     starts: dict[bytes, int] = {}
-    values: list[Array] = [np.zeros((3, 0))]
-    at, size = [], 0
+    reach = max((abs(p.b - p.a) for p in pieces if p.crosses), default=0)
+    gap = no_pulls(_whole(reach + LANES))
+    values, size, at = [gap], gap.shape[1], []
     for piece in pieces:
         key = piece.values.tobytes()
         if key not in starts:
             starts[key] = size
-            size += piece.values.shape[1]
-            values.append(piece.values)
+            more = no_pulls(_whole(piece.values.shape[1]) + gap.shape[1])
+            more[:, : piece.values.shape[1]] = piece.values
+            size += more.shape[1]
+            values.append(more)
         at.append(starts[key])
-    length, part_i, part_j = np.concatenate(values, axis=1)
-    lanes = np.array([(p.a, p.b, p.values.shape[1]) for p in pieces], np.int64).reshape(-1, 3)
-    a, b, count = (np.ascontiguousarray(column) for column in lanes.T)
-    return Pulls(a, b, count, np.array(at, np.int64), length, part_i, part_j)
+    lanes = [(piece.a, piece.b, _whole(piece.values.shape[1])) for piece in pieces]
+    a, b, count = np.array(lanes, np.int64).reshape(-1, 3).T.copy()
+    start = np.array(at, np.int64)
+    held = np.array([not p.values[1].any() for p in pieces], bool)
+    crossing = np.array([p.crosses for p in pieces], bool)
+    return Pulls(a, b, count, start, held, crossing, np.concatenate(values, axis=1))
 
 
 def anchored(sheet: Sheet, pairs: Pairs) -> Iterator[Piece]:
     """Pairs of a pin and a particle: one piece for each plane of anchors."""
     for number, anchor in enumerate(sheet.anchors):
         mine = slice(None) if anchor < 0 else pairs.pairs[:, 0] == anchor
-        values = _nothing(sheet)
+        values = no_pulls(sheet.size)
         _put(values, sheet, pairs.pairs[mine, 1], *(part[mine] for part in pairs[1:]))
         yield Piece((number + 1) * sheet.plane, 0, values)
+
+
+def limits(sheet: Sheet, cloth: Cloth, limit: float, sweeps: int) -> Pulls:
+    """`links.link_groups` in their order; those along rows are taken at once, in part."""
+    groups = [Pairs(*group) for group in link_groups(cloth, limit, sweeps)]
+    pieces: list[Piece] = []
+    for group in groups:
+        held = group is groups[0] or group is groups[-1]
+        pieces += anchored(sheet, group) if held else in_turn(sheet, group, AT_ONCE)
+    return pulls(pieces)
 
 
 def together(sheet: Sheet, pairs: Pairs) -> Iterator[Piece]:
@@ -198,7 +227,7 @@ def _by_shift(sheet: Sheet, pairs: Pairs) -> Iterator[tuple[int, Array]]:
     shifts = lanes[:, 1] - lanes[:, 0]
     _, first = np.unique(np.abs(shifts), return_index=True)
     for shift in np.abs(shifts[np.sort(first)]):
-        values = _nothing(sheet)
+        values = no_pulls(sheet.size)
         for sign, start, end in ((1, 0, 1), (-1, 1, 0)):
             mine = shifts == sign * shift
             parts = pairs.part_i[mine], pairs.part_j[mine]
@@ -213,9 +242,13 @@ def _rows_and_columns(sheet: Sheet, shift: int) -> tuple[int, int]:
     return rows, shift - rows * sheet.width
 
 
-def _nothing(sheet: Sheet) -> Array:
+def _whole(count: int) -> int:
+    return -(-count // LANES) * LANES
+
+
+def no_pulls(count: int) -> Array:
     """Values of no pulls: length 1 m, parts 0."""
-    values = np.zeros((3, sheet.size))
+    values = np.zeros((3, count))
     values[0] = 1.0
     return values
 

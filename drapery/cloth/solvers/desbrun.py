@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels, sheet_kernels
+from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door
 from drapery.cloth.faces import wind_faces
@@ -30,15 +30,14 @@ from drapery.cloth.filters import (
     sheet_filter,
 )
 from drapery.cloth.forces import Force
-from drapery.cloth.links import Links, limited_links, link_groups
+from drapery.cloth.links import Links, limited_links
 from drapery.cloth.pins import PinPath
 from drapery.cloth.sheets import (
     Pairs,
     Pulls,
     Sheet,
-    anchored,
-    in_turn,
     is_sheet,
+    limits,
     pulls,
     sheet_of,
     together,
@@ -59,8 +58,6 @@ from drapery.errors import OptionError
 CELLS = 60
 """A step is halved on grids with more cells than this one way, and so on: a gust must not carry a
 particle past several neighbours in one."""
-AT_ONCE = 0.75
-"""Part of the corrections along a sheet's rows, which are made at once."""
 
 
 class Plan(NamedTuple):
@@ -123,8 +120,8 @@ class SolverDesbrun:
         pins: PinPath | None = None,
     ) -> tuple[State, Memory]:
         args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        kernel = _advance_sheet if isinstance(memory.plan, SheetPlan) else _advance
-        return advance(kernel, *args), memory
+        alone = isinstance(memory.plan, SheetPlan)
+        return advance(_advance_sheet if alone else _advance, *args, alone=alone), memory
 
 
 def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:
@@ -133,20 +130,10 @@ def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:
     pairs = cloth.spring_pairs
     part_i, part_j = (dt * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
     springs = Pairs(pairs, cloth.spring_length, part_i, part_j)
-    links = [Pairs(*group) for group in link_groups(cloth, limit, sweeps)]
-    pieces = [
-        piece
-        for group in links
-        for piece in (
-            anchored(sheet, group)
-            if group is links[0] or group is links[-1]
-            else in_turn(sheet, group, AT_ONCE)
-        )
-    ]
     return SheetPlan(
         sheet,
         pulls(list(together(sheet, springs))),
-        pulls(pieces),
+        limits(sheet, cloth, limit, sweeps),
         sheet_filter(cloth, dt, sheet.width),
     )
 
@@ -157,11 +144,12 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     body, dtype = plan.body, batch.x.dtype
     dt = dtype.type(batch.numbers[0])
     rows, width = batch.x.shape[0], min(batch.width, last - first)
-    y, u = np.empty((rows, width), dtype), np.empty((rows, width), dtype)
-    both, old = np.empty((2, rows, width), dtype), np.empty((rows, width), dtype)
-    g, mean = both[1], np.empty((3, width), dtype)
-    wind = np.empty((3 * body.controls.size, width), dtype)
-    work = np.empty((18, width), dtype)
+    y, u = simd.room(rows, width, batch.x), simd.room(rows, width, batch.x)
+    both = simd.room(2 * rows, width, batch.x).reshape((2, rows, width))
+    old = simd.room(rows, width, batch.x)
+    g, mean = both[1], simd.room(3, width, batch.x)
+    wind = simd.room(3 * body.controls.size, width, batch.x)
+    work = simd.room(18, width, batch.x)
     for block in range(first, last, width):
         # The last block overlaps the one before, so that all have one width.
         start = min(block, last - width)
@@ -177,9 +165,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             for number in range(batch.gusts.seeds.size):
                 kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
                 pressure = batch.gusts.numbers[number, 16]
-                kernels.add_wind_velocities(
-                    g, y, u, body.faces, wind, pressure, body.inv_mass, dt, work
-                )
+                kernels.add_wind_velocities(g, y, u, body.faces, wind, pressure, body.inv_mass, dt)
             kernels.add_uniform(g, mean, body.inv_mass, batch.numbers, batch.push, start)
             kernels.move(y, g, old, dt)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
@@ -194,9 +180,9 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     """Steps of cloths first..last, one after another."""
     sheet, dtype = plan.sheet, batch.x.dtype
     dt, width = dtype.type(batch.numbers[0]), sheet.plane * (1 + sheet.anchors.size)
-    y, u = np.zeros((3, width), dtype), np.zeros((3, sheet.plane), dtype)
-    g, old = np.zeros((3, sheet.plane), dtype), np.zeros((3, sheet.plane), dtype)
-    work, mean = np.zeros((2, sheet.plane), dtype), np.empty(3, dtype)
+    y, u = simd.room(3, width, batch.x), simd.room(3, sheet.plane, batch.x)
+    g, old = simd.room(3, sheet.plane, batch.x), simd.room(3, sheet.plane, batch.x)
+    work, mean = simd.room(3, 2 * sheet.plane, batch.x), np.empty(3, dtype)
     room = sheet_kernels.wind_room(sheet, dtype)
     for cloth in range(first, last):
         sheet_kernels.load(y, batch.x, cloth, sheet)

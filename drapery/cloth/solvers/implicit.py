@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels
+from drapery.cloth import kernels, simd
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.forces import Force
@@ -321,13 +321,13 @@ def _advance(
     rows, springs = batch.x.shape[0], plan.body.springs
     for start in range(first, last, batch.width):
         lanes = min(batch.width, last - start)
-        y, u = np.empty((rows, lanes), dtype), np.empty((rows, lanes), dtype)
-        g, old = np.empty((rows, lanes), dtype), np.empty((rows, lanes), dtype)
-        b, dv = np.empty((rows, lanes), dtype), np.empty((rows, lanes), dtype)
-        room = np.empty((4, rows, lanes), dtype)
-        blocks = np.empty((5 * springs.rest.size, lanes), dtype)
-        wind = np.empty((3 * body.controls.size * batch.gusts.seeds.size, lanes), dtype)
-        work = np.empty((18, lanes), dtype)
+        y, u = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
+        g, old = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
+        b, dv = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
+        room = simd.room(4 * rows, lanes, batch.x).reshape((4, rows, lanes))
+        blocks = simd.room(5 * springs.rest.size, lanes, batch.x)
+        wind = simd.room(3 * body.controls.size * batch.gusts.seeds.size, lanes, batch.x)
+        work = simd.room(18, lanes, batch.x)
         kernels.take_lanes(y, batch.x, start)
         kernels.take_lanes(u, batch.v, start)
         for step in range(steps * substeps):

@@ -102,9 +102,10 @@ def advance(
     pins: PinPath | None,
     threads: int | None,
     *options: Any,
+    alone: bool = False,
 ) -> State:
-    """The state `steps` steps later. kernel: called with first, last,
-    plan, batch, steps, substeps and the options. Raises OptionError."""
+    """The state `steps` steps later. kernel: called with first, last, plan, batch, steps, substeps
+    and the options; it steps whole registers of cloths, or each alone. Raises OptionError."""
     check_step(dt, steps)
     check_state(cloth, state)
     if dt != memory.dt:
@@ -112,7 +113,8 @@ def advance(
     loads = lower_forces(forces, len(state.positions))
     at_once = 1 if loads.custom else steps
     for _ in range(steps // at_once):
-        state = _advance(kernel, cloth, state, memory, loads, at_once, pins, threads, options)
+        args = (cloth, state, memory, loads, at_once, pins, threads, options, alone)
+        state = _advance(kernel, *args)
     return state
 
 
@@ -126,20 +128,30 @@ def _advance(
     pins: PinPath | None,
     threads: int | None,
     options: tuple[Any, ...],
+    alone: bool,
 ) -> State:
     plan = memory.of(state.positions.dtype)
-    batch = batch_of(cloth, state, memory, loads, steps, pins)
+    threads = lanes.thread_count(threads)
+    batch = batch_of(cloth, state, memory, loads, steps, pins, threads)
 
     def work(first: int, last: int) -> None:
         kernel(first, last, plan, batch, steps, memory.substeps, *options)
 
-    lanes.run_blocks(work, len(state.positions), batch.width, lanes.thread_count(threads))
+    count = len(state.positions)
+    cloths = count if alone else batch.x.shape[1]
+    lanes.run_blocks(work, cloths, batch.width, threads)
     time = state.time + steps * memory.dt
-    return State(lanes.from_lanes(batch.new_x), lanes.from_lanes(batch.new_v), time)
+    return State(lanes.from_lanes(batch.new_x, count), lanes.from_lanes(batch.new_v, count), time)
 
 
 def batch_of(
-    cloth: Cloth, state: State, memory: Memory, loads: Loads, steps: int, pins: PinPath | None
+    cloth: Cloth,
+    state: State,
+    memory: Memory,
+    loads: Loads,
+    steps: int,
+    pins: PinPath | None,
+    threads: int,
 ) -> Batch:
     dtype = state.positions.dtype
     x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
@@ -149,11 +161,14 @@ def batch_of(
         v,
         np.empty_like(x),
         np.empty_like(v),
-        loads.gusts._replace(origins=loads.gusts.origins.astype(dtype)),
+        loads.gusts._replace(
+            phases=lanes.filled(loads.gusts.phases, x.shape[1]),
+            origins=lanes.filled(loads.gusts.origins.astype(dtype), x.shape[1]),
+        ),
         np.array([h, loads.drag, state.time, *loads.gravity]),
         lanes.pin_targets(pins, state, h, steps * memory.substeps, count),
         lanes.to_lanes(custom_accelerations(loads, cloth, state)),
-        lanes.block_width(len(cloth.inv_mass), dtype.itemsize),
+        lanes.block_width(len(cloth.inv_mass), x, threads),
     )
 
 
@@ -230,7 +245,7 @@ def add_loads(
     for number in range(batch.gusts.seeds.size):
         here = wind[number * rows : (number + 1) * rows]
         pressure = batch.gusts.numbers[number, 16]
-        kernels.add_wind_velocities(g, y, u, body.faces, here, pressure, body.inv_mass, h, work)
+        kernels.add_wind_velocities(g, y, u, body.faces, here, pressure, body.inv_mass, h)
     fall(g, body.inv_mass, batch.numbers, batch.push, h, start)
 
 

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels
+from drapery.cloth import kernels, simd
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.forces import Force
@@ -138,10 +138,10 @@ def _advance(
     rows = batch.x.shape[0]
     for start in range(first, last, batch.width):
         lanes = min(batch.width, last - start)
-        y, u = np.empty((rows, lanes), dtype), np.empty((rows, lanes), dtype)
-        g, old = np.empty((rows, lanes), dtype), np.empty((rows, lanes), dtype)
-        wind = np.empty((3 * body.controls.size * batch.gusts.seeds.size, lanes), dtype)
-        work = np.empty((18, lanes), dtype)
+        y, u = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
+        g, old = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
+        wind = simd.room(3 * body.controls.size * batch.gusts.seeds.size, lanes, batch.x)
+        work = simd.room(18, lanes, batch.x)
         kernels.take_lanes(y, batch.x, start)
         kernels.take_lanes(u, batch.v, start)
         for step in range(steps * substeps):

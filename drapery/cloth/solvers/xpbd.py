@@ -25,11 +25,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import kernels, sheet_kernels
+from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.forces import Force
+from drapery.cloth.kernels import add
 from drapery.cloth.links import Links, attachments
 from drapery.cloth.order import across_then_outwards, pin_distances
 from drapery.cloth.pins import PinPath
@@ -41,9 +42,11 @@ from drapery.cloth.sheets import (
     anchored,
     in_turn,
     is_sheet,
+    limits,
     pulls,
     sheet_of,
 )
+from drapery.cloth.simd import fill, larger, load, span, store
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import Body, Memory, advance, body_of, check_count
 from drapery.cloth.state import State
@@ -53,6 +56,16 @@ from drapery.mesh import Array
 MAX_SUBSTEPS = 1000
 SLACK = 1.02
 """Attachments reach this much farther than the cloth at rest, so they catch only what is over."""
+NEAR = 2
+"""So many springs from a pin, particles need no attachment."""
+FINE = 90
+"""Grids with more particles than this one way also have the limits of desbrun's, once a step."""
+ENOUGH = 26
+"""Substeps of such grids: in more, steps so short that places are rounded shake so small cells."""
+LIMIT = 1.02
+"""Longest length of a spring on them over its rest length."""
+EVERY = 2
+"""Attachments take part in the last of so many substeps."""
 OFTEN = 3.0
 """Soft springs take part this many times as often as an explicit step would need."""
 
@@ -84,6 +97,7 @@ class SheetPlan(NamedTuple):
     constraints: Pulls
     begin: NDArray[np.int64]
     links: Pulls
+    limits: Pulls
 
 
 @dataclass(frozen=True)
@@ -129,8 +143,8 @@ class SolverXPBD:
         pins: PinPath | None = None,
     ) -> tuple[State, Memory]:
         args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        kernel = _advance_sheet if isinstance(memory.plan, SheetPlan) else _advance
-        return advance(kernel, *args), memory
+        alone = isinstance(memory.plan, SheetPlan)
+        return advance(_advance_sheet if alone else _advance, *args, alone=alone), memory
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -140,18 +154,19 @@ class SolverXPBD:
         return own
 
     def _links(self, cloth: Cloth) -> Links:
-        pairs, reach = (
-            attachments(cloth, SLACK) if self.attach else (np.zeros((0, 2), np.int32), [])
-        )
-        ones = np.ones(len(pairs))
-        return Links(pairs, np.asarray(reach, float), 0 * ones, ones)
+        pairs, reach = attachments(cloth, SLACK)
+        own = cloth.spring_length[cloth.spring_kind == STRUCTURAL]
+        far = self.attach & (reach > (NEAR + 0.5) * SLACK * own.mean())
+        ones = np.ones(int(far.sum()))
+        return Links(pairs[far], reach[far], 0 * ones, ones)
 
 
 def enough_substeps(cloth: Cloth) -> int:
     """Substeps at which a hanging cloth stretches a few per cent at most in a strong wind: one for
     every two or three springs between it and its pins, or across a cloth without pins."""
     if cloth.grid_shape is not None:
-        return max(4, int(np.ceil(max(cloth.grid_shape) / 2.5)))
+        most = ENOUGH if max(cloth.grid_shape) > FINE else MAX_SUBSTEPS
+        return min(most, max(4, int(np.ceil(max(cloth.grid_shape) / 2.5))))
     distances = pin_distances(cloth)
     reach = distances[np.isfinite(distances)].max(initial=0.0)
     springs = reach / cloth.spring_length[cloth.spring_kind == STRUCTURAL].mean()
@@ -221,50 +236,64 @@ def sheet_plan(cloth: Cloth, constraints: Constraints, links: Links) -> SheetPla
         pieces += in_turn(sheet, due)
         begin.append(len(pieces))
     held = pulls(list(anchored(sheet, Pairs(*links))))
-    return SheetPlan(sheet, pulls(pieces), np.array(begin), held)
+    fine = max(cloth.grid_shape or (1,)) > FINE
+    return SheetPlan(
+        sheet,
+        pulls(pieces),
+        np.array(begin),
+        held,
+        limits(sheet, cloth, LIMIT, int(fine)),
+    )
 
 
 @kernel
 def solve(x: Any, constraints: Any, substep: Any) -> None:
     """One substep's constraints, one after another."""
     for s in range(constraints.begin[substep], constraints.begin[substep + 1]):
-        i, j = 3 * constraints.pairs[s, 0], 3 * constraints.pairs[s, 1]
+        i, j = 3 * np.intp(constraints.pairs[s, 0]), 3 * np.intp(constraints.pairs[s, 1])
         rest = constraints.square[s]
-        part_i, part_j = constraints.share_i[s], constraints.share_j[s]
-        for lane in range(x.shape[1]):
-            dx = x[j, lane] - x[i, lane]
-            dy = x[j + 1, lane] - x[i + 1, lane]
-            dz = x[j + 2, lane] - x[i + 2, lane]
+        part_i, part_j = constraints.share_i[s], -constraints.share_j[s]
+        for lane in range(0, x.shape[1], span(x)):
+            dx = load(x, j, lane) - load(x, i, lane)
+            dy = load(x, j + 1, lane) - load(x, i + 1, lane)
+            dz = load(x, j + 2, lane) - load(x, i + 2, lane)
             square = dx * dx + dy * dy + dz * dz
             strain = (square - rest) / (square + rest)
-            to_i, to_j = part_i * strain, part_j * strain
-            x[i, lane] += to_i * dx
-            x[i + 1, lane] += to_i * dy
-            x[i + 2, lane] += to_i * dz
-            x[j, lane] -= to_j * dx
-            x[j + 1, lane] -= to_j * dy
-            x[j + 2, lane] -= to_j * dz
+            add(x, i, lane, part_i * strain, dx, dy, dz)
+            add(x, j, lane, part_j * strain, dx, dy, dz)
+
+
+@kernel
+def hold(x: Any, links: Any) -> None:
+    """Particles that are too far from their pins are pulled back; see the module for the form."""
+    for s in range(links.longest.size):
+        pin, i = 3 * np.intp(links.pairs[s, 0]), 3 * np.intp(links.pairs[s, 1])
+        most = links.longest[s] * links.longest[s]
+        least = fill(most)
+        for lane in range(0, x.shape[1], span(x)):
+            dx = load(x, i, lane) - load(x, pin, lane)
+            dy = load(x, i + 1, lane) - load(x, pin + 1, lane)
+            dz = load(x, i + 2, lane) - load(x, pin + 2, lane)
+            square = larger(dx * dx + dy * dy + dz * dz, least)
+            add(x, i, lane, (most - square) / (most + square), dx, dy, dz)
 
 
 @kernel
 def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -> None:
-    """x goes on as fast as in the last substep, or at first with v, and falls; old is x before."""
+    """Where x goes, into old: on as fast as in the last substep, or at first with v, and falling.
+
+    Old places are lost: the two arrays then change their parts.
+    """
     F = x.dtype.type
     h = F(numbers[0])
     for row in range(x.shape[0]):
         fall = F(numbers[0] * numbers[0] * numbers[3 + row % 3])
         if inv_mass[row // 3] == 0:
             fall = F(0)
-        if substep == 0:
-            for lane in range(x.shape[1]):
-                here = x[row, lane]
-                x[row, lane] = here + (h * v[row, lane] + fall)
-                old[row, lane] = here
-        else:
-            for lane in range(x.shape[1]):
-                here = x[row, lane]
-                x[row, lane] = here + ((here - old[row, lane]) + fall)
-                old[row, lane] = here
+        for lane in range(0, x.shape[1], span(x)):
+            here = load(x, row, lane)
+            way = h * load(v, row, lane) if substep == 0 else here - load(old, row, lane)
+            store(old, row, lane, here + (way + fall))
 
 
 @kernel
@@ -275,16 +304,17 @@ def add_pushes(u: Any, inv_mass: Any, numbers: Any, push: Any, dt: Any, start: A
     """
     F = u.dtype.type
     slow = F(1 / (1 + dt * numbers[1]))
+    if push.size == 0 and numbers[1] == 0:
+        return
     for row in range(u.shape[0]):
         if inv_mass[row // 3] == 0:
             continue
         fall = F(dt * numbers[3 + row % 3])
-        if push.size > 0:
-            for lane in range(u.shape[1]):
-                u[row, lane] += dt * push[row, start + lane]
-        if numbers[1] > 0:
-            for lane in range(u.shape[1]):
-                u[row, lane] = (u[row, lane] + fall) * slow - fall
+        for lane in range(0, u.shape[1], span(u)):
+            speed = load(u, row, lane)
+            if push.size > 0:
+                speed = speed + dt * load(push, row, start + lane)
+            store(u, row, lane, (speed + fall) * slow - fall)
 
 
 @door
@@ -294,10 +324,10 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     h = dtype.type(batch.numbers[0])
     dt = dtype.type(batch.numbers[0] * substeps)
     rows, width = batch.x.shape[0], min(batch.width, last - first)
-    y, u = np.empty((rows, width), dtype), np.empty((rows, width), dtype)
-    old = np.empty((rows, width), dtype)
-    wind = np.empty((3 * body.controls.size, width), dtype)
-    work = np.empty((18, width), dtype)
+    y, u = simd.room(rows, width, batch.x), simd.room(rows, width, batch.x)
+    old = simd.room(rows, width, batch.x)
+    wind = simd.room(3 * body.controls.size, width, batch.x)
+    work = simd.room(18, width, batch.x)
     for block in range(first, last, width):
         # The last block overlaps the one before, so that all have one width.
         start = min(block, last - width)
@@ -308,16 +338,16 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             for number in range(batch.gusts.seeds.size):
                 kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
                 pressure = batch.gusts.numbers[number, 16]
-                kernels.add_wind_velocities(
-                    u, y, u, body.faces, wind, pressure, body.inv_mass, dt, work
-                )
+                kernels.add_wind_velocities(u, y, u, body.faces, wind, pressure, body.inv_mass, dt)
             add_pushes(u, body.inv_mass, batch.numbers, batch.push, dt, start)
             for substep in range(substeps):
                 drift(y, old, u, body.inv_mass, batch.numbers, substep)
+                y, old = old, y
                 turn = step * substeps + substep
                 kernels.place_pins(y, old, body.pins, batch.targets, turn, start)
                 solve(y, plan.constraints, substep)
-                kernels.shorten(y, plan.links)
+                if (substeps - substep) % EVERY == 1:
+                    hold(y, plan.links)
             kernels.set_velocities(u, y, old, h)
         kernels.give_lanes(batch.new_x, y, start)
         kernels.give_lanes(batch.new_v, u, start)
@@ -329,9 +359,9 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     sheet, dtype = plan.sheet, batch.x.dtype
     h = dtype.type(batch.numbers[0])
     dt = dtype.type(batch.numbers[0] * substeps)
-    y = np.zeros((3, sheet.plane * (1 + sheet.anchors.size)), dtype)
-    u, old = np.zeros((3, sheet.plane), dtype), np.zeros((3, sheet.plane), dtype)
-    work, room = np.zeros((2, sheet.plane), dtype), sheet_kernels.wind_room(sheet, dtype)
+    y = simd.room(3, sheet.plane * (1 + sheet.anchors.size), batch.x)
+    u, old = simd.room(3, sheet.plane, batch.x), simd.room(3, sheet.plane, batch.x)
+    work, room = simd.room(3, 2 * sheet.plane, batch.x), sheet_kernels.wind_room(sheet, dtype)
     for cloth in range(first, last):
         sheet_kernels.load(y, batch.x, cloth, sheet)
         sheet_kernels.load(u, batch.v, cloth, sheet)
@@ -347,8 +377,14 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 sheet_kernels.place(y, sheet, batch.targets, step * substeps + substep, cloth)
                 begin, end = plan.begin[substep], plan.begin[substep + 1]
                 sheet_kernels.pull(y, plan.constraints, begin, end, sheet_kernels.SOLVE, work)
-                last_link = plan.links.a.size
-                sheet_kernels.pull(y, plan.links, 0, last_link, sheet_kernels.LIMIT, work)
+                if (substeps - substep) % EVERY == 1:
+                    last = plan.links.a.size
+                    sheet_kernels.pull(y, plan.links, 0, last, sheet_kernels.LIMIT, work)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
+            if plan.limits.a.size > 0:
+                sheet_kernels.move(y, u, old, dtype.type(0), sheet)
+                last_limit = plan.limits.a.size
+                sheet_kernels.pull(y, plan.limits, 0, last_limit, sheet_kernels.LIMIT, work)
+                sheet_kernels.add_velocities(u, y, old, dt, sheet)
         sheet_kernels.store(batch.new_x, y, cloth, sheet)
         sheet_kernels.store(batch.new_v, u, cloth, sheet)
