@@ -17,6 +17,9 @@ from drapery.pictures import draw
 
 pytest_plugins = ["studio_browser"]
 
+WRITTEN = (
+    "const text = document.getElementById('written').value; return /pattern/.test(text) && text"
+)
 VIEWER = "document.querySelector('.viewer').viewer"
 
 
@@ -188,6 +191,8 @@ def test_it_looks_as_a_picture_does(page: Any, view: str) -> None:
         page.find_element(By.CSS_SELECTOR, f'[aria-label="{label}"]')
         for label in ("Back to rest", "Pause or go on")
     )
+    page.find_element(By.CSS_SELECTOR, '[aria-label="A design by chance"]').click()
+    design = wait_until(lambda: page.execute_script(WRITTEN))
     wait_until(lambda: ask(page, "time") > 0.2)
     reset.click()
     wait_until(lambda: ask(page, "time") < 0.2)
@@ -198,7 +203,9 @@ def test_it_looks_as_a_picture_does(page: Any, view: str) -> None:
     wait_until(lambda: (ask(page, "cameras[0].height") is None) == (view == "Hero"))
     box = canvas(page).size
     time = math.floor(ask(page, "time") * 60 + 0.5) / 60 - 1e-6
-    own = draw(Banner(), time=time, view=view.lower(), size=(box["width"], box["height"])).pixels
+    own = draw(
+        Banner.parse(design), time=time, view=view.lower(), size=(box["width"], box["height"])
+    ).pixels
     seen = picture(page)
     assert seen.shape == own.shape
     shown = own[..., 3] > 0
