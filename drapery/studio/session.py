@@ -33,8 +33,8 @@ class Session:
         self.survival = True
         self._folder: Path | None = None
         self._packs: tuple[object, Packs] | None = None
-        self._listeners: defaultdict[str, list[Callable[[], None]]] = defaultdict(list)
-        self._at_close: list[Callable[[], None]] = []
+        self._listeners: defaultdict[str, list[Callable[[], object]]] = defaultdict(list)
+        self._at_close: list[Callable[[], object]] = []
         self._closed = False
 
     @property
@@ -96,7 +96,7 @@ class Session:
         if self.settings != before:
             self.tell("settings")
 
-    def listen(self, what: Event, call: Callable[[], None]) -> None:
+    def listen(self, what: Event, call: Callable[[], object]) -> None:
         """Call this whenever `what` is told."""
         self._listeners[what].append(call)
 
@@ -105,7 +105,7 @@ class Session:
         for call in [*self._listeners[what]]:
             call()
 
-    def on_close(self, call: Callable[[], None]) -> None:
+    def on_close(self, call: Callable[[], object]) -> None:
         """Call this when the tab is gone; at once where it is already."""
         if self._closed:
             call()

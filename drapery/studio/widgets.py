@@ -22,7 +22,7 @@ def button(label: str, press: Press, *, icon: str = "", text: str = "", key: str
     return element.on("click", lambda: press())
 
 
-def words(text: str, tag: str = "span") -> Element:
+def words(text: str, tag: str = "span") -> ui.label:
     """A piece of text in an element of its own; never read as HTML."""
     element = ui.label(text)
     element.tag = tag

@@ -1,6 +1,7 @@
 """The bar at the top: what is done to the whole design."""
 
 import secrets
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, get_args
 
@@ -23,8 +24,8 @@ def build(session: Session) -> None:
     words("Drapery Studio", "h1").classes("brand")
     _title(session)
     with ui.element("div").classes("bar-group"):
-        undo = button("Undo", session.undo, icon="undo", key="Ctrl+Z").classes("undo")
-        redo = button("Redo", session.redo, icon="redo", key="Ctrl+Shift+Z").classes("redo")
+        undo = button("Undo", session.undo, icon="undo", key="Ctrl+Z")
+        redo = button("Redo", session.redo, icon="redo", key="Ctrl+Shift+Z")
     with ui.element("div").classes("bar-group bar-design"):
         button("A design by chance", lambda: chance(session), icon="casino", key="R")
         button(
@@ -88,7 +89,7 @@ def set_mode(session: Session, name: str) -> None:
 
 def act(session: Session, desk: Desk, what: str) -> None:
     """Do what a shortcut of `studio.js` asks for."""
-    deeds = {
+    deeds: dict[str, Callable[[], object]] = {
         "undo": session.undo,
         "redo": session.redo,
         "chance": lambda: chance(session),
@@ -104,4 +105,5 @@ def act(session: Session, desk: Desk, what: str) -> None:
         "none": lambda: desk.choose(None),
     }
     with faults():
-        deeds.get(what, lambda: None)()
+        if what in deeds:
+            deeds[what]()
