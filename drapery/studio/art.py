@@ -10,9 +10,11 @@ from drapery.banner.packs import Packs
 from drapery.banner.sprites import (
     FLAG_REGIONS,
     SHIELD_REGIONS,
+    UNITS,
     Region,
     composite,
     flag_layers,
+    resize,
     shield_layers,
 )
 from drapery.pictures import face_pixels
@@ -56,7 +58,9 @@ def pattern_sheet(packs: Packs, base: str, dye: str) -> bytes:
 
 
 def _cell(packs: Packs, banner: Banner) -> Pixels:
-    return _sampled(FLAG_REGIONS["front"], composite(flag_layers(banner, packs)), 1)
+    # Sampled before they are laid over each other: fine packs have 256 times the texels.
+    layers = [(resize(texels, UNITS), rgb) for texels, rgb in flag_layers(banner, packs)]
+    return _sampled(FLAG_REGIONS["front"], composite(layers), 1)
 
 
 def _sampled(region: Region, sheet: Pixels, scale: int) -> Pixels:

@@ -1,0 +1,61 @@
+"""The small pictures of packs are true to the texel, whatever the packs' sizes."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pack_maker import BANNER, META, NEW_BASE, mcmeta, noise, png, zip_pack
+
+from drapery.banner.design import Banner, Layer
+from drapery.banner.packs import Packs, open_packs
+from drapery.banner.packs.png import read_png
+from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
+from drapery.studio.art import face_png, pattern_sheet
+from drapery.studio.downloads import CELL, COLUMNS, GAP, _rows
+from drapery.studio.panels.library import thumbnail
+
+NAMES = ("creeper", "border", "gradient")
+
+
+@pytest.fixture(params=[(32, 64), (128, 64), (64, 256), (96, 64)])
+def packs(request: pytest.FixtureRequest, tmp_path: Path) -> Packs:
+    side, base = request.param
+    sheets = {f"{BANNER}{name}.png": png(noise(n, side)) for n, name in enumerate(NAMES)}
+    files = {META: mcmeta(), NEW_BASE: png(noise(9, base)), **sheets}
+    return open_packs([zip_pack(tmp_path / "pack.zip", files)])
+
+
+def middle_texels(banner: Banner, packs: Packs) -> np.ndarray:
+    """The front at one pixel a unit, by way of the whole composite [40, 20, 4]."""
+    texels = FLAG_REGIONS["front"].crop(composite(flag_layers(banner, packs)))
+    down = (np.arange(40) * 2 + 1) * texels.shape[0] // 80
+    across = (np.arange(20) * 2 + 1) * texels.shape[1] // 40
+    return texels[down][:, across]
+
+
+def test_cells_are_the_middles_of_the_whole_picture(packs: Packs) -> None:
+    sheet = read_png(pattern_sheet(packs, "red", "lime"), "sheet")
+    for place, name in enumerate(packs.patterns()):
+        if name in NAMES:
+            cell = sheet[:, 20 * place : 20 * place + 20]
+            wanted = middle_texels(Banner("red", (Layer(name, "lime"),)), packs)
+            np.testing.assert_array_equal(cell, wanted)
+
+
+def test_rows_hold_the_cells_in_their_order(packs: Packs) -> None:
+    sheet = pattern_sheet(packs, "white", "black")
+    line, page = read_png(sheet, "line"), read_png(_rows(sheet), "page")
+    width, height = CELL
+    for place in range(len(packs.patterns())):
+        top, left = place // COLUMNS * (height + GAP), place % COLUMNS * (width + GAP)
+        cell = line[:, width * place : width * (place + 1)]
+        np.testing.assert_array_equal(page[top : top + height, left : left + width], cell)
+
+
+@pytest.mark.parametrize("kind", ["banner", "shield"])
+def test_a_thumbnail_is_the_face_made_small(kind, packs: Packs) -> None:
+    banner = Banner("red", (Layer("creeper", "lime"),), kind)
+    face = read_png(face_png(banner, packs), "face")
+    small = read_png(thumbnail(banner, packs), "small")
+    assert small.shape == (face.shape[0] // 4, face.shape[1] // 4, 4)
+    np.testing.assert_array_equal(small, face[2::4, 2::4])
