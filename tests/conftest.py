@@ -7,8 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import settings
+from studio_browser import chromium, studio
 
 from drapery import cli
+
+# Fixtures are found by their names here.
+__all__ = ["chromium", "studio"]
 
 # How long one example takes is the machine's business on a shared machine, not the example's.
 settings.register_profile("shared machine", deadline=None)

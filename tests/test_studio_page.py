@@ -27,8 +27,6 @@ from drapery.banner.design import Banner
 from drapery.banner.formats import write_banner
 from drapery.pictures import draw_face
 
-pytest_plugins = ["studio_browser"]
-
 HERE = Path(__file__).parent
 CONTRAST = (HERE / "page_contrast.js").read_text()
 NAMELESS = (HERE / "page_names.js").read_text()

@@ -1,0 +1,99 @@
+"""Tabs that are opened and closed leave nothing behind: no session, thread, file or memory."""
+
+import os
+import re
+import time
+import urllib.error
+import urllib.request
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from studio_browser import Studio, wait_until
+
+websockets = pytest.importorskip("websockets.sync.client")
+
+CYCLES = int(os.environ.get("DRAPERY_STUDIO_CYCLES", "12"))
+
+
+@contextmanager
+def tab(studio: Studio) -> Iterator[str]:
+    """A page with its socket and its live cloth, as a browser opens them; gives its token."""
+    page = urllib.request.urlopen(studio.address, timeout=10).read().decode()
+    token = re.search(r"data-token[^A-Za-z0-9_-]+([A-Za-z0-9_-]{32})", page)
+    client = re.search(r"'client_id': '([0-9a-f-]+)'", page)
+    assert token and client
+    words = {"client_id": client[1], "tab_id": uuid.uuid4(), "document_id": uuid.uuid4()}
+    words |= {"EIO": 4, "transport": "websocket", "implicit_handshake": "true"}
+    words |= {"next_message_id": 0}
+    address = studio.address.replace("http", "ws")
+    line = "&".join(f"{key}={value}" for key, value in words.items())
+    with websockets.connect(f"{address}_nicegui_ws/socket.io/?{line}") as socket:
+        assert socket.recv(5).startswith("0")
+        socket.send("40")
+        assert socket.recv(5).startswith("40")
+        with websockets.connect(f"{address}live/{token[1]}") as live:
+            live.send('{"shape": [300, 400]}')
+            assert live.recv(10) and live.recv(10)
+            yield token[1]
+
+
+def status(studio: Studio, token: str) -> int:
+    try:
+        return urllib.request.urlopen(f"{studio.address}face/{token}.png", timeout=10).status
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+def threads(studio: Studio) -> int:
+    return len(list(Path(f"/proc/{studio.process.pid}/task").iterdir()))
+
+
+def handles(studio: Studio) -> int:
+    return len(list(Path(f"/proc/{studio.process.pid}/fd").iterdir()))
+
+
+def memory(studio: Studio) -> float:
+    """What the process has in memory [MiB]."""
+    pages = int(Path(f"/proc/{studio.process.pid}/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs Linux's /proc to count")
+def test_tabs_leave_nothing(studio: Studio) -> None:
+    def cycle() -> str:
+        with tab(studio) as token:
+            assert status(studio, token) == 200
+        return token
+
+    def closed(token: str) -> bool:
+        return status(studio, token) == 404
+
+    first = cycle()
+    wait_until(lambda: closed(first))
+    before = threads(studio), handles(studio), memory(studio)
+    began = time.monotonic()
+    tokens = [cycle() for _ in range(CYCLES)]
+    each = (time.monotonic() - began) / CYCLES
+    for token in tokens:
+        wait_until(lambda token=token: closed(token))
+    wait_until(lambda: handles(studio) <= before[1] + 2)
+    after = threads(studio), handles(studio), memory(studio)
+    print(f"{CYCLES} tabs, {each:.2f} s each; threads, handles, MiB: {before} -> {after}")
+    # The pools that serve pictures and cloth may grow to their fixed size.
+    assert after[0] <= before[0] + 40
+    assert after[2] < before[2] + 60
+    assert not list(studio.folder.glob("drapery-studio-*"))
+
+
+def test_a_stopped_studio_leaves_no_files(tmp_path: Path) -> None:
+    studio = Studio(tmp_path)
+    with tab(studio) as token:
+        body = b"white creeper:lime"
+        urllib.request.urlopen(f"{studio.address}designs/{token}?name=x.txt", body, timeout=10)
+        assert list(tmp_path.glob("drapery-studio-*"))
+        studio.stop()
+    assert not list(tmp_path.glob("drapery-studio-*"))
+    assert "Traceback" not in "".join(studio.log)
