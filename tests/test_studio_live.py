@@ -320,14 +320,16 @@ def test_a_camera_is_told_once_a_cut() -> None:
 
 
 @pytest.mark.parametrize("shape", [(300, 200), (200, 300)])
-def test_upright_viewers_stack_what_is_side_by_side(shape: tuple[int, int]) -> None:
-    live, told = a_live(), Told()
-    live.wear(DESIGN, open_packs(()), SETTINGS, open_packs(()))
-    told.reframe(shape)
-    header, _ = unpack(told.messages(live.shown())[0])
-    assert header["columns"] == (2 if shape[0] > shape[1] else 1)
+def test_upright_viewers_stack_scenes_but_not_banners(shape: tuple[int, int]) -> None:
+    live = a_live()
+    live.wear(DESIGN, open_packs(()), SETTINGS, open_packs(()), ("one", "other"))
+    banners, _ = unpack(Told("all", shape).messages(live.shown())[0])
+    assert banners["columns"] == 2
+    assert [pane["label"] for pane in banners["panes"]] == ["one", "other"]
     only, _ = unpack(Told("right", shape).messages(live.shown())[0])
-    assert len(header["panes"]) == 2 and len(only["panes"]) == 1
+    assert [pane["label"] for pane in only["panes"]] == ["other"]
+    scenes, _ = unpack(Told("all", shape).messages(Player("fold", shape).step())[0])
+    assert scenes["columns"] == (2 if shape[0] > shape[1] else 1)
 
 
 def test_a_scene_comes_round_again() -> None:

@@ -209,13 +209,14 @@ class Told:
 
 
 def _arranged(shown: Shown, which: str, shape: tuple[int, int]) -> Shown:
-    """The panes that a viewer shows; under each other where it is upright and they are a row."""
+    """The panes that a viewer shows; a row of scenes stands upright where the viewer does."""
     count = len(shown.panes)
     if which != "all" and count > 1:
         return replace(
             shown, panes=shown.panes[:1] if which == "left" else shown.panes[-1:], columns=1
         )
-    if count > 1 and shown.columns == count and shape[0] < shape[1]:
+    # Banners are tall: of these two stand well beside each other in any viewer.
+    if count > 1 and shown.columns == count and shown.wind is None and shape[0] < shape[1]:
         return replace(shown, columns=1)
     return shown
 

@@ -11,7 +11,7 @@ from drapery.studio.panes import Shown, shown_picture
 
 MAX_KEPT = 96 << 20
 """A scene is remembered up to this size [bytes], so that it need not be simulated again."""
-LIGHTER = {"stress": {"side": "9"}}
+LIGHTER = {"stress": {"side": "7"}}
 """Parameters of scenes that would be too much for a browser."""
 LONGEST = 960
 """The longest side for which a scene is laid out [pixels]; the viewer draws at its own."""
