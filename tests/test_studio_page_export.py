@@ -19,6 +19,7 @@ from studio_browser import Studio, chromium, console_errors, open_page, studio, 
 from drapery.settings import Settings
 from drapery.studio.share import read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
+from drapery.studio.stage import Wishes
 
 __all__ = ["chromium", "studio"]
 
@@ -127,6 +128,23 @@ def test_a_picture_is_the_commands_to_the_byte(
     assert wait_until(lambda: page.find("#panel-export a.export-link").text).startswith(
         "lime-ghost"
     )
+
+
+def test_what_the_live_banner_has_alone_is_said() -> None:
+    from drapery.studio.panels.export import _difference
+
+    assert _difference(Wishes(), "png") == _difference(Wishes(turned=9.0), "json") == ""
+    assert "its own direction, pins, not" in _difference(Wishes(turned=9.0, pins="none"), "gif")
+    assert "not the scene" in _difference(Wishes(scene="sail"), "glb")
+
+
+def test_no_wind_is_no_wind_in_the_file_too(page: Page) -> None:
+    page.run(
+        "[...document.querySelectorAll('#panel-motion .q-toggle')]"
+        ".find((each) => each.innerText.includes('It blows')).click()"
+    )
+    wait_until(lambda: "--wind 0" in page.text("#as-command"))
+    assert not page.find("#panel-export .warning").is_displayed()
 
 
 def test_an_animation_shows_progress_and_can_be_stopped(page: Page, downloads: Path) -> None:

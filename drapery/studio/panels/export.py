@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -20,6 +20,7 @@ from drapery.studio.share import write_link
 from drapery.studio.shelf import shelf_of
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import LOOPS, Order, as_command, as_python
+from drapery.studio.stage import Wishes, stage_of
 from drapery.studio.widgets import button, words
 
 KINDS = {
@@ -88,7 +89,7 @@ def build(session: Session) -> None:
     session.listen("sketch", copy)
     session.listen("settings", show)
     session.listen("packs", copy)
-    _keep_address(session)
+    _keep_up(session, show)
 
 
 def order_of(session: Session, choice: Choice) -> Order:
@@ -96,6 +97,8 @@ def order_of(session: Session, choice: Choice) -> Order:
     # A cape or elytra wears a texture, no design.
     banner = None if session.settings.texture is not None else banner_of(session.sketch)
     look = session.settings
+    if not stage_of(session).wishes.on:
+        look = replace(look, wind=0.0)
     return Order(banner, look, choice.kind, choice.seconds, choice.fps, choice.scale)
 
 
@@ -124,10 +127,14 @@ def _options(session: Session, choice: Choice) -> Callable[[], None]:
         _ground(session, choice, fields, groups)
 
     hint = words("", "p").classes("hint")
+    differs = words("", "p").classes("warning")
 
     def fit() -> None:
         fields.refresh()
         hint.set_text(HINTS.get(choice.kind, ""))
+        line = _difference(stage_of(session).wishes, choice.kind)
+        differs.set_text(line)
+        differs.set_visibility(bool(line))
         for group, counts in groups:
             group.set_visibility(counts())
 
@@ -323,12 +330,31 @@ def _copies(session: Session, choice: Choice) -> Callable[[], None]:
     return show
 
 
-def _keep_address(session: Session) -> None:
-    """Let the page's address follow the design, so that loading it again brings all back."""
+def _difference(wishes: Wishes, kind: str) -> str:
+    """What of the live banner is not in the file."""
+    if kind in ("face", "json"):
+        return ""
+    if wishes.scene is not None:
+        return "The file shows your banner, not the scene."
+    own = Wishes()
+    names = {"turned": "direction", "gusts": "gusts", "pins": "pins"}
+    apart = [n for name, n in names.items() if getattr(wishes, name) != getattr(own, name)]
+    return f"The file has its own {', '.join(apart)}, not those of the live banner." * bool(apart)
+
+
+def _keep_up(session: Session, show: Callable[[], None]) -> None:
+    """Let the page's address follow the design, so that loading it again brings all back.
+
+    What is wished of the live banner is looked at as often, since nobody tells of it.
+    """
     written = write_link(session.sketch, session.settings)
+    wishes = stage_of(session).wishes
 
     def tidy() -> None:
-        nonlocal written
+        nonlocal written, wishes
+        if stage_of(session).wishes != wishes:
+            wishes = stage_of(session).wishes
+            show()
         word = write_link(session.sketch, session.settings)
         if word != written:
             written = word
