@@ -189,7 +189,7 @@ def test_scenes_are_played_and_left_again(page: Any) -> None:
 def test_it_looks_as_a_picture_does(page: Any, view: str) -> None:
     reset, pause = (
         page.find_element(By.CSS_SELECTOR, f'[aria-label="{label}"]')
-        for label in ("Back to rest", "Pause or go on")
+        for label in ("Back to rest", "Pause")
     )
     page.find_element(By.CSS_SELECTOR, '[aria-label="A design by chance"]').click()
     design = wait_until(lambda: page.execute_script(WRITTEN))
@@ -217,7 +217,7 @@ def test_it_looks_as_a_picture_does(page: Any, view: str) -> None:
 
 
 def test_it_comes_back_when_the_graphics_card_does(page: Any) -> None:
-    page.find_element(By.CSS_SELECTOR, '[aria-label="Pause or go on"]').click()
+    page.find_element(By.CSS_SELECTOR, '[aria-label="Pause"]').click()
     wait_until(lambda: is_still(page))
     before = picture(page)
     lost = "drawing.gl.getExtension('WEBGL_lose_context')"

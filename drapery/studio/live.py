@@ -223,7 +223,8 @@ class Live:
         under = int(self._settings.shadow)
         soft = self._settings.pose == "cloth"
         grip = frozenset(range(first + under, len(meshes) + under) if soft else ())
-        return Shown(panes, len(panes), grip, self._heading(), self._cut(), self.time)
+        wind = self._heading() if grip else None
+        return Shown(panes, len(panes), grip, True, wind, self._cut(), self.time)
 
     def _cut(self) -> object:
         asked = self._settings

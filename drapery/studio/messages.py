@@ -196,8 +196,7 @@ class Told:
         cut = self._cut is None or self._cut != (shown.cut,)
         self._cut = (shown.cut,)
         # A live body is framed once for each cut, a scene may carry its camera about.
-        follow = shown.wind is None
-        if not cut and not follow:
+        if not cut and shown.live:
             return None
         rows = -(-len(shown.panes) // shown.columns)
         aspect = (self.shape[0] / shown.columns) / (self.shape[1] / rows)
@@ -216,7 +215,7 @@ def _arranged(shown: Shown, which: str, shape: tuple[int, int]) -> Shown:
             shown, panes=shown.panes[:1] if which == "left" else shown.panes[-1:], columns=1
         )
     # Banners are tall: of these two stand well beside each other in any viewer.
-    if count > 1 and shown.columns == count and shown.wind is None and shape[0] < shape[1]:
+    if count > 1 and shown.columns == count and not shown.live and shape[0] < shape[1]:
         return replace(shown, columns=1)
     return shown
 

@@ -33,14 +33,15 @@ class Pane:
 class Shown:
     """All that is seen.
 
-    columns: panes in a row. grip: the models of each pane that a hand can take. wind: None where
-    nothing can be steered. cut: another value than before asks the viewer to look anew. time: how
-    long the cloth has moved [s].
+    columns: panes in a row. grip: the models of each pane that a hand can take. live: whether it is
+    the body that is being designed. wind: None where nothing can be steered. cut: another value
+    than before asks the viewer to look anew. time: how long the cloth has moved [s].
     """
 
     panes: tuple[Pane, ...]
     columns: int = 1
     grip: frozenset[int] = frozenset()
+    live: bool = False
     wind: Wind | None = None
     cut: object = None
     time: float = 0.0

@@ -9,7 +9,7 @@ export default {
         <svg viewBox="-10 -10 20 20" :style="arrow" aria-hidden="true"><path d="M0 -8 L5 3 L0 0.5 L-5 3 Z" /></svg>
         <span>{{ windText }}</span>
       </div>
-      <div v-show="rate !== null" class="viewer-rate" aria-hidden="true">{{ rate }} frames/s</div>
+      <div v-show="rate" class="viewer-rate" aria-hidden="true">{{ rate }} frames/s</div>
       <p v-show="line" class="viewer-line" role="alert">{{ line }}</p>
     </div>`,
   props: { address: String, label: String },

@@ -14,6 +14,8 @@ from drapery.studio.notices import faults
 from drapery.studio.session import Session
 from drapery.studio.stage import stage_of
 
+LET_GO = "() => setTimeout(() => document.activeElement?.blur?.(), 60)"
+
 Get = Callable[[], Any]
 Set = Callable[[Any], object]
 
@@ -24,6 +26,7 @@ class Controls:
     def __init__(self, session: Session) -> None:
         self._session = session
         self._shown: list[tuple[ValueElement[Any], Get]] = []
+        self._states: list[Callable[[], None]] = []
         self._quiet = False
 
     def follow(self) -> None:
@@ -31,6 +34,7 @@ class Controls:
         self._session.listen("settings", self.refresh)
         self._session.listen("scene", self.refresh)
         stage_of(self._session).listen(self.refresh)
+        self.refresh()
 
     def refresh(self) -> None:
         """Show what the session holds now."""
@@ -40,6 +44,8 @@ class Controls:
                 value = get()
                 if element.value != value:
                     element.value = value
+            for show in self._states:
+                show()
         finally:
             self._quiet = False
 
@@ -66,6 +72,8 @@ class Controls:
         """One of several."""
         element = ui.select(dict(choices), label=label, value=get()).classes("control")
         element.props(f'dense outlined options-dense aria-label="{label}"')
+        # Left alone by its list it would keep the keys that steer the wind.
+        element.on("popup-hide", js_handler=LET_GO)
         self._listen(element, get, change)
         return element
 
@@ -74,17 +82,31 @@ class Controls:
         element = ui.switch(label, value=get()).classes("control").props("dense")
         self._listen(element, get, change)
 
-    def button(self, icon: str, label: str, call: Callable[[], object]) -> ui.button:
-        """Something done at once."""
+    def button(
+        self, label: str, call: Callable[[], object], *, icon: str | None = None
+    ) -> ui.button:
+        """Something done at once; an icon stands for its label."""
 
         def press() -> None:
             with faults():
                 call()
+            self.refresh()
 
-        button = ui.button(icon=icon, on_click=press).props(f'flat dense aria-label="{label}"')
-        with button:
-            ui.tooltip(label)
+        button = ui.button("" if icon else label, icon=icon, on_click=press)
+        button.props(f'flat dense no-caps aria-label="{label}"')
+        if icon:
+            with button:
+                ui.tooltip(label)
         return button
+
+    def pressed(self, button: ui.button, get: Callable[[], bool]) -> None:
+        """Show of a button whether it is pressed."""
+
+        def show() -> None:
+            button.props.update({"aria-pressed": str(get()).lower()})
+            button.update()
+
+        self._states.append(show)
 
     def _listen(self, element: ValueElement[Any], get: Get, change: Set) -> None:
         def changed(event: Any) -> None:

@@ -6,7 +6,6 @@ from nicegui import ui
 
 from drapery.render.views import VIEWS
 from drapery.scenes import catalogue
-from drapery.studio.notices import faults
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
 from drapery.studio.stage import in_thread, stage_of
@@ -32,11 +31,12 @@ def build(session: Session) -> None:
                 .props('role="group" aria-label="Views of the banner"')
             ):
                 for name in VIEWS:
-                    _view(session, name)
-            controls.button(
-                "pause", "Pause or go on", lambda: stage.wish(paused=not stage.wishes.paused)
+                    _view(session, controls, name)
+            pause = controls.button(
+                "Pause", lambda: stage.wish(paused=not stage.wishes.paused), icon="pause"
             )
-            controls.button("restart_alt", "Back to rest", stage.reset)
+            controls.pressed(pause, lambda: stage.wishes.paused)
+            controls.button("Back to rest", stage.reset, icon="restart_alt")
             scenes = controls.select(
                 "Scene",
                 {None: OWN},
@@ -54,14 +54,14 @@ def build(session: Session) -> None:
     ui.timer(LATER, list_scenes, once=True)
 
 
-def _view(session: Session, name: str) -> None:
+def _view(session: Session, controls: Controls, name: str) -> None:
     def choose() -> None:
-        with faults():
-            session.adjust(view=name)
-            stage_of(session).look_anew()
+        session.adjust(view=name)
+        stage_of(session).look_anew()
 
-    button = ui.button(VIEW_WORDS.get(name, name), on_click=choose)
-    button.props(f'flat dense no-caps aria-label="View: {VIEW_WORDS.get(name, name)}"')
+    button = controls.button(VIEW_WORDS.get(name, name), choose)
+    button.props(f'aria-label="View: {VIEW_WORDS.get(name, name)}"')
+    controls.pressed(button, lambda: session.settings.view == name)
 
 
 @cache

@@ -111,6 +111,15 @@ def _place(session: Session, controls: Controls) -> None:
         lambda number: _rotate(session, int(number)),
         lambda number: f"{number * 360 / ROTATIONS:g}°",
     )
+    controls.select(
+        "Flag",
+        {"cloth": "cloth", "vanilla": "the game's"},
+        lambda: session.settings.pose,
+        lambda pose: session.adjust(pose=pose),
+    )
+    controls.switch(
+        "Shadow", lambda: session.settings.shadow, lambda on: session.adjust(shadow=bool(on))
+    )
 
 
 def _rotation(session: Session) -> int:
