@@ -42,7 +42,7 @@ def test_what_comes_lies_in_the_sessions_folder(session: Session) -> None:
     kept = send(session, b"x" * 100_000, "My Pack.zip")
     assert kept.path.read_bytes() == b"x" * 100_000 and kept.size == 100_000
     assert kept.path.parent == session.folder and kept.name == "My Pack.zip"
-    assert uploads_of(session).get(kept.number) is kept
+    assert uploads_of(session).get(kept.number, "pack") is kept
     session.close()
     assert not kept.path.parent.exists()
 
@@ -138,7 +138,9 @@ def test_only_numbers_of_ours_are_known(session: Session, number: object) -> Non
     kept = send(session, b"x")
     assert kept.number == 1
     with pytest.raises(DesignError):
-        uploads_of(session).get(number)
+        uploads_of(session).get(number, "pack")
+    with pytest.raises(DesignError):
+        uploads_of(session).get(1, "library")
 
 
 def shelf_with(session: Session, *packs: bytes) -> Shelf:
@@ -229,6 +231,6 @@ def test_sessions_do_not_see_each_others_files(session: Session) -> None:
     other = Session()
     send(session, b"x")
     with pytest.raises(DesignError):
-        uploads_of(other).get(1)
+        uploads_of(other).get(1, "pack")
     assert isinstance(uploads_of(other), Uploads)
     other.close()

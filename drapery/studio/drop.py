@@ -5,6 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
+from drapery.errors import DraperyError
 from drapery.studio.notices import tell
 from drapery.studio.session import Session
 from drapery.studio.uploads import PURPOSES
@@ -40,9 +41,12 @@ class Drop(ui.element, component="drop.js"):
         async def sent(event: Any) -> None:
             answer = event.args if isinstance(event.args, dict) else {}
             number, line = answer.get("number"), answer.get("line")
-            if isinstance(number, int):
-                await take(number)
-            else:
+            if not isinstance(number, int):
                 tell(str(line or "the file could not be sent; send it again")[:400], "fault")
+                return
+            try:
+                await take(number)
+            except DraperyError as error:
+                tell(str(error), "fault")
 
         self.on("sent", sent)

@@ -60,7 +60,7 @@ class Shelf:
 
         Raises PackError in the words that the commands use, by the name the user knows.
         """
-        upload = uploads_of(self._session).get(number)
+        upload = uploads_of(self._session).get(number, "pack")
         try:
             return _contents(upload.path, self._session.settings.format)
         except DraperyError as error:
@@ -68,7 +68,7 @@ class Shelf:
 
     def adopt(self, number: int, summary: str = "") -> Entry:
         """Lay a file that was sent on top of the others. Raises DesignError or PackError."""
-        upload = uploads_of(self._session).get(number)
+        upload = uploads_of(self._session).get(number, "pack")
         entry = Entry(self._next(), upload.name, upload.path, number, summary=summary)
         self._keep((*self.entries, entry))
         return entry

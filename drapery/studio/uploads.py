@@ -75,10 +75,10 @@ class Uploads:
         self._kept[number] = Upload(number, purpose, shown, path, size)
         return self._kept[number]
 
-    def get(self, number: object) -> Upload:
-        """The upload of a number. Raises DesignError."""
+    def get(self, number: object, purpose: str) -> Upload:
+        """The upload of a number, sent for this. Raises DesignError."""
         kept = self._kept.get(number) if isinstance(number, int) else None
-        if kept is None:
+        if kept is None or kept.purpose != purpose:
             raise DesignError("the file is not here any more; send it again")
         return kept
 

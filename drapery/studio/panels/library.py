@@ -14,7 +14,7 @@ from drapery.studio import page
 from drapery.studio.components import value_of
 from drapery.studio.desk import desk_of
 from drapery.studio.drop import Drop
-from drapery.studio.notices import tell
+from drapery.studio.notices import faults, tell
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.share import SHARED, over
@@ -201,12 +201,12 @@ class Shelves:
     async def _keep(self, number: int) -> None:
         session = self._session
         sketch = replace(session.sketch, title=self._title.strip())
-        look, packs, tags = session.settings, session.packs(), _split(self._tags)
+        look, tags = session.settings, _split(self._tags)
 
         def keep(library: "Library") -> "tuple[int, Design | None]":
             from drapery.studio.library import Design
 
-            picture = thumbnail(banner_of(sketch), packs)
+            picture = thumbnail(banner_of(sketch), session.packs())
             design = Design(sketch, look, tags, picture, number)
             if not number:
                 return library.add(design), None
@@ -236,7 +236,8 @@ class Shelves:
             return
         session = self._session
         chosen = over(session.settings, design.look)
-        session.adjust(**{name: getattr(chosen, name) for name in SHARED})
+        with faults():
+            session.adjust(**{name: getattr(chosen, name) for name in SHARED})
         self._take(title=design.title, tags=", ".join(design.tags))
         desk_of(session).lay_out(design.sketch)
         self._fields.refresh()
@@ -300,7 +301,7 @@ class Shelves:
             await self._refresh()
 
     async def _import(self, number: int) -> None:
-        upload = uploads_of(self._session).get(number)
+        upload = uploads_of(self._session).get(number, "library")
         counts = await self._do(lambda library: library.load(upload.path.read_bytes()))
         uploads_of(self._session).remove(number)
         if counts is not None:
