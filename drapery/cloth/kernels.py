@@ -234,9 +234,13 @@ def add_wind_velocities(
             nx, ny, nz = vector_area(x, faces, i, lane)
             head_on = fill(x.dtype.type(0))
             for axis in range(3):
-                flow = (wp * load(wind, p + axis, lane) + wq * load(wind, q + axis, lane)) + (
-                    wr * load(wind, r + axis, lane) + ws * load(wind, s + axis, lane)
-                )
+                flow = wp * load(wind, p + axis, lane)
+                if wq != 0:
+                    flow = flow + wq * load(wind, q + axis, lane)
+                if wr != 0:
+                    flow = flow + wr * load(wind, r + axis, lane)
+                if ws != 0:
+                    flow = flow + ws * load(wind, s + axis, lane)
                 along = nx if axis == 0 else ny if axis == 1 else nz
                 head_on = head_on + along * (flow - load(v, 3 * i + axis, lane))
             area = root(nx * nx + ny * ny + nz * nz) + tiny

@@ -58,12 +58,12 @@ SLACK = 1.02
 """Attachments reach this much farther than the cloth at rest, so they catch only what is over."""
 NEAR = 2
 """So many springs from a pin, particles need no attachment."""
-FINE = 90
-"""Grids with more particles than this one way also have the limits of desbrun's, once a step."""
+FINE = 30
+"""Sheets with more particles than this one way also have desbrun's limits, once a step."""
+LIMIT, SWEEPS = 1.02, 1
+"""Of desbrun on them."""
 ENOUGH = 26
-"""Substeps of such grids: in more, steps so short that places are rounded shake so small cells."""
-LIMIT = 1.02
-"""Longest length of a spring on them over its rest length."""
+"""Most substeps of such sheets: shorter steps, with places rounded, would shake cells so small."""
 EVERY = 2
 """Attachments take part in the last of so many substeps."""
 OFTEN = 3.0
@@ -161,16 +161,22 @@ class SolverXPBD:
         return Links(pairs[far], reach[far], 0 * ones, ones)
 
 
+def is_fine(cloth: Cloth) -> bool:
+    """Whether a cloth is a sheet that also has desbrun's limits, once a step."""
+    return is_sheet(cloth) and max(cloth.grid_shape or (1,)) > FINE
+
+
 def enough_substeps(cloth: Cloth) -> int:
     """Substeps at which a hanging cloth stretches a few per cent at most in a strong wind: one for
     every two or three springs between it and its pins, or across a cloth without pins."""
+    if is_fine(cloth):
+        return min(ENOUGH, -(-max(cloth.grid_shape or (1,)) * 10 // 25))
     if cloth.grid_shape is not None:
-        most = ENOUGH if max(cloth.grid_shape) > FINE else MAX_SUBSTEPS
-        return min(most, max(4, int(np.ceil(max(cloth.grid_shape) / 2.5))))
+        return max(4, -(-max(cloth.grid_shape) * 10 // 21))
     distances = pin_distances(cloth)
     reach = distances[np.isfinite(distances)].max(initial=0.0)
     springs = reach / cloth.spring_length[cloth.spring_kind == STRUCTURAL].mean()
-    return max(4, min(MAX_SUBSTEPS, int(np.ceil(springs / 2.5))))
+    return max(4, min(MAX_SUBSTEPS, int(np.ceil(springs / 2.1))))
 
 
 def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> Constraints:
@@ -236,13 +242,12 @@ def sheet_plan(cloth: Cloth, constraints: Constraints, links: Links) -> SheetPla
         pieces += in_turn(sheet, due)
         begin.append(len(pieces))
     held = pulls(list(anchored(sheet, Pairs(*links))))
-    fine = max(cloth.grid_shape or (1,)) > FINE
     return SheetPlan(
         sheet,
         pulls(pieces),
         np.array(begin),
         held,
-        limits(sheet, cloth, LIMIT, int(fine)),
+        limits(sheet, cloth, LIMIT, SWEEPS * is_fine(cloth)),
     )
 
 
@@ -282,14 +287,14 @@ def hold(x: Any, links: Any) -> None:
 def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -> None:
     """Where x goes, into old: on as fast as in the last substep, or at first with v, and falling.
 
-    Old places are lost: the two arrays then change their parts.
+    Old places are lost: the two arrays then change their parts. Pins are left to `place_pins`.
     """
     F = x.dtype.type
     h = F(numbers[0])
     for row in range(x.shape[0]):
-        fall = F(numbers[0] * numbers[0] * numbers[3 + row % 3])
         if inv_mass[row // 3] == 0:
-            fall = F(0)
+            continue
+        fall = F(numbers[0] * numbers[0] * numbers[3 + row % 3])
         for lane in range(0, x.shape[1], span(x)):
             here = load(x, row, lane)
             way = h * load(v, row, lane) if substep == 0 else here - load(old, row, lane)
