@@ -1,0 +1,46 @@
+"""Registers of lanes calculate what numpy does, to the bit."""
+
+import numpy as np
+import pytest
+from numba import njit
+
+from drapery.cloth import simd
+
+SETTINGS = {"error_model": "numpy"}
+
+
+@njit(**SETTINGS)
+def calculated(x, part):
+    """Of two rows, in a third: all that a register can."""
+    y = simd.room(3, x.shape[1], x)
+    y[:2] = x
+    for lane in range(0, y.shape[1], simd.span(y)):
+        a, b = simd.load(y, 0, lane), simd.load(y, 1, lane)
+        d = simd.root(a * a + b * b) / simd.larger(a, b) - part * b
+        simd.store(y, 2, lane, simd.flushed(d + simd.fill(part) * -a, part))
+    return y
+
+
+@njit(**SETTINGS)
+def first_byte(like):
+    return simd.room(5, 48, like).ctypes.data
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_each_lane_is_what_numpy_makes_of_it(dtype):
+    a, b = np.random.default_rng(3).uniform(-2, 2, (2, 48)).astype(dtype)
+    part = dtype(0.3)
+    expected = (np.sqrt(a * a + b * b) / np.maximum(a, b) - part * b) + part * -a
+    expected[np.abs(expected) < part] = 0
+    found = calculated(np.stack([a, b]), part)
+    np.testing.assert_array_equal(found, np.stack([a, b, expected]))
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_rooms_begin_with_a_cache_line(dtype):
+    assert all(first_byte(np.zeros((1, 1), dtype)) % simd.BYTES == 0 for _ in range(5))
+
+
+@pytest.mark.parametrize("count, lanes", [(0, 0), (1, 16), (16, 16), (17, 32)])
+def test_lanes_are_filled_up_to_whole_registers(count, lanes):
+    assert simd.whole(count, np.float32) == lanes
