@@ -18,6 +18,8 @@ FASTEST = 0.2
 """The most that it goes in a tick [m]."""
 NEAR = 1e-4
 """Closer than this it is there [m]."""
+FINGER = 0.045
+"""How far from it along the cloth a hand takes hold [m]."""
 REACH = 0.99
 """A hand pulls no further from a pin than this part of the cloth between them."""
 ROUNDS = 48
@@ -35,9 +37,15 @@ class Weave:
 
 @dataclass(frozen=True, eq=False)
 class Hand:
-    """What pulls at a particle. target: where to [m], in the cloth's frame, shape [3]."""
+    """What pulls at a particle, and at those so near that a finger would take them too.
+
+    around: all that are taken, shape [K]; offsets: where they are from the particle [m], [K, 3].
+    target: where to it pulls the particle [m], in the cloth's frame, shape [3].
+    """
 
     particle: int
+    around: NDArray[np.intp]
+    offsets: Array
     target: Array
 
 
@@ -116,7 +124,8 @@ def _path(hanging: Hanging) -> PinPath | None:
     start, began = hanging.positions[held], hanging.state.time
     goal = hanging.cloth.rest_positions[held].astype(start.dtype)
     if hanging.hand is not None:
-        goal[held == hanging.hand.particle] = hanging.hand.target
+        places = np.searchsorted(held, hanging.hand.around)
+        goal[places] = hanging.hand.target + hanging.hand.offsets
     if (start == goal).all():
         return None
     end = _nearer(start, goal)
@@ -132,11 +141,13 @@ def _nearer(start: Array, goal: Array) -> Array:
 
 def grabbed(hanging: Hanging, particle: int) -> Hanging:
     """The cloth with a hand at a particle, which stays where it is."""
-    inv_mass = hanging.whole.inv_mass.copy()
-    inv_mass[particle] = 0.0
+    inv_mass, rest = hanging.whole.inv_mass.copy(), hanging.whole.rest_positions
+    around = np.flatnonzero((_lengths(rest - rest[particle]) <= FINGER) & (inv_mass > 0))
+    inv_mass[around] = 0.0
     cloth = replace(hanging.whole, inv_mass=inv_mass)
     memory = hanging.method.init(cloth, STEP)
-    hand = Hand(particle, hanging.positions[particle].copy())
+    place = hanging.positions[particle].astype(np.float64)
+    hand = Hand(particle, around, hanging.positions[around] - place, place)
     return replace(hanging, cloth=cloth, memory=memory, hand=hand)
 
 

@@ -303,7 +303,11 @@ class Live:
                 self._change(number, moved(sheet.hanging, forces))
         except OptionError:
             self.reset()
-            raise
+            name = self._settings.solver
+            raise OptionError(
+                f"the cloth blew up with the solver {name} and hangs anew; use another solver,"
+                " a coarser grid or less wind"
+            ) from None
 
     def _change(self, number: int, hanging: Hanging) -> None:
         self._sheets[number] = replace(self._sheets[number], hanging=hanging)
