@@ -17,6 +17,7 @@ from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 from studio_browser import Studio, chromium, console_errors, open_page, studio, wait_until
 
 from drapery.settings import Settings
+from drapery.studio.panels.file_options import difference
 from drapery.studio.share import read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
 from drapery.studio.stage import Wishes
@@ -131,11 +132,9 @@ def test_a_picture_is_the_commands_to_the_byte(
 
 
 def test_what_the_live_banner_has_alone_is_said() -> None:
-    from drapery.studio.panels.export import _difference
-
-    assert _difference(Wishes(), "png") == _difference(Wishes(turned=9.0), "json") == ""
-    assert "its own direction, pins, not" in _difference(Wishes(turned=9.0, pins="none"), "gif")
-    assert "not the scene" in _difference(Wishes(scene="sail"), "glb")
+    assert difference(Wishes(), "png") == difference(Wishes(turned=9.0), "json") == ""
+    assert "its own direction, pins, not" in difference(Wishes(turned=9.0, pins="none"), "gif")
+    assert "not the scene" in difference(Wishes(scene="sail"), "glb")
 
 
 def test_no_wind_is_no_wind_in_the_file_too(page: Page) -> None:

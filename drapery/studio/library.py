@@ -8,10 +8,9 @@ version (SQLite, "Pragma statements").
 import json
 import os
 import sys
-from base64 import b64decode, b64encode
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -21,52 +20,27 @@ from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column, relationship
 from sqlalchemy.pool import NullPool
 
-from drapery.banner.packs.png import png_size, read_png
-from drapery.banner.patterns import PATTERNS
-from drapery.errors import DesignError, DraperyError, OutputError
+from drapery.errors import DesignError, OutputError
 from drapery.render.encode.output import make_folder
-from drapery.settings import Settings
-from drapery.studio.share import as_tree, checked_title, of_tree
-from drapery.studio.sketch import Sketch
+from drapery.studio.kept import (
+    MAX_DESIGNS,
+    Design,
+    checked,
+    identity,
+    read_designs,
+    tree_of,
+    words_of,
+    write_designs,
+)
+from drapery.studio.share import checked_title, of_tree
 
 OURS = 0x44726170
 """The application id: "Drap"."""
 VERSION = 1
 FILE = "library.sqlite"
 
-MAX_DESIGNS = 20_000
-MAX_TAGS = 12
-MAX_TAG = 32
-MAX_THUMBNAIL = 64 << 10
-"""Of a thumbnail's PNG file [bytes]."""
-MAX_THUMBNAIL_SIDE = 256
-MAX_IMPORT = 64 << 20
-"""Of a library's JSON [bytes]."""
 PATIENCE = 10.0
 """How long another studio's change is waited for [s]."""
-
-_MARK = "drapery_library"
-
-
-@dataclass(frozen=True)
-class Design:
-    """A design as it is kept.
-
-    number: names it in its library; 0 before it is kept. thumbnail: a PNG file, or nothing.
-    changed: grows with every change in the library, so it orders designs by their latest.
-    """
-
-    sketch: Sketch
-    look: Settings
-    tags: tuple[str, ...] = ()
-    thumbnail: bytes = b""
-    number: int = 0
-    changed: int = 0
-
-    @property
-    def title(self) -> str:
-        """The sketch's title."""
-        return self.sketch.title
 
 
 class _Base(DeclarativeBase):
@@ -115,16 +89,16 @@ class Library:
 
     def add(self, design: Design) -> int:
         """Keep a design; its number. Raises DesignError or OutputError."""
-        checked = _checked(design)
+        kept = checked(design)
         with self._change() as session:
             _check_room(session, 1)
-            return _insert(session, checked)
+            return _insert(session, kept)
 
     def change(self, design: Design) -> None:
         """Keep a design in the place of that of its number. Raises DesignError, OutputError."""
-        checked = _checked(design)
+        kept = checked(design)
         with self._change() as session:
-            _fill(_found(session, design.number), checked, _next(session))
+            _fill(_found(session, design.number), kept, _next(session))
 
     def get(self, number: int) -> Design:
         """The design of a number. Raises DesignError, OutputError."""
@@ -175,21 +149,19 @@ class Library:
         """The whole library as JSON, in the order in which designs changed. Raises OutputError."""
         with self._change() as session:
             rows = session.scalars(select(_Row).order_by(_Row.changed))
-            designs = [_outside(_design(row)) for row in rows]
-        whole = {_MARK: VERSION, "designs": designs}
-        return json.dumps(whole, ensure_ascii=False, indent=1).encode()
+            return write_designs(_design(row) for row in rows)
 
     def load(self, data: bytes) -> tuple[int, int]:
         """Add all designs of another library's JSON: how many are new, how many were there.
 
         Raises DesignError, with the place, where one of them is broken: then none is added.
         """
-        designs = _read(data)
+        designs = read_designs(data)
         with self._change() as session:
             known = {(row.tree, _names(row)) for row in session.scalars(select(_Row))}
-            fresh = [design for design in designs if _identity(design) not in known]
+            fresh = [design for design in designs if identity(design) not in known]
             # The same twice in one file is once as well.
-            unique = list({_identity(design): design for design in fresh}.values())
+            unique = list({identity(design): design for design in fresh}.values())
             _check_room(session, len(unique))
             for design in unique:
                 _insert(session, design)
@@ -275,7 +247,7 @@ def _insert(session: Session, design: Design) -> int:
 
 def _fill(row: _Row, design: Design, changed: int) -> None:
     row.title, row.thumbnail, row.changed = design.title, design.thumbnail, changed
-    row.tree, row.words = _tree(design), _words(design)
+    row.tree, row.words = tree_of(design), words_of(design)
     row.tags = [_Tag(place=place, name=name) for place, name in enumerate(design.tags)]
 
 
@@ -312,93 +284,3 @@ def _design(row: _Row) -> Design:
 
 def _names(row: _Row) -> tuple[str, ...]:
     return tuple(tag.name for tag in row.tags)
-
-
-def _tree(design: Design) -> str:
-    return json.dumps(as_tree(design.sketch, design.look), ensure_ascii=False, sort_keys=True)
-
-
-def _identity(design: Design) -> tuple[str, tuple[str, ...]]:
-    return _tree(design), design.tags
-
-
-def _words(design: Design) -> str:
-    """What `search` looks in: one text in small letters."""
-    sketch = design.sketch
-    shown = [PATTERNS[s.pattern].title for s in sketch.strokes if s.pattern in PATTERNS]
-    named = [f"{stroke.pattern} {stroke.dye}" for stroke in sketch.strokes]
-    whole = [sketch.title, *design.tags, sketch.base, sketch.kind, *named, *shown]
-    return " ".join(" ".join(whole).lower().replace("_", " ").split())
-
-
-def _checked(design: Design) -> Design:
-    title = checked_title(design.title)
-    # What is kept must be what is read again.
-    sketch, _ = of_tree(as_tree(replace(design.sketch, title=title), design.look))
-    return replace(
-        design, sketch=sketch, tags=checked_tags(design.tags), thumbnail=_picture(design.thumbnail)
-    )
-
-
-def checked_tags(tags: Iterable[object]) -> tuple[str, ...]:
-    """Tags in small letters, each once. Raises DesignError."""
-    names = []
-    for tag in tags:
-        if not isinstance(tag, str) or len(tag) > MAX_TAG or not tag.isprintable() or "," in tag:
-            raise DesignError(f"a tag is a word or two of at most {MAX_TAG} letters, no comma")
-        names.append(" ".join(tag.lower().split()))
-    unique = tuple(dict.fromkeys(name for name in names if name))
-    if len(unique) > MAX_TAGS:
-        raise DesignError(f"a design has at most {MAX_TAGS} tags; leave some out")
-    return unique
-
-
-def _picture(data: bytes) -> bytes:
-    """A thumbnail drawn anew from its pixels, so that nothing else in it is kept."""
-    from drapery.render.encode.png import png_bytes
-
-    if not data:
-        return b""
-    if len(data) > MAX_THUMBNAIL or max(png_size(data, "the thumbnail")) > MAX_THUMBNAIL_SIDE:
-        raise DesignError(
-            f"the thumbnail is over {MAX_THUMBNAIL_SIDE} pixels a side or {MAX_THUMBNAIL} bytes"
-        )
-    return png_bytes(read_png(data, "the thumbnail"))
-
-
-def _outside(design: Design) -> dict[str, Any]:
-    """A design as the exported library has it."""
-    return as_tree(design.sketch, design.look) | {
-        "tags": list(design.tags),
-        "thumbnail": b64encode(design.thumbnail).decode(),
-    }
-
-
-def _read(data: bytes) -> list[Design]:
-    if len(data) > MAX_IMPORT:
-        raise DesignError(f"the file is over {MAX_IMPORT >> 20} MiB; no library is that large")
-    try:
-        whole = json.loads(data)
-    except (ValueError, RecursionError):
-        raise DesignError("the file is no library: choose one that was exported here") from None
-    if not isinstance(whole, dict) or not isinstance(whole.get("designs"), list):
-        raise DesignError("the file is no library: choose one that was exported here")
-    if whole.get(_MARK) != VERSION:
-        raise DesignError(
-            f"the file's {_MARK} must be {VERSION}; bring Drapery up to date, or export it anew"
-        )
-    if len(whole["designs"]) > MAX_DESIGNS:
-        raise DesignError(f"the file has over {MAX_DESIGNS} designs; split it")
-    return [_inside(tree, f"design {n}") for n, tree in enumerate(whole["designs"], 1)]
-
-
-def _inside(tree: object, at: str) -> Design:
-    try:
-        sketch, look = of_tree(tree)
-        assert isinstance(tree, dict)  # else of_tree has refused it
-        tags, picture = tree.get("tags", []), tree.get("thumbnail", "")
-        if not isinstance(tags, list) or not isinstance(picture, str):
-            raise DesignError("tags must be a list, thumbnail a text; export the library anew")
-        return _checked(Design(sketch, look, tuple(tags), b64decode(picture, validate=True)))
-    except (DraperyError, ValueError) as error:
-        raise DesignError(f"{at}: {error}") from None

@@ -1,82 +1,33 @@
 """What leaves the page: picture, animation and model files, the share link, code to copy."""
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
-from functools import partial
-from typing import Any
+from collections.abc import Callable
 
 from nicegui import ui
-from nicegui.element import Element
 
 from drapery.errors import DraperyError
-from drapery.render.views import VIEWS
-from drapery.settings import MAX_SIDE
-from drapery.studio.exports import MAX_SCALE, Export, exports_of, stem_of
+from drapery.studio.exports import Export, exports_of, stem_of
 from drapery.studio.notices import faults, tell
-from drapery.studio.panels.fields import Fields, copy_field
+from drapery.studio.panels.fields import copy_field
+from drapery.studio.panels.file_options import Choice, build_options, order_of
 from drapery.studio.session import Session
 from drapery.studio.share import write_link
 from drapery.studio.shelf import shelf_of
-from drapery.studio.sketch import banner_of
-from drapery.studio.snippets import LOOPS, Order, as_command, as_python
-from drapery.studio.stage import Wishes, stage_of
+from drapery.studio.snippets import as_command, as_python
+from drapery.studio.stage import stage_of
 from drapery.studio.widgets import button, words
 
-KINDS = {
-    "png": "PNG, a still",
-    "face": "PNG, the flat face",
-    "gif": "GIF, waving",
-    "apng": "APNG, waving",
-    "webp": "WebP, waving",
-    "mp4": "MP4, waving",
-    "glb": "GLB, a 3-D model that waves",
-    "json": "JSON, the design",
-}
-HINTS = {
-    "gif": "A GIF has no half transparency and at most 50 frames/s.",
-    "mp4": "A video has no transparency: without a background it lies on white.",
-    "glb": "The model has its own size and light; it loops in Blender and on the web.",
-    "face": "As banner sites show it, whatever the wind.",
-}
-PICTURES = frozenset({"png", *LOOPS})
-MOVING = frozenset({*LOOPS, "glb"})
-VIEW_WORDS = {name: name.capitalize() for name in VIEWS} | {"gui": "Item", "iso": "Corner"}
-SAMPLES = {"1": "hard", "4": "smooth", "16": "smoothest"}
-PIXELS = {"1": "off"} | {str(size): f"{size} × {size}" for size in (2, 4, 8, 16)}
-GROUNDS = {"transparent": "transparent", "colour": "one colour"}
-SKY = "#a8c8e8"
 TICK = 0.15
 """How often progress is shown [s]."""
 TIDY = 0.5
 """How often the page's address follows the design [s]."""
 
 
-@dataclass
-class Choice:
-    """What is chosen here and is no option of a picture."""
-
-    kind: str = "png"
-    seconds: float = 4.0
-    fps: float = 20.0
-    scale: int = 8
-    colour: str = SKY
-    changed: list[Callable[[], None]] = field(default_factory=list)
-
-    def set(self, **values: Any) -> None:
-        """Choose something else; tells who listens."""
-        for name, value in values.items():
-            setattr(self, name, value)
-        for call in self.changed:
-            call()
-
-
 def build(session: Session) -> None:
     """Options, the button with its progress, then what can be copied."""
     choice = Choice()
     words("Make a file", "h2").classes("heading")
-    fit = _options(session, choice)
-    _button(session, choice)
+    fit = build_options(session, choice)
+    _Maker(session, choice)
     words("Take it elsewhere", "h2").classes("heading")
     copy = _copies(session, choice)
 
@@ -90,149 +41,6 @@ def build(session: Session) -> None:
     session.listen("settings", show)
     session.listen("packs", copy)
     _keep_up(session, show)
-
-
-def order_of(session: Session, choice: Choice) -> Order:
-    """What is ordered by the page as it stands. Raises DesignError."""
-    # A cape or elytra wears a texture, no design.
-    banner = None if session.settings.texture is not None else banner_of(session.sketch)
-    look = session.settings
-    if not stage_of(session).wishes.on:
-        look = replace(look, wind=0.0)
-    return Order(banner, look, choice.kind, choice.seconds, choice.fps, choice.scale)
-
-
-Groups = list[tuple[Element, Callable[[], bool]]]
-
-
-def _options(session: Session, choice: Choice) -> Callable[[], None]:
-    """The kind of file and the options that count for it; the callable shows them anew."""
-    fields, groups = Fields(), Groups()
-    with ui.element("div").classes("options"):
-        fields.choice("File", KINDS, lambda: choice.kind, lambda kind: choice.set(kind=kind))
-        with _only(groups, lambda: choice.kind in PICTURES):
-            _sides(session, fields)
-        with _only(groups, lambda: choice.kind in MOVING):
-            _times(choice, fields)
-        with _only(groups, lambda: choice.kind == "face"):
-            _number(fields, "Pixels a texel", choice, "scale", (1, MAX_SCALE), int)
-        with _only(groups, lambda: choice.kind in PICTURES | {"glb"}):
-            _pick(session, fields, "View", "view", VIEW_WORDS, str)
-            _own(session, fields, "Gusts (seed)", "seed", (0, 2**32 - 1), int)
-        with _only(groups, lambda: choice.kind == "png"):
-            _own(session, fields, "Seconds in the wind", "time", (0, 3600), float)
-        with _only(groups, lambda: choice.kind in PICTURES):
-            _pick(session, fields, "Edges", "samples", SAMPLES, int)
-            _pick(session, fields, "Pixel art", "pixel", PIXELS, int)
-        _ground(session, choice, fields, groups)
-
-    hint = words("", "p").classes("hint")
-    differs = words("", "p").classes("warning")
-
-    def fit() -> None:
-        fields.refresh()
-        hint.set_text(HINTS.get(choice.kind, ""))
-        line = _difference(stage_of(session).wishes, choice.kind)
-        differs.set_text(line)
-        differs.set_visibility(bool(line))
-        for group, counts in groups:
-            group.set_visibility(counts())
-
-    return fit
-
-
-@contextmanager
-def _only(groups: Groups, counts: Callable[[], bool]) -> Iterator[None]:
-    """Options that are shown only where they count."""
-    with ui.element("div").classes("option-group") as group:
-        yield
-    groups.append((group, counts))
-
-
-Bounds = tuple[float, float]
-Kind = type[int] | type[float]
-
-
-def _sides(session: Session, fields: Fields) -> None:
-    def resize(place: int, side: float) -> None:
-        width, height = session.settings.size
-        session.adjust(size=(int(side), height) if place == 0 else (width, int(side)))
-
-    for place, label in enumerate(("Width", "Height")):
-        get = partial(lambda place: session.settings.size[place], place)
-        fields.number(label, (1, MAX_SIDE), get, partial(resize, place))
-
-
-def _times(choice: Choice, fields: Fields) -> None:
-    _number(fields, "Seconds", choice, "seconds", (0.05, 3600), float)
-    _number(fields, "Frames/s", choice, "fps", (1, 120), float)
-
-
-def _number(
-    fields: Fields, label: str, choice: Choice, name: str, bounds: Bounds, kind: Kind
-) -> None:
-    """A number of the file alone."""
-
-    def change(number: float) -> None:
-        choice.set(**{name: kind(number)})
-
-    fields.number(label, bounds, partial(getattr, choice, name), change, _step(kind))
-
-
-def _own(
-    session: Session, fields: Fields, label: str, option: str, bounds: Bounds, kind: Kind
-) -> None:
-    """A number that is an option of the picture."""
-
-    def change(number: float) -> None:
-        session.adjust(**{option: kind(number)})
-
-    fields.number(label, bounds, lambda: getattr(session.settings, option), change, _step(kind))
-
-
-def _step(kind: Kind) -> str:
-    return "1" if kind is int else "any"
-
-
-def _pick(
-    session: Session,
-    fields: Fields,
-    label: str,
-    option: str,
-    names: Mapping[str, str],
-    kind: type[int] | type[str],
-) -> None:
-    """An option of the picture that is one of several."""
-
-    def change(name: str) -> None:
-        session.adjust(**{option: kind(name)})
-
-    fields.choice(label, names, lambda: str(getattr(session.settings, option)), change)
-
-
-def _ground(session: Session, choice: Choice, fields: Fields, groups: Groups) -> None:
-    """Background and shadow."""
-
-    def plain() -> bool:
-        return session.settings.background == "transparent"
-
-    def choose(name: str) -> None:
-        session.adjust(background=choice.colour if name == "colour" else "transparent")
-
-    def paint(colour: str) -> None:
-        session.adjust(background=colour)
-        choice.colour = colour
-
-    def colour() -> str:
-        return choice.colour if plain() else "#" + session.settings.background.removeprefix("#")
-
-    with _only(groups, lambda: choice.kind in PICTURES):
-        fields.choice("Background", GROUNDS, lambda: "transparent" if plain() else "colour", choose)
-        with _only(groups, lambda: not plain()):
-            fields.colour("Its colour", colour, paint)
-        fields.tick(
-            "Shadow", lambda: session.settings.shadow, lambda on: session.adjust(shadow=bool(on))
-        )
 
 
 class _Progress:
@@ -256,49 +64,53 @@ class _Progress:
         self._words.set_text(f"{work.done} of {work.total} frames" if work.done else still)
 
 
-def _button(session: Session, choice: Choice) -> None:
-    """Export, then a link to the file."""
-    own = exports_of(session)
+class _Maker:
+    """The button, the progress of what it has begun, and a link to the finished file."""
 
-    def start() -> None:
+    def __init__(self, session: Session, choice: Choice) -> None:
+        self._session, self._choice = session, choice
+        self._own = exports_of(session)
+        with ui.element("div").classes("line"):
+            press = button("Export the file", self._start, icon="download", text="Export")
+            press.classes("primary")
+            self._link = words("", "a").classes("export-link").props("download")
+        self._link.set_visibility(False)
+        self._progress = _Progress(self._stop)
+        self._timer = ui.timer(TICK, self._follow, active=False)
+
+    def _start(self) -> None:
         with faults():
-            own.start(order_of(session, choice), stem_of(session.sketch.title))
-            link.set_visibility(False)
-            timer.activate()
-            follow()
+            order = order_of(self._session, self._choice)
+            self._own.start(order, stem_of(self._session.sketch.title))
+            self._link.set_visibility(False)
+            self._timer.activate()
+            self._follow()
 
-    def stop() -> None:
-        if own.current is not None:
-            own.current.stop()
+    def _stop(self) -> None:
+        if self._own.current is not None:
+            self._own.current.stop()
 
-    def follow() -> None:
-        work = own.current
+    def _follow(self) -> None:
+        work = self._own.current
         if work is not None and work.state == "running":
-            progress.show(work)
+            self._progress.show(work)
             return
-        progress.hide()
-        timer.deactivate()
+        self._progress.hide()
+        self._timer.deactivate()
         if work is not None:
-            finish(work)
+            self._finish(work)
 
-    def finish(work: Export) -> None:
+    def _finish(self, work: Export) -> None:
         if work.state == "failed":
-            tell(shelf_of(session).in_plain_words(work.fault), "fault")
+            tell(shelf_of(self._session).in_plain_words(work.fault), "fault")
         elif work.state == "stopped":
             tell("Stopped; nothing was kept")
         else:
-            address = f"/export/{session.token}/{own.number}"
-            link.props["href"] = address
-            link.set_text(f"{work.name}, {shown_size(work.path.stat().st_size)}")
-            link.set_visibility(True)
+            address = f"/export/{self._session.token}/{self._own.number}"
+            self._link.props["href"] = address
+            self._link.set_text(f"{work.name}, {shown_size(work.path.stat().st_size)}")
+            self._link.set_visibility(True)
             ui.download.from_url(address)
-
-    with ui.element("div").classes("line"):
-        button("Export the file", start, icon="download", text="Export").classes("primary")
-        link = words("", "a").classes("export-link").props("download")
-        link.set_visibility(False)
-    progress = _Progress(stop)
-    timer = ui.timer(TICK, follow, active=False)
 
 
 def shown_size(count: int) -> str:
@@ -328,18 +140,6 @@ def _copies(session: Session, choice: Choice) -> Callable[[], None]:
         python(as_python(order, called, stem))
 
     return show
-
-
-def _difference(wishes: Wishes, kind: str) -> str:
-    """What of the live banner is not in the file."""
-    if kind in ("face", "json"):
-        return ""
-    if wishes.scene is not None:
-        return "The file shows your banner, not the scene."
-    own = Wishes()
-    names = {"turned": "direction", "gusts": "gusts", "pins": "pins"}
-    apart = [n for name, n in names.items() if getattr(wishes, name) != getattr(own, name)]
-    return f"The file has its own {', '.join(apart)}, not those of the live banner." * bool(apart)
 
 
 def _keep_up(session: Session, show: Callable[[], None]) -> None:

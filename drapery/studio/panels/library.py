@@ -24,7 +24,8 @@ from drapery.studio.uploads import uploads_of
 from drapery.studio.widgets import button, words
 
 if TYPE_CHECKING:
-    from drapery.studio.library import Design, Library
+    from drapery.studio.kept import Design
+    from drapery.studio.library import Library
 
 T = TypeVar("T")
 
@@ -204,7 +205,7 @@ class Shelves:
         look, tags = session.settings, _split(self._tags)
 
         def keep(library: "Library") -> "tuple[int, Design | None]":
-            from drapery.studio.library import Design
+            from drapery.studio.kept import Design
 
             picture = thumbnail(banner_of(sketch), session.packs())
             design = Design(sketch, look, tags, picture, number)

@@ -1,0 +1,148 @@
+"""A design as libraries keep it: what may be kept, what is searched, and its form outside."""
+
+import json
+from base64 import b64decode, b64encode
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from drapery.banner.packs.png import png_size, read_png
+from drapery.banner.patterns import PATTERNS
+from drapery.errors import DesignError, DraperyError
+from drapery.settings import Settings
+from drapery.studio.share import as_tree, checked_title, of_tree
+from drapery.studio.sketch import Sketch
+
+VERSION = 1
+"""Of the form outside."""
+MAX_DESIGNS = 20_000
+MAX_TAGS = 12
+MAX_TAG = 32
+MAX_THUMBNAIL = 64 << 10
+"""Of a thumbnail's PNG file [bytes]."""
+MAX_THUMBNAIL_SIDE = 256
+MAX_IMPORT = 64 << 20
+"""Of a library's JSON [bytes]."""
+
+_MARK = "drapery_library"
+
+
+@dataclass(frozen=True)
+class Design:
+    """A design as it is kept.
+
+    number: names it in its library; 0 before it is kept. thumbnail: a PNG file, or nothing.
+    changed: grows with every change in the library, so it orders designs by their latest.
+    """
+
+    sketch: Sketch
+    look: Settings
+    tags: tuple[str, ...] = ()
+    thumbnail: bytes = b""
+    number: int = 0
+    changed: int = 0
+
+    @property
+    def title(self) -> str:
+        """The sketch's title."""
+        return self.sketch.title
+
+
+def tree_of(design: Design) -> str:
+    """Sketch and options as a text that is the same for the same design."""
+    return json.dumps(as_tree(design.sketch, design.look), ensure_ascii=False, sort_keys=True)
+
+
+def identity(design: Design) -> tuple[str, tuple[str, ...]]:
+    """What two designs have in common that are one."""
+    return tree_of(design), design.tags
+
+
+def words_of(design: Design) -> str:
+    """What `search` looks in: one text in small letters."""
+    sketch = design.sketch
+    shown = [PATTERNS[s.pattern].title for s in sketch.strokes if s.pattern in PATTERNS]
+    named = [f"{stroke.pattern} {stroke.dye}" for stroke in sketch.strokes]
+    whole = [sketch.title, *design.tags, sketch.base, sketch.kind, *named, *shown]
+    return " ".join(" ".join(whole).lower().replace("_", " ").split())
+
+
+def checked(design: Design) -> Design:
+    """The design as it may be kept. Raises DesignError, or PackError for its picture."""
+    title = checked_title(design.title)
+    # What is kept must be what is read again.
+    sketch, _ = of_tree(as_tree(replace(design.sketch, title=title), design.look))
+    return replace(
+        design, sketch=sketch, tags=checked_tags(design.tags), thumbnail=_picture(design.thumbnail)
+    )
+
+
+def checked_tags(tags: Iterable[object]) -> tuple[str, ...]:
+    """Tags in small letters, each once. Raises DesignError."""
+    names = []
+    for tag in tags:
+        if not isinstance(tag, str) or len(tag) > MAX_TAG or not tag.isprintable() or "," in tag:
+            raise DesignError(f"a tag is a word or two of at most {MAX_TAG} letters, no comma")
+        names.append(" ".join(tag.lower().split()))
+    unique = tuple(dict.fromkeys(name for name in names if name))
+    if len(unique) > MAX_TAGS:
+        raise DesignError(f"a design has at most {MAX_TAGS} tags; leave some out")
+    return unique
+
+
+def _picture(data: bytes) -> bytes:
+    """A thumbnail drawn anew from its pixels, so that nothing else in it is kept."""
+    from drapery.render.encode.png import png_bytes
+
+    if not data:
+        return b""
+    if len(data) > MAX_THUMBNAIL or max(png_size(data, "the thumbnail")) > MAX_THUMBNAIL_SIDE:
+        raise DesignError(
+            f"the thumbnail is over {MAX_THUMBNAIL_SIDE} pixels a side or {MAX_THUMBNAIL} bytes"
+        )
+    return png_bytes(read_png(data, "the thumbnail"))
+
+
+def write_designs(designs: Iterable[Design]) -> bytes:
+    """Designs as one JSON file, which `read_designs` reads."""
+    whole = {_MARK: VERSION, "designs": [_outside(design) for design in designs]}
+    return json.dumps(whole, ensure_ascii=False, indent=1).encode()
+
+
+def _outside(design: Design) -> dict[str, Any]:
+    """A design as the exported library has it."""
+    return as_tree(design.sketch, design.look) | {
+        "tags": list(design.tags),
+        "thumbnail": b64encode(design.thumbnail).decode(),
+    }
+
+
+def read_designs(data: bytes) -> list[Design]:
+    """All designs of such a file. Raises DesignError, naming the design that is broken."""
+    if len(data) > MAX_IMPORT:
+        raise DesignError(f"the file is over {MAX_IMPORT >> 20} MiB; no library is that large")
+    try:
+        whole = json.loads(data)
+    except (ValueError, RecursionError):
+        raise DesignError("the file is no library: choose one that was exported here") from None
+    if not isinstance(whole, dict) or not isinstance(whole.get("designs"), list):
+        raise DesignError("the file is no library: choose one that was exported here")
+    if whole.get(_MARK) != VERSION:
+        raise DesignError(
+            f"the file's {_MARK} must be {VERSION}; bring Drapery up to date, or export it anew"
+        )
+    if len(whole["designs"]) > MAX_DESIGNS:
+        raise DesignError(f"the file has over {MAX_DESIGNS} designs; split it")
+    return [_inside(tree, f"design {n}") for n, tree in enumerate(whole["designs"], 1)]
+
+
+def _inside(tree: object, at: str) -> Design:
+    try:
+        sketch, look = of_tree(tree)
+        assert isinstance(tree, dict)  # else of_tree has refused it
+        tags, picture = tree.get("tags", []), tree.get("thumbnail", "")
+        if not isinstance(tags, list) or not isinstance(picture, str):
+            raise DesignError("tags must be a list, thumbnail a text; export the library anew")
+        return checked(Design(sketch, look, tuple(tags), b64decode(picture, validate=True)))
+    except (DraperyError, ValueError) as error:
+        raise DesignError(f"{at}: {error}") from None
