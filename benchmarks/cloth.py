@@ -1,17 +1,18 @@
-"""Cloth against its peers on the same workloads: `python -m benchmarks.cloth [--quick] [--json F]`.
+"""Cloth against its peers on the same workloads: `python -m benchmarks.cloth`.
 
 Every system runs in a process of its own, one after another, and prints steps per second with the
-largest stretch it had. W1: 4913 small banners; W2: one fine banner; W3: one sheet of 257 x 257.
-Peers run without wind, ours with gusts. A peer that cannot hold a workload steps fewer cloths, and
-its figure is scaled to all of them, marked with ~.
+largest stretch it had. W1: 4913 small banners of the size, masses and springs of the project's
+seed; W2: one fine banner; W3: one sheet of 257 x 257. W1 has gusts of wind for ours, none for
+peers; the others hang in still air. A peer that cannot hold a workload steps fewer cloths, and its
+figure is scaled to all of them, marked with ~. A number behind a name is its substeps or passes.
 """
 
 import argparse
 import json
 import multiprocessing
 import resource
-from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from queue import Empty
@@ -19,10 +20,23 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from rich.progress import Progress
 
 from benchmarks.peers import Load, Runner, stretch
+from drapery.cloth import Cloth, Gravity, SolverDesbrun, SolverXPBD, Wind, grid, rest_state
 
-WORKLOADS = {"W1": Load(4913, 5, 9, 0), "W2": Load(1, 21, 41, 0), "W3": Load(1, 257, 257, 0)}
+SEED = {"width": 1.25, "height": 2.5, "mass": 1.0, "stiffness": (50.0, 10.0, 2.0)}
+WORKLOADS = {
+    "W1": Load(4913, 5, 9, 0, **SEED),
+    "W2": Load(1, 21, 41, 0),
+    "W3": Load(1, 257, 257, 0, mass=6.3e-6),
+}
+LIMITS = {"W1": 0.05, "W2": 0.02, "W3": 0.05}
+STILL = ("W2", "W3")
+"""Without wind."""
+OURS = {"W1": (("desbrun", 0), ("xpbd", 0), ("xpbd", 3))}
+"""Our solvers and their substeps; 0 is their default."""
+LINEAR = 100, 1000, 10_000, 100_000
 PEERS = ("numpy_loop", "numpy_vector", "newton", "mujoco", "pypbd", "taichi")
 QUICK = ("numpy_loop", "numpy_vector")
 SETTLE_STEPS = 120
@@ -44,15 +58,13 @@ class Row:
 
 
 class Ours:
-    """Our own solver as a runner, wind included."""
+    """Our own solver as a runner."""
 
-    def __init__(self, load: Load, solver: Any) -> None:
-        from drapery.cloth import Gravity, Wind, grid, rest_state
-
-        self.load, self.solver = load, solver
-        self.cloth = grid(load.columns, load.rows, load.width, load.height)
+    def __init__(self, load: Load, solver: Any, windy: bool) -> None:
+        self.load, self.solver, self.cloth = load, solver, our_cloth(load)
         places = np.arange(load.cloths)[:, None] * np.array([1.3, 0.0, 0.7])
-        self.forces = (Gravity(), Wind((1.0, 0.0, 5.0), origins=places))
+        winds = [Wind((1.0, 0.0, 5.0), origins=places)] if windy else []
+        self.forces = (Gravity(), *winds)
         self.memory = solver.init(self.cloth, load.dt)
         self.state = rest_state(self.cloth, load.cloths, np.float32)
 
@@ -65,36 +77,44 @@ class Ours:
         return self.state.positions.reshape(self.load.cloths, self.load.rows, self.load.columns, 3)
 
 
-def ours(name: str, threads: int | None) -> Callable[[Load], Runner]:
-    from drapery.cloth import SolverDesbrun, SolverXPBD
+def our_cloth(load: Load) -> Cloth:
+    density = load.mass * load.columns * load.rows / (load.width * load.height)
+    size = load.columns, load.rows, load.width, load.height
+    return grid(*size, density=density, stiffness=load.stiffness)
 
+
+def our_solver(name: str, threads: int, substeps: int) -> Any:
     kind = {"desbrun": SolverDesbrun, "xpbd": SolverXPBD}[name]
-    return lambda load: Ours(load, kind(threads=threads))
+    return kind(threads=threads, substeps=substeps or None)
 
 
-def measure(workload: str, system: str, effort: int, seconds: float) -> Row:
+def measure(workload: str, whole: Load, system: str, effort: int, seconds: float) -> Row:
     """Settle, then step for about so many seconds; the best of three stretches of time."""
-    load = WORKLOADS[workload]
-    scale = 1.0
-    if system.startswith("drapery"):
+    load, scale = whole, 1.0
+    own = system.startswith("drapery")
+    if own:
         _, name, count = system.split("-")
-        threads, start = int(count), ours(name, int(count))
+        threads, method = int(count), our_solver(name, int(count), effort)
+        Ours(Load(1, load.columns, load.rows, 0), method, True).step(1)  # compiled by now
     else:
         peer = import_module(f"benchmarks.peers.{system}")
-        threads, start = peer.THREADS, peer.start
+        threads = peer.THREADS
         fits = max(1, peer.MOST_PARTICLES // (load.columns * load.rows))
         scale = max(1.0, load.cloths / fits)
-        load = Load(min(load.cloths, fits), load.columns, load.rows, effort)
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    runner = start(load)
+        load = replace(load, cloths=min(load.cloths, fits), effort=effort)
+    before = most_memory()
+    runner = Ours(load, method, workload not in STILL) if own else peer.start(load)
     rate, worst = _pace(runner, load, seconds)
-    memory = 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
     rate /= scale
-    particles = WORKLOADS[workload].particles
-    label = system if system.startswith("drapery") else f"{system}({effort})"
-    return Row(
-        workload, label, threads, rate, rate * particles, worst, memory / load.particles, scale > 1
-    )
+    memory = (most_memory() - before) / load.particles
+    label = f"{system.rsplit('-', 1)[0] if own else system}{f'({effort})' if effort else ''}"
+    particle_steps = rate * whole.particles
+    return Row(workload, label, threads, rate, particle_steps, worst, memory, scale > 1)
+
+
+def most_memory() -> int:
+    """The most that this process ever held [bytes]."""
+    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 def _pace(runner: Runner, load: Load, seconds: float) -> tuple[float, float]:
@@ -126,11 +146,11 @@ def _child(queue: Any, *what: Any) -> None:
         )
 
 
-def run(workload: str, system: str, effort: int, seconds: float) -> Row | str:
+def run(workload: str, load: Load, system: str, effort: int, seconds: float) -> Row | str:
     """Measure in a process of its own; a line of words where that fails."""
     context = multiprocessing.get_context("spawn")
     queue = context.Queue()
-    child = context.Process(target=_child, args=(queue, workload, system, effort, seconds))
+    child = context.Process(target=_child, args=(queue, workload, load, system, effort, seconds))
     child.start()
     try:
         found: Row | str = queue.get(timeout=TIME_LIMIT)
@@ -141,10 +161,11 @@ def run(workload: str, system: str, effort: int, seconds: float) -> Row | str:
     return found
 
 
-def systems(quick: bool) -> Iterator[tuple[str, int]]:
-    for name in ("desbrun", "xpbd"):
-        for threads in (1, 2):
-            yield f"drapery-{name}-{threads}", 0
+def systems(workload: str, quick: bool) -> Iterator[tuple[str, int]]:
+    """Those to run, with their substeps or passes."""
+    for name, substeps in OURS.get(workload, (("desbrun", 0), ("xpbd", 0))):
+        for threads in (1, 2) if WORKLOADS[workload].cloths > 1 else (1,):
+            yield f"drapery-{name}-{threads}", substeps
     for name in QUICK if quick else PEERS:
         for effort in import_module(f"benchmarks.peers.{name}").EFFORTS:
             yield name, effort
@@ -159,47 +180,113 @@ def show(row: Row) -> str:
     )
 
 
-def ratios(rows: list[Row], limits: dict[str, float]) -> Iterator[str]:
-    """Ours over the best peer that stretches no more than the workload allows."""
-    for workload, limit in limits.items():
-        here = [row for row in rows if row.workload == workload]
-        good = [r for r in here if "drapery" not in r.system and r.max_stretch <= limit]
-        best = max(good, key=lambda row: row.steps_per_s, default=None)
-        for row in here:
-            if "drapery" in row.system:
-                against = (
-                    f"{row.steps_per_s / best.steps_per_s:.1f} x {best.system}"
-                    if best
-                    else "no peer keeps to it"
-                )
-                yield f"{workload}  {row.system:20} stretch <= {100 * limit:.0f} %: {against}"
+def ratios(rows: list[Row]) -> Iterator[str]:
+    """Ours over the best peer that stretches no more than the workload allows, and over the best
+    that stretches no more than ours."""
+    for row in (row for row in rows if "drapery" in row.system):
+        limit = LIMITS[row.workload]
+        peers = [r for r in rows if r.workload == row.workload and "drapery" not in r.system]
+        yield (
+            f"{row.workload}  {row.system:16} {row.threads} thread{'s' * (row.threads > 1)}: "
+            f"{_against(row, peers, limit)} at stretch <= {100 * limit:.0f} %, "
+            f"{_against(row, peers, row.max_stretch)} at ours of {100 * row.max_stretch:.1f} %"
+        )
 
 
-def main() -> None:
-    words = argparse.ArgumentParser(description=__doc__)
-    words.add_argument("--quick", action="store_true", help="W1 and W2, ours and numpy's alone")
-    words.add_argument("--json", metavar="FILE", help="write the rows")
-    words.add_argument("--only", nargs="*", metavar="W", help="only these workloads")
-    asked = words.parse_args()
-    chosen = asked.only or (("W1", "W2") if asked.quick else tuple(WORKLOADS))
+def _against(row: Row, peers: list[Row], limit: float) -> str:
+    good = [peer for peer in peers if peer.max_stretch <= limit]
+    best = max(good, key=lambda peer: peer.steps_per_s, default=None)
+    if best is None:
+        return "no peer"
+    return f"{row.steps_per_s / best.steps_per_s:.1f} x {best.system}"
+
+
+def rooflines(rows: list[Row]) -> Iterator[str]:
+    """A line for each of ours on one thread."""
+    from benchmarks import roofline
+
+    machine = roofline.measured()
+    for row in rows:
+        if "drapery" in row.system and row.threads == 1:
+            load = WORKLOADS[row.workload]
+            name, _, effort = row.system.removeprefix("drapery-").partition("(")
+            method, cloth = our_solver(name, 1, int(effort.rstrip(")") or 0)), our_cloth(load)
+            cost = roofline.cost(cloth, method.init(cloth, load.dt), row.workload not in STILL)
+            label = f"{row.workload}  {row.system}"
+            yield roofline.show(label, cost, machine, row.particle_steps_per_s)
+
+
+def linear(counts: Sequence[int], seconds: float) -> list[Row]:
+    """Desbrun and xpbd, in wind, on more and more small banners; with progress."""
+    rows = []
+    with Progress() as progress:
+        for name in ("desbrun", "xpbd"):
+            bar = progress.add_task(name, total=sum(counts))
+            for count in counts:
+                load = replace(WORKLOADS["W1"], cloths=count)
+                found = run(str(count), load, f"drapery-{name}-2", 0, seconds)
+                progress.advance(bar, count)
+                if isinstance(found, Row):
+                    rows.append(found)
+                    per_cloth = 1e9 / (found.steps_per_s * count)
+                    progress.print(
+                        f"{count:7} cloths  {found.system:16} {found.steps_per_s:11.1f} steps/s"
+                        f" {per_cloth:8.1f} ns a cloth {found.bytes_per_particle:7.0f} bytes"
+                        " a particle"
+                    )
+    return rows
+
+
+def compare(workloads: Sequence[str], quick: bool) -> list[Row]:
+    """The table."""
     print(
         f"{'':3} {'system':20} {'threads':>7} {'steps/s':>12} {'particle steps':>15}"
         f" {'stretch':>11} {'bytes':>9}"
     )
     rows: list[Row] = []
-    for workload in chosen:
-        for system, effort in systems(asked.quick):
-            found = run(workload, system, effort, 0.6 if asked.quick else 2.0)
+    for workload in workloads:
+        for system, effort in systems(workload, quick):
+            found = run(workload, WORKLOADS[workload], system, effort, 0.3 if quick else 2.0)
             if isinstance(found, str):
-                print(f"{workload}  {system}({effort}): left out: {found}")
+                print(f"{workload}  {system}({effort}): left out: {found}", flush=True)
             else:
                 rows.append(found)
                 print(show(found), flush=True)
     print()
-    for line in ratios(rows, {w: {"W1": 0.05, "W2": 0.02, "W3": 0.05}[w] for w in chosen}):
+    for line in (*ratios(rows), *rooflines(rows)):
         print(line)
+    return rows
+
+
+def main() -> None:
+    words = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    words.add_argument("--quick", action="store_true", help="W1 and W2, ours and numpy's alone")
+    words.add_argument("--json", type=Path, metavar="FILE", help="write the rows")
+    words.add_argument("--only", nargs="*", metavar="W", choices=WORKLOADS, help="these alone")
+    words.add_argument("--linear", action="store_true", help="100 to 100,000 cloths instead")
+    words.add_argument(
+        "--endurance",
+        type=int,
+        nargs="?",
+        const=1_000_000,
+        metavar="STEPS",
+        help="so many steps (a million) of every solver in random gusts instead",
+    )
+    asked = words.parse_args()
+    if asked.endurance:
+        from benchmarks.endurance import endure_all
+        from benchmarks.endurance import show as show_endured
+
+        found: list[Any] = endure_all(asked.endurance)
+        print(*map(show_endured, found), sep="\n")
+    elif asked.linear:
+        found = linear(LINEAR, 2.0)
+    else:
+        found = compare(asked.only or ("W1", "W2", "W3")[: 2 if asked.quick else 3], asked.quick)
     if asked.json:
-        Path(asked.json).write_text(json.dumps([asdict(row) for row in rows], indent=1))
+        asked.json.write_text(json.dumps([asdict(row) for row in found], indent=1))
 
 
 if __name__ == "__main__":

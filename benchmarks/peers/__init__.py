@@ -14,7 +14,9 @@ class Load:
     """Cloths that hang from their top row under gravity.
 
     cloths: how many; columns, rows: particles of each; width, height: [m]; dt: one step [s].
-    effort: iterations or substeps; what that means is the system's.
+    effort: iterations or substeps; what that means is the system's, and 0 is its default.
+    mass: of a particle [kg]. stiffness: of structural, shear and flexion springs [N/m], where a
+    system has such.
     """
 
     cloths: int
@@ -24,6 +26,8 @@ class Load:
     width: float = 0.8333
     height: float = 1.6667
     dt: float = 1 / 60
+    mass: float = 4.8e-4
+    stiffness: tuple[float, float, float] = (5.0, 1.0, 0.2)
 
     @property
     def particles(self) -> int:

@@ -11,9 +11,10 @@ THREADS = 1
 
 def _model(load: Load) -> str:
     spacing = f"{load.width / (load.columns - 1)} {load.height / (load.rows - 1)} 1"
+    mass = load.mass * load.columns * load.rows
     flexes = "".join(
         f"""<flexcomp name="cloth{n}" type="grid" dim="2" count="{load.columns} {load.rows} 1"
-        spacing="{spacing}" mass="0.4167" pos="{2 * n} 0 0" radius="0.001">
+        spacing="{spacing}" mass="{mass}" pos="{2 * n} 0 0" radius="0.001">
         <edge equality="true"/><contact contype="0" conaffinity="0"/>
         <pin gridrange="0 {load.rows - 1} {load.columns - 1} {load.rows - 1}"/></flexcomp>"""
         for n in range(load.cloths)

@@ -8,8 +8,6 @@ EFFORTS = (8, 16, 32)
 """Substeps; its iterations do not help springs, see `_stiffness`."""
 MOST_PARTICLES = 300_000
 THREADS = 1
-MASS = 0.3 * 0.8333 * 1.6667
-"""Of a whole cloth [kg]: 0.3 kg/m²."""
 
 
 def _stiffness(load: Load) -> float:
@@ -18,8 +16,7 @@ def _stiffness(load: Load) -> float:
     Its corrections of all springs at a particle are added up, not averaged, so with eight springs
     their compliance must outweigh the masses: 1 / (k dt²) >= 8 * 2 / m.
     """
-    mass = MASS / (load.columns * load.rows)
-    return mass / (16 * (load.dt / load.effort) ** 2)
+    return load.mass / (16 * (load.dt / load.effort) ** 2)
 
 
 class Newton:
@@ -38,7 +35,7 @@ class Newton:
                 dim_y=load.rows - 1,
                 cell_x=load.width / (load.columns - 1),
                 cell_y=load.height / (load.rows - 1),
-                mass=MASS / (load.columns * load.rows),
+                mass=load.mass,
                 fix_top=True,
                 tri_ke=0.0,
                 tri_ka=0.0,

@@ -38,7 +38,7 @@ class PBD:
         particles = self.model.getParticles()
         count = load.columns * load.rows
         for i in range(count):
-            particles.setMass(first + i, 0.0 if i >= count - load.columns else 0.4167 / count)
+            particles.setMass(first + i, 0.0 if i >= count - load.columns else load.mass)
         # Method 4 is XPBD distance constraints; then their stiffness.
         self.model.addClothConstraints(mesh, 4, 1e8, 1e8, 1e8, 1e8, 0.3, 0.3, False, False)
 

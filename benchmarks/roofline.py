@@ -1,0 +1,141 @@
+"""How near the solvers come to what this machine can do at most.
+
+A step's flops and bytes are counted from the solver's own plan: one for every addition, product,
+quotient and root that changes a particle, and every number that such a calculation reads or
+writes, whatever it lies in. The machine's rates are those of a copy and of additions and products
+by turns, both by the same registers, on one thread and on numbers in the first cache: the most
+that any order of the work could reach.
+"""
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from drapery.cloth import Cloth, simd
+
+BLOCK = 16, 128
+"""Rows and lanes of the copied array, 8 KB of single precision."""
+PULL, SPRING, DRIFT, VELOCITY, PRESS, NOISE = 25, 27, 9, 6, 75, 300
+"""Flops: a pull of two particles, a spring's force, a particle's way and speed, the wind's pressure
+on it, and the noise at one sample."""
+BOTH_ENDS, FORCE_ENDS, WAY, SPEED, PRESSED, SAMPLED = 12, 18, 9, 9, 33, 12
+"""Numbers that they read and write."""
+
+
+@dataclass(frozen=True)
+class Machine:
+    """copy: bytes read and written a second; flops: a second."""
+
+    copy: float
+    flops: float
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of one step of one particle."""
+
+    flops: float
+    bytes: float
+
+    def fraction(self, machine: Machine, particle_steps_per_s: float) -> float:
+        """Of the rate that the machine could reach at most."""
+        least = max(self.flops / machine.flops, self.bytes / machine.copy)
+        return least * particle_steps_per_s
+
+
+def measured() -> Machine:
+    """This machine's rates: the best of several tries."""
+    x, y = np.ones(BLOCK, np.float32), np.zeros(BLOCK, np.float32)
+    copy = _best(lambda: _copy(y, x, 20_000)) / (20_000 * 2 * x.nbytes)
+    flops = _best(lambda: _calculate(x, np.float32(0.5), 20_000)) / (20_000 * 16 * 16)
+    return Machine(1 / copy, 1 / flops)
+
+
+def _best(work: Any) -> float:
+    times = []
+    for _ in range(12):
+        start = perf_counter()
+        work()
+        times.append(perf_counter() - start)
+    return min(times)
+
+
+@njit(error_model="numpy")
+def _copy(y: Any, x: Any, times: int) -> None:
+    for _ in range(times):
+        for row in range(x.shape[0]):
+            for lane in range(0, x.shape[1], simd.span(x)):
+                simd.store(y, row, lane, simd.load(x, row, lane))
+
+
+@njit(error_model="numpy")
+def _calculate(x: Any, part: Any, times: int) -> None:
+    """Eight chains of a product and a sum: enough for the processor to do at once."""
+    a, b, c, d = simd.load(x, 0, 0), simd.load(x, 1, 0), simd.load(x, 2, 0), simd.load(x, 3, 0)
+    e, f, g, h = simd.load(x, 4, 0), simd.load(x, 5, 0), simd.load(x, 6, 0), simd.load(x, 7, 0)
+    for _ in range(times):
+        a, b = a * part + part, b * part + part
+        c, d = c * part + part, d * part + part
+        e, f = e * part + part, f * part + part
+        g, h = g * part + part, h * part + part
+    simd.store(x, 8, 0, ((a + b) + (c + d)) + ((e + f) + (g + h)))
+
+
+def cost(cloth: Cloth, memory: Any, winds: int) -> Cost:
+    """Of a step by the plan in a solver's memory, desbrun's or xpbd's."""
+    plan, free = memory.plan, int((cloth.inv_mass > 0).sum())
+    sheet = hasattr(plan, "sheet")
+    controls = plan.sheet.controls if sheet else plan.body.controls
+    substeps = memory.substeps
+    parts = [
+        (winds * len(controls), NOISE, SAMPLED),
+        (winds * free, PRESS, PRESSED),
+        (free, VELOCITY, SPEED),
+    ]
+    if hasattr(plan, "constraints"):
+        links = _pulls(plan.links) if sheet else len(plan.links.longest)
+        solved = _pulls(plan.constraints) if sheet else len(plan.constraints.square)
+        parts += [
+            (solved + links * -(-substeps // 2), PULL, BOTH_ENDS),
+            (free * substeps, DRIFT, WAY),
+        ]
+    else:
+        links = _pulls(plan.links) if sheet else len(plan.links.longest)
+        parts += [
+            (links * substeps, PULL + 1, BOTH_ENDS),
+            (len(cloth.spring_length) * substeps, SPRING, FORCE_ENDS),
+            (free * substeps, DRIFT, WAY),
+            (substeps, *_filter(cloth, plan.filter)),
+        ]
+    count = len(cloth.inv_mass)
+    flops = sum(number * each for number, each, _ in parts)
+    numbers = sum(number * each for number, _, each in parts)
+    return Cost(flops / count, 4 * numbers / count)
+
+
+def _pulls(pulls: Any) -> int:
+    """Pairs in a sheet's pulls: those with a part to move."""
+    moved = (pulls.values[1:] != 0).any(axis=0)
+    ends = zip(pulls.start, pulls.lanes, strict=True)
+    return int(sum(moved[start : start + lanes].sum() for start, lanes in ends))
+
+
+def _filter(cloth: Cloth, filter: Any) -> tuple[float, float]:
+    """Flops and numbers of one filtering."""
+    if hasattr(filter, "into"):
+        rows, columns = cloth.grid_shape or (0, 0)
+        flops = 3 * rows * columns * (4 * columns + 9)
+        return flops, 3 * rows * columns * (2 * columns + 14)
+    sizes = filter.products[:, 1]
+    return float((6 * sizes * sizes).sum()), float((3 * sizes * (sizes + 1)).sum())
+
+
+def show(label: str, cost: Cost, machine: Machine, particle_steps_per_s: float) -> str:
+    return (
+        f"{label}: {cost.flops:.0f} flops and {cost.bytes:.0f} bytes a particle step; this machine "
+        f"{machine.flops / 1e9:.0f} GFlop/s and {machine.copy / 1e9:.0f} GB/s: "
+        f"{100 * cost.fraction(machine, particle_steps_per_s):.0f} % of the most"
+    )
