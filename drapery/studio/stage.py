@@ -246,7 +246,8 @@ class Stage:
             if self._picture[1] is None and clock() < patience:
                 ticks = 0  # the first picture need not wait for the kernels
             fault, version = self.fault, self.version
-            await self._patiently(partial(self._turn, ticks))
+            if not self.wishes.paused or self._stale or self._inputs:
+                await self._patiently(partial(self._turn, ticks))
             if self.version != version:
                 self._wake()
             if self.fault != fault or (not self._keys and self._has_steered()):

@@ -9,6 +9,7 @@ import asyncio
 import json
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -26,8 +27,9 @@ UNDER_WAY = 2
 MAX_TEXT = 2048
 MAX_VIEWERS = 8
 """Viewers of one tab at once."""
-UNKNOWN, ENOUGH, WRONG = 4404, 4429, 4400
-"""Why the server closes a socket: no such tab, too many viewers, a message that does not fit."""
+UNKNOWN, ENOUGH, WRONG, BROKEN = 4404, 4429, 4400, 1011
+"""Why the server closes a socket: no such tab, too many viewers, a message that does not fit, a
+fault of its own."""
 
 
 class Viewer:
@@ -52,6 +54,14 @@ class Viewer:
 
     async def talk(self, socket: WebSocket) -> None:
         """Send each new moment as soon as the viewer is ready for it."""
+        try:
+            await self._talk(socket)
+        except Exception:
+            # Of a viewer that has gone, or a fault of ours: then it may come back and see it anew.
+            with suppress(Exception):
+                await socket.close(BROKEN)
+
+    async def _talk(self, socket: WebSocket) -> None:
         seen = -1
         while True:
             await self._credit()

@@ -26,6 +26,11 @@ _KEYS = {
         ("Q, E", "weaker, stronger"),
         ("Space", "on or off"),
     ),
+    "The live banner, when it has the focus": (
+        ("Shift+arrows", "walk round it"),
+        ("+, -", "nearer, further off"),
+        ("Home", "as it was"),
+    ),
     "The page": (("Tab, Shift+Tab", "from part to part"), ("?", "this list")),
 }
 
