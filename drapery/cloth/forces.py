@@ -89,6 +89,8 @@ def custom_accelerations(loads: Loads, cloth: Cloth, state: State) -> Array:
         except ValueError:
             expected = state.positions.shape
             raise OptionError(f"force {force!r} must give accelerations {expected}") from None
+    if not np.isfinite(total).all():
+        raise OptionError("a custom force gave NaN or infinity; give finite accelerations [m/s²]")
     return total
 
 

@@ -103,14 +103,15 @@ def thread_count(wanted: int | None) -> int:
 
 def cast(plan: Any, dtype: Any) -> Any:
     """A named tuple of arrays and numbers with its floating-point arrays as `dtype`."""
-    return type(plan)(
-        *[
-            np.ascontiguousarray(part, dtype)
-            if isinstance(part, np.ndarray) and part.dtype.kind == "f"
-            else part
-            for part in plan
-        ]
-    )
+    with np.errstate(under="ignore"):  # so small a part is none
+        return type(plan)(
+            *[
+                np.ascontiguousarray(part, dtype)
+                if isinstance(part, np.ndarray) and part.dtype.kind == "f"
+                else part
+                for part in plan
+            ]
+        )
 
 
 def pin_targets(path: PinPath | None, state: State, dt: float, steps: int, pinned: int) -> Array:
@@ -128,5 +129,7 @@ def pin_targets(path: PinPath | None, state: State, dt: float, steps: int, pinne
                 f"pin path gave positions of shape {place.shape}; "
                 f"give {(pinned, 3)} or {(count, pinned, 3)}"
             )
+        if not np.isfinite(place).all():
+            raise OptionError("pin path gave NaN or infinity; give finite positions [m]")
         targets.append(to_lanes(place) if place.ndim == 3 else place.reshape(-1, 1))
     return np.stack(targets)

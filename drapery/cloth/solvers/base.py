@@ -10,6 +10,7 @@ from drapery.cloth.forces import Force
 from drapery.cloth.pins import PinPath
 from drapery.cloth.state import State
 from drapery.errors import OptionError
+from drapery.mesh import Array
 
 
 class Solver(Protocol):
@@ -55,6 +56,12 @@ def check_state(cloth: Cloth, state: State) -> None:
         values = getattr(state, name)
         if values.ndim != 3 or values.shape[1:] != expected:
             raise OptionError(f"state {name} have shape {values.shape}; use [B, {expected[0]}, 3]")
-        # A sum is finite if all are, and far quicker than asking each.
-        if not np.isfinite(values.sum(dtype=values.dtype)) and not np.isfinite(values).all():
+        if not all_finite(values):
             raise OptionError(f"state {name} hold NaN or infinity; give finite numbers")
+
+
+def all_finite(values: Array) -> bool:
+    """Whether there is no NaN or infinity."""
+    # A sum is finite only if all are, and far quicker than asking each.
+    with np.errstate(over="ignore", invalid="ignore"):
+        return bool(np.isfinite(values.sum(dtype=values.dtype)) or np.isfinite(values).all())

@@ -16,7 +16,7 @@ from drapery.cloth.compiled import door, kernel
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
 from drapery.cloth.pins import PinPath
-from drapery.cloth.solvers.base import check_state, check_step
+from drapery.cloth.solvers.base import all_finite, check_state, check_step
 from drapery.cloth.state import State
 from drapery.cloth.wind import Gusts
 from drapery.errors import OptionError
@@ -140,6 +140,11 @@ def _advance(
     count = len(state.positions)
     cloths = count if alone else batch.x.shape[1]
     lanes.run_blocks(work, cloths, batch.width, threads)
+    if not all_finite(batch.new_x):
+        raise OptionError(
+            f"the cloth was torn to infinity within {steps} steps of {memory.dt:g} s; "
+            "use a smaller dt, weaker forces or another solver"
+        )
     time = state.time + steps * memory.dt
     return State(lanes.from_lanes(batch.new_x, count), lanes.from_lanes(batch.new_v, count), time)
 
