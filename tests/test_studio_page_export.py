@@ -73,7 +73,7 @@ return !!found;
 FILL = """
 const root = document.querySelector(arguments[0] ? `#panel-${arguments[0]}` : ".q-dialog");
 const field = [...(root?.querySelectorAll("label") ?? [])]
-  .find((each) => each.innerText.trim().startsWith(arguments[1]))
+  .find((each) => each.innerText.trimStart().startsWith(arguments[1]))
   ?.querySelector("input, select");
 if (!field) return false;
 const tick = field.type === "checkbox";
@@ -93,6 +93,7 @@ def page(chromium: Any, studio: Studio) -> Iterator[Page]:
     opened = Page(chromium, studio, f"?d={write_link(DESIGN, Settings())}")
     yield opened
     assert console_errors(chromium) == []
+    assert "Traceback" not in "".join(studio.log)
 
 
 @pytest.fixture
@@ -325,6 +326,23 @@ def test_the_library_keeps_finds_and_opens(page: Page, downloads: Path, tmp_path
     wait_until(lambda: titles(page) == ["Second", "Lime Ghost"])
     search(page, "ghost creeper")
     wait_until(lambda: titles(page) == ["Lime Ghost"])
+    search(page, "")
+    wait_until(lambda: len(titles(page)) == 2)
+    page.fill("library", "Title", "Third")
+    page.fill("library", "Tags", "blue")
+    page.click("library", "Save changes")
+    wait_until(lambda: titles(page) == ["Third", "Lime Ghost"])
+    page.fill("library", "Tag\n", "blue")
+    wait_until(lambda: titles(page) == ["Third"])
+    page.fill("library", "Tag\n", "")
+    page.click("library", "Keep the old one too")
+    wait_until(lambda: titles(page) == ["Second", "Third", "Lime Ghost"])
+    page.fill("library", "Tag\n", "blue")
+    wait_until(lambda: titles(page) == ["Third"])
+    page.click("library", "Delete Third")
+    wait_until(lambda: titles(page) == ["Second", "Lime Ghost"])
+    focused = "return document.activeElement.innerText"
+    wait_until(lambda: page.run(focused) == "Put it back")
     other = Page(page.driver, page.studio)
     other.tab("library")
     wait_until(lambda: titles(other) == ["Second", "Lime Ghost"])

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
-from nicegui import run, ui
+from nicegui import background_tasks, run, ui
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
@@ -14,7 +14,7 @@ from drapery.studio import page
 from drapery.studio.components import value_of
 from drapery.studio.desk import desk_of
 from drapery.studio.drop import Drop
-from drapery.studio.notices import faults, tell
+from drapery.studio.notices import Tone, faults, tell
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.share import SHARED, over
@@ -47,6 +47,7 @@ class Shelves:
 
     def __init__(self, session: Session) -> None:
         self._session = session
+        self._client = ui.context.client
         # The design that is being worked on, by its number; 0 for one that is not kept yet.
         self._open = 0
         self._title = session.sketch.title
@@ -116,7 +117,7 @@ class Shelves:
         Fields().choice("Tag", names, lambda: self._tag, lambda tag: self._later(tag=str(tag)))
 
     def _later(self, **wanted: str) -> None:
-        ui.timer(0, lambda: self._search_for(**wanted), once=True)
+        background_tasks.create(self._search_for(**wanted))
 
     async def _search_for(self, *, words: str | None = None, tag: str | None = None) -> None:
         self._words = self._words if words is None else words
@@ -142,6 +143,11 @@ class Shelves:
             self._title = self._session.sketch.title
             self._fields.refresh()
 
+    def _tell(self, line: str, tone: Tone = "done") -> None:
+        # What was pressed may have gone with the cards that have been drawn anew.
+        with self._client:
+            tell(line, tone)
+
     async def _do(self, act: "Callable[[Library], T]") -> T | None:
         """What the library answers, in a thread; None where it refused, which the user is told."""
 
@@ -151,7 +157,7 @@ class Shelves:
         try:
             return await run.io_bound(ask)
         except DraperyError as error:
-            tell(str(error), "fault")
+            self._tell(str(error), "fault")
             return None
 
     async def _refresh(self) -> None:
@@ -166,6 +172,12 @@ class Shelves:
         if answer is None or stale or self._session.closed:
             return
         designs, count, names = answer
+        if tag is not None and tag not in names:
+            # The last design with this tag has gone.
+            self._tag = ""
+            self._tag_choice.refresh()
+            await self._refresh()
+            return
         if names != self._names:
             self._names = names
             self._tag_choice.refresh()
@@ -220,7 +232,7 @@ class Shelves:
             return
         session.edit(sketch)
         self._set_open(kept[0])
-        tell(f"Saved {sketch.title or 'without a title'}")
+        self._tell(f"Saved {sketch.title or 'without a title'}")
         if kept[1] is not None:
             self._offer(f"Changed {_title(kept[1])}", "Keep the old one too", kept[1])
         await self._refresh()
@@ -244,7 +256,7 @@ class Shelves:
         self._fields.refresh()
         self._set_open(number)
         self._undo.set_visibility(False)
-        tell(f"Opened {_title(design)}")
+        self._tell(f"Opened {_title(design)}")
 
     def _edit(self, design: "Design") -> None:
         """A dialog for title and tags."""
@@ -286,7 +298,7 @@ class Shelves:
         self._offer(f"Deleted {_title(gone)}", "Put it back", gone)
         await self._refresh()
         # What was pressed is gone; whoever uses keys goes on from here.
-        ui.run_javascript("document.querySelector('.undo button')?.focus()")
+        self._client.run_javascript("document.querySelector('.undo button')?.focus()")
 
     def _offer(self, line: str, offer: str, design: "Design") -> None:
         """What has just been done, and a way to have the design as it was."""
@@ -307,7 +319,7 @@ class Shelves:
         uploads_of(self._session).remove(number)
         if counts is not None:
             fresh, known = counts
-            tell(f"{fresh} designs added" + (f", {known} were here already" if known else ""))
+            self._tell(f"{fresh} designs added" + (f", {known} were here already" if known else ""))
             await self._refresh()
 
     async def _show_more(self) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from itertools import count
 
-from nicegui import run, ui
+from nicegui import Client, run, ui
 
 from drapery.errors import DraperyError
 from drapery.studio.drop import Drop
@@ -66,9 +66,11 @@ def _name(title: str, name: str, summary: str) -> None:
 
 
 def _row(session: Session, shelf: Shelf, entry: Entry) -> None:
+    client = ui.context.client
+
     def act(call: Callable[[], None]) -> None:
         before = session.settings.packs
-        with faults():
+        with client, faults():
             call()
         # The order of packs that are off is nobody else's business, so nobody has told of it.
         if session.settings.packs == before:
@@ -87,14 +89,14 @@ def _row(session: Session, shelf: Shelf, entry: Entry) -> None:
 
         def press(label: str = label, call: Callable[[], None] = call) -> None:
             act(call)
-            _focus(f'[data-pack="{entry.number}"] [aria-label^="{label}"]')
+            _focus(client, f'[data-pack="{entry.number}"] [aria-label^="{label}"]')
 
         button(f"{label}: {entry.title}", press, icon=icon).classes("small")
 
 
-def _focus(selector: str) -> None:
+def _focus(client: Client, selector: str) -> None:
     """Back to what was pressed, which has been drawn anew."""
-    ui.run_javascript(f"setTimeout(() => document.querySelector(`{selector}`)?.focus(), 60)")
+    client.run_javascript(f"setTimeout(() => document.querySelector(`{selector}`)?.focus(), 60)")
 
 
 def _comparison(session: Session, shelf: Shelf) -> None:
