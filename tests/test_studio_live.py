@@ -564,3 +564,23 @@ def test_a_tab_that_closes_ends_its_sockets(client: Any) -> None:
         with pytest.raises(WebSocketDisconnect) as caught:
             moments(socket, 100)
         assert caught.value.code == UNKNOWN
+
+
+def test_cloth_that_blows_up_is_told_and_hangs_anew(client: Any) -> None:
+    session = open_session(SETTINGS, sketch_of(DESIGN))
+    stage = stage_of(session)
+
+    def tear(live: Live) -> None:
+        (sheet,) = live._sheets
+        state = replace(sheet.hanging.state, velocities=sheet.hanging.state.velocities * np.nan)
+        live._sheets[0] = replace(sheet, hanging=replace(sheet.hanging, state=state))
+
+    with client.websocket_connect(f"/live/{session.token}") as socket:
+        socket.send_json(SHAPE)
+        moments(socket, 3)
+        stage.do(tear)
+        while "text" not in (said := socket.receive()):
+            socket.send_json({"drawn": 1})
+        assert "blew up" in json.loads(said["text"])["line"]
+        assert all(np.isfinite(moment["positions"]).all() for moment in moments(socket, 5))
+    session.close()

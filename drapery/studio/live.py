@@ -301,13 +301,13 @@ class Live:
         try:
             for number, sheet in enumerate(self._sheets):
                 self._change(number, moved(sheet.hanging, forces))
-        except OptionError:
+        except OptionError as error:
             self.reset()
             name = self._settings.solver
             raise OptionError(
                 f"the cloth blew up with the solver {name} and hangs anew; use another solver,"
                 " a coarser grid or less wind"
-            ) from None
+            ) from error
 
     def _change(self, number: int, hanging: Hanging) -> None:
         self._sheets[number] = replace(self._sheets[number], hanging=hanging)
