@@ -321,6 +321,15 @@ def test_all_that_can_be_used_has_a_name(page: Any) -> None:
     assert find(page, "html").get_attribute("lang") == "en-US"
 
 
+def test_to_load_the_page_anew_loses_no_work(page: Any) -> None:
+    paste(page, "white creeper:lime border:black")
+    is_now(page, "white creeper:lime border:black")
+    wait_until(lambda: "?d=" in page.current_url)
+    page.refresh()
+    wait_until(lambda: page.execute_script("return !!window.studio?.ready"))
+    is_now(page, "white creeper:lime border:black")
+
+
 def test_nothing_is_loaded_from_elsewhere(page: Any, studio: Studio) -> None:
     script = "return performance.getEntriesByType('resource').map((entry) => entry.name)"
     assert all(

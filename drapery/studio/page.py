@@ -14,7 +14,7 @@ from drapery.studio.desk import desk_of
 from drapery.studio.incoming import incoming_of
 from drapery.studio.notices import tell
 from drapery.studio.session import Session, open_session
-from drapery.studio.share import begun
+from drapery.studio.share import begun, write_link
 from drapery.studio.sketch import Sketch
 from drapery.studio.widgets import words
 
@@ -101,10 +101,23 @@ def build(session: Session) -> None:
         with ui.element("div").classes("side"):
             _panels(session, "side")
     shortcuts.build()
+    _keep_in_address(session)
     root.on("act", lambda event: bar.act(session, desk, str(event.args)), js_handler=_DETAIL)
     root.on(
         "pasted", lambda event: incoming_of(session).read_text(str(event.args)), js_handler=_DETAIL
     )
+
+
+def _keep_in_address(session: Session) -> None:
+    """Hold the design in the page's own address: to load it anew, or to go back, loses no work."""
+    client = ui.context.client
+
+    def keep() -> None:
+        # Letters of base64url alone: nothing in it can end the text.
+        client.run_javascript(f'studio.keep("{write_link(session.sketch, session.settings)}")')
+
+    session.listen("sketch", keep)
+    session.listen("settings", keep)
 
 
 def _head(session: Session) -> None:

@@ -8,7 +8,19 @@ const studio = (window.studio = {
   },
   copy,
   tab,
+  keep,
 });
+
+// The design in the address. A browser takes only so many changes a second; the last one counts.
+let later;
+function keep(word) {
+  const put = () => history.replaceState(null, "", `?d=${word}`);
+  clearTimeout(later);
+  later = setTimeout(put, 500);
+  try {
+    put();
+  } catch {}
+}
 
 // Tabs. On a wide window those of the left and under the stage are always seen.
 function tab(name) {
