@@ -104,7 +104,7 @@ def downloads(chromium: Any, tmp_path: Path) -> Path:
 
 
 def landed(downloads: Path, name: str) -> bytes:
-    wait_until(lambda: (downloads / name).exists(), 20)
+    wait_until(lambda: (downloads / name).exists(), 40)
     return (downloads / name).read_bytes()
 
 
