@@ -26,25 +26,32 @@ _SUFFIXES = (
 
 
 class Incoming:
-    """What was read last. found: the banners; line: what was wrong; name: of the file, or ""."""
+    """What was read last.
+
+    found: the banners. line: what was wrong. notes: what was warned of. name: of the file, or "".
+    beside: whether it was read from the field beside which the line is shown.
+    """
 
     def __init__(self) -> None:
         self.found: tuple[Found, ...] = ()
         self.line = ""
         self.notes: tuple[str, ...] = ()
         self.name = ""
+        self.beside = False
         self._listeners: list[Callable[[], None]] = []
 
     def listen(self, call: Callable[[], None]) -> None:
         """Call this whenever something has been read."""
         self._listeners.append(call)
 
-    def read_text(self, text: str) -> None:
+    def read_text(self, text: str, *, beside: bool = False) -> None:
         """Read a text in any form; never a file of this machine, whatever the text says."""
+        self.beside = beside
         self._take("", *_read(lambda: parse_banners(text)))
 
     async def read_file(self, path: Path, name: str) -> None:
         """Read a file that came under a name."""
+        self.beside = False
         found, line, notes = await run_in_threadpool(_read, lambda: read_designs(path))
         self._take(name, found, line.replace(str(path), name).replace(path.name, name), notes)
 

@@ -139,6 +139,9 @@ export default {
       };
     },
     put(number, y) {
+      const seen = this.$el.getBoundingClientRect();
+      if (y < seen.top + 24) this.$el.scrollTop -= 14;
+      else if (y > seen.bottom - 24) this.$el.scrollTop += 14;
       const rows = [...this.$el.querySelectorAll(".layer:not(.layer-field)")];
       const others = rows.filter((each) => Number(each.dataset.number) !== number);
       const above = others.filter((each) => {

@@ -16,6 +16,11 @@ _TYPES: dict[Tone, Literal["negative", "warning", "positive"]] = {
     "warning": "warning",
     "done": "positive",
 }
+_CLOSE: dict[Tone, list[dict[str, str | bool]]] = {
+    "fault": [{"label": "Close", "color": "white", "dense": True, "noCaps": True}],
+    "warning": [{"label": "Close", "color": "dark", "dense": True, "noCaps": True}],
+    "done": [],
+}
 
 
 def tell(line: str, tone: Tone = "done") -> None:
@@ -24,11 +29,10 @@ def tell(line: str, tone: Tone = "done") -> None:
         line,
         type=_TYPES[tone],
         position="bottom",
-        multi_line=len(line) > 60,
-        close_button="Close" if tone != "done" else False,
         timeout={"fault": 10_000, "warning": 7_000, "done": 1_800}[tone],
         attrs={"role": "status" if tone == "done" else "alert"},
-        classes=f"notice notice-{tone}",
+        classes="notice",
+        actions=_CLOSE[tone],
     )
 
 

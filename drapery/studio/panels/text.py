@@ -48,7 +48,7 @@ def _reader(session: Session) -> None:
     listed = ui.element("div").classes("found-list")
     text.on(
         "read",
-        lambda event: incoming.read_text(str(value_of(event))),
+        lambda event: incoming.read_text(str(value_of(event)), beside=True),
         js_handler="(e) => emit(e.detail)",
     )
     client = context.client
@@ -70,7 +70,9 @@ def _arrive(session: Session, incoming: Incoming) -> None:
     for note in incoming.notes:
         tell(note, "warning")
     if incoming.line:
-        tell(incoming.line, "fault")
+        # Beside the field the line stands already.
+        if not incoming.beside:
+            tell(incoming.line, "fault")
     elif len({found.banner for found in incoming.found}) == 1:
         _lay_out(session, incoming.found[0].banner)
     else:
@@ -81,7 +83,8 @@ def _arrive(session: Session, incoming: Incoming) -> None:
 def _lay_out(session: Session, banner: Banner) -> None:
     sketch = sketch_of(banner, session.sketch.title)
     desk_of(session).lay_out(sketch)
-    tell(f"Read: {in_words(sketch)}"[:160])
+    count = len(sketch.strokes)
+    tell(f"Read a {sketch.kind} of {count} layer{'' if count == 1 else 's'}")
 
 
 def _choices(session: Session, incoming: Incoming) -> None:
