@@ -56,13 +56,21 @@ def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) 
         least, pull = fill(length * tiny), dt * springs.stiffness[s]
         pull_i, pull_j = pull * inv_mass[i // 3], pull * inv_mass[j // 3]
         for lane in range(0, x.shape[1], span(x)):
-            dx = load(x, j, lane) - load(x, i, lane)
-            dy = load(x, j + 1, lane) - load(x, i + 1, lane)
-            dz = load(x, j + 2, lane) - load(x, i + 2, lane)
+            dx, dy, dz = way(x, i, j, lane)
             d = root(dx * dx + dy * dy + dz * dz)
             strain = (d - length) / larger(d, least)
             add(g, i, lane, pull_i * strain, dx, dy, dz)
             add(g, j, lane, -pull_j * strain, dx, dy, dz)
+
+
+@kernel
+def way(x: Any, i: Any, j: Any, lane: Any) -> Any:
+    """From rows i, i + 1 and i + 2 to those at j."""
+    return (
+        load(x, j, lane) - load(x, i, lane),
+        load(x, j + 1, lane) - load(x, i + 1, lane),
+        load(x, j + 2, lane) - load(x, i + 2, lane),
+    )
 
 
 @kernel
@@ -81,9 +89,7 @@ def shorten(x: Any, links: Any) -> None:
         most = fill(links.longest[s])
         part_i, part_j = links.share_i[s], -links.share_j[s]
         for lane in range(0, x.shape[1], span(x)):
-            dx = load(x, j, lane) - load(x, i, lane)
-            dy = load(x, j + 1, lane) - load(x, i + 1, lane)
-            dz = load(x, j + 2, lane) - load(x, i + 2, lane)
+            dx, dy, dz = way(x, i, j, lane)
             d = larger(root(dx * dx + dy * dy + dz * dz), most)
             excess = (d - most) / d
             if part_i != 0:

@@ -169,6 +169,16 @@ def larger(typing: Any, a: Any, b: Any) -> Any:
     return a(a, b), generate
 
 
+@_intrinsic
+def smaller(typing: Any, a: Any, b: Any) -> Any:
+    """The smaller of each two; b where they cannot be compared."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.select(builder.fcmp_ordered("<", *args), *args)
+
+    return a(a, b), generate
+
+
 def _operator(sign: Callable[..., Any], instruction: str) -> None:
     """Two registers, or a register and a number of its type."""
 

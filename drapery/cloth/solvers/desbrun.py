@@ -11,7 +11,6 @@ j. Its implicit viscosity k dt (v_j - v_i) equals dt H v, and W dt² M⁻¹ H = 
 filtering that force the velocity itself is filtered: v' = W (v + dt/m F) + dt/m F_ext.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -29,9 +28,7 @@ from drapery.cloth.filters import (
     is_regular,
     sheet_filter,
 )
-from drapery.cloth.forces import Force
 from drapery.cloth.links import Links, limited_links
-from drapery.cloth.pins import PinPath
 from drapery.cloth.sheets import (
     Pairs,
     Pulls,
@@ -46,13 +43,12 @@ from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import (
     Body,
     Memory,
-    advance,
+    Stepped,
     body_of,
     check_count,
     check_limit,
 )
 from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
-from drapery.cloth.state import State
 from drapery.errors import OptionError
 
 CELLS = 60
@@ -75,7 +71,7 @@ class SheetPlan(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SolverDesbrun:
+class SolverDesbrun(Stepped):
     """See the module.
 
     limit: a spring's longest length over its rest length. sweeps: of the correction, a step.
@@ -103,25 +99,12 @@ class SolverDesbrun:
         h = dt / substeps
         pinned = (cloth.inv_mass == 0).any()
         if is_sheet(cloth) and is_regular(cloth) and (pinned or self.angular == "none"):
-            return Memory(sheet_plan(cloth, h, self.limit, self.sweeps), dt, substeps)
+            fine = sheet_plan(cloth, h, self.limit, self.sweeps)
+            return Memory(fine, dt, substeps, _advance_sheet, alone=True)
         links = limited_links(cloth, self.limit, self.sweeps)
         spin = spin_correction(cloth, h, self.angular)
-        return Memory(Plan(body_of(cloth), cloth_filter(cloth, h), links, spin), dt, substeps)
-
-    def step(
-        self,
-        cloth: Cloth,
-        state: State,
-        memory: Memory,
-        forces: Sequence[Force],
-        dt: float,
-        *,
-        steps: int = 1,
-        pins: PinPath | None = None,
-    ) -> tuple[State, Memory]:
-        args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        alone = isinstance(memory.plan, SheetPlan)
-        return advance(_advance_sheet if alone else _advance, *args, alone=alone), memory
+        plan = Plan(body_of(cloth), cloth_filter(cloth, h), links, spin)
+        return Memory(plan, dt, substeps, _advance)
 
 
 def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:

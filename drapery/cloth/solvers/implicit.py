@@ -13,7 +13,6 @@ A compressed spring's Jacobian is indefinite; as in Choi and Ko, "Stable but res
 (SIGGRAPH 2002), the part across the spring is then left out, so the matrix is positive definite.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -22,22 +21,21 @@ import numpy as np
 from drapery.cloth import kernels, simd
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door, kernel
-from drapery.cloth.forces import Force
 from drapery.cloth.links import Links, limited_links
-from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import (
     MAX_SUBSTEPS,
     Body,
     Memory,
+    Stepped,
     add_loads,
-    advance,
     blow_all,
     body_of,
     check_count,
     check_limit,
+    give_block,
+    take_block,
 )
-from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
@@ -54,7 +52,7 @@ class Plan(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SolverImplicit:
+class SolverImplicit(Stepped):
     """See the module.
 
     damping: of springs along their length, over their stiffness [s].
@@ -88,23 +86,8 @@ class SolverImplicit:
         free = cloth.inv_mass > 0
         mass = np.where(free, 1 / np.where(free, cloth.inv_mass, 1), 0.0)
         links = limited_links(cloth, self.limit, self.sweeps)
-        return Memory(
-            Plan(body_of(cloth), links, mass, np.array([self.damping])), dt, self.substeps
-        )
-
-    def step(
-        self,
-        cloth: Cloth,
-        state: State,
-        memory: Memory,
-        forces: Sequence[Force],
-        dt: float,
-        *,
-        steps: int = 1,
-        pins: PinPath | None = None,
-    ) -> tuple[State, Memory]:
-        args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        return advance(_advance, *args, self.iterations, self.tolerance), memory
+        plan = Plan(body_of(cloth), links, mass, np.array([self.damping]))
+        return Memory(plan, dt, self.substeps, _advance, (self.iterations, self.tolerance))
 
 
 @kernel
@@ -320,16 +303,11 @@ def _advance(
     h, damping = dtype.type(batch.numbers[0]), plan.damping[0]
     rows, springs = batch.x.shape[0], plan.body.springs
     for start in range(first, last, batch.width):
-        lanes = min(batch.width, last - start)
-        y, u = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
-        g, old = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
+        y, u, g, old, wind, work = take_block(batch, body, start, last)
+        lanes = y.shape[1]
         b, dv = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
         room = simd.room(4 * rows, lanes, batch.x).reshape((4, rows, lanes))
         blocks = simd.room(5 * springs.rest.size, lanes, batch.x)
-        wind = simd.room(3 * body.controls.size * batch.gusts.seeds.size, lanes, batch.x)
-        work = simd.room(18, lanes, batch.x)
-        kernels.take_lanes(y, batch.x, start)
-        kernels.take_lanes(u, batch.v, start)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -351,5 +329,4 @@ def _advance(
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             kernels.shorten(y, plan.links)
             kernels.set_velocities(u, y, old, h)
-        kernels.give_lanes(batch.new_x, y, start)
-        kernels.give_lanes(batch.new_v, u, start)
+        give_block(batch, y, u, start)

@@ -11,35 +11,35 @@ for pixel-art capes. Not to be confused with xpbd, whose compliance means the sa
 with verlet, whose name this method often bears: there are no forces between particles here.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import kernels, simd
+from drapery.cloth import kernels
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
-from drapery.cloth.forces import Force
+from drapery.cloth.kernels import add, way
 from drapery.cloth.links import Links, limited_links
 from drapery.cloth.order import outwards, pin_distances, sweep_order
-from drapery.cloth.pins import PinPath
+from drapery.cloth.simd import fill, larger, load, root, smaller, span
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import (
     MAX_SUBSTEPS,
     Body,
     Memory,
+    Stepped,
     add_loads,
-    advance,
     blow_all,
     body_of,
     check_count,
     check_limit,
     check_part,
+    give_block,
     movable,
+    take_block,
 )
-from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
@@ -69,7 +69,7 @@ class Plan(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SolverPBD:
+class SolverPBD(Stepped):
     """See the module.
 
     passes: of relaxation, a substep.
@@ -140,21 +140,7 @@ class SolverPBD:
         plan = Plan(
             body_of(cloth), self._constraints(cloth), links, stretched(cloth, self.limit), keep
         )
-        return Memory(plan, dt, self.substeps)
-
-    def step(
-        self,
-        cloth: Cloth,
-        state: State,
-        memory: Memory,
-        forces: Sequence[Force],
-        dt: float,
-        *,
-        steps: int = 1,
-        pins: PinPath | None = None,
-    ) -> tuple[State, Memory]:
-        args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        return advance(_advance, *args, self.passes, self.sweeps), memory
+        return Memory(plan, dt, self.substeps, _advance, (self.passes, self.sweeps))
 
     def _constraints(self, cloth: Cloth) -> Constraints:
         stiffness = np.asarray(self.stiffness, float)[cloth.spring_kind]
@@ -202,50 +188,39 @@ def _check_name(option: str, value: str, known: tuple[str, ...]) -> None:
 @kernel
 def relax(y: Any, constraints: Any) -> None:
     """One Gauss-Seidel pass: each pair in turn is moved to its distance."""
-    tiny = y.dtype.type(1e-30)
+    tiny = fill(y.dtype.type(1e-30))
     for s in range(constraints.most.size):
-        i, j = 3 * constraints.pairs[s, 0], 3 * constraints.pairs[s, 1]
-        least, most = constraints.least[s], constraints.most[s]
-        part_i, part_j = constraints.share_i[s], constraints.share_j[s]
-        for lane in range(y.shape[1]):
-            dx = y[j, lane] - y[i, lane]
-            dy = y[j + 1, lane] - y[i + 1, lane]
-            dz = y[j + 2, lane] - y[i + 2, lane]
-            d = np.sqrt(dx * dx + dy * dy + dz * dz)
-            part = (d - min(max(d, least), most)) / max(d, tiny)
-            y[i, lane] += part_i * part * dx
-            y[i + 1, lane] += part_i * part * dy
-            y[i + 2, lane] += part_i * part * dz
-            y[j, lane] -= part_j * part * dx
-            y[j + 1, lane] -= part_j * part * dy
-            y[j + 2, lane] -= part_j * part * dz
+        i, j = 3 * np.intp(constraints.pairs[s, 0]), 3 * np.intp(constraints.pairs[s, 1])
+        least, most = fill(constraints.least[s]), fill(constraints.most[s])
+        part_i, part_j = constraints.share_i[s], -constraints.share_j[s]
+        for lane in range(0, y.shape[1], span(y)):
+            dx, dy, dz = way(y, i, j, lane)
+            d = root(dx * dx + dy * dy + dz * dz)
+            part = (d - smaller(larger(d, least), most)) / larger(d, tiny)
+            add(y, i, lane, part_i * part, dx, dy, dz)
+            add(y, j, lane, part_j * part, dx, dy, dz)
 
 
 @kernel
 def tidy(y: Any, links: Any, sweeps: Any, most: Any) -> None:
     """Sweeps over the lanes in which a link is too long, each lane until it has none.
 
-    most: room for the longest length over `longest` that is let be, [L]: all, once a lane is done.
+    most: room, in its first row, for the longest length over `longest` that is let be: all, once a
+    lane is done.
     """
     for _ in range(sweeps):
-        if not mark_too_long(most, y, links):
+        if not mark_too_long(most[0], y, links):
             return
         for s in range(links.longest.size):
-            i, j = 3 * links.pairs[s, 0], 3 * links.pairs[s, 1]
-            longest, part_i, part_j = links.longest[s], links.share_i[s], links.share_j[s]
-            for lane in range(y.shape[1]):
-                dx = y[j, lane] - y[i, lane]
-                dy = y[j + 1, lane] - y[i + 1, lane]
-                dz = y[j + 2, lane] - y[i + 2, lane]
-                limit = most[lane] * longest
-                d = max(np.sqrt(dx * dx + dy * dy + dz * dz), limit)
+            i, j = 3 * np.intp(links.pairs[s, 0]), 3 * np.intp(links.pairs[s, 1])
+            longest, part_i, part_j = links.longest[s], links.share_i[s], -links.share_j[s]
+            for lane in range(0, y.shape[1], span(y)):
+                dx, dy, dz = way(y, i, j, lane)
+                limit = load(most, 0, lane) * longest
+                d = larger(root(dx * dx + dy * dy + dz * dz), limit)
                 excess = (d - limit) / d
-                y[i, lane] += part_i * excess * dx
-                y[i + 1, lane] += part_i * excess * dy
-                y[i + 2, lane] += part_i * excess * dz
-                y[j, lane] -= part_j * excess * dx
-                y[j + 1, lane] -= part_j * excess * dy
-                y[j + 2, lane] -= part_j * excess * dz
+                add(y, i, lane, part_i * excess, dx, dy, dz)
+                add(y, j, lane, part_j * excess, dx, dy, dz)
 
 
 @kernel
@@ -291,15 +266,8 @@ def _advance(
     """Steps of lanes first..last, a block at a time."""
     dtype, body = batch.x.dtype, plan.body
     h = dtype.type(batch.numbers[0])
-    rows = batch.x.shape[0]
     for start in range(first, last, batch.width):
-        lanes = min(batch.width, last - start)
-        y, u = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
-        g, old = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
-        wind = simd.room(3 * body.controls.size * batch.gusts.seeds.size, lanes, batch.x)
-        work = simd.room(18, lanes, batch.x)
-        kernels.take_lanes(y, batch.x, start)
-        kernels.take_lanes(u, batch.v, start)
+        y, u, g, old, wind, work = take_block(batch, body, start, last)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -312,7 +280,6 @@ def _advance(
             for _ in range(passes):
                 relax(y, plan.constraints)
             kernels.shorten(y, plan.links)
-            tidy(y, plan.springs, sweeps, work[0])
+            tidy(y, plan.springs, sweeps, work)
             kernels.set_velocities(u, y, old, h)
-        kernels.give_lanes(batch.new_x, y, start)
-        kernels.give_lanes(batch.new_v, u, start)
+        give_block(batch, y, u, start)

@@ -9,32 +9,30 @@ chosen to see where all the others come from. Not to be confused with desbrun, w
 same correction but integrates implicitly, or with verlet, which corrects in Jacobi order.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from drapery.cloth import kernels, simd
+from drapery.cloth import kernels
 from drapery.cloth.cloth import FLEXION, Cloth
 from drapery.cloth.compiled import door
-from drapery.cloth.forces import Force
 from drapery.cloth.links import Links
-from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import (
     MAX_SUBSTEPS,
     Body,
     Memory,
-    advance,
+    Stepped,
     blow_all,
     body_of,
     check_count,
     check_limit,
     chosen_substeps,
+    give_block,
     half_shares,
     kick,
     movable,
+    take_block,
 )
-from drapery.cloth.state import State
 
 
 class Plan(NamedTuple):
@@ -43,7 +41,7 @@ class Plan(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SolverProvot:
+class SolverProvot(Stepped):
     """See the module.
 
     limit: longest length of a structural or shear spring over its rest length; Provot's 10 %.
@@ -64,21 +62,8 @@ class SolverProvot:
     def init(self, cloth: Cloth, dt: float) -> Memory:
         check_step(dt, 1)
         plan = Plan(body_of(cloth), listed_links(cloth, self.limit))
-        return Memory(plan, dt, chosen_substeps(self.substeps, cloth, dt))
-
-    def step(
-        self,
-        cloth: Cloth,
-        state: State,
-        memory: Memory,
-        forces: Sequence[Force],
-        dt: float,
-        *,
-        steps: int = 1,
-        pins: PinPath | None = None,
-    ) -> tuple[State, Memory]:
-        args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        return advance(_advance, *args, self.sweeps), memory
+        substeps = chosen_substeps(self.substeps, cloth, dt)
+        return Memory(plan, dt, substeps, _advance, (self.sweeps,))
 
 
 def listed_links(cloth: Cloth, limit: float) -> Links:
@@ -96,15 +81,8 @@ def _advance(
     """Steps of lanes first..last, a block at a time."""
     dtype, body = batch.x.dtype, plan.body
     h = dtype.type(batch.numbers[0])
-    rows = batch.x.shape[0]
     for start in range(first, last, batch.width):
-        lanes = min(batch.width, last - start)
-        y, u = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
-        g, old = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
-        wind = simd.room(3 * body.controls.size * batch.gusts.seeds.size, lanes, batch.x)
-        work = simd.room(18, lanes, batch.x)
-        kernels.take_lanes(y, batch.x, start)
-        kernels.take_lanes(u, batch.v, start)
+        y, u, g, old, wind, work = take_block(batch, body, start, last)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -115,5 +93,4 @@ def _advance(
             for _ in range(sweeps):
                 kernels.shorten(y, plan.links)
             kernels.set_velocities(u, y, old, h)
-        kernels.give_lanes(batch.new_x, y, start)
-        kernels.give_lanes(batch.new_v, u, start)
+        give_block(batch, y, u, start)

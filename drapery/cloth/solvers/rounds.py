@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import kernels, lanes
+from drapery.cloth import kernels, lanes, simd
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.faces import Faces, wind_faces
@@ -66,11 +66,18 @@ class Batch(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Memory:
-    """A method's plan for one cloth and step, in each floating-point type asked for."""
+    """A method's plan for one cloth and step, in each floating-point type asked for.
+
+    kernel: called with first, last, plan, batch, steps, substeps and the options; it steps whole
+    registers of cloths, or each alone.
+    """
 
     plan: Any
     dt: float
     substeps: int
+    kernel: Callable[..., None]
+    options: tuple[Any, ...] = ()
+    alone: bool = False
     by_type: dict[Any, Any] = field(default_factory=dict)
 
     def of(self, dtype: Any) -> Any:
@@ -91,55 +98,52 @@ def body_of(cloth: Cloth) -> Body:
     return Body(springs, faces, controls, cloth.inv_mass, np.flatnonzero(cloth.inv_mass == 0))
 
 
-def advance(
-    kernel: Callable[..., None],
-    cloth: Cloth,
-    state: State,
-    memory: Memory,
-    forces: Sequence[Force],
-    dt: float,
-    steps: int,
-    pins: PinPath | None,
-    threads: int | None,
-    *options: Any,
-    alone: bool = False,
-) -> State:
-    """The state `steps` steps later. kernel: called with first, last, plan, batch, steps, substeps
-    and the options; it steps whole registers of cloths, or each alone. Raises OptionError."""
-    check_step(dt, steps)
-    check_state(cloth, state)
-    if dt != memory.dt:
-        raise OptionError(f"dt {dt:g} is not the {memory.dt:g} of the memory; call init again")
-    loads = lower_forces(forces, len(state.positions))
-    at_once = 1 if loads.custom else steps
-    for _ in range(steps // at_once):
-        args = (cloth, state, memory, loads, at_once, pins, threads, options, alone)
-        state = _advance(kernel, *args)
-    return state
+class Stepped:
+    """The step that methods with a kernel share."""
+
+    threads: int | None
+
+    def step(
+        self,
+        cloth: Cloth,
+        state: State,
+        memory: Memory,
+        forces: Sequence[Force],
+        dt: float,
+        *,
+        steps: int = 1,
+        pins: PinPath | None = None,
+    ) -> tuple[State, Memory]:
+        """See `base.Solver`."""
+        check_step(dt, steps)
+        check_state(cloth, state)
+        if dt != memory.dt:
+            raise OptionError(f"dt {dt:g} is not the {memory.dt:g} of the memory; call init again")
+        loads = lower_forces(forces, len(state.positions))
+        at_once = 1 if loads.custom else steps
+        threads = lanes.thread_count(self.threads)
+        for _ in range(steps // at_once):
+            state = _advance(cloth, state, memory, loads, at_once, pins, threads)
+        return state, memory
 
 
 def _advance(
-    kernel: Callable[..., None],
     cloth: Cloth,
     state: State,
     memory: Memory,
     loads: Loads,
     steps: int,
     pins: PinPath | None,
-    threads: int | None,
-    options: tuple[Any, ...],
-    alone: bool,
+    threads: int,
 ) -> State:
     plan = memory.of(state.positions.dtype)
-    threads = lanes.thread_count(threads)
     batch = batch_of(cloth, state, memory, loads, steps, pins, threads)
 
     def work(first: int, last: int) -> None:
-        kernel(first, last, plan, batch, steps, memory.substeps, *options)
+        memory.kernel(first, last, plan, batch, steps, memory.substeps, *memory.options)
 
     count = len(state.positions)
-    cloths = count if alone else batch.x.shape[1]
-    lanes.run_blocks(work, cloths, batch.width, threads)
+    lanes.run_blocks(work, count if memory.alone else batch.x.shape[1], batch.width, threads)
     if not all_finite(batch.new_x):
         raise OptionError(
             f"the cloth was torn to infinity within {steps} steps of {memory.dt:g} s; "
@@ -164,8 +168,9 @@ def batch_of(
     return Batch(
         x,
         v,
-        np.empty_like(x),
-        np.empty_like(v),
+        # Cloths stepped alone leave the lanes that fill up the last register as they were.
+        x.copy() if memory.alone else np.empty_like(x),
+        v.copy() if memory.alone else np.empty_like(v),
         loads.gusts._replace(
             phases=lanes.filled(loads.gusts.phases, x.shape[1]),
             origins=lanes.filled(loads.gusts.origins.astype(dtype), x.shape[1]),
@@ -279,3 +284,22 @@ def kick(
     kernels.add_spring_velocities(g, y, body.springs, body.inv_mass, h)
     add_loads(g, y, u, body, batch, wind, h, start, work)
     kernels.take_lanes(u, g, 0)
+
+
+@kernel
+def take_block(batch: Any, body: Any, start: Any, last: Any) -> Any:
+    """Places, velocities, room for two like them, for all winds and for work, of a block."""
+    rows, width = batch.x.shape[0], min(batch.width, last - start)
+    y, u = simd.room(rows, width, batch.x), simd.room(rows, width, batch.x)
+    g, old = simd.room(rows, width, batch.x), simd.room(rows, width, batch.x)
+    wind = simd.room(3 * body.controls.size * batch.gusts.seeds.size, width, batch.x)
+    kernels.take_lanes(y, batch.x, start)
+    kernels.take_lanes(u, batch.v, start)
+    return y, u, g, old, wind, simd.room(18, width, batch.x)
+
+
+@kernel
+def give_block(batch: Any, y: Any, u: Any, start: Any) -> None:
+    """A block's places and velocities into the batch's new ones."""
+    kernels.give_lanes(batch.new_x, y, start)
+    kernels.give_lanes(batch.new_v, u, start)

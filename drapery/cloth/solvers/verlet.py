@@ -11,35 +11,35 @@ chosen for lively, springy cloth and for teaching. Not to be confused with the "
 of position based dynamics (pbd), which has no springs.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels, simd
+from drapery.cloth import kernels
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
-from drapery.cloth.forces import Force
+from drapery.cloth.kernels import add, way
 from drapery.cloth.links import Links
-from drapery.cloth.pins import PinPath
+from drapery.cloth.simd import fill, larger, root, span
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import (
     MAX_SUBSTEPS,
     Body,
     Memory,
-    advance,
+    Stepped,
     blow_all,
     body_of,
     check_count,
     check_limit,
     check_part,
     chosen_substeps,
+    give_block,
     half_shares,
     kick,
     movable,
+    take_block,
 )
-from drapery.cloth.state import State
 
 
 class Plan(NamedTuple):
@@ -48,7 +48,7 @@ class Plan(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SolverVerlet:
+class SolverVerlet(Stepped):
     """See the module.
 
     limit: longest length of a structural spring over its rest length; Provot's 10 %.
@@ -75,21 +75,8 @@ class SolverVerlet:
     def init(self, cloth: Cloth, dt: float) -> Memory:
         check_step(dt, 1)
         plan = Plan(body_of(cloth), half_links(cloth, self.limit, self.relaxation))
-        return Memory(plan, dt, chosen_substeps(self.substeps, cloth, dt))
-
-    def step(
-        self,
-        cloth: Cloth,
-        state: State,
-        memory: Memory,
-        forces: Sequence[Force],
-        dt: float,
-        *,
-        steps: int = 1,
-        pins: PinPath | None = None,
-    ) -> tuple[State, Memory]:
-        args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        return advance(_advance, *args, self.sweeps), memory
+        substeps = chosen_substeps(self.substeps, cloth, dt)
+        return Memory(plan, dt, substeps, _advance, (self.sweeps,))
 
 
 def half_links(cloth: Cloth, limit: float, relaxation: float) -> Links:
@@ -109,20 +96,14 @@ def shorten_together(y: Any, links: Any, sums: Any) -> None:
         for lane in range(y.shape[1]):
             sums[row, lane] = none
     for s in range(links.longest.size):
-        i, j = 3 * links.pairs[s, 0], 3 * links.pairs[s, 1]
-        most, part_i, part_j = links.longest[s], links.share_i[s], links.share_j[s]
-        for lane in range(y.shape[1]):
-            dx = y[j, lane] - y[i, lane]
-            dy = y[j + 1, lane] - y[i + 1, lane]
-            dz = y[j + 2, lane] - y[i + 2, lane]
-            d = max(np.sqrt(dx * dx + dy * dy + dz * dz), most)
+        i, j = 3 * np.intp(links.pairs[s, 0]), 3 * np.intp(links.pairs[s, 1])
+        most, part_i, part_j = fill(links.longest[s]), links.share_i[s], -links.share_j[s]
+        for lane in range(0, y.shape[1], span(y)):
+            dx, dy, dz = way(y, i, j, lane)
+            d = larger(root(dx * dx + dy * dy + dz * dz), most)
             excess = (d - most) / d
-            sums[i, lane] += part_i * excess * dx
-            sums[i + 1, lane] += part_i * excess * dy
-            sums[i + 2, lane] += part_i * excess * dz
-            sums[j, lane] -= part_j * excess * dx
-            sums[j + 1, lane] -= part_j * excess * dy
-            sums[j + 2, lane] -= part_j * excess * dz
+            add(sums, i, lane, part_i * excess, dx, dy, dz)
+            add(sums, j, lane, part_j * excess, dx, dy, dz)
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):
             y[row, lane] += sums[row, lane]
@@ -135,15 +116,8 @@ def _advance(
     """Steps of lanes first..last, a block at a time."""
     dtype, body = batch.x.dtype, plan.body
     h, half = dtype.type(batch.numbers[0]), dtype.type(batch.numbers[0] / 2)
-    rows = batch.x.shape[0]
     for start in range(first, last, batch.width):
-        lanes = min(batch.width, last - start)
-        y, u = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
-        g, old = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
-        wind = simd.room(3 * body.controls.size * batch.gusts.seeds.size, lanes, batch.x)
-        work = simd.room(18, lanes, batch.x)
-        kernels.take_lanes(y, batch.x, start)
-        kernels.take_lanes(u, batch.v, start)
+        y, u, g, old, wind, work = take_block(batch, body, start, last)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -155,5 +129,4 @@ def _advance(
                 shorten_together(y, plan.links, g)
             kernels.set_velocities(u, y, old, h)
             kick(u, y, g, body, batch, wind, half, start, work)
-        kernels.give_lanes(batch.new_x, y, start)
-        kernels.give_lanes(batch.new_v, u, start)
+        give_block(batch, y, u, start)

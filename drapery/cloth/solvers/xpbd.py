@@ -17,7 +17,6 @@ spent on what is stiff. Wind and other loads but for gravity act once a step. Lo
 attachments (`drapery.cloth.links`) keep coarse errors from having to travel spring by spring.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -29,11 +28,9 @@ from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.faces import wind_faces
-from drapery.cloth.forces import Force
-from drapery.cloth.kernels import add
+from drapery.cloth.kernels import add, way
 from drapery.cloth.links import Links, attachments
 from drapery.cloth.order import across_then_outwards, pin_distances
-from drapery.cloth.pins import PinPath
 from drapery.cloth.sheets import (
     Pairs,
     Piece,
@@ -48,8 +45,7 @@ from drapery.cloth.sheets import (
 )
 from drapery.cloth.simd import fill, larger, load, span, store
 from drapery.cloth.solvers.base import check_step
-from drapery.cloth.solvers.rounds import Body, Memory, advance, body_of, check_count
-from drapery.cloth.state import State
+from drapery.cloth.solvers.rounds import Body, Memory, Stepped, body_of, check_count
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
@@ -101,7 +97,7 @@ class SheetPlan(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SolverXPBD:
+class SolverXPBD(Stepped):
     """See the module.
 
     substeps: of each step; None for as many as the grid's fineness needs.
@@ -128,23 +124,9 @@ class SolverXPBD:
         constraints = solved_springs(cloth, self._compliances(cloth), dt, substeps)
         links = self._links(cloth)
         if is_sheet(cloth):
-            return Memory(sheet_plan(cloth, constraints, links), dt, substeps)
-        return Memory(Plan(body_of(cloth), constraints, links), dt, substeps)
-
-    def step(
-        self,
-        cloth: Cloth,
-        state: State,
-        memory: Memory,
-        forces: Sequence[Force],
-        dt: float,
-        *,
-        steps: int = 1,
-        pins: PinPath | None = None,
-    ) -> tuple[State, Memory]:
-        args = (cloth, state, memory, forces, dt, steps, pins, self.threads)
-        alone = isinstance(memory.plan, SheetPlan)
-        return advance(_advance_sheet if alone else _advance, *args, alone=alone), memory
+            fine = sheet_plan(cloth, constraints, links)
+            return Memory(fine, dt, substeps, _advance_sheet, alone=True)
+        return Memory(Plan(body_of(cloth), constraints, links), dt, substeps, _advance)
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -259,9 +241,7 @@ def solve(x: Any, constraints: Any, substep: Any) -> None:
         rest = constraints.square[s]
         part_i, part_j = constraints.share_i[s], -constraints.share_j[s]
         for lane in range(0, x.shape[1], span(x)):
-            dx = load(x, j, lane) - load(x, i, lane)
-            dy = load(x, j + 1, lane) - load(x, i + 1, lane)
-            dz = load(x, j + 2, lane) - load(x, i + 2, lane)
+            dx, dy, dz = way(x, i, j, lane)
             square = dx * dx + dy * dy + dz * dz
             strain = (square - rest) / (square + rest)
             add(x, i, lane, part_i * strain, dx, dy, dz)
@@ -276,9 +256,7 @@ def hold(x: Any, links: Any) -> None:
         most = links.longest[s] * links.longest[s]
         least = fill(most)
         for lane in range(0, x.shape[1], span(x)):
-            dx = load(x, i, lane) - load(x, pin, lane)
-            dy = load(x, i + 1, lane) - load(x, pin + 1, lane)
-            dz = load(x, i + 2, lane) - load(x, pin + 2, lane)
+            dx, dy, dz = way(x, pin, i, lane)
             square = larger(dx * dx + dy * dy + dz * dz, least)
             add(x, i, lane, (most - square) / (most + square), dx, dy, dz)
 
