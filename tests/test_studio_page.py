@@ -330,6 +330,22 @@ def test_to_load_the_page_anew_loses_no_work(page: Any) -> None:
     is_now(page, "white creeper:lime border:black")
 
 
+def test_others_are_let_in_by_the_token(chromium: Any, tmp_path: Path) -> None:
+    studio = Studio(tmp_path, "--host", "0.0.0.0", "--token", "open sesame & more")
+    address, _, word = studio.address.replace("0.0.0.0", "127.0.0.1").partition("?")
+    try:
+        chromium.get(address)
+        assert "give the token" in find(chromium, "body").text
+        assert _status(f"{address}face/x.png") == 403
+        chromium.get(f"{address}?{word}")
+        wait_until(lambda: chromium.execute_script("return !!window.studio?.ready"))
+        assert chromium.current_url == address, "the token does not stay in the history"
+        paste(chromium, "white creeper:lime")
+        is_now(chromium, "white creeper:lime")
+    finally:
+        studio.stop()
+
+
 def test_nothing_is_loaded_from_elsewhere(page: Any, studio: Studio) -> None:
     script = "return performance.getEntriesByType('resource').map((entry) => entry.name)"
     assert all(
