@@ -325,8 +325,13 @@ def test_to_load_the_page_anew_loses_no_work(page: Any) -> None:
     paste(page, "white creeper:lime border:black")
     is_now(page, "white creeper:lime border:black")
     wait_until(lambda: "?d=" in page.current_url)
+    link = page.current_url
     page.refresh()
     wait_until(lambda: page.execute_script("return !!window.studio?.ready"))
+    is_now(page, "white creeper:lime border:black")
+    press(page, "r")
+    wait_until(lambda: "?d=" in page.current_url and page.current_url != link)
+    paste(page, link)
     is_now(page, "white creeper:lime border:black")
 
 

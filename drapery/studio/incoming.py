@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
+from urllib.parse import parse_qsl, urlsplit
 
 from fastapi import FastAPI, HTTPException, Request, Response
 from starlette.concurrency import run_in_threadpool
@@ -12,9 +13,14 @@ from drapery.banner.formats.door import parse_banners
 from drapery.banner.formats.found import Found
 from drapery.errors import DraperyError
 from drapery.studio.session import Session, find_session
+from drapery.studio.share import read_link
+from drapery.studio.sketch import banner_of
 
 MAX_FILE = 64 << 20
 """The largest file of designs [bytes]; a region with all its chunks is about 16 MiB."""
+
+MAX_ADDRESS = 20_000
+"""The longest link that is read as one."""
 
 MAX_FOUND = 200
 """The most banners of one file that are offered."""
@@ -47,7 +53,7 @@ class Incoming:
     def read_text(self, text: str, *, beside: bool = False) -> None:
         """Read a text in any form; never a file of this machine, whatever the text says."""
         self.beside = beside
-        self._take("", *_read(lambda: parse_banners(text)))
+        self._take("", *_read(lambda: _of_text(text)))
 
     async def read_file(self, path: Path, name: str) -> None:
         """Read a file that came under a name."""
@@ -60,6 +66,16 @@ class Incoming:
         self.notes = tuple(notes[:3])
         for call in self._listeners:
             call()
+
+
+def _of_text(text: str) -> list[Found]:
+    """The banners of a text in any form, or of a link to a design of a studio."""
+    address = text.strip()
+    if address.startswith(("http://", "https://")) and len(address) < MAX_ADDRESS:
+        query = dict(parse_qsl(urlsplit(address).query))
+        if set(query) == {"d"}:
+            return [Found(banner_of(read_link(query["d"])[0]))]
+    return parse_banners(text)
 
 
 def _read(read: Callable[[], list[Found]]) -> tuple[list[Found], str, list[str]]:

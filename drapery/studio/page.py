@@ -95,7 +95,7 @@ def build(session: Session) -> None:
         with ui.element("header").classes("bar"):
             bar.build(session)
         for place in ("left", "stage", "under"):
-            with ui.element("div").classes(place):
+            with ui.element("main" if place == "stage" else "div").classes(place):
                 _panels(session, place)
         _tabs()
         with ui.element("div").classes("side"):
