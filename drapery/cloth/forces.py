@@ -11,10 +11,14 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from drapery.cloth.cloth import Cloth
+from drapery.cloth.pins import PosePath
 from drapery.cloth.state import State
 from drapery.cloth.wind import Gusts, Wind, lower_winds
 from drapery.errors import OptionError
 from drapery.mesh import Array
+
+INSTANT = 1e-3
+"""Half the time over which a carrier's velocity is taken [s]."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +36,24 @@ class Drag:
     """
 
     rate: float = 0.1
+
+
+@dataclass(frozen=True)
+class PushBack:
+    """A push opposite to a carrier's motion, such as capes get from their wearers: -rate · v.
+
+    path: the carrier's pose over time; its translation's velocity v [m/s] counts. rate: [1/s].
+    """
+
+    path: PosePath
+    rate: float = 1.0
+
+    def acceleration(self, cloth: Cloth, state: State) -> Array:
+        """[B, N, 3], the same for every particle. Raises OptionError."""
+        ahead, behind = (self.path(state.time + offset)[1] for offset in (INSTANT, -INSTANT))
+        velocity = (np.asarray(ahead) - np.asarray(behind)) / (2 * INSTANT)
+        push = finite_vector("push back", tuple(-_rate(self.rate) * velocity))
+        return np.broadcast_to(push, state.positions.shape)
 
 
 @runtime_checkable
