@@ -37,6 +37,7 @@ export default {
             <span class="row-dye"><i class="dot" :style="{ backgroundColor: field.colour }"></i>{{ field.dyeTitle }}</span></span>
         </button>
       </li>
+      <li v-if="!rows.length" class="hint">Choose the field's dye, then click a pattern to lay it on.</li>
     </ol>`,
   props: { rows: Array, field: Object, chosen: [Number, String], count: Number },
   emits: ["choose", "act"],
