@@ -21,7 +21,9 @@ import numpy as np
 from drapery.cloth import kernels, simd
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door, kernel
+from drapery.cloth.kernels import way
 from drapery.cloth.links import Links, limited_links
+from drapery.cloth.simd import fill, larger, load, root, span, store
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.rounds import (
     MAX_SUBSTEPS,
@@ -98,34 +100,36 @@ def linearise(blocks: Any, b: Any, y: Any, u: Any, springs: Any, damping: Any, h
     it: A = across I + along n nᵀ, with h² and h of the equation included.
     """
     F = y.dtype.type
-    tiny, none, one = F(kernels.TINY), F(0), F(1)
+    tiny, none, one = F(kernels.TINY), fill(F(0)), F(1)
     for s in range(springs.rest.size):
-        i, j = 3 * springs.pairs[s, 0], 3 * springs.pairs[s, 1]
+        i, j = 3 * np.intp(springs.pairs[s, 0]), 3 * np.intp(springs.pairs[s, 1])
         rest, k = springs.rest[s], springs.stiffness[s]
-        for lane in range(y.shape[1]):
-            nx = y[j, lane] - y[i, lane]
-            ny = y[j + 1, lane] - y[i + 1, lane]
-            nz = y[j + 2, lane] - y[i + 2, lane]
-            d = np.sqrt(nx * nx + ny * ny + nz * nz)
-            part = one / max(d, rest * tiny)
+        least = fill(rest * tiny)
+        for lane in range(0, y.shape[1], span(y)):
+            nx, ny, nz = way(y, i, j, lane)
+            d = root(nx * nx + ny * ny + nz * nz)
+            part = one / larger(d, least)
             nx, ny, nz = part * nx, part * ny, part * nz
-            across = h * h * k * max(none, one - rest * part)
-            stiff = h * h * k - across
-            along = stiff + h * k * damping
-            blocks[5 * s, lane], blocks[5 * s + 1, lane], blocks[5 * s + 2, lane] = nx, ny, nz
-            blocks[5 * s + 3, lane], blocks[5 * s + 4, lane] = across, along
-            ux = u[j, lane] - u[i, lane]
-            uy = u[j + 1, lane] - u[i + 1, lane]
-            uz = u[j + 2, lane] - u[i + 2, lane]
+            across = h * h * k * larger(none, one - rest * part)
+            along = h * h * k - across + h * k * damping
+            for place, value in enumerate((nx, ny, nz, across, along)):
+                store(blocks, 5 * s + place, lane, value)
+            ux, uy, uz = way(u, i, j, lane)
             # h (f + h ∂f/∂x v): the spring pulls by its strain now, and by what it will gain.
             pull = h * k * (d - rest) + along * (nx * ux + ny * uy + nz * uz)
             fx, fy, fz = pull * nx + across * ux, pull * ny + across * uy, pull * nz + across * uz
-            b[i, lane] += fx
-            b[i + 1, lane] += fy
-            b[i + 2, lane] += fz
-            b[j, lane] -= fx
-            b[j + 1, lane] -= fy
-            b[j + 2, lane] -= fz
+            pull_together(b, i, j, lane, fx, fy, fz)
+
+
+@kernel
+def pull_together(x: Any, i: Any, j: Any, lane: Any, fx: Any, fy: Any, fz: Any) -> None:
+    """A force on one end of a spring, and its opposite on the other."""
+    store(x, i, lane, load(x, i, lane) + fx)
+    store(x, i + 1, lane, load(x, i + 1, lane) + fy)
+    store(x, i + 2, lane, load(x, i + 2, lane) + fz)
+    store(x, j, lane, load(x, j, lane) - fx)
+    store(x, j + 1, lane, load(x, j + 1, lane) - fy)
+    store(x, j + 2, lane, load(x, j + 2, lane) - fz)
 
 
 @kernel
@@ -158,21 +162,15 @@ def multiply(out: Any, p: Any, mass: Any, blocks: Any, springs: Any) -> None:
         for lane in range(p.shape[1]):
             out[row, lane] = mass[row // 3] * p[row, lane]
     for s in range(springs.rest.size):
-        i, j = 3 * springs.pairs[s, 0], 3 * springs.pairs[s, 1]
-        for lane in range(p.shape[1]):
-            nx, ny, nz = blocks[5 * s, lane], blocks[5 * s + 1, lane], blocks[5 * s + 2, lane]
-            across, along = blocks[5 * s + 3, lane], blocks[5 * s + 4, lane]
-            px = p[j, lane] - p[i, lane]
-            py = p[j + 1, lane] - p[i + 1, lane]
-            pz = p[j + 2, lane] - p[i + 2, lane]
+        i, j = 3 * np.intp(springs.pairs[s, 0]), 3 * np.intp(springs.pairs[s, 1])
+        for lane in range(0, p.shape[1], span(p)):
+            nx, ny = load(blocks, 5 * s, lane), load(blocks, 5 * s + 1, lane)
+            nz = load(blocks, 5 * s + 2, lane)
+            across, along = load(blocks, 5 * s + 3, lane), load(blocks, 5 * s + 4, lane)
+            px, py, pz = way(p, i, j, lane)
             part = along * (nx * px + ny * py + nz * pz)
             fx, fy, fz = across * px + part * nx, across * py + part * ny, across * pz + part * nz
-            out[i, lane] -= fx
-            out[i + 1, lane] -= fy
-            out[i + 2, lane] -= fz
-            out[j, lane] += fx
-            out[j + 1, lane] += fy
-            out[j + 2, lane] += fz
+            pull_together(out, i, j, lane, -fx, -fy, -fz)
     clear_pins(out, mass)
 
 
