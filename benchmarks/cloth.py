@@ -40,7 +40,7 @@ LINEAR = 100, 1000, 10_000, 100_000
 PEERS = ("numpy_loop", "numpy_vector", "newton", "mujoco", "pypbd", "taichi")
 QUICK = ("numpy_loop", "numpy_vector")
 SETTLE_STEPS = 120
-TIME_LIMIT = 240.0
+TIME_LIMIT = 150.0
 
 
 @dataclass(frozen=True)
@@ -286,7 +286,11 @@ def main() -> None:
     else:
         found = compare(asked.only or ("W1", "W2", "W3")[: 2 if asked.quick else 3], asked.quick)
     if asked.json:
-        asked.json.write_text(json.dumps([asdict(row) for row in found], indent=1))
+        rows = [
+            {name: None if value != value else value for name, value in asdict(row).items()}
+            for row in found
+        ]
+        asked.json.write_text(json.dumps(rows, indent=1))
 
 
 if __name__ == "__main__":
