@@ -14,6 +14,7 @@ Placement = Literal["standing", "wall", "item"]
 Facing = Literal["south", "west", "north", "east"]
 LayerMode = Literal["stacked", "flat"]
 SolverName = Literal["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"]
+Pins = Literal["none", "top", "corners", "three-corners", "four-corners"]
 Samples = Literal[1, 4, 16]
 Lighting = Literal["game", "flat"]
 
@@ -21,6 +22,8 @@ MAX_SIDE = 8192
 """The widest and tallest picture [pixels]."""
 MAX_GRID = 129
 """The most particles along one side of a flag."""
+MAX_WIND = 40.0
+"""Beyond a hurricane's [m/s]."""
 MAX_FRAMES = 3600
 MAX_PIXEL = 64
 MAX_LIGHT = 15
@@ -46,7 +49,10 @@ class Options(TypedDict, total=False):
     size: tuple[int, int]
     grid: tuple[int, int]
     solver: SolverName
+    pins: Pins | None
     wind: float
+    direction: float | None
+    gusts: float
     time: float
     seed: int
     layers: LayerMode
@@ -79,7 +85,11 @@ class Settings:
     size: width and height of the picture [pixels].
     grid: particles across and down the cloth.
     solver: the method that moves it; docs/solvers.md says which is for what.
+    pins: where the cloth is held; None is as its kind hangs, a banner's by its top row.
     wind: mean wind speed [m/s].
+    direction: where the wind blows to [degrees]: 0 is straight out of the front, 90 to the right
+        of one who looks at it; None is out of the front and a little to the right.
+    gusts: their rms over the mean speed of the wind.
     time: how long the cloth has hung in the wind when the picture is taken [s].
     seed: which gusts blow.
     layers: `stacked` quads, as in the game, or one `flat` composite.
@@ -108,7 +118,10 @@ class Settings:
     size: tuple[int, int] = (512, 512)
     grid: tuple[int, int] = (5, 9)
     solver: SolverName = "desbrun"
+    pins: Pins | None = None
     wind: float = 4.0
+    direction: float | None = None
+    gusts: float = 0.4
     time: float = 3.0
     seed: int = 0
     layers: LayerMode = "stacked"
@@ -139,7 +152,12 @@ class Settings:
             whole(f"size ({side})", pixels, 1, MAX_SIDE, "pixels")
         for side, count in zip(("columns", "rows"), _two("grid", self.grid), strict=True):
             whole(f"grid ({side})", count, 2, MAX_GRID, "particles")
-        within("wind", self.wind, 0, 40, "m/s")
+        if self.pins is not None:
+            one_of("pins", self.pins, get_args(Pins))
+        within("wind", self.wind, 0, MAX_WIND, "m/s")
+        if self.direction is not None:
+            within("direction", self.direction, -360, 360, "degrees")
+        within("gusts", self.gusts, 0, 2)
         within("time", self.time, 0, 3600, "s")
         whole("seed", self.seed, 0, 2**32 - 1)
         within("thickness", self.thickness, 0, 8, "texels")

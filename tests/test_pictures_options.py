@@ -1,10 +1,16 @@
 """Samples, squares of pixels, light and shadow as they are asked of any picture."""
 
+import math
+
 import numpy as np
 import pytest
 
 from drapery import Banner, DraperyError, draw
+from drapery.banner.packs import open_packs
+from drapery.mesh import Array
 from drapery.render.frame import Pixels
+from drapery.scenes.staging import still
+from drapery.settings import Settings
 
 BANNER = Banner.parse("white creeper:lime border:black")
 SIZE = (48, 64)
@@ -57,6 +63,43 @@ def test_the_solvers_are_those_of_the_cloth() -> None:
     assert tuple(SOLVERS) == get_args(SolverName)
 
 
+def cloth(**options: object) -> Array:
+    """The flag's vertices [m], shape [V, 3]."""
+    settings = Settings(**({"size": SIZE} | options))  # type: ignore[arg-type]
+    positions: Array = still(BANNER, open_packs(()), settings).models[-1].mesh.positions
+    return positions
+
+
+@pytest.mark.parametrize("direction", [0.0, 40.0, -40.0, 180.0])
+def test_the_wind_carries_the_cloth_where_it_blows_to(direction: float) -> None:
+    heading = math.radians(direction)
+    drift = cloth(wind=9.0, direction=direction, gusts=0.0) - cloth(wind=0.0)
+    along = drift @ np.array([math.sin(heading), 0.0, math.cos(heading)])
+    assert along.mean() > 0.02
+
+
+def test_gusts_are_of_the_wind_and_make_seeds_differ() -> None:
+    assert np.array_equal(cloth(gusts=0.0, seed=1), cloth(gusts=0.0, seed=2))
+    assert not np.array_equal(cloth(seed=1), cloth(seed=2))
+    assert np.array_equal(cloth(wind=0.0, gusts=2.0), cloth(wind=0.0))
+
+
+def test_cloth_hangs_by_its_pins() -> None:
+    assert np.array_equal(cloth(pins="top"), cloth())
+    middle = 2
+    assert cloth(pins="corners")[middle, 1] < cloth()[middle, 1] - 0.01
+    assert cloth(pins="none")[:, 1].max() < -20
+
+
+def test_the_pins_are_those_of_the_cloth() -> None:
+    from typing import get_args
+
+    from drapery.cloth.pins import PinName
+    from drapery.settings import Pins
+
+    assert get_args(PinName) == get_args(Pins)
+
+
 def test_a_shadow_is_added_under_the_banner_and_nowhere_else() -> None:
     plain, shaded = pixels(), pixels(shadow=True)
     changed = (plain != shaded).any(axis=-1)
@@ -75,6 +118,9 @@ def test_a_shadow_is_added_under_the_banner_and_nowhere_else() -> None:
         {"block_light": 16},
         {"sky_light": -1},
         {"daylight": 2.0},
+        {"direction": 361.0},
+        {"gusts": -0.1},
+        {"pins": "left"},
     ],
     ids=str,
 )

@@ -35,7 +35,9 @@ class Job:
         kind = s.kind if self.banner is None or s.kind != "auto" else self.banner.kind
         when = s.time if self.seconds is None else 0.0
         still = self.seconds is None
-        return (kind, s.pose, s.grid, s.wind, s.seed, when, still, self.seconds or 0, self.fps or 0)
+        wind = (s.wind, s.direction, s.gusts, s.seed)
+        times = (when, still, self.seconds or 0, self.fps or 0)
+        return (kind, s.pose, s.grid, s.pins, s.solver, *wind, *times)
 
 
 @dataclass(frozen=True)

@@ -75,6 +75,22 @@ SizeOption = Annotated[str, typer.Option(help="Width and height in pixels.")]
 GridOption = Annotated[str, typer.Option(help="Particles across and down the cloth.")]
 SolverOption = Annotated[str, typer.Option(help="desbrun, xpbd, pbd, verlet, provot or implicit.")]
 WindOption = Annotated[float, typer.Option(help="Mean wind speed in m/s.")]
+DirectionOption = Annotated[
+    float | None,
+    typer.Option(
+        metavar="DEGREES",
+        help="Where the wind blows to: 0 out of the front, 90 to the right.",
+        show_default="19.3",
+    ),
+]
+GustsOption = Annotated[float, typer.Option(help="Rms of gusts over the wind's mean speed.")]
+PinsOption = Annotated[
+    str | None,
+    typer.Option(
+        help="Where the cloth is held: top, corners, three-corners, four-corners or none.",
+        show_default="as its kind hangs",
+    ),
+]
 TimeOption = Annotated[float, typer.Option(help="Seconds the cloth has hung in the wind.")]
 SeedOption = Annotated[int, typer.Option(help="Which gusts blow.")]
 LayersOption = Annotated[str, typer.Option(help="stacked (as in the game) or flat (composited).")]
@@ -112,7 +128,10 @@ def picture(
     size: SizeOption = "512x512",
     grid: GridOption = "5x9",
     solver: SolverOption = "desbrun",
+    pins: PinsOption = None,
     wind: WindOption = 4.0,
+    direction: DirectionOption = None,
+    gusts: GustsOption = 0.4,
     time: TimeOption = 3.0,
     seed: SeedOption = 0,
     layers: LayersOption = "stacked",

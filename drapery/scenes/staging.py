@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import islice
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from drapery.render.light import UNLIT, Light, lit_at
 from drapery.render.scene import Model, Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.views import VIEWS, frame_view, turntable
-from drapery.settings import Settings, background_colour
+from drapery.settings import Pins, Settings, background_colour
 from drapery.style.block import turn
 from drapery.style.body import Body, Panel
 from drapery.style.extrusion import make_shell
@@ -176,12 +176,18 @@ def _dress(panel: Panel, settings: Settings, positions: Array) -> Mesh:
     return shell.cover(hung, normals, settings.thickness * panel.texel)
 
 
-_ClothKey: TypeAlias = tuple[int, int, float, float, Literal["top", "corners"], str]
-"""What a cloth is made of and what moves it, so that equal motions are known again."""
+_ClothKey: TypeAlias = tuple[int, int, float, float, Pins, str]
+"""What a cloth is made of, so that equal motions are known again."""
+_WindKey: TypeAlias = tuple[float, float | None, float, int]
+"""What moves it: speed, direction, gusts, seed."""
 
 
 def _cloth_key(panel: Panel, settings: Settings) -> _ClothKey:
-    return (*settings.grid, *panel.size, panel.pins, settings.solver)
+    return (*settings.grid, *panel.size, settings.pins or panel.pins, settings.solver)
+
+
+def _wind_key(settings: Settings) -> _WindKey:
+    return settings.wind, settings.direction, settings.gusts, settings.seed
 
 
 def _keyed_cloth(key: _ClothKey) -> Cloth:
@@ -193,21 +199,31 @@ def _cloth(panel: Panel, settings: Settings) -> Cloth:
     return _keyed_cloth(_cloth_key(panel, settings))
 
 
-def _wind(speed: float, seed: int, period: float | None = None) -> Wind:
-    direction = np.array(BREEZE) / np.linalg.norm(BREEZE)
-    return Wind(tuple(speed * direction), seed=seed, period=period)
+def flow(speed: float, direction: float | None) -> tuple[float, float, float]:
+    """The mean wind on what is not turned [m/s]; see `Settings` for its direction [degrees]."""
+    along = np.array(BREEZE) / np.linalg.norm(BREEZE)
+    if direction is not None:
+        heading = math.radians(direction)
+        along = np.array([math.sin(heading), 0.0, math.cos(heading)])
+    x, y, z = speed * along
+    return float(x), float(y), float(z)
+
+
+def _wind(key: _WindKey, period: float | None = None) -> Wind:
+    speed, direction, gusts, seed = key
+    return Wind(flow(speed, direction), gusts=gusts, seed=seed, period=period)
 
 
 def _hang(panel: Panel, settings: Settings) -> Array:
     """The cloth after `time` seconds, shape [N, 3]."""
-    return _hung(_cloth_key(panel, settings), settings.wind, settings.seed, settings.time)
+    return _hung(_cloth_key(panel, settings), _wind_key(settings), settings.time)
 
 
 def _wave(panel: Panel, settings: Settings, count: int, fps: float) -> Array:
     """One period of the cloth's motion in a periodic wind, shape [count, N, 3]."""
     size = count * math.prod(settings.grid) * 3 * np.dtype(float).itemsize
     waved = _waved if size <= MAX_KEPT else _waved.__wrapped__
-    return waved(_cloth_key(panel, settings), settings.wind, settings.seed, count, fps)
+    return waved(_cloth_key(panel, settings), _wind_key(settings), count, fps)
 
 
 # Many banners in a row often move alike, since no design weighs anything: what was simulated
@@ -215,23 +231,23 @@ def _wave(panel: Panel, settings: Settings, count: int, fps: float) -> Array:
 
 
 @lru_cache(maxsize=8)
-def _hung(cloth_key: _ClothKey, wind: float, seed: int, time: float) -> Array:
+def _hung(cloth_key: _ClothKey, wind_key: _WindKey, time: float) -> Array:
     cloth = _keyed_cloth(cloth_key)
     steps = math.ceil(time / STEP)
     if steps == 0:
         rest: Array = rest_state(cloth).positions[0]
         return _kept(rest)
-    forces = (Gravity(), _wind(wind, seed))
+    forces = (Gravity(), _wind(wind_key))
     method = solver(cloth_key[-1])
     states = simulate(cloth, method, forces, time / steps, every=steps)
     return _kept(next(islice(states, 1, None)).positions[0])
 
 
 @lru_cache(maxsize=8)
-def _waved(cloth_key: _ClothKey, wind: float, seed: int, count: int, fps: float) -> Array:
+def _waved(cloth_key: _ClothKey, wind_key: _WindKey, count: int, fps: float) -> Array:
     period = count / fps
     steps = math.ceil(1 / (fps * STEP))
-    forces = (Gravity(), _wind(wind, seed, period))
+    forces = (Gravity(), _wind(wind_key, period))
     cloth = _keyed_cloth(cloth_key)
     method = solver(cloth_key[-1])
     states = simulate(cloth, method, forces, 1 / (fps * steps), every=steps)

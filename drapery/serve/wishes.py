@@ -3,15 +3,16 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from drapery.batch.manifest import Request
 from drapery.errors import DraperyError, OptionError
 from drapery.options import check_options, unknown
-from drapery.settings import Settings, within
+from drapery.settings import MAX_WIND, Pins, Settings, within
 
 STRANGERS = (
-    *("size", "pose", "placement", "rotation", "facing", "view", "grid", "wind", "time"),
+    *("size", "pose", "placement", "rotation", "facing", "view", "grid"),
+    *("pins", "wind", "direction", "gusts", "time"),
     *("seed", "layers", "thickness", "background", "kind"),
 )
 """Options that anyone may set. Those that name files, packs or backends are the service's own."""
@@ -52,7 +53,10 @@ def parameters(animated: bool, terms: Terms) -> list[dict[str, Any]]:
         "facing": {"enum": ["south", "west", "north", "east"]},
         "view": {"enum": ["front", "back", "iso", "gui", "hero"]},
         "grid": PAIR,
-        "wind": {"type": "number", "minimum": 0, "maximum": 40},
+        "pins": {"enum": list(get_args(Pins))},
+        "wind": {"type": "number", "minimum": 0, "maximum": MAX_WIND},
+        "direction": {"type": "number", "minimum": -360, "maximum": 360},
+        "gusts": {"type": "number", "minimum": 0, "maximum": 2},
         "time": {"type": "number", "minimum": 0, "maximum": terms.hang},
         "seed": {"type": "integer", "minimum": 0, "maximum": 2**32 - 1},
         "layers": {"enum": ["stacked", "flat"]},
