@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drapery.cloth import Wind
-from drapery.scenes.staging import BREEZE
-from drapery.settings import within
+from drapery.scenes.staging import BREEZE, flow
+from drapery.settings import MAX_WIND, Settings
 
 OWN_HEADING = float(np.degrees(np.arctan2(BREEZE[0], BREEZE[2])))
 """Where a picture's wind blows to [degrees]: 0 is straight out of its front."""
@@ -15,7 +15,6 @@ TURNING = 150.0
 """How fast the keys turn the wind [degrees/s]."""
 RISING = 5.0
 """How fast the keys change its strength [m/s²]."""
-STRONGEST = 40.0
 AHEAD = {"w": 180.0, "s": 0.0, "a": -90.0, "d": 90.0}
 """Where each key sends the wind, from where the viewer stands: away, near, left, right."""
 KEYS = (*AHEAD, "q", "e")
@@ -24,33 +23,32 @@ TRIES = 1 << 16
 
 @dataclass(frozen=True)
 class Breeze:
-    """What blows.
+    """What blows: speed [m/s], direction [degrees], gusts and seed of `Settings`.
 
-    speed: [m/s]. turned: how far from where a picture's wind blows to [degrees], to the right of
-    one who stands before the banner. gusts: their rms over the speed. seed: which gusts. on:
-    whether it blows.
+    on: whether it blows.
     """
 
-    speed: float = 4.0
-    turned: float = 0.0
-    gusts: float = 0.4
+    speed: float = Settings.wind
+    direction: float | None = None
+    gusts: float = Settings.gusts
     seed: int = 0
     on: bool = True
 
-    def __post_init__(self) -> None:
-        within("wind", self.speed, 0, STRONGEST, "m/s")
-        within("direction", self.turned, -180, 180, "degrees")
-        within("gusts", self.gusts, 0, 2)
+    @property
+    def heading(self) -> float:
+        """Where it blows to [degrees], -180..180; 0 is straight out of the banner's front."""
+        return OWN_HEADING if self.direction is None else around(self.direction)
+
+
+def breeze_of(settings: Settings, on: bool = True) -> Breeze:
+    """What blows in a picture."""
+    return Breeze(settings.wind, settings.direction, settings.gusts, settings.seed, on)
 
 
 def wind_of(breeze: Breeze) -> Wind:
-    """The wind on a cloth in its own frame; unturned it is that of pictures, to the bit."""
+    """The wind on a cloth in its own frame: that of pictures, to the bit."""
     speed = breeze.speed if breeze.on else 0.0
-    along = np.array(BREEZE) / np.linalg.norm(BREEZE)
-    cos, sin = np.cos(np.radians(breeze.turned)), np.sin(np.radians(breeze.turned))
-    x, y, z = speed * along
-    velocity = (float(x * cos + z * sin), float(y), float(z * cos - x * sin))
-    return Wind(velocity, gusts=breeze.gusts, seed=breeze.seed)
+    return Wind(flow(speed, breeze.direction), gusts=breeze.gusts, seed=breeze.seed)
 
 
 def steered(breeze: Breeze, keys: Iterable[str], azimuth: float, seconds: float) -> Breeze:
@@ -63,27 +61,17 @@ def steered(breeze: Breeze, keys: Iterable[str], azimuth: float, seconds: float)
     towards = [np.radians(azimuth + AHEAD[key]) for key in AHEAD if key in held]
     x, z = sum(map(np.sin, towards)), sum(map(np.cos, towards))
     if x * x + z * z > 1e-6:
-        wished = float(np.degrees(np.arctan2(x, z))) - OWN_HEADING
-        rest = _around(wished - breeze.turned)
+        rest = around(float(np.degrees(np.arctan2(x, z))) - breeze.heading)
         most = TURNING * seconds
-        breeze = replace(breeze, turned=_around(breeze.turned + min(max(rest, -most), most)))
+        heading = around(breeze.heading + min(max(rest, -most), most))
+        breeze = replace(breeze, direction=heading)
     rise = RISING * seconds * (("e" in held) - ("q" in held))
-    return replace(breeze, speed=min(max(breeze.speed + rise, 0.0), STRONGEST))
+    return replace(breeze, speed=min(max(breeze.speed + rise, 0.0), MAX_WIND))
 
 
-def _around(degrees: float) -> float:
+def around(degrees: float) -> float:
     """The same direction as -180..180."""
     return (degrees + 180.0) % 360.0 - 180.0
-
-
-def heading_of(turned: float) -> float:
-    """Where a wind blows to that is turned so far [degrees], -180..180; 0 is the banner's front."""
-    return _around(turned + OWN_HEADING)
-
-
-def turned_to(heading: float) -> float:
-    """How far a wind is turned that blows to a heading [degrees]."""
-    return _around(heading - OWN_HEADING)
 
 
 def carried_on(before: Wind, after: Wind, time: float) -> Wind:

@@ -115,7 +115,9 @@ def moved(hanging: Hanging, forces: Sequence[Force]) -> Hanging:
     state, memory = hanging.method.step(
         hanging.cloth, hanging.state, hanging.memory, forces, STEP, pins=_path(hanging)
     )
-    return replace(hanging, state=state, memory=memory)
+    # Rounded as in a picture, whose steps are made in one call.
+    ticks = round(state.time / STEP)
+    return replace(hanging, state=replace(state, time=ticks * STEP), memory=memory)
 
 
 def _path(hanging: Hanging) -> PinPath | None:

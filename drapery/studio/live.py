@@ -13,7 +13,6 @@ import numpy as np
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.cloth import Gravity, Wind
-from drapery.cloth.pins import PinName
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.camera import Camera
@@ -23,7 +22,7 @@ from drapery.render.shadow import contact_shadow
 from drapery.render.views import frame_view
 from drapery.scenes.staging import STEP
 from drapery.settings import Settings, background_colour
-from drapery.studio.breeze import Breeze, carried_on, steered, wind_of
+from drapery.studio.breeze import Breeze, breeze_of, carried_on, steered, wind_of
 from drapery.studio.hanging import (
     Hanging,
     Weave,
@@ -68,13 +67,12 @@ class Sheet:
 class Live:
     """A body in the wind.
 
-    breeze: what blows. pins: what of the cloth is held; None is the body's own choice. roomy:
-    whether its views leave room for what it may do next; else they are those of pictures.
+    breeze: what blows. roomy: whether its views leave room for what it may do next; else they are
+    those of pictures.
     """
 
     def __init__(self, design: Banner | None, packs: Packs, settings: Settings) -> None:
-        self.breeze = Breeze(settings.wind, seed=settings.seed)
-        self.pins: PinName | None = None
+        self.breeze = breeze_of(settings)
         self.ticks = 0
         self.roomy = False
         self._settings = settings
@@ -97,8 +95,7 @@ class Live:
     @property
     def is_picture(self) -> bool:
         """Whether it hangs as in a picture of this `time`: nothing but its own wind moved it."""
-        own = replace(Breeze(), speed=self.breeze.speed, seed=self.breeze.seed)
-        return not self._disturbed and self.pins is None and self.breeze == own
+        return not self._disturbed and self.breeze == breeze_of(self._settings)
 
     def wear(
         self,
@@ -122,13 +119,8 @@ class Live:
         self._captions = captions if other is not None else ("",)
         self._shadow = None
         # What keys have made of the wind stays, unless the settings ask for another.
-        if (settings.wind, settings.seed) != (before.wind, before.seed):
-            self.blow(replace(self.breeze, speed=settings.wind, seed=settings.seed))
-
-    def hold(self, pins: PinName | None) -> None:
-        """Hold the cloth elsewhere; None is the body's own choice."""
-        self.pins = pins
-        self._sheets = self._rehung(self._body, self._settings)
+        if breeze_of(settings) != breeze_of(before):
+            self.blow(breeze_of(settings, self.breeze.on))
 
     def blow(self, breeze: Breeze) -> None:
         """Another wind from now on."""
@@ -283,7 +275,7 @@ class Live:
         ]
 
     def _rehung_panel(self, panel: Panel, settings: Settings, old: Sheet | None) -> Sheet:
-        weave = Weave(settings.grid, panel.size, self.pins or panel.pins, settings.solver)
+        weave = Weave(settings.grid, panel.size, settings.pins or panel.pins, settings.solver)
         if old is not None and old.hanging.weave == weave:
             hanging = old.hanging
         else:

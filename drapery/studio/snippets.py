@@ -18,7 +18,8 @@ KINDS = (*STILLS, "face", *LOOPS, "glb", "json")
 PICTURE_OPTIONS = tuple(field.name for field in fields(Settings))
 MODEL_OPTIONS = (
     *("packs", "format", "kind", "texture", "pose", "placement", "rotation", "facing"),
-    *("view", "grid", "solver", "wind", "time", "seed", "thickness"),
+    *("view", "grid", "solver", "pins", "wind", "direction", "gusts", "time", "seed"),
+    "thickness",
 )
 """Options of `drapery model`; the others mean nothing in a 3-D file."""
 FACE_OPTIONS = ("packs", "format")

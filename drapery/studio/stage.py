@@ -17,10 +17,9 @@ from typing import Any, TypeVar
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
-from drapery.cloth.pins import PinName
 from drapery.errors import DraperyError
 from drapery.scenes.staging import STEP
-from drapery.studio.breeze import Breeze
+from drapery.studio.breeze import breeze_of
 from drapery.studio.live import Live
 from drapery.studio.panes import Shown
 from drapery.studio.player import Player
@@ -46,15 +45,11 @@ Input = Callable[[Live], object]
 class Wishes:
     """What the live cloth is asked for beyond the settings of a picture.
 
-    turned, gusts, on: of the wind, see `Breeze`. pins: None is the cloth's own. paused: time
-    stands. scene: a ready-made scene instead of the design. beside: packs in which the design is
-    shown side by side; None where only one is.
+    on: the wind blows. paused: time stands. scene: a ready-made scene instead of the design.
+    beside: packs in which the design is shown side by side; None where only one is.
     """
 
-    turned: float = 0.0
-    gusts: float = 0.4
     on: bool = True
-    pins: PinName | None = None
     paused: bool = False
     scene: str | None = None
     beside: tuple[str | Path, ...] | None = None
@@ -112,7 +107,6 @@ class Stage:
         Raises OptionError or PackError; nothing has changed then.
         """
         before, after = self.wishes, replace(self.wishes, **options)
-        Breeze(0.0, after.turned, after.gusts)
         self._open_beside(after.beside)
         self.wishes = after
         self._spoil()
@@ -293,11 +287,11 @@ class Stage:
         breeze = self._live.breeze if self._live is not None else None
         if breeze is None or self._stale or self._inputs:
             return False
-        speed, turned = round(breeze.speed, 1), round(breeze.turned, 1)
-        if (speed, turned) == (round(self._session.settings.wind, 1), round(self.wishes.turned, 1)):
+        wished = breeze_of(self._session.settings)
+        now = round(breeze.speed, 1), round(breeze.heading, 1)
+        if now == (round(wished.speed, 1), round(wished.heading, 1)):
             return False
-        self.wishes = replace(self.wishes, turned=turned)
-        self._session.adjust(wind=speed)
+        self._session.adjust(wind=now[0], direction=now[1])
         return True
 
     def _turn(self, ticks: int) -> None:
@@ -355,9 +349,7 @@ class Stage:
         if self._live is None:
             self._live = Live(design, packs, settings)
         self._live.wear(design, packs, settings, beside, self._captions())
-        if wishes.pins != self._live.pins:
-            self._live.hold(wishes.pins)
-        breeze = replace(self._live.breeze, turned=wishes.turned, gusts=wishes.gusts, on=wishes.on)
+        breeze = replace(self._live.breeze, on=wishes.on)
         if breeze != self._live.breeze and not self._keys:
             self._live.blow(breeze)
 

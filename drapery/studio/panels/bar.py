@@ -78,6 +78,8 @@ def set_kind(session: Session, name: str) -> None:
     """Put the design on a banner or a shield."""
     for kind in get_args(Sketch.__annotations__["kind"]):
         if kind == name:
+            if kind == "shield" and session.settings.placement == "wall":
+                session.adjust(placement="standing", facing=None)
             session.edit(replace(session.sketch, kind=kind))
 
 

@@ -208,11 +208,6 @@ def _ground(session: Session, choice: Choice, fields: Fields, groups: Groups) ->
 
 def difference(wishes: Wishes, kind: str) -> str:
     """What of the live banner is not in the file."""
-    if kind in ("face", "json"):
+    if kind in ("face", "json") or wishes.scene is None:
         return ""
-    if wishes.scene is not None:
-        return "The file shows your banner, not the scene."
-    own = Wishes()
-    names = {"turned": "direction", "gusts": "gusts", "pins": "pins"}
-    apart = [n for name, n in names.items() if getattr(wishes, name) != getattr(own, name)]
-    return f"The file has its own {', '.join(apart)}, not those of the live banner." * bool(apart)
+    return "The file shows your banner, not the scene."

@@ -6,8 +6,8 @@ from typing import get_args
 from nicegui import ui
 
 from drapery.cloth import SOLVERS
-from drapery.settings import MAX_LIGHT, ROTATIONS, Facing, Placement
-from drapery.studio.breeze import STRONGEST, heading_of, turned_to
+from drapery.settings import MAX_LIGHT, MAX_WIND, ROTATIONS, Facing, Placement
+from drapery.studio.breeze import breeze_of
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
 from drapery.studio.stage import stage_of
@@ -48,7 +48,7 @@ def _wind(session: Session, controls: Controls) -> None:
     stage = stage_of(session)
     controls.slider(
         "Speed",
-        (0, STRONGEST / 2, 0.1),
+        (0, MAX_WIND / 2, 0.1),
         lambda: session.settings.wind,
         lambda speed: session.adjust(wind=float(speed)),
         "{:.1f} m/s".format,
@@ -56,22 +56,21 @@ def _wind(session: Session, controls: Controls) -> None:
     controls.slider(
         "Direction",
         (-180, 180, 1),
-        lambda: round(heading_of(stage.wishes.turned)),
-        lambda heading: stage.wish(turned=turned_to(float(heading))),
+        lambda: round(breeze_of(session.settings).heading),
+        lambda heading: session.adjust(direction=float(heading)),
         "{:.0f}°".format,
     )
     controls.slider(
         "Gusts",
         (0, 1.5, 0.05),
-        lambda: stage.wishes.gusts,
-        lambda gusts: stage.wish(gusts=float(gusts)),
+        lambda: session.settings.gusts,
+        lambda gusts: session.adjust(gusts=float(gusts)),
         "{:.2f}".format,
     )
     controls.switch("It blows", lambda: stage.wishes.on, lambda on: stage.wish(on=bool(on)))
 
 
 def _cloth(session: Session, controls: Controls) -> None:
-    stage = stage_of(session)
     controls.select(
         "Solver",
         {name: name for name in SOLVERS},
@@ -86,13 +85,18 @@ def _cloth(session: Session, controls: Controls) -> None:
         lambda: "{}x{}".format(*session.settings.grid),
         lambda text: session.adjust(grid=tuple(map(int, text.split("x")))),
     )
-    controls.select("Held at", PINS, lambda: stage.wishes.pins, lambda pins: stage.wish(pins=pins))
+    controls.select(
+        "Held at",
+        PINS,
+        lambda: session.settings.pins,
+        lambda pins: session.adjust(pins=pins),
+    )
     controls.slider(
         "Thickness",
         (0, 4, 0.25),
         lambda: session.settings.thickness,
         lambda texels: session.adjust(thickness=float(texels)),
-        "{:g} texels".format,
+        lambda texels: f"{texels:g} texel" + "s" * (texels != 1),
     )
 
 

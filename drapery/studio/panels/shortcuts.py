@@ -37,7 +37,10 @@ _KEYS = {
 
 def build() -> None:
     """A dialog that `?` opens."""
-    groups = "".join(f"<h3>{group}</h3><dl>{_rows(keys)}</dl>" for group, keys in _KEYS.items())
+    groups = "".join(
+        f"<section><h3>{group}</h3><dl>{_rows(keys)}</dl></section>"
+        for group, keys in _KEYS.items()
+    )
     dialog = ui.html(
         f'<h2>Keyboard shortcuts</h2><div class="keys">{groups}</div>'
         '<button type="button" class="button primary">Close</button>',
