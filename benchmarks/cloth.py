@@ -228,11 +228,10 @@ def linear(counts: Sequence[int], seconds: float) -> list[Row]:
                 progress.advance(bar, count)
                 if isinstance(found, Row):
                     rows.append(found)
-                    per_cloth = 1e9 / (found.steps_per_s * count)
+                    per_cloth, memory = 1e9 / (found.steps_per_s * count), found.bytes_per_particle
                     progress.print(
-                        f"{count:7} cloths  {found.system:16} {found.steps_per_s:11.1f} steps/s"
-                        f" {per_cloth:8.1f} ns a cloth {found.bytes_per_particle:7.0f} bytes"
-                        " a particle"
+                        f"{count:7} cloths, {name:7} {found.steps_per_s:8.1f} steps/s,"
+                        f" {per_cloth:5.0f} ns a cloth, {memory:.0f} bytes a particle"
                     )
     return rows
 
