@@ -55,7 +55,7 @@ def simplify(session: Session) -> None:
 def _recipe(banner: Banner, address: str, version: int) -> str:
     dyes = Counter(layer.dye for layer in banner.layers)
     goods = [f"1 {_lower(banner.base)} {banner.kind}"]
-    goods += [f"{number} {_lower(dye)} dye" for dye, number in dyes.items()]
+    goods += [f"{n} {_lower(dye)} dye" + "s" * (n > 1) for dye, n in dyes.items()]
     goods += sorted({step.item for step in steps(banner) if step.item})
     items = "".join(f"<li>{escape(each)}</li>" for each in goods)
     rows = "".join(
