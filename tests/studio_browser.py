@@ -122,7 +122,7 @@ def open_page(driver: Any, studio: Studio, query: str = "") -> None:
     wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
 
 
-def wait_until(truth: Callable[[], T], seconds: float = 8.0) -> T:
+def wait_until(truth: Callable[[], T], seconds: float = 20.0) -> T:
     """What a question answers, once that is true; AssertionError after so long [s]."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:

@@ -8,7 +8,7 @@ from render_shapes import noise, painted, plain, quad
 
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
-from drapery.render.atlas import PADDING, make_atlas
+from drapery.render.atlas import FEW_SIZES, PADDING, make_atlas
 from drapery.render.drawlist import draw_list, topology
 from drapery.render.light import GAME_LIGHT
 from drapery.render.scene import Coat, Look, Model
@@ -34,7 +34,9 @@ def test_an_atlas_wastes_little(sizes: list[tuple[int, int]]) -> None:
     atlas = make_atlas([np.zeros((*size, 4), np.uint8) for size in sizes])
     needed = sum((w + 2) * (h + 2) for w, h in sizes)
     longest = max(max(size) for size in sizes) + 2
-    assert atlas.texels.shape[0] * atlas.texels.shape[1] <= 2.2 * needed + 4 * longest**2
+    # In a block for each of a few sizes, the last row may be almost empty.
+    rows = FEW_SIZES * longest * (needed**0.5 + 2 * longest)
+    assert atlas.texels.shape[0] * atlas.texels.shape[1] <= 2.2 * needed + rows
 
 
 def test_sprites_of_one_size_lie_in_a_grid_without_a_packer() -> None:

@@ -248,17 +248,23 @@ def test_a_video_lies_on_its_matte(tmp_path: Path) -> None:
         assert np.abs(rgb.astype(int) - want).max() <= 3
 
 
+def alpha_of(picture: av.VideoFrame) -> np.ndarray:
+    """As it was decoded: the conversion to RGBA reads beside the plane of a small picture."""
+    plane = picture.planes[3]
+    rows = np.frombuffer(plane, np.uint8).reshape(plane.height, plane.line_size)
+    return rows[:24, :33].copy()
+
+
 def test_a_webm_keeps_its_alpha(tmp_path: Path) -> None:
     frames = square_wandering(4)
     save_animation(frames, 20, tmp_path / "a.webm")
     with av.open(str(tmp_path / "a.webm")) as container:
         stream = container.streams.video[0]
         decoder = av.CodecContext.create("libvpx-vp9", "r")
-        back = [f for packet in container.demux(stream) for f in decoder.decode(packet)]
-    assert len(back) == 4
-    for picture, frame in zip(back, frames, strict=True):
-        alpha = picture.reformat(format="rgba").to_ndarray()[:24, :33, 3]
-        assert np.abs(alpha.astype(int) - frame.pixels[..., 3]).mean() < 6
+        alphas = [alpha_of(f) for packet in container.demux(stream) for f in decoder.decode(packet)]
+    assert len(alphas) == 4
+    for alpha, frame in zip(alphas, frames, strict=True):
+        assert np.abs(alpha.astype(int) - frame.pixels[..., 3]).mean() < 0.5
 
 
 @pytest.mark.parametrize("name", ANIMATED)

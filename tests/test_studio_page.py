@@ -275,7 +275,7 @@ def test_the_loom_stops_at_six_and_says_what_is_needed(page: Any) -> None:
     assert "needs a command" in find(page, ".panel-layers .warning").text
     goods = find(page, ".goods").text.splitlines()
     assert goods == [
-        *("1 white banner", "3 lime dye", "3 black dye", "1 red dye"),
+        *("1 white banner", "3 lime dyes", "3 black dyes", "1 red dye"),
         *("creeper head", "oxeye daisy"),
     ]
     press(page, "m")

@@ -15,8 +15,6 @@ from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait
 from drapery.banner.design import Banner
 from drapery.pictures import draw
 
-pytest_plugins = ["studio_browser"]
-
 WRITTEN = (
     "const text = document.getElementById('written').value; return /pattern/.test(text) && text"
 )
@@ -194,8 +192,11 @@ def test_it_looks_as_a_picture_does(page: Any, view: str) -> None:
     page.find_element(By.CSS_SELECTOR, '[aria-label="A design by chance"]').click()
     design = wait_until(lambda: page.execute_script(WRITTEN))
     wait_until(lambda: ask(page, "time") > 0.2)
+    pause.click()
+    wait_until(lambda: is_still(page))
     reset.click()
-    wait_until(lambda: ask(page, "time") < 0.2)
+    wait_until(lambda: ask(page, "time") == 0)
+    pause.click()
     wait_until(lambda: ask(page, "time") > 0.8)
     pause.click()
     wait_until(lambda: is_still(page))
