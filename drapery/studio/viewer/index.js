@@ -107,7 +107,8 @@ export class Viewer {
   }
 
   draw() {
-    if (this.gl.isContextLost() || !this.cameras.length) return;
+    // The cameras of a scene come with its first moment, which may be a frame later.
+    if (this.gl.isContextLost() || this.cameras.length !== this.drawing.scene?.header.panes.length) return;
     const rects = this.rects(this.canvas.width, this.canvas.height);
     const matrices = rects.map(([, , width, height], number) => clipMatrix(this.camera(number), width / height));
     const start = performance.now();
