@@ -10,6 +10,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
+from glob import glob
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -130,6 +131,13 @@ def wait_until(truth: Callable[[], T], seconds: float = 20.0) -> T:
             return answer
         time.sleep(0.03)
     raise AssertionError(f"still not so after {seconds} s")
+
+
+def lying(folder: Path, pattern: str) -> set[Path]:
+    """The files of a folder that fit, of which some may be going at this moment."""
+    # A path's own glob minds folders that go while it looks.
+    found = glob(f"{folder}/{pattern}", recursive=True, include_hidden=True)  # noqa: PTH207
+    return set(map(Path, found))
 
 
 def console_errors(driver: Any) -> list[str]:

@@ -15,7 +15,7 @@ from studio_browser import Studio, wait_until
 
 websockets = pytest.importorskip("websockets.sync.client")
 
-CYCLES = int(os.environ.get("DRAPERY_STUDIO_CYCLES", "12"))
+CYCLES = int(os.environ.get("DRAPERY_STUDIO_CYCLES", "6"))
 
 
 @contextmanager
