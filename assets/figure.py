@@ -34,7 +34,7 @@ STUFFS: dict[str, Tones] = {
 
 
 @dataclass(frozen=True)
-class Dress:
+class MaterialAt:
     """What a figure is made of, in letters of STUFFS.
 
     face: the front of the head. hair: the rest of it, row by row.
@@ -50,7 +50,7 @@ class Dress:
     leg: str
 
 
-TRAVELLER = Dress(
+TRAVELLER = MaterialAt(
     face="hhhhhhhh hhhhhhhh hsssssss ssssssss swessews sssnnsss ssmmmmss ssssssss",
     hair="hhhhhhsn",
     chest="ttwsswtt tttwwttt tttttttt tttttttt tttttttt tttttttt tttttttt llllllll lllgglll"
@@ -59,7 +59,7 @@ TRAVELLER = Dress(
     arm="tttttttlssss",
     leg="ppppppppllll",
 )
-DANCER = Dress(
+DANCER = MaterialAt(
     face="yyyyyyyy yyyssyyy ysssssys yssssssy ywessewy yssssssy yssmmssy yyssssyy",
     hair="yyyyyyyy",
     chest="wsssssss wwsssssw wwwwwwww rwwwwwwr rrwwwwrr rrrwwrrr rrrggrrr rrrwwrrr rrrggrrr"
@@ -94,15 +94,15 @@ def _paint(sheet: Texels, box: Box, sides: str, front: str | None, seed: int) ->
         put(sheet, cap, in_stuff(_rows(letter * cap.height, cap), seed + 2))
 
 
-def figure_sheet(dress: Dress) -> Texels:
+def figure_sheet(material_at: MaterialAt) -> Texels:
     """A skin, shape [64, 64, 4]; what no box covers is transparent."""
     sheet = blank()
-    _paint(sheet, HEAD, dress.hair, dress.face, 101)
-    _paint(sheet, BODY, dress.back, dress.chest, 111)
+    _paint(sheet, HEAD, material_at.hair, material_at.face, 101)
+    _paint(sheet, BODY, material_at.back, material_at.chest, 111)
     for seed, arm in ((121, RIGHT_ARM), (131, LEFT_ARM)):
-        _paint(sheet, arm, dress.arm, None, seed)
+        _paint(sheet, arm, material_at.arm, None, seed)
     for seed, leg in ((141, RIGHT_LEG), (151, LEFT_LEG)):
-        _paint(sheet, leg, dress.leg, None, seed)
+        _paint(sheet, leg, material_at.leg, None, seed)
     return sheet
 
 

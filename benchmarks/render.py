@@ -27,14 +27,14 @@ from drapery.errors import BackendError
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.encode import save_animation
 from drapery.render.frame import Frame
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 from drapery.render.views import frame_view
 from drapery.render.workers import worker_count
-from drapery.style.block import FLAG_SIZE, FLAG_SKIN, SCALE
+from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.crowds import cover_crowd
 from drapery.style.extrusion import Shell, make_shell
-from drapery.style.layers import flag_look
+from drapery.style.layers import flag_material
 
 Draw = Callable[..., Frame]
 
@@ -97,7 +97,7 @@ def compare(
     if worker_count() > 1:
         draws[f"soft {worker_count()}"] = draw_scene
     if gl:
-        # OpenGL composites coats beforehand as we do, unless told to draw every layer.
+        # OpenGL composites layers beforehand as we do, unless told to draw every layer.
         draws[f"pyrender {worker_count()}"] = partial(gl, stacked=layers == "stacked")
     taken = measure(draws, scenes, seconds)
     return [
@@ -116,7 +116,7 @@ def swaying(cloth: Cloth, phases: Array, time: float) -> Array:
 
 def flag(columns: int, rows: int) -> tuple[Cloth, Shell]:
     cloth = grid(columns, rows, *FLAG_SIZE)
-    return cloth, make_shell(cloth.triangles, cloth.uvs, FLAG_SKIN)
+    return cloth, make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING)
 
 
 def thick(cloth: Cloth, shell: Shell, sheets: Array) -> Mesh:
@@ -126,22 +126,22 @@ def thick(cloth: Cloth, shell: Shell, sheets: Array) -> Mesh:
 def one_banner(layers: str) -> list[Scene]:
     """Base and six layers on a thick 10 x 20 cloth, 512 x 512, new vertices in each frame."""
     cloth, shell = flag(10, 20)
-    look = flag_look(SIX, open_packs(()), "stacked" if layers == "stacked" else "flat")
+    material = flag_material(SIX, open_packs(()), "stacked" if layers == "stacked" else "flat")
     meshes = [thick(cloth, shell, swaying(cloth, np.zeros(1), k / 3)[0]) for k in range(16)]
     camera = frame_view("front", np.stack([mesh.positions for mesh in meshes]), 1.0)
-    return [Scene((Model(mesh, (look,)),), camera) for mesh in meshes]
+    return [Scene((Model(mesh, (material,)),), camera) for mesh in meshes]
 
 
 def banner_to_png(seconds: float) -> list[Row]:
     """From a state of the cloth to a PNG file: thickness, drawing, encoding, writing."""
     cloth, shell = flag(10, 20)
-    look = flag_look(SIX, open_packs(()))
+    material = flag_material(SIX, open_packs(()))
     camera = one_banner("stacked")[0].camera
     states = [swaying(cloth, np.zeros(1), k / 3)[0] for k in range(16)]
 
     def frames(count: int) -> Iterator[Frame]:
         for sheet in islice(cycle(states), count):
-            yield draw_scene(Scene((Model(thick(cloth, shell, sheet), (look,)),), camera))
+            yield draw_scene(Scene((Model(thick(cloth, shell, sheet), (material,)),), camera))
 
     with tempfile.TemporaryDirectory() as folder:
         save_animation(frames(8), 20, Path(folder) / "warm")
@@ -152,7 +152,7 @@ def banner_to_png(seconds: float) -> list[Row]:
     return [row("banner to PNG file", "soft", "stacked", worker_count(), taken)]
 
 
-def crowd_looks() -> tuple[Look, ...]:
+def crowd_looks() -> tuple[Material, ...]:
     """64 designs of a base and four layers."""
     random, packs = np.random.default_rng(0), open_packs(())
     designs = [
@@ -164,7 +164,7 @@ def crowd_looks() -> tuple[Look, ...]:
         )
         for _ in range(64)
     ]
-    return tuple(flag_look(design, packs) for design in designs)
+    return tuple(flag_material(design, packs) for design in designs)
 
 
 def crowd_places(side: int) -> Array:
@@ -175,8 +175,8 @@ def crowd_places(side: int) -> Array:
 
 def crowd(shape: str, side: int = 17) -> list[Scene]:
     """side³ banners at 1280 x 720: thick ones of 5 x 9 particles, or bare sheets of 11 x 11."""
-    places, looks = crowd_places(side), crowd_looks()
-    index = np.random.default_rng(1).integers(0, len(looks), len(places)).astype(np.int32)
+    places, materials = crowd_places(side), crowd_looks()
+    index = np.random.default_rng(1).integers(0, len(materials), len(places)).astype(np.int32)
     cloth, shell = flag(*((5, 9) if shape == "thick" else (11, 11)))
     scenes: list[Scene] = []
     for k in range(2):
@@ -185,9 +185,9 @@ def crowd(shape: str, side: int = 17) -> list[Scene]:
             mesh = cover_crowd(shell, sheets, SCALE)
         else:
             normals = vertex_normals(sheets, cloth.triangles)
-            mesh = Mesh(sheets, normals, cloth.triangles, FLAG_SKIN.front(cloth.uvs))
+            mesh = Mesh(sheets, normals, cloth.triangles, FLAG_MAPPING.front(cloth.uvs))
         camera = scenes[0].camera if scenes else frame_view("hero", mesh.positions, 1280 / 720)
-        scenes.append(Scene((Model(mesh, looks, index),), camera, (1280, 720)))
+        scenes.append(Scene((Model(mesh, materials, index),), camera, (1280, 720)))
     return scenes
 
 
@@ -218,10 +218,10 @@ def growth(seconds: float) -> Iterator[tuple[str, float, float]]:
         count = len(many.models[0].mesh.triangles) * side**3
         yield "triangles", count, _time(many, seconds)
     noise = np.random.default_rng(0)
-    # Odd sizes cannot be composited beforehand: every coat is laid over at every sample.
-    coats = [Coat(noise.integers(0, 256, (61 + k, 64, 4), np.uint8)) for k in range(17)]
+    # Odd sizes cannot be composited beforehand: every layer is laid over at every sample.
+    layers = [TextureLayer(noise.integers(0, 256, (61 + k, 64, 4), np.uint8)) for k in range(17)]
     for layers in (1, 2, 4, 8, 16):
-        model = replace(scene.models[0], looks=(Look(tuple(coats[: layers + 1])),))
+        model = replace(scene.models[0], materials=(Material(tuple(layers[: layers + 1])),))
         yield "layers a sample", layers, _time(replace(scene, models=(model,)), seconds)
 
 

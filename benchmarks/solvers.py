@@ -35,7 +35,7 @@ from drapery.cloth.solvers.registry import SOLVERS, solver
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.contact import table
 from drapery.render.frame import Frame, Pixels
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 from drapery.render.views import View, frame_points
 from drapery.style.extrusion import make_shell
@@ -181,7 +181,7 @@ def draw(
     """A cloth in checks of its own cells, thick, and what is with it."""
     shell = make_shell(cloth.triangles, cloth.uvs)
     mesh = shell.cover(places, vertex_normals(places, cloth.triangles), 0.025)
-    worn = Model(mesh, (Look((Coat(checks(*(cloth.grid_shape or (2, 2)))),)),))
+    worn = Model(mesh, (Material((TextureLayer(checks(*(cloth.grid_shape or (2, 2)))),)),))
     view, room = shot
     camera = frame_points(view, np.stack(np.meshgrid(*room.T), axis=-1), 1.0, 0.02)
     background = (226, 232, 238, 255)
@@ -203,7 +203,7 @@ def ball_model() -> Model:
     triangles = np.asarray(ball.faces, np.int32)
     normals, uvs = vertex_normals(places, triangles), np.zeros((len(places), 2))
     grey = np.full((1, 1, 4), (110, 120, 132, 255), np.uint8)
-    return Model(Mesh(places, normals, triangles, uvs), (Look((Coat(grey),)),))
+    return Model(Mesh(places, normals, triangles, uvs), (Material((TextureLayer(grey),)),))
 
 
 def sheet(size: int) -> Frame:

@@ -15,7 +15,7 @@ from drapery.cloth.collisions import Collisions
 from drapery.mesh import Mesh, vertex_normals
 from drapery.render.backends import backend
 from drapery.render.frame import Animation
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.views import View, frame_points
 from drapery.style.extrusion import extrude
 
@@ -33,8 +33,8 @@ def main(folder: Path, frames: int = 40) -> None:
     positions = np.stack([state.positions[0] for state in islice(states, frames)])
 
     texels = open_packs(()).texture("minecraft:block/white_wool")
-    wool = (Look((Coat(texels, (176, 46, 38)),)),)
-    stone = (Look((Coat(open_packs(()).texture("minecraft:block/stone")),)),)
+    wool = (Material((TextureLayer(texels, (176, 46, 38)),)),)
+    stone = (Material((TextureLayer(open_packs(()).texture("minecraft:block/stone")),)),)
     sphere = trimesh.creation.icosphere(subdivisions=3, radius=RADIUS - 0.01)
     vertices = np.asarray(sphere.vertices)
     uvs = vertices[:, :2] / RADIUS / 2 + 0.5

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from drapery.mesh import Array, Mesh, Triangles
 from drapery.render.camera import Camera
 from drapery.render.lines import dot_model, line_model
-from drapery.render.scene import Coat, Look, Model, Texels
+from drapery.render.scene import Material, Model, Texels, TextureLayer
 
 Index = NDArray[np.integer[Any]]
 
@@ -76,7 +76,7 @@ def stretch_model(mesh: Mesh, stretch: Array, limit: float = 0.1) -> Model:
     u = np.clip(stretch / (2 * limit) + 0.5, 0, 1)
     uvs = np.stack([u, np.full_like(u, 0.5)], axis=-1)
     shape = Mesh(mesh.positions, mesh.normals, mesh.triangles, uvs)
-    return Model(shape, (Look((Coat(_ramp()),)),))
+    return Model(shape, (Material((TextureLayer(_ramp()),)),))
 
 
 def spring_stretch(positions: Array, pairs: Index, lengths: Array) -> Array:

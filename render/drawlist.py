@@ -1,7 +1,7 @@
 """A scene's models merged into one list of triangles with one atlas.
 
-The constant part (triangles, UVs, looks, atlas) is prepared once for all pictures that share it;
-only positions and normals are read anew for each. A batch of meshes becomes one long mesh, so
+The constant part (triangles, UVs, materials, atlas) is prepared once for all pictures that use
+it; only positions and normals are read anew for each. A batch of meshes becomes one long mesh, so
 thousands of banners cost no more calls than one.
 """
 
@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
 from drapery.render.light import Light
+from drapery.render.materials import MaterialTables, make_material_tables
 from drapery.render.recent import Recent
 from drapery.render.scene import Model
-from drapery.render.wardrobe import Wardrobe, make_wardrobe
 
 Float32 = NDArray[np.float32]
 
@@ -31,16 +31,16 @@ class Topology:
 
     uvs: fractions of the sprite, shape [V, 2]; (0, 0) is its top left corner.
     triangles: vertex indices into the merged list, shape [T, 3], int32.
-    triangle_look: a place in the wardrobe, shape [T], int32.
+    triangle_material: a place in the wardrobe, shape [T], int32.
     vertex_start: where each model's vertices begin, shape [M + 1].
-    wardrobe: what the triangles wear.
+    material_tables: what the triangles wear.
     """
 
     uvs: Float32
     triangles: Triangles
-    triangle_look: NDArray[np.int32]
+    triangle_material: NDArray[np.int32]
     vertex_start: NDArray[np.int64]
-    wardrobe: Wardrobe
+    material_tables: MaterialTables
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +64,7 @@ class DrawList:
         return np.where(lit, light.brightness(self.normals), np.float32(1))
 
     def _by_light(self) -> list[tuple[Triangles, bool]]:
-        shines = self.topology.wardrobe.look_lit[self.topology.triangle_look]
+        shines = self.topology.material_tables.material_lit[self.topology.triangle_material]
         return [(self.topology.triangles[shines == lit], lit) for lit in (False, True)]
 
 
@@ -89,7 +89,7 @@ def topology(models: Sequence[Model]) -> Topology:
     arrays = tuple(
         part
         for model in models
-        for part in (model.mesh.triangles, model.mesh.uvs, model.look_index, *model.looks)
+        for part in (model.mesh.triangles, model.mesh.uvs, model.material_index, *model.materials)
     )
     shapes = [(model.mesh.positions.shape, model.mesh.normals.shape) for model in models]
     return _recent.get(arrays, shapes, lambda: _merge(models))
@@ -101,17 +101,17 @@ def _merge(models: Sequence[Model]) -> Topology:
     vertices = [model.mesh.positions.size // 3 for model in models]
     starts = np.cumsum([0, *vertices], dtype=np.int64)
     _check_count(sum(_batch(model) * len(model.mesh.triangles) for model in models))
-    looks = [look for model in models for look in model.looks]
-    first_look = np.cumsum([0, *(len(model.looks) for model in models)])
+    materials = [material for model in models for material in model.materials]
+    first_material = np.cumsum([0, *(len(model.materials) for model in models)])
     empty = np.zeros((0, 3), np.int32)
     return Topology(
         np.concatenate([np.zeros((0, 2), np.float32), *(_uvs(model) for model in models)]),
         np.concatenate([empty, *(_triangles(m, s) for m, s in zip(models, starts, strict=False))]),
         np.concatenate(
-            [empty[:, 0], *(_looks(m, f) for m, f in zip(models, first_look, strict=False))]
+            [empty[:, 0], *(_materials(m, f) for m, f in zip(models, first_material, strict=False))]
         ),
         starts,
-        make_wardrobe(looks),
+        make_material_tables(materials),
     )
 
 
@@ -131,8 +131,12 @@ def _triangles(model: Model, start: int) -> Triangles:
     return numbers.reshape(-1, 3)
 
 
-def _looks(model: Model, first: int) -> NDArray[np.int32]:
-    index = model.look_index if model.look_index is not None else np.zeros(_batch(model), np.int32)
+def _materials(model: Model, first: int) -> NDArray[np.int32]:
+    index = (
+        model.material_index
+        if model.material_index is not None
+        else np.zeros(_batch(model), np.int32)
+    )
     return np.repeat(index + first, len(model.mesh.triangles)).astype(np.int32)
 
 
@@ -169,13 +173,13 @@ def _check(number: int, model: Model) -> None:
             f"model {number}: its triangles name vertices outside 0..{vertices - 1};"
             " give indices of its own positions"
         )
-    index = model.look_index
+    index = model.material_index
     if index is not None and index.shape != (_batch(model),):
-        _refuse(number, "look_index", index, f"({_batch(model)},)")
-    if not _all_within(np.zeros(1, np.int32) if index is None else index, len(model.looks)):
+        _refuse(number, "material_index", index, f"({_batch(model)},)")
+    if not _all_within(np.zeros(1, np.int32) if index is None else index, len(model.materials)):
         raise OptionError(
-            f"model {number}: look_index names looks outside its {len(model.looks)};"
-            " give a place in its looks"
+            f"model {number}: material_index names materials outside its {len(model.materials)};"
+            " give a place in its materials"
         )
 
 

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
-from drapery.render.scene import Alpha, Coat, Look, Model, Texels
+from drapery.render.scene import Alpha, Material, Model, Texels, TextureLayer
 
 NEARER = 0.004
 """Lines are drawn this share of their distance nearer, so the surface they lie on shows them."""
@@ -65,8 +65,8 @@ def _quads(corners: Array, colours: ArrayLike) -> Model:
     positions = corners.reshape(-1, 3).astype(np.float32)
     uvs = np.stack([u, np.full_like(u, 0.5)], axis=-1).repeat(4, axis=0)
     alpha: Alpha = "opaque" if (texels[..., 3] == 255).all() else "blend"
-    look = Look((Coat(np.ascontiguousarray(texels)),), alpha, lit=False)
-    return Model(Mesh(positions, np.zeros_like(positions), triangles, uvs), (look,))
+    material = Material((TextureLayer(np.ascontiguousarray(texels)),), alpha, lit=False)
+    return Model(Mesh(positions, np.zeros_like(positions), triangles, uvs), (material,))
 
 
 def _towards(points: Array, camera: Camera) -> Array:

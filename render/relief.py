@@ -16,7 +16,7 @@ from drapery.mesh import Array, Mesh, Triangles
 from drapery.render.flatten import lay_over
 from drapery.render.light import Light
 from drapery.render.recent import Recent
-from drapery.render.scene import Coat, Look, Model, Scene, Texels
+from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
 
 SLACK = 1e-9
 """A texel's middle on a triangle's edge belongs to it, whichever way its corners were rounded."""
@@ -27,37 +27,41 @@ def relieved(scene: Scene) -> Scene:
 
     A scene without such maps is returned as it is.
     """
-    if not any(_is_bent(look) for model in scene.models for look in model.looks):
+    if not any(_is_bent(material) for model in scene.models for material in model.materials):
         return scene
     return replace(scene, models=tuple(_relieved(model, scene.light) for model in scene.models))
 
 
-def _is_bent(look: Look) -> bool:
-    return look.lit and any(coat.normal is not None for coat in look.coats)
+def _is_bent(material: Material) -> bool:
+    return material.lit and any(layer.normal is not None for layer in material.layers)
 
 
 def _relieved(model: Model, light: Light) -> Model:
-    if not any(map(_is_bent, model.looks)):
+    if not any(map(_is_bent, model.materials)):
         return model
     mesh = model.mesh
     if mesh.positions.ndim == 2:
-        return replace(model, looks=tuple(_lit(look, mesh, light) for look in model.looks))
+        return replace(
+            model, materials=tuple(_lit(material, mesh, light) for material in model.materials)
+        )
     members = [
         replace(mesh, positions=positions, normals=normals)
         for positions, normals in zip(mesh.positions, mesh.normals, strict=True)
     ]
-    index = np.zeros(len(members), np.int32) if model.look_index is None else model.look_index
-    looks = tuple(
-        _lit(model.looks[place], member, light)
+    index = (
+        np.zeros(len(members), np.int32) if model.material_index is None else model.material_index
+    )
+    materials = tuple(
+        _lit(model.materials[place], member, light)
         for place, member in zip(index, members, strict=True)
     )
-    return Model(mesh, looks, np.arange(len(members), dtype=np.int32))
+    return Model(mesh, materials, np.arange(len(members), dtype=np.int32))
 
 
-def _lit(look: Look, mesh: Mesh, light: Light) -> Look:
-    if not _is_bent(look):
-        return look
-    relief = relief_of(look)
+def _lit(material: Material, mesh: Mesh, light: Light) -> Material:
+    if not _is_bent(material):
+        return material
+    relief = relief_of(material)
     layout = _layouts.get(
         (mesh.triangles, mesh.uvs),
         relief.bends.shape,
@@ -67,12 +71,12 @@ def _lit(look: Look, mesh: Mesh, light: Light) -> Look:
     factors[layout.rows, layout.columns] = _light(relief, layout, mesh, light)
     texels = relief.texels.copy()
     texels[..., :3] = texels[..., :3] * factors + np.float32(0.5)
-    return Look((Coat(texels),), look.alpha, lit=False)
+    return Material((TextureLayer(texels),), material.alpha, lit=False)
 
 
 @dataclass(frozen=True, eq=False)
 class Relief:
-    """A look's coats as one.
+    """A material's layers as one.
 
     texels: tinted, shape [H, W, 4]. bends: the normal's x (to the right on the sheet), y (down)
     and z (out of it), shape [H, W, 3]. open: how much of the ambient light comes in, shape [H, W].
@@ -104,35 +108,37 @@ _reliefs: Recent[Relief] = Recent(16)
 _layouts: Recent[Layout] = Recent(16)
 
 
-def relief_of(look: Look) -> Relief:
-    """The look's coats and their maps as one; those of the last few looks are kept."""
-    return _reliefs.get((look,), None, lambda: _relief(look))
+def relief_of(material: Material) -> Relief:
+    """The material's layers and their maps as one; those of the last few looks are kept."""
+    return _reliefs.get((material,), None, lambda: _relief(material))
 
 
 def has_relief(scene: Scene) -> bool:
     """Whether a normal or specular map is worn anywhere in the scene."""
-    coats = (coat for model in scene.models for look in model.looks for coat in look.coats)
-    return any(coat.normal is not None or coat.specular is not None for coat in coats)
+    layers = (
+        layer for model in scene.models for material in model.materials for layer in material.layers
+    )
+    return any(layer.normal is not None or layer.specular is not None for layer in layers)
 
 
-def _relief(look: Look) -> Relief:
-    """A coat without a map leaves what the maps below say as it is."""
-    sheets = [(coat.texels, coat.normal, coat.specular) for coat in look.coats]
-    sizes = [sheet.shape[:2] for coat in sheets for sheet in coat if sheet is not None]
+def _relief(material: Material) -> Relief:
+    """A layer without a map leaves what the maps below say as it is."""
+    sheets = [(layer.texels, layer.normal, layer.specular) for layer in material.layers]
+    sizes = [sheet.shape[:2] for layer in sheets for sheet in layer if sheet is not None]
     size = max(height for height, _ in sizes), max(width for _, width in sizes)
-    texels = _tinted(look.coats[0], size)
-    if look.alpha == "opaque":
+    texels = _tinted(material.layers[0], size)
+    if material.alpha == "opaque":
         texels[..., 3] = 255
     bends, matter = np.zeros((*size, 4), np.float32), np.zeros((*size, 3), np.float32)
     bends[..., 2:] = matter[..., 0] = 1.0
-    for number, coat in enumerate(look.coats):
-        top = _tinted(coat, size)
+    for number, layer in enumerate(material.layers):
+        top = _tinted(layer, size)
         share = top[..., 3:] / np.float32(255) if number else np.float32(1)
         texels = lay_over(top, texels) if number else texels
-        if coat.normal is not None:
-            bends += share * (_bends(_sized(coat.normal, size)) - bends)
-        if coat.specular is not None:
-            matter += share * (_matter(_sized(coat.specular, size)) - matter)
+        if layer.normal is not None:
+            bends += share * (_bends(_sized(layer.normal, size)) - bends)
+        if layer.specular is not None:
+            matter += share * (_matter(_sized(layer.specular, size)) - matter)
     return Relief(texels, _unit(bends[..., :3]), bends[..., 3], matter)
 
 
@@ -157,9 +163,9 @@ def _matter(texels: Texels) -> Array:
     return np.stack(parts, axis=-1).astype(np.float32)
 
 
-def _tinted(coat: Coat, size: tuple[int, int]) -> Texels:
-    texels = _sized(coat.texels, size)
-    tint = np.array(coat.tint, np.uint16)
+def _tinted(layer: TextureLayer, size: tuple[int, int]) -> Texels:
+    texels = _sized(layer.texels, size)
+    tint = np.array(layer.tint, np.uint16)
     texels[..., :3] = (texels[..., :3] * tint + 127) // 255
     return texels
 

@@ -1,4 +1,4 @@
-"""What is drawn: meshes wearing looks, seen by a camera under a light."""
+"""What is drawn: meshes wearing materials, seen by a camera under a light."""
 
 from dataclasses import dataclass, field
 from typing import Literal
@@ -17,7 +17,7 @@ Alpha = Literal["opaque", "cutout", "blend"]
 
 
 @dataclass(frozen=True, eq=False)
-class Coat:
+class TextureLayer:
     """One texture laid over a surface, multiplied by a tint.
 
     A texel becomes round(texel * tint / 255) per channel and is laid over what is below by its
@@ -32,15 +32,15 @@ class Coat:
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
-    """Coats on one surface, lowest first; they share the mesh's UVs, whatever their sizes.
+class Material:
+    """Layers on one surface, lowest first; they share the mesh's UVs, whatever their sizes.
 
-    alpha: what the lowest coat's alpha means. `opaque` ignores it (the game's solid layer),
+    alpha: what the lowest layer's alpha means. `opaque` ignores it (the game's solid layer),
         `cutout` leaves out pixels under one half, `blend` lays it over what is behind.
     lit: whether the scene's light falls on it; otherwise it shows its plain colours.
     """
 
-    coats: tuple[Coat, ...]
+    layers: tuple[TextureLayer, ...]
     alpha: Alpha = "opaque"
     lit: bool = True
 
@@ -50,14 +50,14 @@ class Model:
     """A mesh, or a batch of B meshes, and what each wears.
 
     mesh: positions [V, 3] or [B, V, 3].
-    looks: the looks in use.
-    look_index: for each member of the batch its place in `looks`, shape [B]; None means the
-        first look for all.
+    materials: the materials in use.
+    material_index: for each member of the batch its place in `materials`, shape [B]; None means the
+        first material for all.
     """
 
     mesh: Mesh
-    looks: tuple[Look, ...]
-    look_index: NDArray[np.int32] | None = None
+    materials: tuple[Material, ...]
+    material_index: NDArray[np.int32] | None = None
 
 
 @dataclass(frozen=True, eq=False)

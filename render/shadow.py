@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 
 RESOLUTION = 16
@@ -44,7 +44,8 @@ def contact_shadow(
     texels = np.zeros((*alpha.shape, 4), np.uint8)
     texels[..., 3] = np.rint(alpha * strength * 255)
     return Model(
-        _floor(middle, size / scale, floor + LIFT), (Look((Coat(texels),), "blend", False),)
+        _floor(middle, size / scale, floor + LIFT),
+        (Material((TextureLayer(texels),), "blend", False),),
     )
 
 

@@ -7,19 +7,19 @@ from numpy.typing import ArrayLike
 
 from drapery.mesh import Mesh
 from drapery.render.camera import Camera
-from drapery.render.scene import Coat, Look
+from drapery.render.scene import Material, TextureLayer
 
 FACING = Camera((0, 0, 10), (0, 0, 0), height=2.0, near=1, far=20)
 """Sees x and y from -1 to 1 in a square picture."""
 
 
-def plain(*colour: int) -> Coat:
+def plain(*colour: int) -> TextureLayer:
     """One texel of a colour."""
-    return Coat(np.array([[colour]], np.uint8))
+    return TextureLayer(np.array([[colour]], np.uint8))
 
 
-def painted(*colour: int, alpha: str = "opaque", lit: bool = False) -> Look:
-    return Look((plain(*colour),), alpha, lit)
+def painted(*colour: int, alpha: str = "opaque", lit: bool = False) -> Material:
+    return Material((plain(*colour),), alpha, lit)
 
 
 def noise(seed: int, *shape: int) -> np.ndarray:

@@ -121,12 +121,15 @@ def test_a_shields_plate_shows_its_own_texels() -> None:
 
 def test_a_shields_handle_wears_no_design() -> None:
     plate, handle = scene_of(SHIELD).models
-    assert len(plate.looks[0].coats) == 2 + len(SHIELD.layers) and len(handle.looks[0].coats) == 1
+    assert (
+        len(plate.materials[0].layers) == 2 + len(SHIELD.layers)
+        and len(handle.materials[0].layers) == 1
+    )
     plate, handle = scene_of(None, kind="shield").models
     plain = open_packs().base("shield_base_nopattern")
     for model in (plate, handle):
-        (coat,) = model.looks[0].coats
-        assert np.array_equal(coat.texels, plain)
+        (layer,) = model.materials[0].layers
+        assert np.array_equal(layer.texels, plain)
 
 
 def test_a_design_is_drawn_on_what_is_asked_for() -> None:

@@ -22,9 +22,9 @@ from drapery.render.scene import Model, Scene
 from drapery.render.soft import draw_scene
 from drapery.scenes.staging import loop, texture_times
 from drapery.settings import Settings
-from drapery.style.block import FLAG_SKIN
+from drapery.style.block import FLAG_MAPPING
 from drapery.style.board import stiff_board
-from drapery.style.layers import flag_look
+from drapery.style.layers import flag_material
 
 CREEPER_BANNER = Banner("white", (Layer("creeper", "white"),))
 SHORT = Settings(size=(16, 20), pose="vanilla")
@@ -57,16 +57,16 @@ def places(count: int) -> np.ndarray:
 
 def batch(packs: Packs) -> Model:
     """All of them as one model of stiff flags, a texel a metre."""
-    board = stiff_board((20, 40), 1.0, FLAG_SKIN)
-    looks = tuple(flag_look(banner, packs) for banner in banners())
-    where = places(len(looks))
+    board = stiff_board((20, 40), 1.0, FLAG_MAPPING)
+    materials = tuple(flag_material(banner, packs) for banner in banners())
+    where = places(len(materials))
     mesh = Mesh(
         board.positions + where[:, None],
-        np.broadcast_to(board.normals, (len(looks), *board.normals.shape)),
+        np.broadcast_to(board.normals, (len(materials), *board.normals.shape)),
         board.triangles,
         board.uvs,
     )
-    return Model(mesh, looks, np.arange(len(looks), dtype=np.int32))
+    return Model(mesh, materials, np.arange(len(materials), dtype=np.int32))
 
 
 def side_picture(model: Model, side: str) -> tuple[np.ndarray, np.ndarray]:
@@ -120,7 +120,7 @@ def animated_pack(path: Path, *, ticks: int) -> Path:
 def flag_colours(packs: Packs, count: int, fps: float) -> list[int]:
     """Which of red, green and blue the creeper is in each scene of a loop."""
     scenes = loop(CREEPER_BANNER, packs, SHORT, count, fps)
-    sheets = [scene.models[1].looks[0].coats[-1].texels for scene in scenes]
+    sheets = [scene.models[1].materials[0].layers[-1].texels for scene in scenes]
     return [int(sheet[0, 0, :3].argmax()) for sheet in sheets]
 
 
@@ -151,13 +151,13 @@ def test_textures_fill_a_loop_by_whole_periods() -> None:
 def test_what_looks_the_same_is_the_same_look(tmp_path: Path) -> None:
     """The renderer prepares each look once; it knows them by identity."""
     still_looks = {
-        tuple(id(look) for model in scene.models for look in model.looks)
+        tuple(id(material) for model in scene.models for material in model.materials)
         for scene in list(loop(CREEPER_BANNER, open_packs(), SHORT, 6, 10))
     }
     assert len(still_looks) == 1
     packs = open_packs([animated_pack(tmp_path, ticks=2)])
-    flags = [s.models[1].looks[0] for s in list(loop(CREEPER_BANNER, packs, SHORT, 6, 10))]
-    assert len({id(look) for look in flags}) == 3 and flags[0] is flags[3]
+    flags = [s.models[1].materials[0] for s in list(loop(CREEPER_BANNER, packs, SHORT, 6, 10))]
+    assert len({id(material) for material in flags}) == 3 and flags[0] is flags[3]
 
 
 def test_the_pack_format_chooses_the_place_of_the_base(drapery: Run, tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ from drapery.render.frame import Frame
 from drapery.render.light import GAME_LIGHT, UNLIT, lit_at
 from drapery.render.lines import dot_model, line_model
 from drapery.render.resize import enlarge
-from drapery.render.scene import Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.soft import draw_scene
 
@@ -98,8 +98,10 @@ def test_a_shadow_is_under_its_thing_and_darker_the_closer_it_is() -> None:
     for height in (0.0, 0.2, 0.7, 1.5):
         thing = quad(-0.5, -0.5, 0.5, 0.5)
         thing.positions[:] = thing.positions[:, [0, 2, 1]] + (3, height + 1e-3, 5)
-        model = contact_shadow([Model(thing, (Look((plain(1, 2, 3, 255),)),))], 0.0, strength=0.8)
-        texels = model.looks[0].coats[0].texels
+        model = contact_shadow(
+            [Model(thing, (Material((plain(1, 2, 3, 255),)),))], 0.0, strength=0.8
+        )
+        texels = model.materials[0].layers[0].texels
         alphas.append(int(texels[..., 3].max()))
         low, high = model.mesh.positions.min(axis=0), model.mesh.positions.max(axis=0)
         assert (low + high)[[0, 2]] / 2 == pytest.approx((3, 5))
@@ -113,9 +115,9 @@ def test_a_shadow_has_the_shape_of_its_thing() -> None:
         flat, post = quad(-2, -2, 2, 2), quad(-0.3, -0.3, 0.3, 0.3)
         flat.positions[:] = flat.positions[:, [0, 2, 1]] + (0, 5, 0)  # too high for a shadow
         post.positions[:] = post.positions[:, [0, 2, 1]] + (x, 0.01, z)
-        worn = (Look((plain(1, 2, 3, 255),)),)
+        worn = (Material((plain(1, 2, 3, 255),)),)
         model = contact_shadow([Model(flat, worn), Model(post, worn)], 0.0)
-        alpha = model.looks[0].coats[0].texels[..., 3].astype(float)
+        alpha = model.materials[0].layers[0].texels[..., 3].astype(float)
         rows, columns = np.indices(alpha.shape)
         middle = [(alpha * axis).sum() / alpha.sum() for axis in (columns, rows)]
         assert np.array(middle) / 16 - np.array(alpha.shape[::-1]) / 32 == pytest.approx(
@@ -151,9 +153,10 @@ def test_facets_have_one_brightness_each_and_the_same_outline() -> None:
     roof.positions[:, 2] = (0, 0.9, 0.9, 0)
     roof.normals[:] = roof.positions  # nonsense that must not be used
     flat = faceted(roof)
-    look = (Look((plain(255, 255, 255, 255),)),)
+    material = (Material((plain(255, 255, 255, 255),)),)
     before, after = (
-        draw_scene(Scene((Model(shape, look),), FACING, (64, 64))).pixels for shape in (roof, flat)
+        draw_scene(Scene((Model(shape, material),), FACING, (64, 64))).pixels
+        for shape in (roof, flat)
     )
     assert (before[..., 3] == after[..., 3]).all()
     assert len(np.unique(after[after[..., 3] > 0], axis=0)) == 2

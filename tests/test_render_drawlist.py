@@ -11,8 +11,8 @@ from drapery.mesh import Mesh
 from drapery.render.atlas import FEW_SIZES, PADDING, make_atlas
 from drapery.render.drawlist import draw_list, topology
 from drapery.render.light import GAME_LIGHT
-from drapery.render.scene import Coat, Look, Model
-from drapery.render.wardrobe import make_wardrobe
+from drapery.render.materials import make_material_tables
+from drapery.render.scene import Material, Model, TextureLayer
 
 SIZES = st.lists(st.tuples(st.integers(1, 70), st.integers(1, 70)), min_size=1, max_size=40)
 
@@ -53,13 +53,13 @@ def test_sprites_of_one_size_lie_in_a_grid_without_a_packer() -> None:
 
 
 def test_each_texture_is_packed_once() -> None:
-    """However many coats wear it, in whatever tint, and if it was loaded twice."""
+    """However many layers wear it, in whatever tint, and if it was loaded twice."""
     texels = noise(1, 16, 16)
-    coats = [Coat(texels, (i, 0, 0)) for i in range(50)] + [Coat(texels.copy())]
-    worn = make_wardrobe([Look((coat,)) for coat in coats])
-    assert len(np.unique(worn.coat_rects, axis=0)) == 1
+    layers = [TextureLayer(texels, (i, 0, 0)) for i in range(50)] + [TextureLayer(texels.copy())]
+    worn = make_material_tables([Material((layer,)) for layer in layers])
+    assert len(np.unique(worn.layer_rects, axis=0)) == 1
     assert worn.atlas.shape == (18, 18, 4)
-    assert (worn.coat_tints[:50, 0] == np.arange(50)).all()
+    assert (worn.layer_tints[:50, 0] == np.arange(50)).all()
 
 
 def crowd(count: int = 30) -> Model:
@@ -81,8 +81,8 @@ def test_a_merged_list_holds_every_model_in_order() -> None:
     for member in range(30):
         part = constant.triangles[2 + 2 * member : 4 + 2 * member]
         assert (part == batch.mesh.triangles + 4 + 4 * member).all()
-    assert constant.triangle_look.tolist() == [0, 0] + [1, 1, 2, 2] * 15
-    tints = constant.wardrobe.coat_rects[constant.triangle_look]
+    assert constant.triangle_material.tolist() == [0, 0] + [1, 1, 2, 2] * 15
+    tints = constant.material_tables.layer_rects[constant.triangle_material]
     assert len(np.unique(tints, axis=0)) == 3
 
 
@@ -96,9 +96,9 @@ def test_brightness_is_the_lights_where_a_look_is_lit() -> None:
 def test_what_does_not_move_is_prepared_once() -> None:
     batch = crowd()
     moved = Mesh(batch.mesh.positions + 1, batch.mesh.normals, batch.mesh.triangles, batch.mesh.uvs)
-    again = Model(moved, batch.looks, batch.look_index)
+    again = Model(moved, batch.materials, batch.material_index)
     assert topology((batch,)) is topology((again,))
-    other = Model(batch.mesh, batch.looks, batch.look_index[::-1].copy())
+    other = Model(batch.mesh, batch.materials, batch.material_index[::-1].copy())
     assert topology((other,)) is not topology((batch,))
 
 
@@ -120,13 +120,25 @@ def bad(**change: object) -> Model:
         (bad(positions=np.zeros((4, 2)), normals=np.zeros((4, 2))), "model 1: positions have"),
         (Model(quad(), (painted(1, 2, 3, 4),), np.array([1])), "look_index names looks outside"),
         (Model(quad(), (painted(1, 2, 3, 4),), np.array([0, 0])), "look_index have shape"),
-        (Model(quad(), (Look(()),)), "look 1 has no coats"),
-        (Model(quad(), (Look((Coat(np.zeros((4, 4, 3), np.uint8)),)),)), "cannot be worn"),
-        (Model(quad(), (Look((Coat(np.zeros((4, 4, 4))),)),)), "type float64 cannot be worn"),  # type: ignore[arg-type]
-        (Model(quad(), (Look((Coat(np.zeros((0, 4, 4), np.uint8)),)),)), "cannot be worn"),
-        (Model(quad(), (Look((Coat(np.zeros((1, 16385, 4), np.uint8)),)),)), "1 to 16384"),
+        (Model(quad(), (Material(()),)), "look 1 has no layers"),
+        (
+            Model(quad(), (Material((TextureLayer(np.zeros((4, 4, 3), np.uint8)),)),)),
+            "cannot be worn",
+        ),
+        (
+            Model(quad(), (Material((TextureLayer(np.zeros((4, 4, 4))),)),)),
+            "type float64 cannot be worn",
+        ),  # type: ignore[arg-type]
+        (
+            Model(quad(), (Material((TextureLayer(np.zeros((0, 4, 4), np.uint8)),)),)),
+            "cannot be worn",
+        ),
+        (
+            Model(quad(), (Material((TextureLayer(np.zeros((1, 16385, 4), np.uint8)),)),)),
+            "1 to 16384",
+        ),
     ],
 )
 def test_arrays_that_do_not_fit_are_refused(model: Model, words: str) -> None:
     with pytest.raises(OptionError, match=words):
-        draw_list((Model(quad(), (Look((plain(1, 1, 1, 1),)),)), model))
+        draw_list((Model(quad(), (Material((plain(1, 1, 1, 1),)),)), model))

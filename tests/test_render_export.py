@@ -18,7 +18,7 @@ from drapery.mesh import Mesh, vertex_normals
 from drapery.render.camera import Camera
 from drapery.render.export import MODEL_ENDINGS, save_model
 from drapery.render.light import UNLIT
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 
 CAMERA = Camera((0.6, 0.5, 3.0), (0.0, 0.0, 0.0))
@@ -44,9 +44,11 @@ def sheet(bend: float, *offset: float) -> Mesh:
 
 
 LOOKS = (
-    Look((Coat(texture(1, 8), (255, 90, 40)), Coat(texture(2, 16), (20, 240, 90)))),
-    Look((Coat(texture(3, 8)),), "cutout"),
-    Look((Coat(texture(4, 8)),), "blend", lit=False),
+    Material(
+        (TextureLayer(texture(1, 8), (255, 90, 40)), TextureLayer(texture(2, 16), (20, 240, 90)))
+    ),
+    Material((TextureLayer(texture(3, 8)),), "cutout"),
+    Material((TextureLayer(texture(4, 8)),), "blend", lit=False),
 )
 
 
@@ -113,9 +115,11 @@ def test_the_reopened_glb_draws_the_same_picture(tmp_path: Path) -> None:
             np.asarray(geometry.faces, np.int32),
             uvs.astype(np.float32),
         )
-        look = Look((Coat(texels),), alpha[material.alphaMode], lit="unlit" not in name)
+        material = Material(
+            (TextureLayer(texels),), alpha[material.alphaMode], lit="unlit" not in name
+        )
         assert material.doubleSided
-        models.append(Model(mesh, (look,)))
+        models.append(Model(mesh, (material,)))
     ours = draw_scene(SCENES[0]).pixels
     theirs = draw_scene(replace(SCENES[0], models=tuple(models))).pixels
     assert (ours[..., 3] > 0).mean() > 0.2
@@ -184,7 +188,7 @@ def test_obj_opens_again_with_its_texture(tmp_path: Path) -> None:
 
 def test_ply_has_the_texels_at_its_vertices(tmp_path: Path) -> None:
     plain = np.full((4, 4, 4), (10, 200, 30, 255), np.uint8)
-    scene = replace(SCENES[0], models=(Model(sheet(0.2), (Look((Coat(plain),)),)),))
+    scene = replace(SCENES[0], models=(Model(sheet(0.2), (Material((TextureLayer(plain),)),)),))
     save_model(scene, tmp_path / "a.ply")
     mesh = trimesh.load_mesh(tmp_path / "a.ply", process=False)
     assert np.array_equal(np.asarray(mesh.vertices, np.float32), scene.models[0].mesh.positions)
@@ -264,7 +268,7 @@ def test_bad_input_is_refused_and_leaves_nothing(tmp_path: Path) -> None:
     broken = replace(sheet(0.1), positions=np.full((25, 3), np.nan, np.float32))
     with pytest.raises(OptionError, match="not finite"):
         save_model(replace(SCENES[0], models=(Model(broken, LOOKS[:1]),)), tmp_path / "a.glb")
-    odd = Look((Coat(texture(1, 8)), Coat(texture(1, 12))))
+    odd = Material((TextureLayer(texture(1, 8)), TextureLayer(texture(1, 12))))
     with pytest.raises(OptionError, match="do not divide"):
         save_model(replace(SCENES[0], models=(Model(sheet(0), (odd,)),)), tmp_path / "a.glb")
     (tmp_path / "b.mtl").mkdir()

@@ -18,7 +18,7 @@ from drapery.render import doctor, gl, soft
 from drapery.render.camera import Camera
 from drapery.render.gl import platform as gl_platform
 from drapery.render.light import Light
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -54,31 +54,31 @@ def moved(mesh: Mesh, *offset: float) -> Mesh:
 
 CAMERA = Camera((1.2, 1.0, 3.2), (0.0, 0.0, 0.0))
 COATS = (
-    Coat(texture(1, 16), (255, 40, 90)),
-    Coat(texture(2, 32), (10, 250, 80)),
-    Coat(texture(3, 8, holes=True), (30, 40, 255)),
+    TextureLayer(texture(1, 16), (255, 40, 90)),
+    TextureLayer(texture(2, 32), (10, 250, 80)),
+    TextureLayer(texture(3, 8, holes=True), (30, 40, 255)),
 )
-SOLID = Model(sheet(0), (Look(COATS),))
+SOLID = Model(sheet(0), (Material(COATS),))
 
 
 def crowd() -> Model:
-    """Sixty sheets in one batch with three looks of one to three coats."""
+    """Sixty sheets in one batch with three looks of one to three layers."""
     mesh = sheet(5, cells=3)
     offsets = np.random.default_rng(6).uniform(-3, 3, (60, 1, 3)).astype(np.float32)
     positions = 0.3 * mesh.positions + offsets
     normals = np.broadcast_to(mesh.normals, positions.shape)
-    looks = tuple(Look(COATS[:count]) for count in (1, 2, 3))
+    materials = tuple(Material(COATS[:count]) for count in (1, 2, 3))
     index = (np.arange(60) % 3).astype(np.int32)
-    return Model(Mesh(positions, normals, mesh.triangles, mesh.uvs), looks, index)
+    return Model(Mesh(positions, normals, mesh.triangles, mesh.uvs), materials, index)
 
 
 def layers() -> tuple[Model, ...]:
     """A solid sheet, one with holes before it and two that shine through, the near one first."""
     return (
         SOLID,
-        Model(moved(sheet(8), 0.3, 0.2, 0.5), (Look(COATS[2:] + COATS[:1], "cutout"),)),
-        Model(moved(sheet(9), -0.4, 0.2, 1.1), (Look(COATS[:2], "blend"),)),
-        Model(moved(sheet(7), 0.4, -0.3, 0.8), (Look(COATS[:1], "blend", lit=False),)),
+        Model(moved(sheet(8), 0.3, 0.2, 0.5), (Material(COATS[2:] + COATS[:1], "cutout"),)),
+        Model(moved(sheet(9), -0.4, 0.2, 1.1), (Material(COATS[:2], "blend"),)),
+        Model(moved(sheet(7), 0.4, -0.3, 0.8), (Material(COATS[:1], "blend", lit=False),)),
     )
 
 
@@ -92,19 +92,19 @@ def on_pixel_centres() -> Scene:
     uvs = random.uniform(0.3, 0.7, (120, 2)).astype(np.float32)
     mesh = Mesh(positions, vertex_normals(positions, triangles), triangles, uvs)
     camera = Camera((0, 0, 5), (0, 0, 0), height=32.0)
-    return Scene((Model(mesh, (Look((Coat(texture(1, 1)),)),)),), camera, (32, 32))
+    return Scene((Model(mesh, (Material((TextureLayer(texture(1, 1)),)),)),), camera, (32, 32))
 
 
 WARM = Light(((1.0, 2.0, 0.5),), 0.3, 0.7, tint=(1.0, 0.8, 0.6))
 SCENES = {
-    "coats": Scene((SOLID,), CAMERA, (300, 200)),
+    "layers": Scene((SOLID,), CAMERA, (300, 200)),
     "crowd": Scene((crowd(), SOLID), Camera((4, 3, 6), (0, 0, 0)), (320, 240)),
     "orthographic": Scene((SOLID,), replace(CAMERA, height=2.5), (200, 200)),
     "alpha": Scene(layers(), CAMERA, (256, 256)),
     "alpha over a colour": Scene(layers(), CAMERA, (256, 256), background=(40, 160, 220, 255)),
     "alpha over half a colour": Scene(layers(), CAMERA, (99, 77), background=(200, 60, 20, 130)),
     "coloured light": Scene((SOLID,), CAMERA, (128, 128), WARM),
-    "unlit": Scene((replace(SOLID, looks=(Look(COATS, lit=False),)),), CAMERA, light=WARM),
+    "unlit": Scene((replace(SOLID, materials=(Material(COATS, lit=False),)),), CAMERA, light=WARM),
     "4 samples": Scene(layers(), CAMERA, (100, 100), samples=4),
     "16 samples": Scene(layers(), CAMERA, (60, 60), samples=16),
     "camera inside": Scene((crowd(),), Camera((0.1, 0.2, 0.1), (0, 0, -3), fov=90), (200, 150)),
@@ -138,7 +138,7 @@ def test_edges_on_pixel_centres_belong_to_the_same_pixels() -> None:
 
 def test_every_frame_has_its_own_vertices_and_the_same_bits_again() -> None:
     scenes = [
-        replace(SCENES["coats"], models=(replace(SOLID, mesh=moved(SOLID.mesh, x, 0, 0)),))
+        replace(SCENES["layers"], models=(replace(SOLID, mesh=moved(SOLID.mesh, x, 0, 0)),))
         for x in (0.0, 0.4)
     ]
     first, second = (gl.draw_scene(scene).pixels for scene in scenes)
@@ -189,8 +189,8 @@ def test_memory_stays_flat_over_frames() -> None:
 
 def test_memory_stays_flat_over_scenes_and_sizes() -> None:
     def draw(number: int) -> None:
-        looks = (Look((Coat(texture(number, 256)),)),)
-        model = Model(sheet(number, cells=40), looks)
+        materials = (Material((TextureLayer(texture(number, 256)),)),)
+        model = Model(sheet(number, cells=40), materials)
         gl.draw_scene(Scene((model,), CAMERA, (64 + number % 7, 64)))
 
     assert growth(draw, 40, 120) < 8
@@ -198,7 +198,7 @@ def test_memory_stays_flat_over_scenes_and_sizes() -> None:
 
 def test_bad_scenes_are_refused() -> None:
     broken = replace(SOLID.mesh, positions=np.where(SOLID.mesh.positions > 0.9, np.nan, 0.1))
-    scene = SCENES["coats"]
+    scene = SCENES["layers"]
     for bad, message in [
         (replace(scene, models=(SOLID, replace(SOLID, mesh=broken))), "model 1 has positions"),
         (replace(scene, size=(0, 10)), "size 0x10"),
@@ -252,7 +252,7 @@ def test_absurd_meshes_are_drawn_without_harm() -> None:
         triangles = np.arange(300, dtype=np.int32).reshape(-1, 3)
         normals = np.tile(np.float32([0, 1, 0]), (300, 1))
         mesh = Mesh(positions, normals, triangles, random.uniform(0, 1, (300, 2)))
-        scene = Scene((Model(mesh, (Look(COATS[:1]),)),), CAMERA, (64, 64))
+        scene = Scene((Model(mesh, (Material(COATS[:1]),)),), CAMERA, (64, 64))
         assert gl.draw_scene(scene).pixels.shape == (64, 64, 4)
 
 

@@ -13,7 +13,7 @@ from drapery.mesh import Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, Light
 from drapery.render.relief import relieved
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 from drapery.style.block import turn
 
@@ -36,29 +36,29 @@ def board(mirrored: bool = False) -> Mesh:
     return Mesh(corners, normals, np.array([[0, 2, 1], [1, 2, 3]], np.int32), uvs)
 
 
-def scene_of(mesh: Mesh, *coats: Coat, light: Light = GAME_LIGHT) -> Scene:
+def scene_of(mesh: Mesh, *layers: TextureLayer, light: Light = GAME_LIGHT) -> Scene:
     camera = Camera((0.5, 0.5, 3), (0.5, 0.5, 0), height=1.0)
-    return Scene((Model(mesh, (Look(coats),)),), camera, (8, 8), light)
+    return Scene((Model(mesh, (Material(layers),)),), camera, (8, 8), light)
 
 
 def brightness(mesh: Mesh, normal: np.ndarray, light: Light = GAME_LIGHT) -> float:
     """What the map makes of white: one shade all over, as a factor."""
-    (model,) = relieved(scene_of(mesh, Coat(WHITE, normal=normal), light=light)).models
-    (shade,) = np.unique(model.looks[0].coats[0].texels[..., :3])
+    (model,) = relieved(scene_of(mesh, TextureLayer(WHITE, normal=normal), light=light)).models
+    (shade,) = np.unique(model.materials[0].layers[0].texels[..., :3])
     return float(shade) / 255
 
 
 def test_a_level_map_changes_nothing() -> None:
     texels = np.random.default_rng(1).integers(0, 256, (4, 4, 4), np.uint8)
     for degrees in (0, 40, 70):
-        plain_scene = scene_of(turn(board(), degrees), Coat(texels, (200, 90, 30)))
-        mapped = scene_of(turn(board(), degrees), Coat(texels, (200, 90, 30), normal=LEVEL))
+        plain_scene = scene_of(turn(board(), degrees), TextureLayer(texels, (200, 90, 30)))
+        mapped = scene_of(turn(board(), degrees), TextureLayer(texels, (200, 90, 30), normal=LEVEL))
         a, b = draw_scene(plain_scene).pixels, draw_scene(mapped).pixels
         assert np.abs(a.astype(int) - b).max() <= 1
 
 
 def test_a_scene_without_maps_is_left_as_it_is() -> None:
-    scene = scene_of(board(), Coat(WHITE))
+    scene = scene_of(board(), TextureLayer(WHITE))
     assert relieved(scene) is scene
 
 
@@ -88,37 +88,40 @@ def test_what_is_closed_gets_no_ambient_light() -> None:
 def test_the_upper_coats_relief_lies_over_the_lower_by_its_alpha() -> None:
     half = WHITE.copy()
     half[:, :2, 3] = 0
-    lower, upper = Coat(WHITE, normal=slope(0, -0.6)), Coat(half, normal=slope(0, 0.6))
+    lower, upper = (
+        TextureLayer(WHITE, normal=slope(0, -0.6)),
+        TextureLayer(half, normal=slope(0, 0.6)),
+    )
     (model,) = relieved(scene_of(board(), lower, upper)).models
-    shades = model.looks[0].coats[0].texels[..., 0]
+    shades = model.materials[0].layers[0].texels[..., 0]
     top, foot = (brightness(board(), slope(0, y)) for y in (-0.6, 0.6))
     assert (shades[:, :2] == round(top * 255)).all() and (shades[:, 2:] == round(foot * 255)).all()
-    # A coat without a map paints over the relief and leaves it as it is.
-    (model,) = relieved(scene_of(board(), lower, Coat(half, (255, 0, 0)))).models
-    texels = model.looks[0].coats[0].texels
+    # A layer without a map paints over the relief and leaves it as it is.
+    (model,) = relieved(scene_of(board(), lower, TextureLayer(half, (255, 0, 0)))).models
+    texels = model.materials[0].layers[0].texels
     assert (texels[..., 0] == round(top * 255)).all() and (texels[:, 2:, 1:3] == 0).all()
 
 
 def test_every_member_of_a_batch_is_lit_by_itself() -> None:
     meshes = [turn(board(), degrees) for degrees in (0, 20, 50)]
-    look = Look((Coat(WHITE, normal=slope(0.5, -0.3)),))
+    material = Material((TextureLayer(WHITE, normal=slope(0.5, -0.3)),))
     batch = replace(
         meshes[0],
         positions=np.stack([mesh.positions for mesh in meshes]),
         normals=np.stack([mesh.normals for mesh in meshes]),
     )
-    scene = replace(scene_of(board(), Coat(WHITE)), models=(Model(batch, (look,)),))
+    scene = replace(scene_of(board(), TextureLayer(WHITE)), models=(Model(batch, (material,)),))
     (model,) = relieved(scene).models
-    assert model.look_index is not None and model.look_index.tolist() == [0, 1, 2]
-    for member, worn in zip(meshes, model.looks, strict=True):
-        assert worn.coats[0].texels[0, 0, 0] == round(brightness(member, slope(0.5, -0.3)) * 255)
+    assert model.material_index is not None and model.material_index.tolist() == [0, 1, 2]
+    for member, worn in zip(meshes, model.materials, strict=True):
+        assert worn.layers[0].texels[0, 0, 0] == round(brightness(member, slope(0.5, -0.3)) * 255)
 
 
 def test_maps_of_other_sizes_are_sampled_to_the_nearest() -> None:
     fine = np.kron(LEVEL[:2, :2], np.ones((8, 8, 1), np.uint8))
     fine[:, 8:] = slope(0, -0.6)[0, 0]
-    (model,) = relieved(scene_of(board(), Coat(WHITE, normal=fine))).models
-    texels = model.looks[0].coats[0].texels
+    (model,) = relieved(scene_of(board(), TextureLayer(WHITE, normal=fine))).models
+    texels = model.materials[0].layers[0].texels
     assert texels.shape == (16, 16, 4)
     assert len(np.unique(texels[:, :8])) == 2 and (texels[0, 8] > texels[0, 7]).any()
 

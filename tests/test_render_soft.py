@@ -17,28 +17,33 @@ from drapery.mesh import Mesh, vertex_normals
 from drapery.render import soft
 from drapery.render.camera import Camera, clip_matrix
 from drapery.render.light import UNLIT
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 
 RED, GREEN = painted(255, 0, 0, 255), painted(0, 255, 0, 255)
 
 
 def medley(seed: int = 0, count: int = 400) -> Scene:
-    """A bit of everything: coats, holes, veils, light, near and far, before and behind."""
+    """A bit of everything: layers, holes, veils, light, near and far, before and behind."""
     random = np.random.default_rng(seed)
-    looks = (
-        Look((Coat(noise(1, 16, 16), (200, 30, 90)), Coat(noise(2, 32, 32), (10, 200, 250)))),
-        Look((Coat(noise(3, 8, 8)),), "cutout"),
-        Look((Coat(noise(4, 5, 7)),), "blend"),
+    materials = (
+        Material(
+            (
+                TextureLayer(noise(1, 16, 16), (200, 30, 90)),
+                TextureLayer(noise(2, 32, 32), (10, 200, 250)),
+            )
+        ),
+        Material((TextureLayer(noise(3, 8, 8)),), "cutout"),
+        Material((TextureLayer(noise(4, 5, 7)),), "blend"),
     )
     middles = random.uniform((-3, -2, -8), (3, 2, 3), (3, count, 1, 1, 3))
     sizes = random.choice([0.05, 0.3, 2.0], (3, count, 1, 1, 1))
     points = middles + sizes * random.normal(size=(3, count, 1, 3, 3))
     models = []
-    for corners, look in zip(points, looks, strict=True):
+    for corners, material in zip(points, materials, strict=True):
         shape = soup(corners[:, 0], random.random((3 * count, 2)))
         normals = vertex_normals(shape.positions, shape.triangles)
-        models.append(Model(replace(shape, normals=normals), (look,)))
+        models.append(Model(replace(shape, normals=normals), (material,)))
     return Scene(tuple(models), Camera((0.5, 0.3, 4), (0, 0, 0)), (320, 200))
 
 
@@ -56,8 +61,10 @@ def many_sheets() -> Scene:
     )
     sheet = mesh(points, triangles, (points[:, :2] + 1) / 2)
     sheet = replace(sheet, normals=vertex_normals(sheet.positions, sheet.triangles))
-    look = Look((Coat(noise(5, 64, 64)), Coat(noise(6, 64, 64), (1, 99, 200))))
-    return Scene((Model(sheet, (look,)),), Camera((1, 1, 3), (0, 0, 0)), (333, 222))
+    material = Material(
+        (TextureLayer(noise(5, 64, 64)), TextureLayer(noise(6, 64, 64), (1, 99, 200)))
+    )
+    return Scene((Model(sheet, (material,)),), Camera((1, 1, 3), (0, 0, 0)), (333, 222))
 
 
 @pytest.mark.parametrize("scene", [medley(), many_sheets()], ids=["medley", "sheet"])
@@ -112,15 +119,19 @@ def test_both_sides_of_a_sheet_are_drawn() -> None:
 
 
 def test_a_batch_is_the_same_as_its_members_one_by_one() -> None:
-    looks = (RED, GREEN, Look((Coat(noise(1, 8, 8)), Coat(noise(2, 16, 16), (9, 99, 199)))))
+    materials = (
+        RED,
+        GREEN,
+        Material((TextureLayer(noise(1, 8, 8)), TextureLayer(noise(2, 16, 16), (9, 99, 199)))),
+    )
     random = np.random.default_rng(0)
     one = quad()
     positions = (one.positions * 0.3 + random.uniform(-1, 1, (50, 1, 3))).astype(np.float32)
     normals = np.broadcast_to(one.normals, positions.shape)
     index = random.integers(0, 3, 50).astype(np.int32)
-    batch = Model(Mesh(positions, normals, one.triangles, one.uvs), looks, index)
+    batch = Model(Mesh(positions, normals, one.triangles, one.uvs), materials, index)
     loop = tuple(
-        Model(Mesh(positions[i], normals[i], one.triangles, one.uvs), (looks[index[i]],))
+        Model(Mesh(positions[i], normals[i], one.triangles, one.uvs), (materials[index[i]],))
         for i in range(50)
     )
     camera = Camera((1, 1, 4), (0, 0, 0))
@@ -153,7 +164,7 @@ def test_texture_and_light_go_on_through_a_cut() -> None:
     """A quad cut by the near plane looks in its remaining part as one that is not cut."""
     wall = quad(-1, -1, 1, 1)
     wall.positions[:, 2] = wall.positions[:, 0] * 3
-    model = Model(wall, (Look((Coat(noise(1, 16, 16)),)),))
+    model = Model(wall, (Material((TextureLayer(noise(1, 16, 16)),)),))
     camera = Camera((0, 0, 2), (0, 0, 0), fov=90, near=0.01)
     whole = draw_scene(Scene((model,), camera, (128, 128), UNLIT)).pixels
     cut = draw_scene(Scene((model,), replace(camera, near=1.0), (128, 128), UNLIT)).pixels
@@ -196,7 +207,9 @@ def test_lists_may_not_be_written_to() -> None:
         array.flags.writeable = False
     texels = noise(1, 4, 4)
     texels.flags.writeable = False
-    pixels = draw_scene(Scene((Model(shape, (Look((Coat(texels),)),)),), FACING, (8, 8))).pixels
+    pixels = draw_scene(
+        Scene((Model(shape, (Material((TextureLayer(texels),)),)),), FACING, (8, 8))
+    ).pixels
     assert (pixels[..., 3] == 255).all()
 
 
@@ -268,8 +281,8 @@ def test_many_frames_keep_the_memory_flat() -> None:
         pytest.skip("this system does not tell how much memory a process has")
 
     def frame(number: int) -> None:
-        look = Look((Coat(noise(number, 64, 64)), plain(9, 9, 9, number % 256)))
-        draw_scene(Scene((Model(quad(), (look,)),), FACING, (64 + number % 3, 64)))
+        material = Material((TextureLayer(noise(number, 64, 64)), plain(9, 9, 9, number % 256)))
+        draw_scene(Scene((Model(quad(), (material,)),), FACING, (64 + number % 3, 64)))
 
     for number in range(100):
         frame(number)

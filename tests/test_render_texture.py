@@ -7,16 +7,18 @@ from render_shapes import FACING, mesh, noise, plain, quad
 from drapery.render import flatten
 from drapery.render.camera import Camera, clip_matrix
 from drapery.render.light import UNLIT, Light
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.materials import MaterialTables
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
-from drapery.render.wardrobe import Wardrobe
 
 
-def drawn(*looks: Look, size: tuple[int, int] = (64, 64), **options: object) -> np.ndarray:
+def drawn(*materials: Material, size: tuple[int, int] = (64, 64), **options: object) -> np.ndarray:
     """A square that fills the picture, wearing looks one before the other."""
     aspect = size[0] / size[1]
-    squares = [quad(-aspect, -1, aspect, 1, 0.1 * i) for i in range(len(looks))]
-    models = tuple(Model(square, (look,)) for square, look in zip(squares, looks, strict=True))
+    squares = [quad(-aspect, -1, aspect, 1, 0.1 * i) for i in range(len(materials))]
+    models = tuple(
+        Model(square, (material,)) for square, material in zip(squares, materials, strict=True)
+    )
     scene = Scene(models, FACING, size, **{"light": UNLIT, **options})  # type: ignore[arg-type]
     return draw_scene(scene).pixels
 
@@ -26,7 +28,7 @@ def opaque(texels: np.ndarray) -> np.ndarray:
 
 
 def over(top: np.ndarray, tint: tuple[int, int, int], below: np.ndarray) -> np.ndarray:
-    """The definition of a coat on an opaque surface, in fractions without rounding errors."""
+    """The definition of a layer on an opaque surface, in fractions without rounding errors."""
     a = top[..., 3:].astype(int)
     src = (2 * top[..., :3].astype(int) * np.array(tint) + 255) // 510
     colour = (2 * (a * src + (255 - a) * below[..., :3].astype(int)) + 255) // 510
@@ -36,7 +38,7 @@ def over(top: np.ndarray, tint: tuple[int, int, int], below: np.ndarray) -> np.n
 @pytest.mark.parametrize("shape", [(1, 1), (4, 8), (16, 16), (64, 32), (3, 5)])
 def test_a_texture_seen_straight_is_enlarged_exactly(shape: tuple[int, int]) -> None:
     texels = noise(1, *shape)
-    pixels = drawn(Look((Coat(texels),)), size=(shape[1] * 7, shape[0] * 7))
+    pixels = drawn(Material((TextureLayer(texels),)), size=(shape[1] * 7, shape[0] * 7))
     assert (pixels == opaque(texels).repeat(7, 0).repeat(7, 1)).all()
 
 
@@ -47,7 +49,7 @@ def test_texture_coordinates_are_right_in_perspective() -> None:
     camera, size, texels = Camera((0.4, 0.2, 3), (0, 0, 0), fov=60), (200, 160), noise(2, 16, 16)
     surface = mesh(corners, [(0, 2, 1), (1, 2, 3)], [(0, 0), (1, 0), (0, 1), (1, 1)])
     pixels = draw_scene(
-        Scene((Model(surface, (Look((Coat(texels),)),)),), camera, size, UNLIT)
+        Scene((Model(surface, (Material((TextureLayer(texels),)),)),), camera, size, UNLIT)
     ).pixels
 
     x, y = np.meshgrid((np.arange(200) + 0.5) / 100 - 1, 1 - (np.arange(160) + 0.5) / 80)
@@ -83,7 +85,7 @@ def test_a_region_never_shows_its_neighbours() -> None:
     sheet[1:41, 1:21] = (255, 0, 0, 255)
     uvs = np.array([(1, 1), (21, 1), (1, 41), (21, 41)]) / 64
     corners = [(-1, 2, 0), (1, 2, 0), (-1, -2, 0), (1, -2, 0)]
-    flag = Model(mesh(corners, [(0, 2, 1), (1, 2, 3)], uvs), (Look((Coat(sheet),)),))
+    flag = Model(mesh(corners, [(0, 2, 1), (1, 2, 3)], uvs), (Material((TextureLayer(sheet),)),))
     random = np.random.default_rng(3)
     for distance in (1.5, 4, 30, 100):
         for direction in random.normal(size=(10, 3)):
@@ -97,7 +99,7 @@ def test_every_tint_of_every_texel_is_exact() -> None:
     texels = np.zeros((16, 16, 4), np.uint8)
     texels[..., :3] = np.arange(256, dtype=np.uint8).reshape(16, 16, 1)
     for tint in range(0, 256, 5):
-        pixels = drawn(Look((Coat(texels, (tint, 255 - tint, 128)),)), size=(16, 16))
+        pixels = drawn(Material((TextureLayer(texels, (tint, 255 - tint, 128)),)), size=(16, 16))
         exact = (2 * texels[..., :3].astype(int) * (tint, 255 - tint, 128) + 255) // 510
         assert (pixels[..., :3] == exact).all()
 
@@ -107,48 +109,52 @@ def test_every_tint_of_every_texel_is_exact() -> None:
 def test_stacks_are_laid_over_in_whole_numbers(
     seed: int, per_sample: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Whether coats are composited beforehand or at every sample, down to the last bit."""
+    """Whether layers are composited beforehand or at every sample, down to the last bit."""
     if per_sample:
         monkeypatch.setattr(flatten, "MAX_TEXELS", 0)
     random = np.random.default_rng(seed)
     sizes = random.choice([8, 16, 32, 64], 17)
-    coats = tuple(
-        Coat(noise(seed * 100 + i, n, n), tuple(random.integers(0, 256, 3)))
+    layers = tuple(
+        TextureLayer(noise(seed * 100 + i, n, n), tuple(random.integers(0, 256, 3)))
         for i, n in enumerate(sizes)
     )
     expected = over(
-        opaque(coats[0].texels), coats[0].tint, np.zeros((*coats[0].texels.shape[:2], 3))
+        opaque(layers[0].texels), layers[0].tint, np.zeros((*layers[0].texels.shape[:2], 3))
     )
     expected = expected.repeat(64 // sizes[0], 0).repeat(64 // sizes[0], 1)
-    for coat, n in zip(coats[1:], sizes[1:], strict=True):
-        expected = over(coat.texels.repeat(64 // n, 0).repeat(64 // n, 1), coat.tint, expected)
-    assert (drawn(Look(coats)) == expected).all()
+    for layer, n in zip(layers[1:], sizes[1:], strict=True):
+        expected = over(layer.texels.repeat(64 // n, 0).repeat(64 // n, 1), layer.tint, expected)
+    assert (drawn(Material(layers)) == expected).all()
 
 
 @pytest.mark.parametrize("alpha", ["opaque", "cutout", "blend"])
 def test_compositing_beforehand_changes_no_bit(alpha: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    coats = tuple(Coat(noise(i, n, n), (200, 90, 40 * i)) for i, n in enumerate((32, 8, 64)))
-    look = Look(coats, alpha)  # type: ignore[arg-type]
-    beforehand = drawn(look, background=(10, 200, 30, 77))
+    layers = tuple(
+        TextureLayer(noise(i, n, n), (200, 90, 40 * i)) for i, n in enumerate((32, 8, 64))
+    )
+    material = Material(layers, alpha)  # type: ignore[arg-type]
+    beforehand = drawn(material, background=(10, 200, 30, 77))
 
-    def leave(worn: Wardrobe) -> Wardrobe:
+    def leave(worn: MaterialTables) -> MaterialTables:
         return worn
 
     monkeypatch.setattr("drapery.render.soft.flattened", leave)
-    assert (drawn(look, background=(10, 200, 30, 77)) == beforehand).all()
+    assert (drawn(material, background=(10, 200, 30, 77)) == beforehand).all()
 
 
 def test_textures_whose_sizes_do_not_divide_one_another() -> None:
     below, above = noise(1, 6, 6), noise(2, 4, 4)
-    pixels = drawn(Look((Coat(below), Coat(above, (255, 255, 254)))), size=(12, 12))
+    pixels = drawn(
+        Material((TextureLayer(below), TextureLayer(above, (255, 255, 254)))), size=(12, 12)
+    )
     under = opaque(below).repeat(2, 0).repeat(2, 1)
     assert (pixels == over(above.repeat(3, 0).repeat(3, 1), (255, 255, 254), under)).all()
 
 
 def test_cutout_leaves_out_texels_under_one_half() -> None:
     texels = noise(7, 32, 32)
-    behind = Look((plain(1, 2, 3, 255),))
-    pixels = drawn(behind, Look((Coat(texels),), "cutout"), size=(32, 32))
+    behind = Material((plain(1, 2, 3, 255),))
+    pixels = drawn(behind, Material((TextureLayer(texels),), "cutout"), size=(32, 32))
     expected = np.where(texels[..., 3:] < 128, np.array([1, 2, 3, 255]), opaque(texels))
     assert (pixels == expected).all()
 
@@ -157,7 +163,7 @@ def test_cutout_leaves_out_texels_under_one_half() -> None:
 def test_what_blends_is_laid_over_what_is_behind_it(nearest_first: bool) -> None:
     back, middle, front = noise(8, 16, 16), noise(9, 16, 16), noise(10, 16, 16)
     worn = [(0.0, back, "opaque"), (1.0, middle, "blend"), (2.0, front, "blend")]
-    models = [Model(quad(z=z), (Look((Coat(t),), a),)) for z, t, a in worn]  # type: ignore[arg-type]
+    models = [Model(quad(z=z), (Material((TextureLayer(t),), a),)) for z, t, a in worn]  # type: ignore[arg-type]
     scene = Scene(tuple(models[::-1] if nearest_first else models), FACING, (16, 16), UNLIT)
     plain_tint = (255, 255, 255)
     expected = over(front, plain_tint, over(middle, plain_tint, opaque(back)))
@@ -165,20 +171,22 @@ def test_what_blends_is_laid_over_what_is_behind_it(nearest_first: bool) -> None
 
 
 def test_what_blends_hides_behind_what_is_solid() -> None:
-    solid = Model(quad(z=1), (Look((plain(9, 8, 7, 255),)),))
-    veil = Model(quad(z=0), (Look((plain(200, 0, 0, 99),), "blend"),))
+    solid = Model(quad(z=1), (Material((plain(9, 8, 7, 255),)),))
+    veil = Model(quad(z=0), (Material((plain(200, 0, 0, 99),), "blend"),))
     assert (draw_scene(Scene((solid, veil), FACING, (8, 8), UNLIT)).pixels == (9, 8, 7, 255)).all()
 
 
 def test_a_veil_keeps_its_own_colour_on_nothing_and_alphas_add_up() -> None:
-    veil = Look((plain(200, 100, 40, 60),), "blend")
+    veil = Material((plain(200, 100, 40, 60),), "blend")
     assert (drawn(veil) == (200, 100, 40, 60)).all()
     twice = drawn(veil, veil)[0, 0]
     assert tuple(twice) == (200, 100, 40, round(60 + 60 * (255 - 60) / 255))
 
 
 def test_background_shows_where_nothing_is() -> None:
-    scene = Scene((Model(quad(-1, -1, 0, 1), (Look((plain(5, 6, 7, 255),)),)),), FACING, (10, 10))
+    scene = Scene(
+        (Model(quad(-1, -1, 0, 1), (Material((plain(5, 6, 7, 255),)),)),), FACING, (10, 10)
+    )
     for background in ((0, 0, 0, 0), (12, 34, 56, 78), (90, 80, 70, 255)):
         scene = Scene(scene.models, FACING, (10, 10), UNLIT, background)
         pixels = draw_scene(scene).pixels
@@ -187,9 +195,9 @@ def test_background_shows_where_nothing_is() -> None:
 
 def test_light_multiplies_once_and_rounds() -> None:
     light = Light(((0, 0, 1),), 0.25, 0.5, tint=(1.0, 0.5, 0.25))
-    pixels = drawn(Look((plain(200, 201, 202, 255),)), light=light)
+    pixels = drawn(Material((plain(200, 201, 202, 255),)), light=light)
     assert (pixels[..., :3] == np.floor(np.array([200, 201 * 0.5, 202 * 0.25]) * 0.75 + 0.5)).all()
-    pixels = drawn(Look((plain(200, 201, 202, 255),), lit=False), light=light)
+    pixels = drawn(Material((plain(200, 201, 202, 255),), lit=False), light=light)
     assert (pixels[..., :3] == (200, 201, 202)).all()
 
 

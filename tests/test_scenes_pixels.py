@@ -9,7 +9,7 @@ from drapery.mesh import Array
 from drapery.scenes import cape_pixel, julia
 from drapery.scenes.catalogue import Shot, find
 from drapery.scenes.dots import Tweaks, dot_grid, step
-from drapery.style.block import FLAG_SKIN, SCALE
+from drapery.style.block import FLAG_MAPPING, SCALE
 from drapery.style.blocky import pixelled, stepped
 from drapery.style.hero import LEGS, sprite
 
@@ -161,7 +161,7 @@ def test_a_hanging_sheet_needs_no_steps() -> None:
 
 
 def test_snapped_texels_are_level_cubes_on_one_lattice() -> None:
-    mesh = pixelled(crumpled(), (6, 3), (20, 40), FLAG_SKIN, SCALE)
+    mesh = pixelled(crumpled(), (6, 3), (20, 40), FLAG_MAPPING, SCALE)
     cubes = mesh.positions.reshape(800, 24, 3)
     np.testing.assert_allclose(np.ptp(cubes, axis=1), SCALE)
     places = (cubes.mean(axis=1) - cubes[0].mean(axis=0)) / SCALE

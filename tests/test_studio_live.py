@@ -366,7 +366,9 @@ def test_a_finished_picture_is_hung_up_as_it_is() -> None:
     scene = replace(pane.scene, camera=pane.framing(1.0))
     width, height = scene.size
     assert width == height
-    assert np.array_equal(draw_scene(scene).pixels, pane.scene.models[0].looks[0].coats[0].texels)
+    assert np.array_equal(
+        draw_scene(scene).pixels, pane.scene.models[0].materials[0].layers[0].texels
+    )
 
 
 def an_app() -> Any:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from drapery.mesh import vertex_normals
-from drapery.style.block import FLAG_SKIN
+from drapery.style.block import FLAG_MAPPING
 from drapery.style.crowds import cover_crowd
 from drapery.style.extrusion import make_shell
 
@@ -22,7 +22,7 @@ def test_a_crowd_is_covered_as_each_sheet_alone() -> None:
     sheets = np.concatenate([uvs, uvs[:, :1]], axis=1) + random.normal(0, 0.05, (70, 45, 3))
     sheets[3] = 0  # without area: the normal is (0, 0, 1), not NaN
     sheets = sheets.astype(np.float32)
-    shell = make_shell(triangles, uvs, FLAG_SKIN)
+    shell = make_shell(triangles, uvs, FLAG_MAPPING)
     expected = shell.cover(sheets, vertex_normals(sheets, triangles), 0.04)
     crowd = cover_crowd(shell, sheets, 0.04)
     assert (crowd.positions == expected.positions).all()

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from drapery.mesh import Mesh, face_normals, vertex_normals
 from drapery.style.block import (
+    FLAG_MAPPING,
     FLAG_SIZE,
-    FLAG_SKIN,
     SCALE,
     flag_origin,
     stiff_flag,
@@ -58,14 +58,14 @@ def test_a_batch_is_its_members_one_by_one() -> None:
         sheets[0].triangles,
         sheets[0].uvs,
     )
-    thick = extrude(batch, 0.1, FLAG_SKIN)
-    for member, alone in enumerate(extrude(s, 0.1, FLAG_SKIN) for s in sheets):
+    thick = extrude(batch, 0.1, FLAG_MAPPING)
+    for member, alone in enumerate(extrude(s, 0.1, FLAG_MAPPING) for s in sheets):
         assert np.array_equal(thick.positions[member], alone.positions)
         assert np.array_equal(thick.normals[member], alone.normals)
 
 
 def test_every_part_of_the_flag_samples_its_own_region() -> None:
-    thick = extrude(sheet(5, 9), 0.04, FLAG_SKIN)
+    thick = extrude(sheet(5, 9), 0.04, FLAG_MAPPING)
     texels = thick.uvs * 64
     front, back, rim = texels[:45], texels[45:90], texels[90:].reshape(-1, 4, 2)
     assert front.min(0).tolist() == [1, 1] and front.max(0).tolist() == [21, 41]
@@ -83,7 +83,7 @@ def test_every_part_of_the_flag_samples_its_own_region() -> None:
 def test_texels_run_on_around_the_corners() -> None:
     """At the border of the front the rim's front corners have the front's own UVs."""
     thin = sheet(5, 9)
-    thick = extrude(thin, 0.04, FLAG_SKIN)
+    thick = extrude(thin, 0.04, FLAG_MAPPING)
     edges = boundary_edges(thin.triangles)
     rim = thick.uvs[90:].reshape(-1, 4, 2) * 64
     for (start, end), corners in zip(edges, rim, strict=True):

@@ -42,6 +42,6 @@ def cost_of(variant: Variant) -> Cost:
 
 
 def quads(scene: Scene) -> int:
-    """Textured quads in a scene: two triangles each, once for every coat."""
-    triangles = sum(len(m.mesh.triangles) * len(m.looks[0].coats) for m in scene.models)
+    """Textured quads in a scene: two triangles each, once for every layer."""
+    triangles = sum(len(m.mesh.triangles) * len(m.materials[0].layers) for m in scene.models)
     return triangles // 2

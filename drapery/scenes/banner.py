@@ -10,11 +10,19 @@ from drapery.cloth import Gravity, Wind
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
-from drapery.scenes.banners import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
+from drapery.scenes.banners import (
+    Stand,
+    flag_cloth,
+    flag_materials,
+    flag_shell,
+    flags,
+    hung,
+    wooden,
+)
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.moving import motion
 from drapery.style.block_world import blocks, plateau
-from drapery.style.stage import SKY, shadow
+from drapery.style.scenery import SKY, shadow
 
 FRONT = View(azimuth=20, elevation=9, fov=28)
 STANDS = (Stand((-1.8, 0, -0.5)), Stand((-0.5, 0, -0.5)), Stand((0.8, 0, -0.5)))
@@ -65,7 +73,7 @@ def _flag(
     parameters: Parameters, stand: Stand, design: str, shape: tuple[int, int], shot: Shot
 ) -> Iterator[Model]:
     cloth = flag_cloth(shape)
-    shell, looks = flag_shell(cloth), flag_looks((design,), open_packs(()))
+    shell, materials = flag_shell(cloth), flag_materials((design,), open_packs(()))
     velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
     wind = Wind(velocity, gusts=0.5, seed=parameters.seed, period=LOOP)
     states = motion(
@@ -76,7 +84,7 @@ def _flag(
         settle=SETTLING,
         step=1 / 60,
     )
-    return (flags(shell, state, looks, parameters.thickness) for state in states)
+    return (flags(shell, state, materials, parameters.thickness) for state in states)
 
 
 def _room() -> Array:

@@ -9,11 +9,11 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.cloth import Cloth, State, grid
 from drapery.mesh import Mesh
-from drapery.render.scene import Look, Model
-from drapery.style.block import FLAG_SIZE, FLAG_SKIN, SCALE, Placement, flag_origin, turn, wood
+from drapery.render.scene import Material, Model
+from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE, Placement, flag_origin, turn, wood
 from drapery.style.board import moved
 from drapery.style.extrusion import Shell, make_shell
-from drapery.style.layers import flag_look, wood_look
+from drapery.style.layers import flag_material, wood_material
 from drapery.style.tailoring import garment
 
 
@@ -33,7 +33,7 @@ def flag_cloth(shape: tuple[int, int]) -> Cloth:
 
 def flag_shell(cloth: Cloth) -> Shell:
     """How a flag's thick, textured shell follows the flag."""
-    return make_shell(cloth.triangles, cloth.uvs, FLAG_SKIN)
+    return make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING)
 
 
 def hung(cloth: Cloth, stands: Sequence[Stand]) -> State:
@@ -52,21 +52,23 @@ def wooden(stands: Sequence[Stand], packs: Packs) -> Model:
         meshes[0].triangles,
         meshes[0].uvs,
     )
-    return Model(mesh, (wood_look(packs),))
+    return Model(mesh, (wood_material(packs),))
 
 
-def flag_looks(designs: Sequence[str], packs: Packs) -> tuple[Look, ...]:
+def flag_materials(designs: Sequence[str], packs: Packs) -> tuple[Material, ...]:
     """What flags of these designs wear. Raises FormatError or PackError."""
-    return tuple(flag_look(Banner.parse(design), packs) for design in designs)
+    return tuple(flag_material(Banner.parse(design), packs) for design in designs)
 
 
-def flags(shell: Shell, state: State, looks: tuple[Look, ...], thickness: float = 1.0) -> Model:
+def flags(
+    shell: Shell, state: State, materials: tuple[Material, ...], thickness: float = 1.0
+) -> Model:
     """The flags of a state; the looks go round. thickness: in texels.
 
     Give every frame the same looks: the renderer knows by identity what it has prepared.
     """
-    index = np.arange(len(state.positions), dtype=np.int32) % len(looks)
-    return garment(shell, state.positions, thickness * SCALE, *looks, index=index)
+    index = np.arange(len(state.positions), dtype=np.int32) % len(materials)
+    return garment(shell, state.positions, thickness * SCALE, *materials, index=index)
 
 
 def _sheet(cloth: Cloth, stand: Stand) -> Mesh:

@@ -9,16 +9,16 @@ from drapery.banner.packs import open_packs
 from drapery.cloth import Gravity, Wind
 from drapery.errors import OptionError
 from drapery.mesh import Array
-from drapery.render.scene import Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene
 from drapery.render.views import View, frame_points
-from drapery.scenes.banners import Stand, flag_cloth, flag_looks, flag_shell, hung, wooden
+from drapery.scenes.banners import Stand, flag_cloth, flag_materials, flag_shell, hung, wooden
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.moving import motion
 from drapery.scenes.panels import Panels, panel_size
-from drapery.style.block import FLAG_SKIN, SCALE
+from drapery.style.block import FLAG_MAPPING, SCALE
 from drapery.style.block_world import blocks, plateau
 from drapery.style.blocky import pixelled, stepped
-from drapery.style.stage import SKY, shadow
+from drapery.style.scenery import SKY, shadow
 from drapery.style.tailoring import garment
 
 STAND = Stand((-0.5, 0, -0.5))
@@ -49,7 +49,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
     packs = open_packs(())
     count = 2 if parameters.pixel_snap else 1
     size = panel_size(shot.size, 2, count)
-    cloth, looks = flag_cloth(parameters.grid), flag_looks((parameters.design,), packs)
+    cloth, materials = flag_cloth(parameters.grid), flag_materials((parameters.design,), packs)
     shell, shape = flag_shell(cloth), (parameters.grid[1], parameters.grid[0])
     still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wooden((STAND,), packs))
     camera = frame_points(SIDE_ON, _room(), size[0] / size[1], margin=0.05)
@@ -60,17 +60,17 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
     for state in motion(cloth, shot, forces=forces, start=start, settle=2 * LOOP, step=1 / 60):
         smooth = state.positions[0]
         few = stepped(smooth, shape, parameters.steps)
-        flags = [garment(shell, sheet, SCALE, *looks) for sheet in (smooth, few)]
+        flags = [garment(shell, sheet, SCALE, *materials) for sheet in (smooth, few)]
         if parameters.pixel_snap:
-            flags += [_pixels(sheet, shape, looks) for sheet in (smooth, few)]
+            flags += [_pixels(sheet, shape, materials) for sheet in (smooth, few)]
         scenes = tuple(
             Scene((*still, flag), camera, size, background=SKY, samples=4) for flag in flags
         )
         yield Panels(scenes, labels[: len(scenes)])
 
 
-def _pixels(sheet: Array, shape: tuple[int, int], looks: tuple[Look, ...]) -> Model:
-    return Model(pixelled(sheet, shape, TEXELS, FLAG_SKIN, SCALE), looks)
+def _pixels(sheet: Array, shape: tuple[int, int], materials: tuple[Material, ...]) -> Model:
+    return Model(pixelled(sheet, shape, TEXELS, FLAG_MAPPING, SCALE), materials)
 
 
 def _room() -> Array:

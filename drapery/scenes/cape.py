@@ -9,14 +9,14 @@ from drapery.banner.packs import open_packs
 from drapery.cloth import Cloth, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.cloth.collisions import Collisions
-from drapery.render.scene import Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
 from drapery.scenes.moving import motion, placed
 from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.extrusion import Shell, make_shell
-from drapery.style.figure import CAPE_SIZE, CAPE_SKIN, TEXEL, figure_look
-from drapery.style.stage import SKY
+from drapery.style.figure import CAPE_MAPPING, CAPE_SIZE, TEXEL, figure_material
+from drapery.style.scenery import SKY
 from drapery.style.tailoring import dyed, garment
 
 SETTLING = LOOP
@@ -42,7 +42,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     packs = open_packs(())
     gait, cloth = Gait(parameters.speed), cape_cloth(parameters.grid)
     shell, wool = cape_shell(cloth), dyed(packs.texture("entity/player/cape"), parameters.dye)
-    skin, causeway = figure_look(parameters.skin, packs), ground(packs)
+    skin, causeway = figure_material(parameters.skin, packs), ground(packs)
     for state in walk(parameters, cloth, gait, shot):
         models = (
             *walker(gait, state.time, skin, causeway),
@@ -51,14 +51,14 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
         yield Scene(models, camera(shot.size), shot.size, background=SKY, samples=4)
 
 
-def worn(shell: Shell, state: State, thickness: float, wool: Look) -> Model:
+def worn(shell: Shell, state: State, thickness: float, wool: Material) -> Model:
     """The cape of a state; its thickness in texels."""
     return garment(shell, state.positions[0], thickness * TEXEL, wool)
 
 
 def cape_shell(cloth: Cloth) -> Shell:
     """How a thick cape follows the cloth."""
-    return make_shell(cloth.triangles, cloth.uvs, CAPE_SKIN)
+    return make_shell(cloth.triangles, cloth.uvs, CAPE_MAPPING)
 
 
 def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterator[State]:

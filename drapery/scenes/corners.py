@@ -18,7 +18,7 @@ from drapery.scenes.catalogue import Shot
 from drapery.scenes.moving import motion, placed
 from drapery.style.block_world import blocks, plateau
 from drapery.style.extrusion import make_shell
-from drapery.style.stage import SKY, post
+from drapery.style.scenery import SKY, post
 from drapery.style.tailoring import checked, garment
 
 SIDE, HEIGHT = 2.0, 2.4

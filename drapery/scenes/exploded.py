@@ -6,10 +6,10 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import flag_layers
 from drapery.mesh import Mesh
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.views import frame_view
 from drapery.settings import Settings, background_colour
-from drapery.style.block import FLAG_SIZE, FLAG_SKIN
+from drapery.style.block import FLAG_MAPPING, FLAG_SIZE
 
 GAP = 0.6
 """Distance between two layers [m]."""
@@ -19,9 +19,12 @@ def apart(banner: Banner, packs: Packs, settings: Settings) -> Scene:
     """The layers in a row, the lowest at the back. Raises PackError."""
     cloth, base, *layers = flag_layers(banner, packs)
     # Cloth and base dye are one sheet: nobody sees the cloth alone.
-    ground = Look(tuple(Coat(texels, tint) for texels, tint in (cloth, base)))
-    looks = [ground, *(Look((Coat(texels, tint),), "blend") for texels, tint in layers)]
-    models = tuple(Model(_sheet(GAP * i), (look,)) for i, look in enumerate(looks))
+    ground = Material(tuple(TextureLayer(texels, tint) for texels, tint in (cloth, base)))
+    materials = [
+        ground,
+        *(Material((TextureLayer(texels, tint),), "blend") for texels, tint in layers),
+    ]
+    models = tuple(Model(_sheet(GAP * i), (material,)) for i, material in enumerate(materials))
     corners = np.concatenate([model.mesh.positions for model in models])
     width, height = settings.size
     camera = frame_view(settings.view, corners, width / height)
@@ -37,5 +40,5 @@ def _sheet(depth: float) -> Mesh:
     )
     normals = np.broadcast_to([0.0, 0.0, 1.0], (4, 3)).copy()
     return Mesh(
-        positions, normals, np.array([[0, 2, 1], [1, 2, 3]], np.int32), FLAG_SKIN.front(uvs)
+        positions, normals, np.array([[0, 2, 1], [1, 2, 3]], np.int32), FLAG_MAPPING.front(uvs)
     )

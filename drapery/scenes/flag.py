@@ -10,12 +10,12 @@ from drapery.cloth import Cloth, Drag, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.render.camera import Camera
 from drapery.render.scene import Scene
-from drapery.scenes.banners import flag_looks, flag_shell
+from drapery.scenes.banners import flag_materials, flag_shell
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.moving import motion, placed
 from drapery.style.block import FLAG_SIZE, SCALE
 from drapery.style.block_world import Cell, blocks
-from drapery.style.stage import SKY, post
+from drapery.style.scenery import SKY, post
 from drapery.style.tailoring import garment
 
 LOOP = 4.0
@@ -45,11 +45,11 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     """The tower on its hill; only the flag moves."""
     packs = open_packs(())
     cloth = banner_on_its_side(parameters.grid)
-    shell, looks = flag_shell(cloth), flag_looks((parameters.design,), packs)
+    shell, materials = flag_shell(cloth), flag_materials((parameters.design,), packs)
     still = (*blocks(_hill(), packs), post(FOOT, POLE, packs, 0.12))
     for state in flown(parameters, cloth, shot):
         sheet = state.positions[0]
-        flag = garment(shell, sheet, parameters.thickness * SCALE * GROWN, *looks)
+        flag = garment(shell, sheet, parameters.thickness * SCALE * GROWN, *materials)
         yield Scene((*still, flag), _camera(), shot.size, background=SKY, samples=4)
 
 

@@ -55,14 +55,14 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
     for states in zip(*motions, strict=True):
         pictures = tuple(
             Scene(
-                wired(cloth, state.positions[0], camera, size[1], look),
+                wired(cloth, state.positions[0], camera, size[1], material),
                 camera,
                 size,
                 DAYLIGHT,
                 PAPER,
                 samples=4,
             )
-            for state, (_, look) in zip(states, ways, strict=True)
+            for state, (_, material) in zip(states, ways, strict=True)
         )
         yield Panels(pictures, ("as printed", "right sign"))
 

@@ -27,7 +27,7 @@ from drapery.style.block_world import blocks, plateau
 from drapery.style.creature import CUBE, cells_of, fox
 from drapery.style.extrusion import make_shell
 from drapery.style.insect import Beetle, beetle
-from drapery.style.stage import SKY, moved
+from drapery.style.scenery import SKY, moved
 from drapery.style.tailoring import checked, garment
 
 ABOVE = View(azimuth=22, elevation=20, fov=28)
@@ -57,7 +57,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     still = (*blocks(plateau(4, 3), packs), *insect.models, *_small(cubes))
     veil = contact_shadow(still[-len(insect.models) - len(cubes) :], 0.0)
     wool = packs.texture("block/white_wool")
-    looks = [checked(wool, dyes) for dyes in (("lime", "white"), ("light_blue", "white"))]
+    materials = [checked(wool, dyes) for dyes in (("lime", "white"), ("light_blue", "white"))]
     cloths = (sheet(parameters, BEETLE_AT), sheet(parameters, FOX_AT))
     met = (insect_colliders(parameters, insect), fox_colliders(parameters))
     shell = make_shell(cloths[0].triangles, cloths[0].uvs)
@@ -65,8 +65,8 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     motions = [fall(parameters, *pair, shot) for pair in zip(cloths, met, strict=True)]
     for states in zip(*motions, strict=True):
         fallen = tuple(
-            garment(shell, state.positions[0], parameters.thickness, look)
-            for state, look in zip(states, looks, strict=True)
+            garment(shell, state.positions[0], parameters.thickness, material)
+            for state, material in zip(states, materials, strict=True)
         )
         yield Scene((*still, veil, *fallen), camera, shot.size, background=SKY, samples=4)
 

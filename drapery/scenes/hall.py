@@ -14,7 +14,15 @@ from drapery.mesh import Array
 from drapery.render.camera import Camera
 from drapery.render.light import Light
 from drapery.render.scene import Scene
-from drapery.scenes.banners import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
+from drapery.scenes.banners import (
+    Stand,
+    flag_cloth,
+    flag_materials,
+    flag_shell,
+    flags,
+    hung,
+    wooden,
+)
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.moving import motion
 from drapery.style.block import SCALE
@@ -75,10 +83,10 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     """Seen from the door."""
     packs = open_packs(())
     cloth = flag_cloth(parameters.grid)
-    shell, looks = flag_shell(cloth), flag_looks(DESIGNS, packs)
+    shell, materials = flag_shell(cloth), flag_materials(DESIGNS, packs)
     still = (*blocks(_walls(), packs), wooden(stands(), packs))
     for state in blown(parameters, cloth, shot):
-        models = (*still, flags(shell, state, looks))
+        models = (*still, flags(shell, state, materials))
         yield Scene(models, _camera(), shot.size, TORCHLIGHT, (206, 226, 246, 255), samples=4)
 
 

@@ -21,7 +21,7 @@ from drapery.scenes.moving import motion, placed
 from drapery.scenes.wind_script import Setting, parse_script, read_script
 from drapery.style.block_world import Cell, blocks
 from drapery.style.extrusion import make_shell
-from drapery.style.stage import SKY, beam, post, sea
+from drapery.style.scenery import SKY, beam, post, sea
 from drapery.style.tailoring import checked, garment
 
 SIDE, SLACK = 2.6, 0.9

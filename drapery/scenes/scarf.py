@@ -11,15 +11,15 @@ from drapery.banner.sprites import tint
 from drapery.cloth import Cloth, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.cloth.collisions import Collisions
-from drapery.render.scene import Coat, Look, Model, Scene, Texels
+from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
 from drapery.scenes.moving import motion, placed
 from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.boxes import Box, box_mesh, upright
 from drapery.style.extrusion import make_shell
-from drapery.style.figure import TEXEL, figure_look
-from drapery.style.stage import SKY, moved
+from drapery.style.figure import TEXEL, figure_material
+from drapery.style.scenery import SKY, moved
 from drapery.style.tailoring import garment
 
 SQUARE = 4 * TEXEL
@@ -50,18 +50,20 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     squares = [_texels(name, packs) for name in parameters.blocks.split()] or [
         _texels("red", packs)
     ]
-    skin, causeway = figure_look(parameters.skin, packs), ground(packs)
-    collar = Model(upright(box_mesh(COLLAR, (36, 16)), TEXEL, (0, 0, 0)), (_collar_look(squares),))
+    skin, causeway = figure_material(parameters.skin, packs), ground(packs)
+    collar = Model(
+        upright(box_mesh(COLLAR, (36, 16)), TEXEL, (0, 0, 0)), (_collar_material(squares),)
+    )
     cloths = [tail(*place) for place in TAILS]
     shells = [make_shell(cloth.triangles, cloth.uvs) for cloth in cloths]
-    looks = [_look(squares, count) for _, count in TAILS]
+    materials = [_material(squares, count) for _, count in TAILS]
     motions = [streaming(parameters, cloth, gait, shot) for cloth in cloths]
     view = camera(shot.size, tail=1.3)
     for states in zip(*motions, strict=True):
         time = states[0].time
         tails = (
-            garment(shell, state.positions[0], parameters.thickness * TEXEL, look)
-            for shell, state, look in zip(shells, states, looks, strict=True)
+            garment(shell, state.positions[0], parameters.thickness * TEXEL, material)
+            for shell, state, material in zip(shells, states, materials, strict=True)
         )
         neck = moved((collar,), np.array([0, gait.lift(time), 0]))
         models = (*walker(gait, time, skin, causeway), *neck, *tails)
@@ -97,13 +99,13 @@ def _texels(name: str, packs: Packs) -> Texels:
     return packs.texture(f"block/{name}")
 
 
-def _look(squares: list[Texels], count: int) -> Look:
+def _material(squares: list[Texels], count: int) -> Material:
     """Squares below one another, `count` of them."""
     column = [squares[place % len(squares)] for place in range(count)]
-    return Look((Coat(np.ascontiguousarray(np.vstack(column))),))
+    return Material((TextureLayer(np.ascontiguousarray(np.vstack(column))),))
 
 
-def _collar_look(squares: list[Texels]) -> Look:
+def _collar_material(squares: list[Texels]) -> Material:
     """The unfolded collar, 36 x 16 texels, cut from the first square."""
     wool = np.tile(squares[0][:16, :16], (1, 3, 1))
-    return Look((Coat(np.ascontiguousarray(wool[:, :36])),))
+    return Material((TextureLayer(np.ascontiguousarray(wool[:, :36])),))

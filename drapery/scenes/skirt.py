@@ -14,15 +14,15 @@ from drapery.cloth.collisions import Collisions
 from drapery.cloth.exact import sine_of_turns
 from drapery.errors import OptionError
 from drapery.mesh import vertex_normals
-from drapery.render.scene import Coat, Look, Model, Scene, Texels
+from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
 from drapery.scenes.moving import motion
 from drapery.scenes.stroll import BEFORE, camera, ground, walker
 from drapery.style.extrusion import Shell, make_shell
-from drapery.style.figure import TEXEL, figure_look
-from drapery.style.skin import BoxSkin
-from drapery.style.stage import SKY
+from drapery.style.figure import TEXEL, figure_material
+from drapery.style.scenery import SKY
+from drapery.style.uv_mapping import BoxMapping
 
 WAIST, HEM = 13.0, 5.0
 """Heights [texels]."""
@@ -32,7 +32,7 @@ SQUARE = 4.0
 """Exponent of its outline: 2 is an ellipse, more is squarer, as bodies of boxes are."""
 BODY = ("body", "right_leg", "left_leg")
 SIDES = ("outside", "inside", "hem")
-SKIN = BoxSkin(
+SKIN = BoxMapping(
     front_rect=(0.0, 0.0, 0.5, 1.0),
     back_rect=(0.5, 0.0, 1.0, 1.0),
     left=(0.0, 0.9, 0.1, 1.0),
@@ -67,11 +67,11 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     """Seen from before."""
     packs, gait = open_packs(()), Gait(parameters.speed)
     cloth = skirt_cloth(parameters)
-    shell, look = skirt_shell(parameters), skirt_look(parameters, packs)
-    skin, causeway = figure_look(parameters.skin, packs), ground(packs)
+    shell, material = skirt_shell(parameters), skirt_material(parameters, packs)
+    skin, causeway = figure_material(parameters.skin, packs), ground(packs)
     view = camera(shot.size, BEFORE, tail=0.6)
     for state in walk(parameters, cloth, gait, shot):
-        worn = dressed(parameters, cloth, shell, state, look)
+        worn = dressed(parameters, cloth, shell, state, material)
         models = (*walker(gait, state.time, skin, causeway), worn)
         yield Scene(models, view, shot.size, background=SKY, samples=4)
 
@@ -120,7 +120,9 @@ def skirt_shell(parameters: Parameters) -> Shell:
     return make_shell(_triangles(parameters.rows, parameters.panels + 1), uvs, SKIN)
 
 
-def dressed(parameters: Parameters, cloth: Cloth, shell: Shell, state: State, look: Look) -> Model:
+def dressed(
+    parameters: Parameters, cloth: Cloth, shell: Shell, state: State, material: Material
+) -> Model:
     """The skirt of a state. The normals are those of the closed ring, so the cut is not seen."""
     panels = parameters.panels
     index = np.arange((parameters.rows + 1) * panels).reshape(-1, panels)
@@ -128,10 +130,10 @@ def dressed(parameters: Parameters, cloth: Cloth, shell: Shell, state: State, lo
     sheet = state.positions[0]
     normals = vertex_normals(sheet, cloth.triangles)
     thick = shell.cover(sheet[opened], normals[opened], parameters.thickness * TEXEL)
-    return Model(thick, (look,))
+    return Model(thick, (material,))
 
 
-def skirt_look(parameters: Parameters, packs: Packs) -> Look:
+def skirt_material(parameters: Parameters, packs: Packs) -> Material:
     """Pleats outside, a plain lining inside, a band of trim at the hem. Raises OptionError."""
     named = parameters.sides.split()
     for side in named:
@@ -145,7 +147,9 @@ def skirt_look(parameters: Parameters, packs: Packs) -> Look:
     outside[..., 3] = 255 * ("outside" in named)
     inside[..., 3] = 255 * ("inside" in named)
     outside[-2:, :, 3] = 255 * ("hem" in named or "outside" in named)
-    return Look((Coat(np.ascontiguousarray(np.concatenate([outside, inside], axis=1))),), "cutout")
+    return Material(
+        (TextureLayer(np.ascontiguousarray(np.concatenate([outside, inside], axis=1))),), "cutout"
+    )
 
 
 def _dyed(wool: Texels, dye: str) -> Texels:

@@ -101,12 +101,16 @@ def _scenes(
     parts = [_turned(part.mesh, settings) for part in body.parts]
     cloths = [_turned(cloth, settings) for cloth in cloths]
     points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in (*parts, *cloths)])
-    dresses = [part.dress for part in body.parts] + [panel.dress for panel in body.panels]
+    material_getters = [part.material_at for part in body.parts] + [
+        panel.material_at for panel in body.panels
+    ]
     cameras = _cameras(body, settings, points, len(times))
     floor = min(0.0, float(points[:, 1].min()))
     for frame, (time, camera) in enumerate(zip(times, cameras, strict=True)):
         meshes = [*parts, *(_moment(cloth, frame) for cloth in cloths)]
-        models = [Model(mesh, (at(time),)) for mesh, at in zip(meshes, dresses, strict=True)]
+        models = [
+            Model(mesh, (at(time),)) for mesh, at in zip(meshes, material_getters, strict=True)
+        ]
         if settings.shadow:
             models.insert(0, contact_shadow(models, floor))
         yield Scene(
@@ -172,7 +176,7 @@ def _dress(panel: Panel, settings: Settings, positions: Array) -> Mesh:
     cloth = _cloth(panel, settings)
     hung = positions + panel.origin
     normals = vertex_normals(hung, cloth.triangles)
-    shell = make_shell(cloth.triangles, cloth.uvs, panel.skin)
+    shell = make_shell(cloth.triangles, cloth.uvs, panel.uv_mapping)
     return shell.cover(hung, normals, settings.thickness * panel.texel)
 
 

@@ -12,14 +12,14 @@ from drapery.banner.packs import open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.cloth import Gravity, Wind, grid, rest_state, simulate
 from drapery.mesh import Array
-from drapery.render.scene import Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Shot
-from drapery.style.block import FLAG_SIZE, FLAG_SKIN, SCALE
+from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.crowds import cover_crowd
 from drapery.style.extrusion import make_shell
-from drapery.style.layers import flag_look
-from drapery.style.stage import SKY
+from drapery.style.layers import flag_material
+from drapery.style.scenery import SKY
 
 RAINBOW = (
     *("red", "orange", "yellow", "lime", "green", "cyan", "light_blue", "blue"),
@@ -49,14 +49,16 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     """The cube in a wind whose gusts travel through it."""
     cloth = grid(5, 9, *FLAG_SIZE)
     places = _places(parameters)
-    shell = make_shell(cloth.triangles, cloth.uvs, FLAG_SKIN)
-    looks = _looks(parameters)
-    look_index = _bands(parameters.side)
+    shell = make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING)
+    materials = _materials(parameters)
+    material_index = _bands(parameters.side)
     camera = frame_points(CORNER, places[:, None] + _room(), shot.size[0] / shot.size[1])
     for positions in _motion(parameters, shot, places):
         hung = (positions + places[:, None]).astype(np.float32)
         mesh = cover_crowd(shell, hung, SCALE)
-        yield Scene((Model(mesh, looks, look_index),), camera, shot.size, background=SKY, samples=4)
+        yield Scene(
+            (Model(mesh, materials, material_index),), camera, shot.size, background=SKY, samples=4
+        )
 
 
 def _motion(parameters: Parameters, shot: Shot, places: Array) -> Iterator[Array]:
@@ -93,12 +95,12 @@ def _bands(side: int) -> NDArray[np.int32]:
     return (VARIANTS * band + (x + 2 * y + z) % VARIANTS).astype(np.int32)
 
 
-def _looks(parameters: Parameters) -> tuple[Look, ...]:
+def _materials(parameters: Parameters) -> tuple[Material, ...]:
     """VARIANTS looks in each colour of the rainbow."""
     random = np.random.default_rng(parameters.seed)
     packs = open_packs(())
     return tuple(
-        flag_look(_any_banner(dye, random, parameters.layers), packs)
+        flag_material(_any_banner(dye, random, parameters.layers), packs)
         for dye in RAINBOW
         for _ in range(VARIANTS)
     )

@@ -4,11 +4,11 @@ import numpy as np
 
 from drapery.banner.packs import Packs
 from drapery.render.camera import Camera
-from drapery.render.scene import Look, Model
+from drapery.render.scene import Material, Model
 from drapery.render.views import View, frame_points
 from drapery.scenes.gait import Gait
 from drapery.style.figure import figure_mesh
-from drapery.style.stage import moved, path_ground, shadow
+from drapery.style.scenery import moved, path_ground, shadow
 
 BEHIND = View(azimuth=214, elevation=14, fov=26)
 BEFORE = View(azimuth=32, elevation=12, fov=26)
@@ -16,7 +16,9 @@ PERIOD = 10
 """Blocks after which the ground repeats: what is walked in a loop."""
 
 
-def walker(gait: Gait, time: float, skin: Look, causeway: tuple[Model, ...]) -> tuple[Model, ...]:
+def walker(
+    gait: Gait, time: float, skin: Material, causeway: tuple[Model, ...]
+) -> tuple[Model, ...]:
     """The figure at a time of its walk [s]."""
     passed = np.array([0.0, 0.0, -(gait.speed * time % PERIOD)])
     figure = Model(figure_mesh(gait.poses(time)), (skin,))

@@ -11,7 +11,15 @@ from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes import cape
-from drapery.scenes.banners import Stand, flag_cloth, flag_looks, flag_shell, flags, hung, wooden
+from drapery.scenes.banners import (
+    Stand,
+    flag_cloth,
+    flag_materials,
+    flag_shell,
+    flags,
+    hung,
+    wooden,
+)
 from drapery.scenes.catalogue import Shot
 from drapery.scenes.gait import LOOP, Gait
 from drapery.scenes.moving import motion
@@ -20,8 +28,8 @@ from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.block import stiff_flag
 from drapery.style.block_world import blocks, plateau
 from drapery.style.board import moved
-from drapery.style.figure import figure_look
-from drapery.style.stage import SKY, shadow
+from drapery.style.figure import figure_material
+from drapery.style.scenery import SKY, shadow
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
 from drapery.style.tailoring import dyed
 
@@ -53,7 +61,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
 def _banners(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple[Scene, Scene]]:
     size = panel_size(shot.size, 2, 2)
     still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wooden((STAND,), packs))
-    cloth, looks = flag_cloth((5, 9)), flag_looks((parameters.design,), packs)
+    cloth, materials = flag_cloth((5, 9)), flag_materials((parameters.design,), packs)
     shell = flag_shell(cloth)
     camera = frame_points(SIDE_ON, _banner_room(), size[0] / size[1], margin=0.06)
     velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
@@ -62,8 +70,8 @@ def _banners(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple
     states = motion(cloth, shot, forces=forces, start=start, settle=2 * LOOP, step=1 / 60)
     for frame, state in enumerate(states):
         board = stiff_flag("standing", sway_phase(parameters.block, frame / shot.fps))
-        stiff = Model(moved(board, np.array(STAND.cell)), looks)
-        soft = flags(shell, state, looks)
+        stiff = Model(moved(board, np.array(STAND.cell)), materials)
+        soft = flags(shell, state, materials)
         left, right = (
             Scene((*still, flag), camera, size, background=SKY, samples=4) for flag in (stiff, soft)
         )
@@ -75,7 +83,7 @@ def _capes(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple[S
     worn = cape.Parameters(dye=parameters.dye, speed=parameters.speed, seed=parameters.seed)
     gait, cloth = Gait(parameters.speed), cape.cape_cloth(worn.grid)
     shell, wool = cape.cape_shell(cloth), dyed(packs.texture("entity/player/cape"), worn.dye)
-    skin, causeway = figure_look(worn.skin, packs), ground(packs)
+    skin, causeway = figure_material(worn.skin, packs), ground(packs)
     view = camera(size)
     for frame, state in enumerate(cape.walk(worn, cloth, gait, shot)):
         stiff = Model(stiff_cape(cape_lean(parameters.speed, frame / shot.fps)), (wool,))
@@ -84,7 +92,7 @@ def _capes(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple[S
         figure = walker(gait, state.time, skin, causeway)
         left, right = (
             Scene((*figure, back), view, size, background=SKY, samples=4)
-            for back in (Model(lifted, stiff.looks), soft)
+            for back in (Model(lifted, stiff.materials), soft)
         )
         yield left, right
 

@@ -7,7 +7,7 @@ from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.camera import Camera
 from drapery.render.debug import edges_model, pins_model, springs_model
 from drapery.render.light import Light
-from drapery.render.scene import Coat, Look, Model
+from drapery.render.scene import Material, Model, TextureLayer
 
 PAPER = (246, 246, 244, 255)
 DAYLIGHT = Light(((0.4, 0.9, 0.7), (-0.6, 0.3, 0.4)), 0.62, 0.4)
@@ -16,9 +16,9 @@ LINE = 1.25
 """Width of an edge [pixels]."""
 
 
-def paper(colour: tuple[int, int, int]) -> Look:
+def paper(colour: tuple[int, int, int]) -> Material:
     """One plain colour."""
-    return Look((Coat(np.array([[[*colour, 255]]], np.uint8)),))
+    return Material((TextureLayer(np.array([[[*colour, 255]]], np.uint8)),))
 
 
 def wired(
@@ -26,7 +26,7 @@ def wired(
     positions: Array,
     camera: Camera,
     height: int,
-    look: Look | None = None,
+    material: Material | None = None,
     springs: bool = False,
 ) -> tuple[Model, ...]:
     """A cloth's edges, or all its springs by kind, and its pins; its faces in a look.
@@ -40,5 +40,5 @@ def wired(
         if springs
         else edges_model(sheet, camera, height, width=LINE)
     )
-    faces = () if look is None else (Model(sheet, (look,)),)
+    faces = () if material is None else (Model(sheet, (material,)),)
     return (*faces, lines, pins_model(positions, cloth.inv_mass, camera, height))

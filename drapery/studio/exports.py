@@ -55,9 +55,9 @@ def check(order: Order) -> None:
     from drapery.settings import one_of, whole
 
     one_of("kind", order.kind, KINDS)
-    one_of("view", order.look.view, tuple(VIEWS))
+    one_of("view", order.settings.view, tuple(VIEWS))
     whole("scale", order.scale, 1, MAX_SCALE, "pixels a texel")
-    width, height = order.look.size
+    width, height = order.settings.size
     frames = count_frames(order)
     if order.kind in LOOPS and width * height * frames > MAX_PIXELS:
         raise OptionError(
@@ -79,9 +79,9 @@ def _face(order: Order, path: Path, tell: Progress) -> None:
     from drapery.pictures import draw_face
 
     tell(0, 1)
-    look = options_for(order)
+    settings = options_for(order)
     banner = _banner(order)
-    face = draw_face(banner, packs=look.packs, format=look.format, scale=order.scale)
+    face = draw_face(banner, packs=settings.packs, format=settings.format, scale=order.scale)
     tell(1, 1)
     face.save(path)
 
@@ -102,11 +102,11 @@ def _model(order: Order, path: Path, tell: Progress) -> None:
     from drapery.render.export import check_model_target, save_model
     from drapery.scenes.staging import loop
 
-    total, look = count_frames(order), options_for(order)
+    total, settings = count_frames(order), options_for(order)
     tell(0, total)
     check_model_target(path)
-    packs = open_packs(look.packs, format=look.format)
-    scenes = loop(order.banner, packs, look, total, order.fps)
+    packs = open_packs(settings.packs, format=settings.format)
+    scenes = loop(order.banner, packs, settings, total, order.fps)
     save_model(_told(scenes, total, tell), path, fps=order.fps)
 
 

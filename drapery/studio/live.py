@@ -17,7 +17,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.camera import Camera
 from drapery.render.light import UNLIT, Light, lit_at
-from drapery.render.scene import Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.views import frame_view
 from drapery.scenes.staging import STEP
@@ -205,12 +205,12 @@ class Live:
         """What is seen at this moment."""
         meshes = [*self._parts, *map(self._drawn, self._sheets)]
         first = len(self._parts)
-        worn = [self._looks(self._body)]
+        worn = [self._materials(self._body)]
         if self._other is not None:
-            worn.append(self._looks(self._other))
+            worn.append(self._materials(self._other))
         panes = tuple(
-            Pane(self._scene(meshes, looks), self._framing(meshes), caption)
-            for looks, caption in zip(worn, self._captions, strict=True)
+            Pane(self._scene(meshes, materials), self._framing(meshes), caption)
+            for materials, caption in zip(worn, self._captions, strict=True)
         )
         under = int(self._settings.shadow)
         soft = self._settings.pose == "cloth"
@@ -222,9 +222,9 @@ class Live:
         asked = self._settings
         return asked.view, asked.kind, asked.placement, len(self._parts), self._cuts
 
-    def _scene(self, meshes: list[Mesh], looks: list[Look]) -> Scene:
+    def _scene(self, meshes: list[Mesh], materials: list[Material]) -> Scene:
         settings = self._settings
-        models = [Model(mesh, (look,)) for mesh, look in zip(meshes, looks, strict=True)]
+        models = [Model(mesh, (look,)) for mesh, look in zip(meshes, materials, strict=True)]
         if settings.shadow:
             models.insert(0, self._shadow_of(models))
         return Scene(
@@ -252,9 +252,11 @@ class Live:
             self._shadow = self.ticks, contact_shadow(models, floor)
         return self._shadow[1]
 
-    def _looks(self, body: Body) -> list[Look]:
-        dresses = [part.dress for part in body.parts] + [panel.dress for panel in body.panels]
-        return [dress(self.time) for dress in dresses]
+    def _materials(self, body: Body) -> list[Material]:
+        material_getters = [part.material_at for part in body.parts] + [
+            panel.material_at for panel in body.panels
+        ]
+        return [material_at(self.time) for material_at in material_getters]
 
     def _drawn(self, sheet: Sheet) -> Mesh:
         """The sheet as it is drawn: thick, in its place; the game's own where no cloth is asked."""
@@ -282,8 +284,14 @@ class Live:
             self._disturbed |= self.ticks > 0
             hanging = hang(weave) if old is None else rewoven(old.hanging, weave)
         cloth = hanging.whole
-        same = old is not None and old.panel.skin == panel.skin and old.hanging.whole is cloth
-        shell = old.shell if old and same else make_shell(cloth.triangles, cloth.uvs, panel.skin)
+        same = (
+            old is not None
+            and old.panel.uv_mapping == panel.uv_mapping
+            and old.hanging.whole is cloth
+        )
+        shell = (
+            old.shell if old and same else make_shell(cloth.triangles, cloth.uvs, panel.uv_mapping)
+        )
         return Sheet(panel, hanging, shell)
 
     def _move(self) -> None:

@@ -104,7 +104,12 @@ class Told:
         arrays = tuple(
             part
             for model in models
-            for part in (model.mesh.triangles, model.mesh.uvs, model.look_index, *model.looks)
+            for part in (
+                model.mesh.triangles,
+                model.mesh.uvs,
+                model.material_index,
+                *model.materials,
+            )
         )
         shapes = [model.mesh.positions.shape for model in models]
         return self._recent.get(arrays, shapes, lambda: topology(models))
@@ -120,10 +125,10 @@ class Told:
         return known
 
     def _scene(self, topology: Topology, shown: Shown, panes: list["_Drawn"]) -> bytes:
-        starts, looks = topology.vertex_start, np.zeros(len(topology.uvs), np.int32)
-        looks[topology.triangles] = topology.triangle_look[:, None]
-        worn = flattened(topology.wardrobe)
-        kinds = np.stack([worn.look_alpha, worn.look_lit], axis=1)
+        starts, materials = topology.vertex_start, np.zeros(len(topology.uvs), np.int32)
+        materials[topology.triangles] = topology.triangle_material[:, None]
+        worn = flattened(topology.material_tables)
+        kinds = np.stack([worn.material_alpha, worn.material_lit], axis=1)
         header = {
             "kind": "scene",
             "version": self._version,
@@ -137,10 +142,10 @@ class Told:
         arrays: dict[str, NDArray[Any]] = {
             "uvs": topology.uvs,
             "triangles": topology.triangles.astype(np.uint32),
-            "triangleLooks": topology.triangle_look,
-            "vertexLooks": looks,
-            "looks": np.concatenate([worn.look_coats, kinds], axis=1, dtype=np.int32),
-            "coats": np.concatenate([worn.coat_rects, worn.coat_tints], axis=1, dtype=np.int32),
+            "triangleLooks": topology.triangle_material,
+            "vertexLooks": materials,
+            "looks": np.concatenate([worn.material_layers, kinds], axis=1, dtype=np.int32),
+            "layers": np.concatenate([worn.layer_rects, worn.layer_tints], axis=1, dtype=np.int32),
             "atlas": worn.atlas,
         }
         return pack(header, arrays)
@@ -181,7 +186,11 @@ class Told:
         """On which vertices light falls, shape [V]."""
         if self._lit_of is None or self._lit_of[0] is not constant:
             shines = np.zeros(len(constant.uvs), np.bool_)
-            shines[constant.triangles[constant.wardrobe.look_lit[constant.triangle_look]]] = True
+            shines[
+                constant.triangles[
+                    constant.material_tables.material_lit[constant.triangle_material]
+                ]
+            ] = True
             self._lit_of = constant, shines
         return self._lit_of[1]
 
@@ -264,10 +273,13 @@ def _same(a: Topology | None, b: Topology) -> bool:
         return a is b
     pairs: list[tuple[NDArray[Any], NDArray[Any]]] = [
         (a.triangles, b.triangles),
-        (a.triangle_look, b.triangle_look),
+        (a.triangle_material, b.triangle_material),
         (a.uvs, b.uvs),
         (a.vertex_start, b.vertex_start),
     ]
-    worn = "look_coats", "look_alpha", "look_lit", "coat_rects", "coat_tints", "atlas"
-    pairs += [(getattr(a.wardrobe, name), getattr(b.wardrobe, name)) for name in worn]
+    worn = (
+        *("material_layers", "material_alpha", "material_lit"),
+        *("layer_rects", "layer_tints", "atlas"),
+    )
+    pairs += [(getattr(a.material_tables, name), getattr(b.material_tables, name)) for name in worn]
     return all(x is y or np.array_equal(x, y) for x, y in pairs)

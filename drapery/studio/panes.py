@@ -9,7 +9,7 @@ from drapery.mesh import Mesh
 from drapery.render.camera import Camera
 from drapery.render.frame import Frame
 from drapery.render.light import UNLIT
-from drapery.render.scene import Coat, Look, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.scenes.panels import Panels, Picture
 
 Framing = Callable[[float], Camera]
@@ -71,7 +71,7 @@ def _poster(frame: Frame) -> Scene:
     normals = np.tile(np.array([0, 0, 1], np.float32), (4, 1))
     uvs = np.array([(0, 0), (1, 0), (0, 1), (1, 1)], np.float64)
     mesh = Mesh(positions, normals, np.array([(0, 2, 1), (1, 2, 3)], np.int32), uvs)
-    look = Look((Coat(frame.pixels),), "blend", False)
+    look = Material((TextureLayer(frame.pixels),), "blend", False)
     return Scene((Model(mesh, (look,)),), _facing(frame, 1.0), (width, height), UNLIT)
 
 

@@ -90,7 +90,7 @@ def _arrays(picture: Picture) -> Iterator[Any]:
         for model in picture.models:
             mesh = model.mesh
             yield from (mesh.positions, mesh.normals, mesh.triangles, mesh.uvs)
-            yield from (coat.texels for look in model.looks for coat in look.coats)
+            yield from (layer.texels for look in model.materials for layer in look.layers)
     else:
         yield picture.pixels
 

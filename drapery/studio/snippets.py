@@ -35,7 +35,7 @@ class Order:
     """
 
     banner: Banner | None
-    look: Settings
+    settings: Settings
     kind: str = "png"
     seconds: float = 4.0
     fps: float = 20.0
@@ -49,8 +49,8 @@ def file_name(order: Order, stem: str = "banner") -> str:
 
 def options_for(order: Order) -> Settings:
     """The options that count for this kind of file; the others are at their default."""
-    look = order.look
-    return Settings(**{name: getattr(look, name) for name in _names(order)})
+    settings = order.settings
+    return Settings(**{name: getattr(settings, name) for name in _names(order)})
 
 
 def as_command(order: Order, called: Mapping[str, str] | None = None, stem: str = "banner") -> str:
@@ -108,7 +108,7 @@ def _timing(order: Order) -> dict[str, Any]:
         return {} if order.scale == 8 else {"scale": order.scale}
     if order.kind in STILLS:
         return {}
-    plain = Order(None, order.look)
+    plain = Order(None, order.settings)
     chosen = {"seconds": order.seconds, "fps": order.fps}
     return {name: value for name, value in chosen.items() if value != getattr(plain, name)}
 

@@ -178,7 +178,7 @@ class Stage:
         """What is to be seen now; None before there is anything. Not for the page's own loop."""
         with self._lock:
             if self._picture[0] != self.version:
-                self._picture = self.version, self._look()
+                self._picture = self.version, self._material()
             return self._picture[1]
 
     def _restart(self, live: Live) -> None:
@@ -187,7 +187,7 @@ class Stage:
             self._player.restart()
             self._player.step()
 
-    def _look(self) -> Shown | None:
+    def _material(self) -> Shown | None:
         if self._player is not None:
             return self._player.now
         return self._live.shown() if self._live is not None else None

@@ -11,7 +11,7 @@ import numpy as np
 from drapery.mesh import Array, Mesh
 from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.boxes import Box, box_mesh, join, upright
-from drapery.style.skin import box_skin
+from drapery.style.uv_mapping import box_mapping
 
 Placement = Literal["standing", "wall"]
 
@@ -21,7 +21,7 @@ SCALE = 2.0 / 3.0 / 16.0
 FLAG_SIZE = (20 * SCALE, 40 * SCALE)
 """Width and height of the flag [m]."""
 
-FLAG_SKIN = box_skin((0, 0), (20, 40, 1))
+FLAG_MAPPING = box_mapping((0, 0), (20, 40, 1))
 SWAY_PERIOD = 5.0
 """The game's own sway repeats after this time [s]: 100 ticks of 1/20 s."""
 
@@ -79,7 +79,7 @@ def stiff_flag(placement: Placement, phase: float, thickness: float = 1.0) -> Me
     The flag hangs from (0, 0, 0); the pivot is 1.5 model units behind it. The model's x axis
     stays the world's while y and z are both turned about, so the angle keeps its sense.
     """
-    flag = stiff_board(FLAG_SIZE, thickness * SCALE, FLAG_SKIN)
+    flag = stiff_board(FLAG_SIZE, thickness * SCALE, FLAG_MAPPING)
     before_pivot = moved(flag, np.array([0.0, 0.0, -_FLAG_MIDDLE * SCALE]))
     pivot = to_world(np.array(_FLAG_PIVOT[placement], np.float64))
     return moved(tilted(before_pivot, sway_angle(phase)), pivot)

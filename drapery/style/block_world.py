@@ -8,7 +8,7 @@ from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import WHITE, Tint
 from drapery.mesh import Array, Mesh
-from drapery.render.scene import Coat, Look, Model
+from drapery.render.scene import Material, Model, TextureLayer
 
 Cell = tuple[int, int, int]
 """A block by its least corner [m]: x, y, z."""
@@ -48,7 +48,7 @@ def blocks(cells: Cells, packs: Packs) -> tuple[Model, ...]:
                 sides = by_texture.setdefault(_texture(kind, normal[1]), [])
                 sides.append((quad, np.tile(np.array(normal, float), (4, 1))))
     return tuple(
-        Model(_quads(sides), (Look((Coat(packs.texture(f"block/{texture}"), tint),)),))
+        Model(_quads(sides), (Material((TextureLayer(packs.texture(f"block/{texture}"), tint),)),))
         for (texture, tint), sides in sorted(by_texture.items())
     )
 

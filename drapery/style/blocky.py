@@ -7,7 +7,7 @@ import numpy as np
 
 from drapery.mesh import Array, Mesh
 from drapery.style.boxes import Box, box_mesh, upright
-from drapery.style.skin import BoxSkin
+from drapery.style.uv_mapping import BoxMapping
 
 
 def stepped(sheet: Array, shape: tuple[int, int], steps: int) -> Array:
@@ -36,7 +36,11 @@ def stepped(sheet: Array, shape: tuple[int, int], steps: int) -> Array:
 
 
 def pixelled(
-    sheet: Array, shape: tuple[int, int], size: tuple[int, int], skin: BoxSkin, texel: float
+    sheet: Array,
+    shape: tuple[int, int],
+    size: tuple[int, int],
+    uv_mapping: BoxMapping,
+    texel: float,
 ) -> Mesh:
     """A grid that hangs along x as upright cubes, one a texel, on the lattice of texels.
 
@@ -60,7 +64,7 @@ def pixelled(
         (snapped[:, None] + cube.positions).reshape(-1, 3),
         np.tile(cube.normals, (count, 1)),
         (cube.triangles + firsts).reshape(-1, 3),
-        _texel_uvs(size, skin).reshape(-1, 2),
+        _texel_uvs(size, uv_mapping).reshape(-1, 2),
     )
 
 
@@ -80,12 +84,12 @@ def _middles(rows: Array, size: tuple[int, int]) -> Array:
     return rows
 
 
-def _texel_uvs(size: tuple[int, int], skin: BoxSkin) -> Array:
+def _texel_uvs(size: tuple[int, int], uv_mapping: BoxMapping) -> Array:
     """Each cube's 24 texture coordinates: all of a face at its texel's middle, [M, 24, 2]."""
     across, down = np.meshgrid(
         (np.arange(size[0]) + 0.5) / size[0], (np.arange(size[1]) + 0.5) / size[1]
     )
     uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
     # The faces of a box: front, back, left, right, top, bottom, four corners each.
-    faces = [skin.front(uvs), skin.back(uvs), *[skin.front(uvs)] * 4]
+    faces = [uv_mapping.front(uvs), uv_mapping.back(uvs), *[uv_mapping.front(uvs)] * 4]
     return np.repeat(np.stack(faces, axis=1), 4, axis=1)

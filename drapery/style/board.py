@@ -4,10 +4,10 @@ import numpy as np
 
 from drapery.mesh import Array, Mesh
 from drapery.style.extrusion import extrude
-from drapery.style.skin import Skin
+from drapery.style.uv_mapping import UVMapping
 
 
-def stiff_board(size: tuple[float, float], thickness: float, skin: Skin) -> Mesh:
+def stiff_board(size: tuple[float, float], thickness: float, uv_mapping: UVMapping) -> Mesh:
     """A board of this width and height [m]; its top edge runs along x through the origin."""
     left, bottom = -size[0] / 2, -size[1]
     right = -left
@@ -18,7 +18,7 @@ def stiff_board(size: tuple[float, float], thickness: float, skin: Skin) -> Mesh
         np.array([[0, 2, 1], [1, 2, 3]], np.int32),
         np.array([[0.0, 0.0], [1, 0], [0, 1], [1, 1]]),
     )
-    return extrude(thin, thickness, skin)
+    return extrude(thin, thickness, uv_mapping)
 
 
 def tilted(mesh: Mesh, angle: float) -> Mesh:

@@ -7,10 +7,10 @@ from typing import Literal
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, Light
-from drapery.render.scene import Look
-from drapery.style.skin import Skin
+from drapery.render.scene import Material
+from drapery.style.uv_mapping import UVMapping
 
-Dress = Callable[[float], Look]
+MaterialAt = Callable[[float], Material]
 """What is worn at a time [s]: one and the same look for as long as it looks the same."""
 
 
@@ -19,7 +19,7 @@ class Part:
     """A stiff piece [m] and what it wears."""
 
     mesh: Mesh
-    dress: Dress
+    material_at: MaterialAt
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,22 +29,22 @@ class Panel:
     size: width and height [m].
     origin: where the middle of its top edge hangs [m], shape [3].
     texel: the unit of its thickness [m].
-    skin: where its sides lie on the texture.
+    uv_mapping: where its sides lie on the texture.
     pins: what of it is held.
     board: its stiff shape in the game, hung, at a phase 0..1 of its sway and of a thickness
         [texels].
     sway: the period of that sway [s]; None where the game holds it still.
-    dress: what it wears.
+    material_at: what it wears.
     """
 
     size: tuple[float, float]
     origin: Array
     texel: float
-    skin: Skin
+    uv_mapping: UVMapping
     pins: Literal["top", "corners"]
     board: Callable[[float, float], Mesh]
     sway: float | None
-    dress: Dress
+    material_at: MaterialAt
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.mesh import Array, Mesh
-from drapery.style.skin import BoxSkin, box_skin
+from drapery.style.uv_mapping import BoxMapping, box_mapping
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,8 @@ def box_mesh(box: Box, sheet: tuple[float, float] = (64, 64)) -> Mesh:
     Seen upright: the normals and the order of the corners are those of a model whose y and z have
     been turned about, as `upright` does. sheet: width and height of the texture [texels].
     """
-    skin = box_skin(box.offset, box.size, sheet)
-    faces = [_face(*side) for side in _sides(skin)]
+    uv_mapping = box_mapping(box.offset, box.size, sheet)
+    faces = [_face(*side) for side in _sides(uv_mapping)]
     unit = np.concatenate([corners for corners, _, _ in faces])
     corner = np.array(box.corner, np.float64) - box.grown
     return Mesh(
@@ -69,18 +69,18 @@ _Side = tuple[
 ]
 
 
-def _sides(skin: BoxSkin) -> list[_Side]:
+def _sides(uv_mapping: BoxMapping) -> list[_Side]:
     """(upper left corner, step right, step down, world normal, texture) of each face.
 
     In fractions of the box: x to the right, y down, z to the back, as in the model.
     """
     return [
-        ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), skin.front_rect),
-        ((1, 0, 1), (-1, 0, 0), (0, 1, 0), (0, 0, -1), skin.back_rect),
-        ((0, 0, 1), (0, 0, -1), (0, 1, 0), (-1, 0, 0), skin.left),
-        ((1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 0), skin.right),
-        ((0, 0, 1), (1, 0, 0), (0, 0, -1), (0, 1, 0), skin.top),
-        ((0, 1, 0), (1, 0, 0), (0, 0, 1), (0, -1, 0), skin.bottom),
+        ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), uv_mapping.front_rect),
+        ((1, 0, 1), (-1, 0, 0), (0, 1, 0), (0, 0, -1), uv_mapping.back_rect),
+        ((0, 0, 1), (0, 0, -1), (0, 1, 0), (-1, 0, 0), uv_mapping.left),
+        ((1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 0), uv_mapping.right),
+        ((0, 0, 1), (1, 0, 0), (0, 0, -1), (0, 1, 0), uv_mapping.top),
+        ((0, 1, 0), (1, 0, 0), (0, 0, 1), (0, -1, 0), uv_mapping.bottom),
     ]
 
 

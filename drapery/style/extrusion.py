@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.mesh import Array, Mesh, Triangles
-from drapery.style.skin import PLAIN_SKIN, Skin
+from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
 
 
 def boundary_edges(triangles: Triangles) -> NDArray[np.int32]:
@@ -75,19 +75,19 @@ class Shell:
         )
 
 
-def make_shell(triangles: Triangles, uvs: Array, skin: Skin = PLAIN_SKIN) -> Shell:
+def make_shell(triangles: Triangles, uvs: Array, uv_mapping: UVMapping = SHEET_MAPPING) -> Shell:
     """The shell of a sheet with these triangles [T, 3] and UVs [N, 2], painted by a skin."""
     rim = boundary_edges(triangles)
-    sheets = [skin.front(uvs), skin.back(uvs)]
-    return Shell(len(uvs), triangles, rim, np.concatenate([*sheets, skin.rim(uvs, rim)]))
+    sheets = [uv_mapping.front(uvs), uv_mapping.back(uvs)]
+    return Shell(len(uvs), triangles, rim, np.concatenate([*sheets, uv_mapping.rim(uvs, rim)]))
 
 
-def extrude(mesh: Mesh, thickness: float, skin: Skin = PLAIN_SKIN) -> Mesh:
+def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING) -> Mesh:
     """Give a thin mesh a thickness [m]: front and back sheets and a closed rim.
 
     The mesh's normals say where forwards is; give averaged ones (`vertex_normals`).
     """
-    shell = make_shell(mesh.triangles, mesh.uvs, skin)
+    shell = make_shell(mesh.triangles, mesh.uvs, uv_mapping)
     return shell.cover(mesh.positions, mesh.normals, thickness)
 
 

@@ -11,13 +11,13 @@ import numpy as np
 
 from drapery.banner.packs import Packs
 from drapery.mesh import Array, Mesh
-from drapery.render.scene import Coat, Look
+from drapery.render.scene import Material, TextureLayer
 from drapery.style.boxes import Box, box_mesh, join, upright
-from drapery.style.skin import box_skin
+from drapery.style.uv_mapping import box_mapping
 
 TEXEL = 1.0 / 16.0
 """Metres per texel of a figure's skin."""
-CAPE_SKIN = box_skin((0, 0), (10, 16, 1), (64, 64))
+CAPE_MAPPING = box_mapping((0, 0), (10, 16, 1), (64, 64))
 CAPE_SIZE = (10 * TEXEL, 16 * TEXEL)
 """Width and length of a cape [m]; it is one texel thick."""
 
@@ -64,9 +64,9 @@ def figure_mesh(poses: Mapping[str, Placed]) -> Mesh:
     return join([_posed(mesh, poses.get(name)) for name, mesh in _REST.items()])
 
 
-def figure_look(skin: str, packs: Packs) -> Look:
+def figure_material(skin: str, packs: Packs) -> Material:
     """A figure's skin, or a cape, by name: `traveller`, `dancer`, `cape`. Raises PackError."""
-    return Look((Coat(packs.texture(f"entity/player/{skin}")),))
+    return Material((TextureLayer(packs.texture(f"entity/player/{skin}")),))
 
 
 def _posed(mesh: Mesh, pose: Placed | None) -> Mesh:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.mesh import Array, Mesh, Triangles, vertex_normals
-from drapery.render.scene import Coat, Look, Model
+from drapery.render.scene import Material, Model, TextureLayer
 from drapery.style.boxes import join
 
 RED, SPOT, BLACK, WHITE = (196, 48, 38), (40, 32, 36), (52, 46, 54), (236, 232, 220)
@@ -32,7 +32,7 @@ def beetle(at: Array) -> Beetle:
     ]
     eyes = [_ball((side * 0.15, 0.53, 1.05), (0.07, 0.07, 0.06)) for side in (-1, 1)]
     parts = [(shell, _spotted()), (join(dark), _plain(BLACK)), (join(eyes), _plain(WHITE))]
-    models = tuple(Model(_at(mesh, at), (look,)) for mesh, look in parts)
+    models = tuple(Model(_at(mesh, at), (material,)) for mesh, material in parts)
     whole = join([model.mesh for model in models])
     # Whole micrometres: the sines of another machine must not lead to another cloth.
     return Beetle(models, np.round(whole.positions, 6), whole.triangles)
@@ -96,11 +96,11 @@ def _horn(side: int) -> Mesh:
     )
 
 
-def _plain(colour: tuple[int, int, int]) -> Look:
-    return Look((Coat(np.array([[[*colour, 255]]], np.uint8)),))
+def _plain(colour: tuple[int, int, int]) -> Material:
+    return Material((TextureLayer(np.array([[[*colour, 255]]], np.uint8)),))
 
 
-def _spotted() -> Look:
+def _spotted() -> Material:
     """Seen from above, 24 x 24 texels: two wings of red with a seam and spots."""
     y, x = np.indices((24, 24))
     seam = (x == 11) | (x == 12)
@@ -110,4 +110,4 @@ def _spotted() -> Look:
     texels = np.full((24, 24, 4), 255, np.uint8)
     texels[..., :3] = RED
     texels[seam | spots, :3] = SPOT
-    return Look((Coat(texels),))
+    return Material((TextureLayer(texels),))

@@ -10,46 +10,48 @@ from typing import Literal
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import WHITE, Tinted, composite, flag_layers, shield_layers
-from drapery.render.scene import Coat, Look
+from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
-from drapery.style.body import Dress
+from drapery.style.body import MaterialAt
 from drapery.style.maps import Maps, design_maps
 
 LayerMode = Literal["stacked", "flat"]
 
 
-def flag_look(banner: Banner, packs: Packs, mode: LayerMode = "stacked", time: float = 0.0) -> Look:
+def flag_material(
+    banner: Banner, packs: Packs, mode: LayerMode = "stacked", time: float = 0.0
+) -> Material:
     """What the flag wears: the cloth, the base dye, then the layers in order.
 
     time: for animated textures [s]. Raises PackError where a texture cannot be used.
     """
-    return _look(flag_layers(banner, packs, time), mode)
+    return _material(flag_layers(banner, packs, time), mode)
 
 
-def wood_look(packs: Packs) -> Look:
+def wood_material(packs: Packs) -> Material:
     """What pole and bar wear."""
-    return Look((Coat(packs.base_sheet()),))
+    return Material((TextureLayer(packs.base_sheet()),))
 
 
-def flag_dress(banner: Banner, packs: Packs, settings: Settings) -> Dress:
+def flag_dress(banner: Banner, packs: Packs, settings: Settings) -> MaterialAt:
     """What the flag wears at a time. Raises PackError where a texture cannot be used."""
     maps = design_maps(banner, packs, "banner") if settings.pbr else ()
     return _dress(lambda time: flag_layers(banner, packs, time), settings.layers, maps)
 
 
-def wood_dress(packs: Packs, settings: Settings) -> Dress:
+def wood_dress(packs: Packs, settings: Settings) -> MaterialAt:
     """What pole and bar wear at a time. Raises PackError."""
     maps = design_maps(Banner(), packs, "banner")[:1] if settings.pbr else ()
     return _dress(lambda time: ((packs.base_sheet(time), WHITE),), "stacked", maps)
 
 
-def plate_dress(design: Banner | None, packs: Packs, settings: Settings) -> Dress:
+def plate_dress(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
     """What a shield's plate wears; None is the shield without a design. Raises PackError."""
     maps = design_maps(design, packs, "shield") if settings.pbr else ()
     return _dress(lambda time: shield_layers(design, packs, time), settings.layers, maps)
 
 
-def handle_dress(design: Banner | None, packs: Packs, settings: Settings) -> Dress:
+def handle_dress(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
     """What a shield's handle wears: the lowest sheet alone, as in the game. Raises PackError."""
     maps = design_maps(design, packs, "shield")[:1] if settings.pbr else ()
     return _dress(lambda time: shield_layers(design, packs, time)[:1], "stacked", maps)
@@ -65,22 +67,24 @@ def textures_period(
 
 def _dress(
     layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode, maps: tuple[Maps, ...] = ()
-) -> Dress:
+) -> MaterialAt:
     # The renderer knows what it has prepared by identity, so the same textures are the same look.
-    known: dict[tuple[int, ...], tuple[tuple[Tinted, ...], Look]] = {}
+    known: dict[tuple[int, ...], tuple[tuple[Tinted, ...], Material]] = {}
 
-    def at(time: float) -> Look:
+    def at(time: float) -> Material:
         worn = layers(time)
         key = tuple(id(texels) for texels, _ in worn)
         if key not in known:
-            known[key] = worn, _look(worn, mode, maps)
+            known[key] = worn, _material(worn, mode, maps)
         return known[key][1]
 
     return at
 
 
-def _look(layers: tuple[Tinted, ...], mode: LayerMode, maps: tuple[Maps, ...] = ()) -> Look:
+def _material(layers: tuple[Tinted, ...], mode: LayerMode, maps: tuple[Maps, ...] = ()) -> Material:
     if mode == "flat":
-        return Look((Coat(composite(layers)),))
+        return Material((TextureLayer(composite(layers)),))
     beside = maps or (Maps(),) * len(layers)
-    return Look(tuple(Coat(*layer, *found) for layer, found in zip(layers, beside, strict=True)))
+    return Material(
+        tuple(TextureLayer(*layer, *found) for layer, found in zip(layers, beside, strict=True))
+    )

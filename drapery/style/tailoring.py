@@ -7,7 +7,7 @@ from drapery.banner.dyes import DYES
 from drapery.banner.sprites import tint
 from drapery.errors import OptionError
 from drapery.mesh import Array, vertex_normals
-from drapery.render.scene import Coat, Look, Model, Texels
+from drapery.render.scene import Material, Model, Texels, TextureLayer
 from drapery.style.extrusion import Shell
 
 
@@ -15,7 +15,7 @@ def garment(
     shell: Shell,
     sheet: Array,
     thickness: float,
-    *looks: Look,
+    *materials: Material,
     index: NDArray[np.int32] | None = None,
 ) -> Model:
     """A cloth, or a batch of them, as it is worn: the thin sheet made thick.
@@ -23,18 +23,18 @@ def garment(
     sheet: [..., N, 3]; thickness: [m]; looks, index: as in `Model`.
     """
     normals = vertex_normals(sheet, shell.sheet)
-    return Model(shell.cover(sheet, normals, thickness), looks, index)
+    return Model(shell.cover(sheet, normals, thickness), materials, index)
 
 
-def dyed(texels: Texels, dye: str) -> Look:
+def dyed(texels: Texels, dye: str) -> Material:
     """A light texture in the colour of a dye. Raises OptionError."""
     if dye not in DYES:
         raise OptionError(f"dye {dye!r} is not known; use one of: {', '.join(DYES)}")
-    return Look((Coat(texels, DYES[dye].rgb),))
+    return Material((TextureLayer(texels, DYES[dye].rgb),))
 
 
-def checked(texels: Texels, dyes: tuple[str, str], count: int = 4) -> Look:
+def checked(texels: Texels, dyes: tuple[str, str], count: int = 4) -> Material:
     """A light texture in checks of two dyes, `count` to a side. Raises OptionError."""
-    pieces = [tint(texels, dyed(texels, dye).coats[0].tint) for dye in dyes]
+    pieces = [tint(texels, dyed(texels, dye).layers[0].tint) for dye in dyes]
     rows = [np.hstack([pieces[(r + c) % 2] for c in range(count)]) for r in range(count)]
-    return Look((Coat(np.ascontiguousarray(np.vstack(rows))),))
+    return Material((TextureLayer(np.ascontiguousarray(np.vstack(rows))),))

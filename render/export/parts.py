@@ -1,6 +1,6 @@
 """Scenes taken apart for 3-D files: meshes in one atlas, with where they move.
 
-A 3-D file knows one texture for a surface, so the coats are laid over one another first.
+A 3-D file knows one texture for a surface, so the layers are laid over one another first.
 """
 
 from collections.abc import Iterable, Sequence
@@ -13,8 +13,8 @@ from drapery.errors import OptionError
 from drapery.mesh import Triangles
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
 from drapery.render.flatten import flattened
+from drapery.render.materials import ALPHA_CODES, MaterialTables
 from drapery.render.scene import Alpha, Scene, Texels
-from drapery.render.wardrobe import ALPHA_CODES, Wardrobe
 
 MAX_NUMBERS = 1 << 27
 """The most coordinates of a 3-D file's frames; half a GiB."""
@@ -76,29 +76,31 @@ def take_apart(scenes: Iterable[Scene]) -> Parts:
 def _same(one: Topology, other: Topology) -> bool:
     return one is other or all(
         np.array_equal(getattr(one, name), getattr(other, name))
-        for name in ("triangles", "uvs", "triangle_look", "vertex_start")
+        for name in ("triangles", "uvs", "triangle_material", "vertex_start")
     )
 
 
 def _parts(topology: Topology, positions: Float32, normals: Float32) -> Parts:
-    wardrobe = flattened(topology.wardrobe)
-    if (wardrobe.look_coats[:, 1] > 1).any():
+    material_tables = flattened(topology.material_tables)
+    if (material_tables.material_layers[:, 1] > 1).any():
         raise OptionError(
-            "a 3-D file takes one texture for a surface, and these coats' sizes do not divide one"
+            "a 3-D file takes one texture for a surface, and these layers' sizes do not divide one"
             " another, or are too many; draw them as one texture"
         )
-    uvs = _atlas_uvs(topology, wardrobe)
+    uvs = _atlas_uvs(topology, material_tables)
     parts = []
     for number, (start, end) in enumerate(_spans(topology.vertex_start)):
         inside = (topology.triangles[:, 0] >= start) & (topology.triangles[:, 0] < end)
         for alpha, code in ALPHA_CODES.items():
             for lit in (True, False):
-                alike = (wardrobe.look_alpha == code) & (wardrobe.look_lit == lit)
-                chosen = topology.triangles[inside & alike[topology.triangle_look]]
+                alike = (material_tables.material_alpha == code) & (
+                    material_tables.material_lit == lit
+                )
+                chosen = topology.triangles[inside & alike[topology.triangle_material]]
                 if len(chosen):
                     name = _name(number, alpha, lit)
                     parts.append(_part(name, positions, normals, chosen, uvs, alpha, lit))
-    return Parts(tuple(parts), wardrobe.atlas, len(positions))
+    return Parts(tuple(parts), material_tables.atlas, len(positions))
 
 
 def _name(number: int, alpha: Alpha, lit: bool) -> str:
@@ -127,12 +129,12 @@ def _part(
     return Part(name, moving, turning, own, uvs[used], alpha, lit)
 
 
-def _atlas_uvs(topology: Topology, wardrobe: Wardrobe) -> Float32:
+def _atlas_uvs(topology: Topology, material_tables: MaterialTables) -> Float32:
     """UVs as fractions of the whole atlas, shape [V, 2]."""
-    vertex_look = np.zeros(len(topology.uvs), np.int32)
-    vertex_look[topology.triangles] = topology.triangle_look[:, None]
-    rects = wardrobe.coat_rects[wardrobe.look_coats[vertex_look, 0]]
-    height, width = wardrobe.atlas.shape[:2]
+    vertex_material = np.zeros(len(topology.uvs), np.int32)
+    vertex_material[topology.triangles] = topology.triangle_material[:, None]
+    rects = material_tables.layer_rects[material_tables.material_layers[vertex_material, 0]]
+    height, width = material_tables.atlas.shape[:2]
     texels = rects[:, :2] + np.clip(topology.uvs, 0, 1) * rects[:, 2:]
     uvs: Float32 = (texels / [width, height]).astype(np.float32)
     return uvs

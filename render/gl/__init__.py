@@ -24,9 +24,9 @@ from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
 from drapery.render.flatten import flattened
 from drapery.render.frame import Frame, Pixels
 from drapery.render.gl.platform import load_pyrender, release
+from drapery.render.materials import BLEND, CUTOUT, MaterialTables
 from drapery.render.relief import has_relief
 from drapery.render.scene import Scene
-from drapery.render.wardrobe import BLEND, CUTOUT, Wardrobe
 
 CUTOUT_BIT, SOLID_BIT, UNLIT_BIT = 1, 2, 4  # as in flat.frag
 
@@ -54,7 +54,7 @@ _lock = Lock()
 def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
     """Draw a scene. Raises OptionError for what cannot be drawn, BackendError without OpenGL.
 
-    stacked: lay coats over one another in the picture, in one pass each, as the game does, rather
+    stacked: lay layers over one another in the picture, in one pass each, as the game does, rather
     than once beforehand in the texture. That is slower; colours round by up to 2/255 otherwise.
     """
     drawing = draw_list(scene.models)
@@ -106,7 +106,7 @@ def _stage() -> Stage:
     pyrender, platform = load_pyrender()
     from drapery.render.gl import passes
 
-    stage = Stage(pyrender, passes, platform, passes.CoatRenderer())
+    stage = Stage(pyrender, passes, platform, passes.LayeredRenderer())
     atexit.register(_close, stage)
     return stage
 
@@ -131,7 +131,7 @@ def _check(stage: Stage, scene: Scene, drawing: DrawList) -> None:
             f"size {width}x{height} with {scene.samples} samples a pixel cannot be drawn; this"
             f" OpenGL takes up to {most} samples a side, the backend soft more"
         )
-    high, wide = drawing.topology.wardrobe.atlas.shape[:2]
+    high, wide = drawing.topology.material_tables.atlas.shape[:2]
     if max(high, wide) > most:
         raise OptionError(
             f"the scene's textures need {wide}x{high} texels and this OpenGL takes {most} a side;"
@@ -174,18 +174,18 @@ def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Tri
 def _set_up(stage: Stage, topology: Topology, stacked: bool) -> None:
     """Put the constant part of a draw list on the graphics side, and the last one's away."""
     pyrender, passes, old = stage.pyrender, stage.passes, stage.vertices
-    wardrobe = _wardrobe(topology.wardrobe, stacked)
-    vertex_look = np.zeros(len(topology.uvs), np.int32)
-    vertex_look[topology.triangles] = topology.triangle_look[:, None]
-    base_rects, _ = coat_attributes(wardrobe, vertex_look, 0)
+    material_tables = _wardrobe(topology.material_tables, stacked)
+    vertex_material = np.zeros(len(topology.uvs), np.int32)
+    vertex_material[topology.triangles] = topology.triangle_material[:, None]
+    base_rects, _ = coat_attributes(material_tables, vertex_material, 0)
     stage.topology, stage.stacked = topology, stacked
     stage.vertices = passes.Vertices(topology.uvs, base_rects)
-    material = _material(pyrender, wardrobe)
+    material = _material(pyrender, material_tables)
     stage.blends, primitives = [], []
-    for coat, triangles, blend in coat_passes(topology, wardrobe):
-        rects, tints = coat_attributes(wardrobe, vertex_look, coat)
+    for layer, triangles, blend in coat_passes(topology, material_tables):
+        rects, tints = coat_attributes(material_tables, vertex_material, layer)
         primitives.append(
-            passes.CoatPrimitive(stage.vertices, rects, tints, triangles, blend, material)
+            passes.LayeredPrimitive(stage.vertices, rects, tints, triangles, blend, material)
         )
         if blend:
             stage.blends.append((primitives[-1], triangles))
@@ -198,58 +198,63 @@ def _set_up(stage: Stage, topology: Topology, stacked: bool) -> None:
         old.delete()
 
 
-def _wardrobe(wardrobe: Wardrobe, stacked: bool) -> Wardrobe:
-    """Coats composited beforehand; if stacked only where they blend, for there a triangle must lay
-    down all its coats at once."""
-    many = wardrobe.look_coats[:, 1] > 1
+def _wardrobe(material_tables: MaterialTables, stacked: bool) -> MaterialTables:
+    """Layers composited beforehand; if stacked only where they blend, for there a triangle must lay
+    down all its layers at once."""
+    many = material_tables.material_layers[:, 1] > 1
     if stacked:
-        many &= wardrobe.look_alpha == BLEND
-    return flattened(wardrobe) if many.any() else wardrobe
+        many &= material_tables.material_alpha == BLEND
+    return flattened(material_tables) if many.any() else material_tables
 
 
-def _material(pyrender: Any, wardrobe: Wardrobe) -> Any:
+def _material(pyrender: Any, material_tables: MaterialTables) -> Any:
     """The atlas as a texture; pyrender turns its source over, so it gets it turned over."""
     from OpenGL.GL import GL_CLAMP_TO_EDGE, GL_NEAREST
 
     sampler = pyrender.Sampler(None, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)
-    atlas = wardrobe.atlas[::-1]
+    atlas = material_tables.atlas[::-1]
     texture = pyrender.Texture(source=atlas, source_channels="RGBA", sampler=sampler)
     return pyrender.MetallicRoughnessMaterial(baseColorTexture=texture)
 
 
 class Pass(NamedTuple):
-    """One draw call: coat number `coat` of triangles [T, 3], over what lies behind if `blend`."""
+    """One draw call: layer number `layer` of triangles [T, 3], over what lies behind if `blend`."""
 
-    coat: int
+    layer: int
     triangles: Triangles
     blend: bool
 
 
-def coat_passes(topology: Topology, wardrobe: Wardrobe) -> list[Pass]:
-    """What to draw in turn: coat k of everything solid, for k = 0, 1, ...; then what blends."""
-    look = topology.triangle_look
-    counts, blends = wardrobe.look_coats[look, 1], wardrobe.look_alpha[look] == BLEND
+def coat_passes(topology: Topology, material_tables: MaterialTables) -> list[Pass]:
+    """What to draw in turn: layer k of everything solid, for k = 0, 1, ...; then what blends."""
+    material = topology.triangle_material
+    counts, blends = (
+        material_tables.material_layers[material, 1],
+        material_tables.material_alpha[material] == BLEND,
+    )
     return [
-        Pass(coat, topology.triangles[(blends == blend) & (counts > coat)], blend)
+        Pass(layer, topology.triangles[(blends == blend) & (counts > layer)], blend)
         for blend in (False, True)
-        for coat in range(counts[blends == blend].max(initial=0))
+        for layer in range(counts[blends == blend].max(initial=0))
     ]
 
 
 def coat_attributes(
-    wardrobe: Wardrobe, vertex_look: NDArray[np.int32], coat: int
+    material_tables: MaterialTables, vertex_material: NDArray[np.int32], layer: int
 ) -> tuple[NDArray[np.uint16], NDArray[np.uint8]]:
-    """At each vertex its coat's rectangle [V, 4], and its tint and kind [V, 4] as in flat.frag."""
-    first, count = wardrobe.look_coats.T
-    worn = first + np.minimum(coat, count - 1)
-    alpha = wardrobe.look_alpha
+    """At each vertex its layer's rectangle [V, 4], and its tint and kind [V, 4] as in flat.frag."""
+    first, count = material_tables.material_layers.T
+    worn = first + np.minimum(layer, count - 1)
+    alpha = material_tables.material_alpha
     kind = (
         CUTOUT_BIT * (alpha == CUTOUT)
-        + SOLID_BIT * ((alpha != BLEND) & (coat == 0))
-        + UNLIT_BIT * ~wardrobe.look_lit
+        + SOLID_BIT * ((alpha != BLEND) & (layer == 0))
+        + UNLIT_BIT * ~material_tables.material_lit
     )
-    tints = np.column_stack([wardrobe.coat_tints[worn], kind]).astype(np.uint8)
-    return wardrobe.coat_rects[worn].astype(np.uint16)[vertex_look], tints[vertex_look]
+    tints = np.column_stack([material_tables.layer_tints[worn], kind]).astype(np.uint8)
+    return material_tables.layer_rects[worn].astype(np.uint16)[vertex_material], tints[
+        vertex_material
+    ]
 
 
 def resolved(samples: Pixels, grid: int) -> Pixels:

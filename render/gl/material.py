@@ -15,10 +15,10 @@ from OpenGL import GL
 
 from drapery.mesh import Array
 from drapery.render.camera import Camera, view_matrix
-from drapery.render.gl.passes import CoatRenderer
+from drapery.render.gl.passes import LayeredRenderer
 from drapery.render.light import Light
 from drapery.render.relief import relief_of
-from drapery.render.scene import Look, Model, Scene, Texels
+from drapery.render.scene import Material, Model, Scene, Texels
 
 GAMMA = 2.2
 
@@ -26,9 +26,9 @@ GAMMA = 2.2
 class MaterialRenderer(pyrender.Renderer):  # type: ignore[misc]
     """pyrender's renderer, drawing into one buffer without multisampling."""
 
-    _configure_main_framebuffer = CoatRenderer._configure_main_framebuffer
-    _delete_main_framebuffer = CoatRenderer._delete_main_framebuffer
-    _read_main_framebuffer = CoatRenderer._read_main_framebuffer
+    _configure_main_framebuffer = LayeredRenderer._configure_main_framebuffer
+    _delete_main_framebuffer = LayeredRenderer._delete_main_framebuffer
+    _read_main_framebuffer = LayeredRenderer._read_main_framebuffer
 
 
 def draw_materials(renderer: MaterialRenderer, scene: Scene) -> NDArray[np.uint8]:
@@ -55,32 +55,34 @@ def _primitives(model: Model) -> Iterator[Any]:
     mesh = model.mesh
     shape = (-1, mesh.positions.shape[-2], 3)
     positions, normals = mesh.positions.reshape(shape), mesh.normals.reshape(shape)
-    index = np.zeros(len(positions), np.int32) if model.look_index is None else model.look_index
-    materials = [_material(look) for look in model.looks]
-    for member, look in enumerate(index):
+    index = (
+        np.zeros(len(positions), np.int32) if model.material_index is None else model.material_index
+    )
+    materials = [_material(material) for material in model.materials]
+    for member, material in enumerate(index):
         yield pyrender.Primitive(
             positions=positions[member].astype(np.float32),
             normals=normals[member].astype(np.float32),
             texcoord_0=mesh.uvs.astype(np.float32),
             indices=mesh.triangles,
-            material=materials[look],
+            material=materials[material],
         )
 
 
-def _material(look: Look) -> Any:
-    """A look's coats as one material; what is not lit glows in its own colours."""
-    relief = relief_of(look)
+def _material(material: Material) -> Any:
+    """A material's layers as one material; what is not lit glows in its own colours."""
+    relief = relief_of(material)
     alpha = relief.texels[..., 3:]
     right, down, out = np.moveaxis(relief.bends, -1, 0)
     # glTF's green points up the sheet, LabPBR's down.
     bends = _bytes(np.stack([right, -down, out], axis=-1) * 0.5 + 0.5, alpha)
     roughness, metal, glow = np.moveaxis(relief.matter, -1, 0)
-    shine = glow if look.lit else np.ones_like(glow)
+    shine = glow if material.lit else np.ones_like(glow)
     glowing = _bytes(relief.texels[..., :3] / 255 * shine[..., None] ** (1 / GAMMA), alpha)
     return pyrender.MetallicRoughnessMaterial(
-        alphaMode="OPAQUE" if look.alpha == "opaque" else "BLEND",
+        alphaMode="OPAQUE" if material.alpha == "opaque" else "BLEND",
         doubleSided=True,
-        baseColorFactor=[float(look.lit)] * 3 + [1.0],
+        baseColorFactor=[float(material.lit)] * 3 + [1.0],
         baseColorTexture=_texture(relief.texels),
         normalTexture=_texture(bends),
         # pyrender reads the first two channels, where glTF has the second and third.

@@ -1,7 +1,7 @@
-"""pyrender's renderer, taught ordered coats. Import it only after `platform.load_pyrender`.
+"""pyrender's renderer, taught ordered layers. Import it only after `platform.load_pyrender`.
 
-One primitive draws one coat of every triangle that has it, in the order of the coats; the depth
-test is GL_LEQUAL, so that an upper coat lies on the lower one. All primitives of a mesh share the
+One primitive draws one layer of every triangle that has it, in the order of the layers; the depth
+test is GL_LEQUAL, so that an upper layer lies on the lower one. All primitives of a mesh share the
 vertex positions: only these and the light are uploaded for a frame.
 """
 
@@ -22,9 +22,9 @@ Float32 = NDArray[np.float32]
 
 
 class Vertices:
-    """What all primitives share on the graphics side: positions and light, UVs, lowest coats.
+    """What all primitives share on the graphics side: positions and light, UVs, lowest layers.
 
-    uvs: shape [V, 2], float32. base_rects: the lowest coats' rectangles, shape [V, 4], uint16.
+    uvs: shape [V, 2], float32. base_rects: the lowest layers' rectangles, shape [V, 4], uint16.
     """
 
     def __init__(self, uvs: Float32, base_rects: NDArray[np.uint16]) -> None:
@@ -43,10 +43,10 @@ class Vertices:
         GL.glDeleteBuffers(3, [self.moving, self.uvs, self.base_rects])
 
 
-class CoatPrimitive(pyrender.Primitive):  # type: ignore[misc]
-    """Triangles wearing one coat.
+class LayeredPrimitive(pyrender.Primitive):  # type: ignore[misc]
+    """Triangles wearing one layer.
 
-    rects: the coat's rectangle at each vertex, shape [V, 4], uint16.
+    rects: the layer's rectangle at each vertex, shape [V, 4], uint16.
     tints: its tint and kind, shape [V, 4], uint8.
     triangles: shape [T, 3]. blend: whether what lies behind shines through.
     """
@@ -110,7 +110,7 @@ def whole_attribute(location: int, size: int, buffer: int) -> None:
     GL.glVertexAttribIPointer(location, size, GL.GL_UNSIGNED_INT, 0, ctypes.c_void_p(0))
 
 
-class CoatRenderer(pyrender.Renderer):  # type: ignore[misc]
+class LayeredRenderer(pyrender.Renderer):  # type: ignore[misc]
     """Draws into one buffer without multisampling, at any size, for the life of the process."""
 
     matrix: NDArray[np.float64]

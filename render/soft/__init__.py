@@ -18,13 +18,13 @@ from drapery.render.camera import Matrix, clip_matrix
 from drapery.render.drawlist import Float32, Topology, topology
 from drapery.render.flatten import flattened
 from drapery.render.frame import Frame
+from drapery.render.materials import BLEND, MaterialTables
 from drapery.render.relief import relieved
 from drapery.render.scene import Scene
 from drapery.render.soft.bins import RECORD, TILE, sort_into_tiles
 from drapery.render.soft.clipping import Corners, clip
 from drapery.render.soft.projection import BROKEN, NEAREST, VERTEX, project
 from drapery.render.soft.tiles import FULL_LIGHT, draw_tiles
-from drapery.render.wardrobe import BLEND, Wardrobe
 from drapery.render.workers import share_out, worker_count
 
 MAX_SIZE = 16384
@@ -46,21 +46,21 @@ class Raster:
 
     vertices: shape [V] of VERTEX.
     flags: see `drapery.render.soft.projection`, shape [V], uint8.
-    triangles, triangle_look: as in `Topology`.
+    triangles, triangle_material: as in `Topology`.
     """
 
     vertices: NDArray[np.void]
     flags: NDArray[np.uint8]
     triangles: Triangles
-    triangle_look: NDArray[np.int32]
+    triangle_material: NDArray[np.int32]
 
 
 @dataclass(frozen=True, eq=False)
 class Tables:
-    """A `Wardrobe` as the kernels read it; see `draw_tiles`."""
+    """A `MaterialTables` as the kernels read it; see `draw_tiles`."""
 
-    looks: NDArray[np.int32]
-    coats: NDArray[np.int32]
+    materials: NDArray[np.int32]
+    layers: NDArray[np.int32]
     atlas: NDArray[np.uint32]
 
 
@@ -77,17 +77,17 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
     raster, union = _project(scene, constant, matrix, grid, workers)
     if union:
         raster = _clipped(scene, raster, matrix, grid)
-    raster = _blends_last(raster, constant.wardrobe.look_alpha)
+    raster = _blends_last(raster, constant.material_tables.material_alpha)
     picture = np.full((scene.size[1], scene.size[0]), _background(scene), np.uint32)
-    _draw(scene, _tables(flattened(constant.wardrobe)), raster, grid, workers, picture)
+    _draw(scene, _tables(flattened(constant.material_tables)), raster, grid, workers, picture)
     return Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
 
 
-def _tables(worn: Wardrobe) -> Tables:
-    modes = np.stack([worn.look_alpha, worn.look_lit], axis=1)
+def _tables(worn: MaterialTables) -> Tables:
+    modes = np.stack([worn.material_alpha, worn.material_lit], axis=1)
     return Tables(
-        np.concatenate([worn.look_coats, modes], axis=1, dtype=np.int32),
-        np.concatenate([worn.coat_rects, worn.coat_tints], axis=1, dtype=np.int32),
+        np.concatenate([worn.material_layers, modes], axis=1, dtype=np.int32),
+        np.concatenate([worn.layer_rects, worn.layer_tints], axis=1, dtype=np.int32),
         worn.atlas.view(np.uint32)[..., 0],
     )
 
@@ -128,7 +128,7 @@ def _project(
                 " a simulation that blew up wants a smaller time step"
             )
         union |= found
-    return Raster(vertices, flags, constant.triangles, constant.triangle_look), union
+    return Raster(vertices, flags, constant.triangles, constant.triangle_material), union
 
 
 def _project_model(
@@ -188,7 +188,7 @@ def _clipped(scene: Scene, raster: Raster, matrix: Matrix, grid: int) -> Raster:
         np.concatenate([raster.vertices, new]),
         raster.flags,
         np.concatenate([raster.triangles[whole], numbers])[order],
-        raster.triangle_look[source][order],
+        raster.triangle_material[source][order],
     )
 
 
@@ -214,19 +214,19 @@ def _on_picture(corners: Corners, width: int, height: int) -> NDArray[np.void]:
     return new
 
 
-def _blends_last(raster: Raster, look_alpha: NDArray[np.uint8]) -> Raster:
+def _blends_last(raster: Raster, material_alpha: NDArray[np.uint8]) -> Raster:
     """Triangles that blend put behind the others, farthest first.
 
     A triangle's distance is that of its middle; equals keep their drawing order.
     """
-    if not (look_alpha == BLEND).any():
+    if not (material_alpha == BLEND).any():
         return raster
-    blends = look_alpha[raster.triangle_look] == BLEND
+    blends = material_alpha[raster.triangle_material] == BLEND
     (first,), (last,) = np.nonzero(~blends), np.nonzero(blends)
     nearness = raster.vertices["depth"][raster.triangles[last]].astype(np.int64).sum(axis=1)
     order = np.concatenate([first, last[np.argsort(nearness, kind="stable")]])
     return replace(
-        raster, triangles=raster.triangles[order], triangle_look=raster.triangle_look[order]
+        raster, triangles=raster.triangles[order], triangle_material=raster.triangle_material[order]
     )
 
 
@@ -239,8 +239,8 @@ def _draw(
     picture: NDArray[np.uint32],
 ) -> None:
     constant = (
-        (raster.vertices, raster.triangles, raster.triangle_look),
-        (tables.looks, tables.coats, tables.atlas.reshape(-1), tables.atlas.shape[1]),
+        (raster.vertices, raster.triangles, raster.triangle_material),
+        (tables.materials, tables.layers, tables.atlas.reshape(-1), tables.atlas.shape[1]),
         np.rint(np.array(scene.light.tint) * FULL_LIGHT).astype(np.int64),
         _background(scene),
         grid,
@@ -252,7 +252,9 @@ def _draw(
     ranges = [(0, tiles_x * tiles_y)]
     while ranges:
         first, end = ranges.pop()
-        starts, records = _tile_lists(raster, tables.looks, (tiles_x, tiles_y, first, end), workers)
+        starts, records = _tile_lists(
+            raster, tables.materials, (tiles_x, tiles_y, first, end), workers
+        )
         if records is None:
             middle = (first + end) // 2
             ranges += [(middle, end), (first, middle)]
@@ -266,7 +268,7 @@ def _draw_part(parts: int, given: tuple[Any, ...], part: int) -> None:
 
 
 def _tile_lists(
-    raster: Raster, looks: NDArray[np.int32], tiles: tuple[int, int, int, int], workers: int
+    raster: Raster, materials: NDArray[np.int32], tiles: tuple[int, int, int, int], workers: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int32] | None]:
     """The triangles of each tile of a range: where each tile's records begin, and they.
 
@@ -283,8 +285,8 @@ def _tile_lists(
             share[part + 1],
             raster.vertices,
             raster.triangles,
-            raster.triangle_look,
-            looks,
+            raster.triangle_material,
+            materials,
             tiles,
             cursors[part],
             records,

@@ -26,15 +26,15 @@ def sort_into_tiles(
     last: Any,
     vertices: Any,
     triangles: Any,
-    triangle_look: Any,
-    looks: Any,
+    triangle_material: Any,
+    materials: Any,
     tiles: Any,
     cursor: Any,
     records: Any,
 ) -> Any:
     """Count triangles first..last for some tiles, or if there is room, enter them.
 
-    vertices, triangles, triangle_look, looks: see `draw_tiles`.
+    vertices, triangles, triangle_material, materials: see `draw_tiles`.
     tiles: across and down the picture, and the first and the last but one that are wanted.
     cursor: one for each wanted tile; counts up by one for each entry.
     records: where triangles are entered at the cursor, shape [E, RECORD]; if empty, none are.
@@ -65,4 +65,4 @@ def sort_into_tiles(
                     records[entry, 6] = vertices[a].depth
                     records[entry, 7] = vertices[b].depth
                     records[entry, 8] = vertices[c].depth
-                    records[entry, 9] = looks[triangle_look[t], 2] << ID_BITS | t
+                    records[entry, 9] = materials[triangle_material[t], 2] << ID_BITS | t

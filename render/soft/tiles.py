@@ -132,7 +132,7 @@ def _cover_tile(
     records: Any,
     vertices: Any,
     triangles: Any,
-    triangle_look: Any,
+    triangle_material: Any,
     worn: Any,
     keys: Any,
 ) -> Any:
@@ -140,7 +140,7 @@ def _cover_tile(
 
     Returns the bounds of the samples tried: left, right, top, bottom.
     """
-    looks, coats, atlas, wide = worn
+    materials, layers, atlas, wide = worn
     edge_left, edge_right, edge_top, edge_bottom = TILE, -1, TILE, -1
     for entry in range(first, last):
         ax, ay = np.int64(records[entry, 0]) - (x0 << 8), np.int64(records[entry, 1]) - (y0 << 8)
@@ -189,11 +189,11 @@ def _cover_tile(
                     shown = outside >= 0 and key | ID_MASK >= keys[at]
                     keys[at + np.uint64(LAYER)] = key if shown else np.int64(0)
                 elif outside >= 0 and key > keys[at]:
-                    coat = looks[triangle_look[t], 0]
+                    layer = materials[triangle_material[t], 0]
                     u, v = _uv_at(t, x0 + left + k, y0 + row, vertices, triangles)
-                    i = min(max(np.int64(u * coats[coat, 2]), 0), coats[coat, 2] - 1)
-                    j = min(max(np.int64(v * coats[coat, 3]), 0), coats[coat, 3] - 1)
-                    if atlas[(coats[coat, 1] + j) * wide + coats[coat, 0] + i] >> 31:
+                    i = min(max(np.int64(u * layers[layer, 2]), 0), layers[layer, 2] - 1)
+                    j = min(max(np.int64(v * layers[layer, 3]), 0), layers[layer, 3] - 1)
+                    if atlas[(layers[layer, 1] + j) * wide + layers[layer, 0] + i] >> 31:
                         keys[at] = key
     return edge_left, edge_right, edge_top, edge_bottom
 
@@ -232,7 +232,7 @@ def _shade_tile(
     y0: Any,
     vertices: Any,
     triangles: Any,
-    triangle_look: Any,
+    triangle_material: Any,
     worn: Any,
     tint: Any,
     keys: Any,
@@ -243,10 +243,10 @@ def _shade_tile(
 
     layer: where the keys begin; 0 is what is solid, LAYER what is laid over it.
     scratch: u, v, light, place in the atlas and colour of each sample of a run.
-    All coats are laid over one another first and lit at the end, once. Each step is a loop of its
+    All layers are laid over one another first and lit at the end, once. Each step is a loop of its
     own over whole groups of samples, so that it can be done for a group at once.
     """
-    looks, coats, atlas, wide = worn
+    materials, layers, atlas, wide = worn
     u, v, light, place, shown = scratch
     left, right, top, bottom = bounds
     for row in range(top, bottom + 1):
@@ -276,15 +276,18 @@ def _shade_tile(
             u_low, u_high = min(a.u, b.u, c.u), max(a.u, b.u, c.u)
             v_low, v_high = min(a.v, b.v, c.v), max(a.v, b.v, c.v)
 
-            look = triangle_look[t]
-            coat, coats_end = looks[look, 0], looks[look, 0] + looks[look, 1]
-            solid = np.uint32(OPAQUE_BITS if looks[look, 2] != BLEND else 0)
-            across, down = np.float64(coats[coat, 2]), np.float64(coats[coat, 3])
-            i_first, i_last = _reach(u_low, u_high, coats[coat, 2])
-            j_first, j_last = _reach(v_low, v_high, coats[coat, 3])
+            material = triangle_material[t]
+            layer, coats_end = (
+                materials[material, 0],
+                materials[material, 0] + materials[material, 1],
+            )
+            solid = np.uint32(OPAQUE_BITS if materials[material, 2] != BLEND else 0)
+            across, down = np.float64(layers[layer, 2]), np.float64(layers[layer, 3])
+            i_first, i_last = _reach(u_low, u_high, layers[layer, 2])
+            j_first, j_last = _reach(v_low, v_high, layers[layer, 3])
             i_low, i_high = np.float64(i_first), np.float64(i_last)
             j_low, j_high = np.float64(j_first), np.float64(j_last)
-            origin = coats[coat, 1] * wide + coats[coat, 0]
+            origin = layers[layer, 1] * wide + layers[layer, 0]
             count = last - x + 1
             whole = ((count - 1) // LANES + 1) * LANES
             for k in range(whole):
@@ -299,22 +302,22 @@ def _shade_tile(
             for k in range(count):
                 shown[np.uint64(k)] = atlas[np.uint64(place[np.uint64(k)])] | solid
 
-            red, green, blue = coats[coat, 4], coats[coat, 5], coats[coat, 6]
+            red, green, blue = layers[layer, 4], layers[layer, 5], layers[layer, 6]
             if red & green & blue != 255:
                 for k in range(count):
                     shown[k] = _tinted(np.int64(shown[k]), red, green, blue)
-            for upper in range(coat + 1, coats_end):
-                red, green, blue = coats[upper, 4], coats[upper, 5], coats[upper, 6]
-                i_first, i_last = _reach(u_low, u_high, coats[upper, 2])
-                j_first, j_last = _reach(v_low, v_high, coats[upper, 3])
-                origin = coats[upper, 1] * wide + coats[upper, 0]
+            for upper in range(layer + 1, coats_end):
+                red, green, blue = layers[upper, 4], layers[upper, 5], layers[upper, 6]
+                i_first, i_last = _reach(u_low, u_high, layers[upper, 2])
+                j_first, j_last = _reach(v_low, v_high, layers[upper, 3])
+                origin = layers[upper, 1] * wide + layers[upper, 0]
                 for k in range(count):
-                    column = min(max(np.int64(u[k] * coats[upper, 2]), i_first), i_last)
-                    line = min(max(np.int64(v[k] * coats[upper, 3]), j_first), j_last)
+                    column = min(max(np.int64(u[k] * layers[upper, 2]), i_first), i_last)
+                    line = min(max(np.int64(v[k] * layers[upper, 3]), j_first), j_last)
                     texel = np.int64(atlas[np.uint64(origin + line * wide + column)])
                     texel = _tinted(texel, red, green, blue)
                     shown[k] = _lay_over(texel, np.int64(shown[k]))
-            if looks[look, 3]:
+            if materials[material, 3]:
                 for k in range(whole):
                     colour = np.int64(shown[np.uint64(k)])
                     shown[np.uint64(k)] = _lit(colour, np.int64(light[np.uint64(k)]), tint)
@@ -380,16 +383,16 @@ def draw_tiles(
     tiles_x: tiles across; first: the tile that number 0 stands for, counted row by row.
     starts, records: the triangles of tile i are records[starts[i] : starts[i + 1]]; those that
         blend come last and are drawn in their order.
-    mesh: vertices [V] of VERTEX, triangles [T, 3], triangle_look [T].
-    worn: looks [L, 4], a row each of first coat, count, alpha mode, lit; coats [C, 7], a row each
-        of x, y, width, height in the atlas and tint; atlas [H * W], one uint32 a texel; W.
+    mesh: vertices [V] of VERTEX, triangles [T, 3], triangle_material [T].
+    worn: materials [L, 4], a row each of first layer, count, alpha mode, lit; layers [C, 7], a row
+        each of x, y, width, height in the atlas and tint; atlas [H * W], one uint32 a texel; W.
     tint: the light's colour, three factors in units of 1 / FULL_LIGHT, int64.
     background: one uint32, 0xAABBGGRR, as all colours here.
     grid: samples along a pixel's side.
     size: of the picture [pixels]; picture: shape [H * W], uint32, filled with the background.
     """
     across, down = size
-    vertices, triangles, triangle_look = mesh
+    vertices, triangles, triangle_material = mesh
     keys = np.empty(2 * LAYER, np.int64)
     colours = np.empty(TILE * TILE, np.uint32)
     scratch = (
@@ -418,7 +421,7 @@ def draw_tiles(
             if until == entry:
                 until, layer = entry + 1, LAYER
             bounds = _cover_tile(
-                entry, until, x0, y0, records, vertices, triangles, triangle_look, worn, keys
+                entry, until, x0, y0, records, vertices, triangles, triangle_material, worn, keys
             )
             _shade_tile(
                 layer,
@@ -427,7 +430,7 @@ def draw_tiles(
                 y0,
                 vertices,
                 triangles,
-                triangle_look,
+                triangle_material,
                 worn,
                 tint,
                 keys,

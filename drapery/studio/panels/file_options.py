@@ -67,10 +67,10 @@ def order_of(session: Session, choice: Choice) -> Order:
     """What is ordered by the page as it stands. Raises DesignError."""
     # A cape or elytra wears a texture, no design.
     banner = None if session.settings.texture is not None else banner_of(session.sketch)
-    look = session.settings
+    settings = session.settings
     if not stage_of(session).wishes.on:
-        look = replace(look, wind=0.0)
-    return Order(banner, look, choice.kind, choice.seconds, choice.fps, choice.scale)
+        settings = replace(settings, wind=0.0)
+    return Order(banner, settings, choice.kind, choice.seconds, choice.fps, choice.scale)
 
 
 Groups = list[tuple[Element, Callable[[], bool]]]

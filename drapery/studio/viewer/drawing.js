@@ -1,4 +1,4 @@
-// Draws a scene as the software renderer does: nearest texels, coats laid over one another in
+// Draws a scene as the software renderer does: nearest texels, layers laid over one another in
 // straight alpha, light by vertex in sRGB, what blends last and from far to near.
 
 const VERTEX = `#version 300 es
@@ -23,7 +23,7 @@ in vec3 uvLight;
 flat in int worn;
 uniform sampler2D atlas;
 uniform isampler2D looks;
-uniform isampler2D coats;
+uniform isampler2D layers;
 uniform vec3 tint;
 out vec4 colour; // premultiplied
 
@@ -37,20 +37,20 @@ vec3 rounded(vec3 rgb) {
   return floor(rgb * 255.0 + 0.5) / 255.0;
 }
 
-vec4 coat(int number) {
-  ivec4 rect = row(coats, 2 * number);
+vec4 layer(int number) {
+  ivec4 rect = row(layers, 2 * number);
   ivec2 inside = clamp(ivec2(floor(uvLight.xy * vec2(rect.zw))), ivec2(0), rect.zw - 1);
   vec4 texel = texelFetch(atlas, rect.xy + inside, 0);
-  return vec4(floor(texel.rgb * vec3(row(coats, 2 * number + 1).rgb) + 0.5) / 255.0, texel.a);
+  return vec4(floor(texel.rgb * vec3(row(layers, 2 * number + 1).rgb) + 0.5) / 255.0, texel.a);
 }
 
 void main() {
-  ivec4 look = row(looks, worn); // first coat, how many, alpha mode, lit
-  vec4 seen = coat(look.x);
+  ivec4 look = row(looks, worn); // first layer, how many, alpha mode, lit
+  vec4 seen = layer(look.x);
   if (look.z == CUTOUT && seen.a < 0.5) discard;
   if (look.z != BLEND) seen.a = 1.0;
   for (int upper = 1; upper < look.y; upper++) {
-    vec4 top = coat(look.x + upper);
+    vec4 top = layer(look.x + upper);
     float share = seen.a * (1.0 - top.a), total = top.a + share;
     if (total > 0.0) seen = vec4(rounded((top.rgb * top.a + seen.rgb * share) / total), total);
   }
@@ -67,7 +67,7 @@ export class Drawing {
     this.scene = null;
     this.program = link(gl);
     this.at = Object.fromEntries(
-      ["clip", "atlas", "looks", "coats", "tint"].map((name) => [name, gl.getUniformLocation(this.program, name)])
+      ["clip", "atlas", "looks", "layers", "tint"].map((name) => [name, gl.getUniformLocation(this.program, name)])
     );
     this.vertexArray = gl.createVertexArray();
     this.textures = {};
@@ -89,7 +89,7 @@ export class Drawing {
     const [width, height] = header.atlas;
     this.texture("atlas", gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, width, height, arrays.atlas);
     this.table("looks", arrays.looks, 4);
-    this.table("coats", widened(arrays.coats), 4);
+    this.table("layers", widened(arrays.layers), 4);
   }
 
   // Put what has moved in its new place.
@@ -121,7 +121,7 @@ export class Drawing {
     if (!this.scene || !this.tints) return;
     gl.useProgram(this.program);
     gl.bindVertexArray(this.vertexArray);
-    ["atlas", "looks", "coats"].forEach((name, place) => {
+    ["atlas", "looks", "layers"].forEach((name, place) => {
       gl.activeTexture(gl.TEXTURE0 + place);
       gl.bindTexture(gl.TEXTURE_2D, this.textures[name]);
       gl.uniform1i(this.at[name], place);
@@ -242,10 +242,10 @@ function allIndices(panes) {
   return indices;
 }
 
-// Coats of seven numbers as rows of eight.
-function widened(coats) {
-  const rows = new Int32Array((coats.length / 7) * 8);
-  for (let coat = 0; 7 * coat < coats.length; coat++) rows.set(coats.subarray(7 * coat, 7 * coat + 7), 8 * coat);
+// Layers of seven numbers as rows of eight.
+function widened(layers) {
+  const rows = new Int32Array((layers.length / 7) * 8);
+  for (let layer = 0; 7 * layer < layers.length; layer++) rows.set(layers.subarray(7 * layer, 7 * layer + 7), 8 * layer);
   return rows;
 }
 

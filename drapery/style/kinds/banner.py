@@ -5,8 +5,8 @@ from drapery.banner.packs import Packs
 from drapery.errors import OptionError
 from drapery.settings import Settings
 from drapery.style.block import (
+    FLAG_MAPPING,
     FLAG_SIZE,
-    FLAG_SKIN,
     SCALE,
     SWAY_PERIOD,
     Placement,
@@ -33,7 +33,7 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
         FLAG_SIZE,
         flag_origin(placement),
         SCALE,
-        FLAG_SKIN,
+        FLAG_MAPPING,
         "top",
         lambda phase, thickness: stiff_flag(placement, phase, thickness),
         SWAY_PERIOD,

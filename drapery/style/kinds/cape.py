@@ -5,37 +5,37 @@ import numpy as np
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.mesh import Mesh
-from drapery.render.scene import Coat, Look
+from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
 from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.body import Body, Panel
 from drapery.style.kinds.player import SHEET, SHOULDERS, TEXEL, back_texture
-from drapery.style.skin import box_skin
+from drapery.style.uv_mapping import box_mapping
 
 CAPE_SIZE = (10 * TEXEL, 16 * TEXEL)
 """Width and height [m]."""
 
-CAPE_SKIN = box_skin((0, 0), (10, 16, 1), SHEET)
+CAPE_MAPPING = box_mapping((0, 0), (10, 16, 1), SHEET)
 LEAN = 6.0
 """How far the game's stiff cape stands off the back of one who stands still [degrees]."""
 
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """The cape, with a hole where its texture is transparent. Raises OptionError or PackError."""
-    look = Look((Coat(back_texture(settings, (22, 17))),), "cutout")
+    material = Material((TextureLayer(back_texture(settings, (22, 17))),), "cutout")
     cape = Panel(
         CAPE_SIZE,
         np.array(SHOULDERS),
         TEXEL,
-        CAPE_SKIN,
+        CAPE_MAPPING,
         "top",
         lambda phase, thickness: _stiff(thickness),
         None,
-        lambda time: look,
+        lambda time: material,
     )
     return Body((), (cape,))
 
 
 def _stiff(thickness: float) -> Mesh:
-    leaning = tilted(stiff_board(CAPE_SIZE, thickness * TEXEL, CAPE_SKIN), -np.radians(LEAN))
+    leaning = tilted(stiff_board(CAPE_SIZE, thickness * TEXEL, CAPE_MAPPING), -np.radians(LEAN))
     return moved(leaning, np.array(SHOULDERS))

@@ -8,7 +8,7 @@ import numpy as np
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.mesh import Array, Mesh
-from drapery.render.scene import Coat, Look
+from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
 from drapery.style.body import Body, Part
 from drapery.style.boxes import Box, box_mesh
@@ -23,9 +23,9 @@ SPREAD = 15.0
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """Both wings, cut out by their texture. Raises OptionError or PackError."""
-    look = Look((Coat(back_texture(settings, (46, 22))),), "cutout")
+    material = Material((TextureLayer(back_texture(settings, (46, 22))),), "cutout")
     left = _left_wing()
-    return Body(tuple(Part(wing, lambda time: look) for wing in (left, _mirrored(left))))
+    return Body(tuple(Part(wing, lambda time: material) for wing in (left, _mirrored(left))))
 
 
 def _left_wing() -> Mesh:

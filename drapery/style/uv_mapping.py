@@ -12,7 +12,7 @@ Rect = tuple[float, float, float, float]
 """Left, top, right, bottom; as fractions of the sheet."""
 
 
-class Skin(Protocol):
+class UVMapping(Protocol):
     """Maps a thin cloth's UVs (0..1 over its face) to those of its thick shell."""
 
     def front(self, uvs: Array) -> Array:
@@ -25,7 +25,7 @@ class Skin(Protocol):
         """UVs of the rim, shape [4 E, 2]: front start, front end, back start, back end."""
 
 
-class PlainSkin:
+class SheetMapping:
     """The same picture on both sides; the rim repeats the texels at the border."""
 
     def front(self, uvs: Array) -> Array:
@@ -38,11 +38,11 @@ class PlainSkin:
         return uvs[np.tile(edges, 2).reshape(-1)]
 
 
-PLAIN_SKIN = PlainSkin()
+SHEET_MAPPING = SheetMapping()
 
 
 @dataclass(frozen=True)
-class BoxSkin:
+class BoxMapping:
     """The unfolded box of the game's models: a rectangle for each of the six sides.
 
     The left edge's strip has the front at its right border, the right edge's at its left, the
@@ -91,11 +91,11 @@ def _place_each(uvs: Array, rects: Array) -> Array:
     return rects[:, :2] + uvs * (rects[:, 2:] - rects[:, :2])
 
 
-def box_skin(
+def box_mapping(
     offset: tuple[float, float],
     size: tuple[float, float, float],
     sheet: tuple[float, float] = (64, 64),
-) -> BoxSkin:
+) -> BoxMapping:
     """The skin of a box of the game's models, all in texels.
 
     offset: upper left corner of its unfolding; size: width, height and depth of the box; sheet:
@@ -108,7 +108,7 @@ def box_skin(
         across, down = sheet
         return left / across, top / down, (left + w) / across, (top + h) / down
 
-    return BoxSkin(
+    return BoxMapping(
         front_rect=rect(x + depth, y + depth, width, height),
         back_rect=rect(x + 2 * depth + width, y + depth, width, height),
         left=rect(x, y + depth, depth, height),

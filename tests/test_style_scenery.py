@@ -7,9 +7,9 @@ from drapery.banner.packs import open_packs
 from drapery.cloth.colliders import mesh_collider
 from drapery.style.block_world import blocks, plateau
 from drapery.style.creature import cells_of, fox
-from drapery.style.figure import PARTS, figure_look, figure_mesh
+from drapery.style.figure import PARTS, figure_material, figure_mesh
 from drapery.style.insect import beetle
-from drapery.style.stage import beam, path_ground, post, sea, shadow
+from drapery.style.scenery import beam, path_ground, post, sea, shadow
 from drapery.style.tailoring import checked, dyed
 
 PACKS = open_packs(())
@@ -47,12 +47,12 @@ def test_grass_is_green_above_and_earth_below_and_a_dye_is_wool() -> None:
         PACKS.texture(f"block/{n}") for n in ("grass_block_top", "grass_block_side", "dirt")
     )
     drawn = {
-        float(model.mesh.normals[0, 1]): model.looks[0].coats[0].texels
+        float(model.mesh.normals[0, 1]): model.materials[0].layers[0].texels
         for model in blocks({(0, 0, 0): "grass"}, PACKS)
     }
     assert drawn[1] is top and drawn[0] is side and drawn[-1] is bottom
     (wool,) = blocks({(0, 0, 0): "red"}, PACKS)
-    assert wool.looks[0].coats[0].tint == (176, 46, 38)
+    assert wool.materials[0].layers[0].tint == (176, 46, 38)
 
 
 def test_a_causeway_repeats() -> None:
@@ -68,11 +68,11 @@ def test_the_figure_is_two_blocks_tall_and_stands_on_the_ground() -> None:
     assert mesh.positions[:, 1].min() == 0 and mesh.positions[:, 1].max() == 2
     assert len(mesh.triangles) == 12 * len(PARTS)
     for skin in ("traveller", "dancer", "cape"):
-        assert figure_look(skin, PACKS).coats[0].texels.shape == (64, 64, 4)
+        assert figure_material(skin, PACKS).layers[0].texels.shape == (64, 64, 4)
 
 
 def test_every_texel_of_a_figure_is_painted() -> None:
-    mesh, sheet = figure_mesh({}), figure_look("traveller", PACKS).coats[0].texels
+    mesh, sheet = figure_mesh({}), figure_material("traveller", PACKS).layers[0].texels
     for a, b, c in mesh.uvs[mesh.triangles]:
         u, v = (a + b + c) / 3 * 64
         assert sheet[int(v), int(u), 3] == 255
@@ -116,15 +116,15 @@ def test_posts_stand_and_beams_lie() -> None:
 def test_water_is_level_and_shadows_fade() -> None:
     assert set(sea(3, -0.5).mesh.positions[:, 1]) == {-0.5}
     assert faces([sea(3, 0.0)]) == 36
-    alpha = shadow((0, 0), 1.0).looks[0].coats[0].texels[..., 3]
+    alpha = shadow((0, 0), 1.0).materials[0].layers[0].texels[..., 3]
     assert alpha[0, 0] == 0 and alpha[8, 8] == alpha.max() > 60
     assert len(np.unique(alpha)) <= 5
 
 
 def test_checks_are_of_two_dyes() -> None:
     wool = PACKS.texture("block/white_wool")
-    board = checked(wool, ("lime", "white"), 2).coats[0].texels
+    board = checked(wool, ("lime", "white"), 2).layers[0].texels
     assert board.shape == (32, 32, 4)
     assert np.array_equal(board[:16, :16], board[16:, 16:])
     assert not np.array_equal(board[:16, :16], board[:16, 16:])
-    assert dyed(wool, "lime").coats[0].tint == (128, 199, 31)
+    assert dyed(wool, "lime").layers[0].tint == (128, 199, 31)

@@ -7,10 +7,10 @@ import numpy as np
 
 from drapery.banner.packs import Packs
 from drapery.mesh import Array, Mesh
-from drapery.render.scene import Coat, Look, Model
+from drapery.render.scene import Material, Model, TextureLayer
 from drapery.style.block_world import Cell, blocks
 from drapery.style.boxes import Box, box_mesh, upright
-from drapery.style.layers import wood_look
+from drapery.style.layers import wood_material
 
 SKY = (168, 204, 242, 255)
 """The background out of doors by day, sRGB and opaque."""
@@ -53,7 +53,7 @@ def post(foot: Array, height: float, packs: Packs, half: float = 0.06) -> Model:
     standing = upright(pole, 1.0, (0, 0, 0))
     scale = np.array([half, height / 42, half])
     mesh = replace(standing, positions=standing.positions * scale + foot)
-    return Model(mesh, (wood_look(packs),))
+    return Model(mesh, (wood_material(packs),))
 
 
 def beam(start: Array, length: float, packs: Packs) -> Model:
@@ -81,14 +81,14 @@ def sea(half: int, level: float) -> Model:
     return Model(mesh, (_water(),))
 
 
-def _water() -> Look:
+def _water() -> Material:
     """Short ripples in four blues; the texture repeats after a block."""
     x, y = np.meshgrid(np.arange(16), np.arange(16))
     tone = (7 * y + 3 * ((x + 5 * y) // 4) + (x + 2 * y) // 7) % 11
     blues = np.array([[52, 96, 176], [58, 104, 184], [64, 112, 192], [84, 132, 208]], np.uint8)
     texels = np.full((16, 16, 4), 255, np.uint8)
     texels[..., :3] = blues[np.choose(tone, [0, 1, 2, 1, 2, 1, 0, 1, 2, 1, 3])]
-    return Look((Coat(texels),))
+    return Material((TextureLayer(texels),))
 
 
 FLAT = np.array([[0, 2, 1], [1, 2, 3]], np.int32)
@@ -111,4 +111,4 @@ def shadow(centre: tuple[float, float], radius: float, height: float = 0.0) -> M
         FLAT,
         CORNERS,
     )
-    return Model(mesh, (Look((Coat(texels),), "blend", lit=False),))
+    return Model(mesh, (Material((TextureLayer(texels),), "blend", lit=False),))

@@ -1,0 +1,98 @@
+"""All materials of a scene as tables: the layers of each and their places in one atlas."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import OptionError
+from drapery.render.atlas import Atlas, make_atlas
+from drapery.render.recent import Recent
+from drapery.render.scene import Alpha, Material, Texels, TextureLayer
+
+OPAQUE, CUTOUT, BLEND = 0, 1, 2
+ALPHA_CODES: dict[Alpha, int] = {"opaque": OPAQUE, "cutout": CUTOUT, "blend": BLEND}
+
+MAX_TEXTURE = 16384
+"""The longest side of a texture [texels]."""
+
+
+@dataclass(frozen=True, eq=False)
+class MaterialTables:
+    """What the triangles of a draw list can wear.
+
+    material_layers: a material's first layer and how many it has, shape [L, 2], int32.
+    material_alpha: OPAQUE, CUTOUT or BLEND, shape [L], uint8.
+    material_lit: whether light falls on it, shape [L], bool.
+    layer_rects: x, y, width, height in the atlas [texels], shape [C, 4], int32.
+    layer_tints: shape [C, 3], uint8.
+    atlas: sRGB with straight alpha, shape [H, W, 4], uint8.
+    """
+
+    material_layers: NDArray[np.int32]
+    material_alpha: NDArray[np.uint8]
+    material_lit: NDArray[np.bool_]
+    layer_rects: NDArray[np.int32]
+    layer_tints: NDArray[np.uint8]
+    atlas: Texels
+
+
+_recent: Recent[MaterialTables] = Recent()
+
+
+def make_material_tables(materials: Sequence[Material]) -> MaterialTables:
+    """The tables of these materials; material i keeps its place, and each texture is packed once.
+
+    Raises OptionError for a material without layers or a texture that is none.
+    """
+    arrays = tuple(layer.texels for material in materials for layer in material.layers)
+    plain = [
+        (material.alpha, material.lit, [layer.tint for layer in material.layers])
+        for material in materials
+    ]
+    return _recent.get(arrays, plain, lambda: _make(materials))
+
+
+def _make(materials: Sequence[Material]) -> MaterialTables:
+    layers = [layer for material in materials for layer in material.layers]
+    counts = [len(material.layers) for material in materials]
+    if 0 in counts:
+        raise OptionError(f"material {counts.index(0)} has no layers; give it at least one texture")
+    sprites, sprite_of = _distinct(layers)
+    atlas: Atlas = make_atlas(sprites)
+    firsts = np.cumsum([0, *counts])[:-1]
+    return MaterialTables(
+        np.stack([firsts, counts], axis=1).astype(np.int32),
+        np.array([ALPHA_CODES[material.alpha] for material in materials], np.uint8),
+        np.array([material.lit for material in materials], np.bool_),
+        atlas.rects[sprite_of],
+        np.array([layer.tint for layer in layers], np.uint8).reshape(-1, 3),
+        atlas.texels,
+    )
+
+
+def _distinct(layers: Sequence[TextureLayer]) -> tuple[list[Texels], NDArray[np.intp]]:
+    """The different textures among layers, and for each layer its texture's place."""
+    place: dict[int | tuple[tuple[int, ...], bytes], int] = {}
+    sprites: list[Texels] = []
+    for layer in layers:
+        if id(layer.texels) in place:
+            continue
+        checked = _checked(layer.texels)
+        content = checked.shape, checked.tobytes()
+        if content not in place:
+            place[content] = len(sprites)
+            sprites.append(checked)
+        place[id(layer.texels)] = place[content]
+    return sprites, np.array([place[id(layer.texels)] for layer in layers], np.intp)
+
+
+def _checked(texels: Texels) -> Texels:
+    good = texels.dtype == np.uint8 and texels.ndim == 3 and texels.shape[2] == 4
+    if not (good and min(texels.shape[:2]) >= 1 and max(texels.shape[:2]) <= MAX_TEXTURE):
+        raise OptionError(
+            f"a texture of shape {texels.shape} and type {texels.dtype} cannot be worn;"
+            f" use [height, width, 4] of uint8 with sides of 1 to {MAX_TEXTURE}"
+        )
+    return texels
