@@ -33,11 +33,11 @@ from tempfile import TemporaryDirectory
 
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
-from drapery.batch.campaign import Tally, carry_out
 from drapery.batch.jobs import Job, do, plan
-from drapery.batch.ledger import FILE, Ledger
 from drapery.batch.manifest import read_manifest
 from drapery.batch.pool import Pool
+from drapery.batch.results import FILE, ResultsDB
+from drapery.batch.run import Progress, execute
 from drapery.batch.stores import open_store
 from drapery.batch.warming import warm
 
@@ -69,11 +69,11 @@ def catalogue_manifest(path: Path, size: str) -> Path:
     return path
 
 
-def by_pool(jobs: list[Job], folder: Path, workers: int, tell=lambda tally: None) -> Tally:
+def by_pool(jobs: list[Job], folder: Path, workers: int, tell=lambda tally: None) -> Progress:
     """A run of a pool into a folder."""
     store = open_store(str(folder))
-    with Ledger(folder / FILE) as book:
-        return carry_out(
+    with ResultsDB(folder / FILE) as book:
+        return execute(
             jobs, store, book, lambda _: Pool(partial(do, store=store), workers, ahead=2), tell=tell
         )
 
@@ -348,7 +348,7 @@ def measured(folder: Path, count: int) -> Costs:
     start = time.perf_counter()
     outcomes = [do(job, store) for job in jobs]
     job = (time.perf_counter() - start) / count
-    with Ledger(folder / FILE) as book:
+    with ResultsDB(folder / FILE) as book:
         start = time.perf_counter()
         for outcome in outcomes:
             book.record(outcome, 1)

@@ -44,7 +44,7 @@ def targets() -> dict[str, Target]:
     }
 
 
-def run(name: str, target: Target, count: int, seed: int) -> fuzzing.Tally:
+def run(name: str, target: Target, count: int, seed: int) -> fuzzing.Progress:
     """Fuzz one form and print what came of it."""
     for sample in target.samples:  # whatever is loaded once is not the inputs' memory
         list(target.read(sample))
@@ -77,7 +77,7 @@ def drive_by_coverage(target: Target, arguments: list[str]) -> None:
 
     def one_input(data: bytes) -> None:
         given = data if binary else data.decode("utf-8", "replace")
-        tally = fuzzing.Tally()
+        tally = fuzzing.Progress()
         fuzzing.judge(target.read, given, tally)
         if tally.failures:
             raise AssertionError(tally.failures[0][1])

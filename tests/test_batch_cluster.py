@@ -10,12 +10,12 @@ import pytest
 from test_batch_keys import make_pack
 from test_batch_run import manifest, pictures
 
-from drapery.batch import cluster, jobs, parcels
-from drapery.batch.campaign import carry_out
+from drapery.batch import artifacts, cluster, jobs
 from drapery.batch.keys import Digests, our_version
-from drapery.batch.ledger import FILE, Ledger
 from drapery.batch.manifest import read_manifest
 from drapery.batch.pool import Limits
+from drapery.batch.results import FILE, ResultsDB
+from drapery.batch.run import execute
 from drapery.batch.stores import RemoteStore, open_store
 from drapery.batch.work import Retries
 from drapery.errors import BackendError, OutputError
@@ -39,11 +39,11 @@ def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -
             pid = next(iter(crews[-1].client.run(os.getpid).values()))
             os.kill(pid, signal.SIGKILL)
 
-    with Ledger(tmp_path / FILE) as book, warnings.catch_warnings():
+    with ResultsDB(tmp_path / FILE) as book, warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        tally = carry_out(planned, torn, book, hire, retries=Retries(3, 0.1), tell=tell)
+        tally = execute(planned, torn, book, hire, retries=Retries(3, 0.1), tell=tell)
         assert (tally.drawn, tally.failed) == (16, [])
-        again = carry_out(planned, torn, book, hire, resume=True)
+        again = execute(planned, torn, book, hire, resume=True)
     assert (again.kept, again.drawn, len(crews)) == (16, 0, 1)
     assert pictures(tmp_path / "torn") == pictures(tmp_path / "calm")
 
@@ -69,12 +69,12 @@ def test_a_worker_of_another_version_refuses() -> None:
 
 
 def test_packs_travel_as_the_same_bytes(tmp_path: Path, monkeypatch) -> None:
-    monkeypatch.setattr(parcels.tempfile, "gettempdir", lambda: str(tmp_path / "worker"))
+    monkeypatch.setattr(artifacts.tempfile, "gettempdir", lambda: str(tmp_path / "worker"))
     pack = make_pack(tmp_path / "pack")
     (job,) = jobs.plan(read_manifest(manifest(tmp_path / "m.jsonl", 1, packs="pack")))
-    parcel = parcels.packed(pack, Digests())
-    assert parcel == parcels.packed(pack, Digests())
-    there = parcels.settled(job, (parcel,))
+    parcel = artifacts.packed(pack, Digests())
+    assert parcel == artifacts.packed(pack, Digests())
+    there = artifacts.settled(job, (parcel,))
     (path,) = there.settings.packs
     assert tmp_path / "worker" in Path(path).parents
     assert there.key == job.key
@@ -91,10 +91,10 @@ def test_outputs_go_to_any_target_of_fsspec(tmp_path: Path) -> None:
     outs = [out for job in planned for out in job.outs]
     assert {out: far.read(out) for out in outs} == pictures(tmp_path / "near")
     assert far.sizes([*outs, "none.png"]) == [*near.sizes(outs), None]
-    with Ledger(tmp_path / FILE) as book:
+    with ResultsDB(tmp_path / FILE) as book:
         for job, size in zip(planned, near.sizes(outs), strict=True):
             book.record(jobs.Outcome(job, size=size), 1)
-        tally = carry_out(planned, far, book, partial(pytest.fail, "nothing is to be drawn"))
+        tally = execute(planned, far, book, partial(pytest.fail, "nothing is to be drawn"))
     assert tally.kept == 3
     with pytest.raises(OutputError, match="cannot read"):
         far.read("none.png")

@@ -23,8 +23,8 @@ from test_batch_keys import make_pack
 from drapery import Banner, draw
 from drapery.batch.jobs import do, plan
 from drapery.batch.keys import our_version
-from drapery.batch.ledger import FILE, Ledger
 from drapery.batch.manifest import read_manifest
+from drapery.batch.results import FILE, ResultsDB
 from drapery.batch.stores import open_store
 from drapery.errors import OutputError
 
@@ -184,9 +184,9 @@ def test_a_full_disk_leaves_no_half_file(tmp_path: Path, monkeypatch) -> None:
 
 
 def test_a_ledger_is_of_one_run_at_a_time(tmp_path: Path) -> None:
-    with Ledger(tmp_path / FILE), pytest.raises(OutputError, match="another run"):
-        Ledger(tmp_path / FILE)
-    with Ledger(tmp_path / FILE) as again:
+    with ResultsDB(tmp_path / FILE), pytest.raises(OutputError, match="another run"):
+        ResultsDB(tmp_path / FILE)
+    with ResultsDB(tmp_path / FILE) as again:
         assert again.known() == {}
 
 

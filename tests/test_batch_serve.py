@@ -17,12 +17,12 @@ from starlette.testclient import TestClient
 from drapery import Banner, animate, draw
 from drapery.batch.jobs import Job, Outcome
 from drapery.batch.manifest import Request
-from drapery.batch.pool import Limits
+from drapery.batch.pool import PictureLimits
 from drapery.serve.app import make_app
-from drapery.serve.desk import BusyError, Desk
+from drapery.serve.job_queue import BusyError, JobQueue
+from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import Rates
-from drapery.serve.shelf import Shelf
-from drapery.serve.wishes import House, read_wish
+from drapery.serve.request_params import ServiceConfig, read_wish
 
 SMALL = "size=24x32&grid=3x5"
 LIME = "white+creeper:lime"
@@ -30,7 +30,7 @@ LIME = "white+creeper:lime"
 
 @pytest.fixture(scope="module")
 def client() -> Iterator[TestClient]:
-    with TestClient(make_app(workers=1, limits=Limits(20.0, 1 << 30), rate=0)) as client:
+    with TestClient(make_app(workers=1, limits=PictureLimits(20.0, 1 << 30), rate=0)) as client:
         yield client
 
 
@@ -140,7 +140,7 @@ NAMES = st.sampled_from(["design", "size", "wind", "seed", "x", "time", "rotatio
 
 @given(st.lists(st.tuples(NAMES, st.text(max_size=12)), max_size=5))
 def test_any_query_is_a_request_or_reasons(query: list[tuple[str, str]]) -> None:
-    read = read_wish(query, ".png", House())
+    read = read_wish(query, ".png", ServiceConfig())
     assert isinstance(read, Request) or (read and all(isinstance(line, str) for line in read))
 
 
@@ -170,7 +170,7 @@ class Slow:
 
 def test_a_desk_draws_equal_jobs_once_and_says_when_it_is_full() -> None:
     crew = Slow()
-    desk = Desk(lambda: crew, most=2)
+    desk = JobQueue(lambda: crew, most=2)
     try:
         first = desk.ask(job("a"))
         assert desk.ask(job("a")) is first
@@ -188,7 +188,7 @@ def test_a_desk_draws_equal_jobs_once_and_says_when_it_is_full() -> None:
 
 
 def test_a_shelf_keeps_what_was_used_last(tmp_path: Path) -> None:
-    shelf = Shelf(tmp_path, most=25)
+    shelf = PictureCache(tmp_path, most=25)
     for name in "abc":
         (tmp_path / name).write_bytes(name.encode() * 10)
         shelf.put(name, 10)

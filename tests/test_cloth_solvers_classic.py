@@ -64,8 +64,8 @@ def start_of(cloth, positions=None, velocities=None, count=1):
 
 def run(cloth, solver, forces, dt, steps, start, pins=None):
     """The state after `steps` steps."""
-    memory = solver.init(cloth, dt)
-    return solver.step(cloth, start, memory, forces, dt, steps=steps, pins=pins)[0]
+    solver_state = solver.init(cloth, dt)
+    return solver.step(cloth, start, solver_state, forces, dt, steps=steps, pins=pins)[0]
 
 
 def energy(cloth, state):
@@ -114,13 +114,13 @@ def test_the_error_of_a_pendulum_has_the_declared_order(name):
 def test_a_spring_swings_at_its_frequency(name):
     cloth = chain([[0, 0, 0], [1, 0, 0]], stiffness=50.0, mass=0.5)
     dt, count = 1 / 2000, 2600
-    memory, state, places = (
+    solver_state, state, places = (
         PLAIN[name].init(cloth, dt),
         start_of(cloth, [[0, 0, 0], [1.02, 0, 0]]),
         [],
     )
     for _ in range(count):
-        state, memory = PLAIN[name].step(cloth, state, memory, [], dt)
+        state, solver_state = PLAIN[name].step(cloth, state, solver_state, [], dt)
         places.append(state.positions[0, 1, 0] - 1)
     rising = np.flatnonzero((np.array(places[:-1]) < 0) & (np.array(places[1:]) >= 0))
     period = (rising[-1] - rising[0]) * dt / (len(rising) - 1)
@@ -173,9 +173,9 @@ def test_symplectic_methods_keep_angular_momentum_to_rounding(name):
 def test_verlet_is_the_recurrence_of_its_places():
     cloth = grid(4, 4, 0.6, 0.6)
     dt, solver = 1 / 500, PLAIN["verlet"]
-    memory, state, places = solver.init(cloth, dt), start_of(cloth), []
+    solver_state, state, places = solver.init(cloth, dt), start_of(cloth), []
     for _ in range(30):
-        state, memory = solver.step(cloth, state, memory, [Gravity()], dt)
+        state, solver_state = solver.step(cloth, state, solver_state, [Gravity()], dt)
         places.append(state.positions[0])
     x = np.array(places)
     a, b = cloth.spring_pairs.T
@@ -434,9 +434,9 @@ def test_many_steps_at_once_are_the_same_steps_and_pins_follow_their_path(name):
 
     forces, dt, solver = [Gravity(), Wind((0.0, 0.0, 3.0))], 1 / 60, DEFAULT[name]
     once = run(cloth, solver, forces, dt, 12, start_of(cloth), path)
-    memory, state = solver.init(cloth, dt), start_of(cloth)
+    solver_state, state = solver.init(cloth, dt), start_of(cloth)
     for _ in range(12):
-        state, memory = solver.step(cloth, state, memory, forces, dt, pins=path)
+        state, solver_state = solver.step(cloth, state, solver_state, forces, dt, pins=path)
     np.testing.assert_allclose(state.positions, once.positions, atol=1e-12)
     np.testing.assert_allclose(once.positions[0, :5], path(0.2), atol=1e-12)
     assert max_stretch(once.positions, cloth) < 0.2

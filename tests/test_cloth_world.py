@@ -36,10 +36,10 @@ def test_near_cloths_are_a_batch_to_the_last_bit() -> None:
     world.add(CLOTH, row(4))
     rest = np.broadcast_to(CLOTH.rest_positions, (4, 45, 3)).copy()
     state, solver = State(rest, np.zeros_like(rest)), SolverXPBD()
-    memory = solver.init(CLOTH, world.dt)
+    solver_state = solver.init(CLOTH, world.dt)
     for _ in range(20):
         world.step(EYE)
-        state, memory = solver.step(CLOTH, state, memory, breeze(row(4)), world.dt)
+        state, solver_state = solver.step(CLOTH, state, solver_state, breeze(row(4)), world.dt)
     assert all(np.array_equal(positions(world)[i], state.positions[i]) for i in range(4))
 
 

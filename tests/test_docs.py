@@ -20,7 +20,7 @@ def test_the_readme_lists_every_command() -> None:
 
 
 def test_the_house_names_every_room() -> None:
-    house = (ROOT / "docs/house.md").read_text()
+    house = (ROOT / "docs/architecture.md").read_text()
     rooms = {path.parent for path in (ROOT / "drapery").glob("*/__init__.py")}
     for room in rooms:
         assert f"`{room.relative_to(ROOT).as_posix()}/`" in house

@@ -15,8 +15,8 @@ from pack_maker import plain, png
 from drapery.banner.formats import parse_banner
 from drapery.errors import DesignError, DraperyError, OutputError
 from drapery.settings import Settings
-from drapery.studio.kept import Design, checked_tags
 from drapery.studio.library import OURS, VERSION, Library, default_place
+from drapery.studio.records import Design, checked_tags
 from drapery.studio.sketch import Sketch, Stroke, hide, sketch_of
 
 LOOK = Settings(view="iso", wind=7.5, grid=(9, 17))
@@ -255,7 +255,7 @@ import sys
 from pathlib import Path
 from drapery.banner.formats import parse_banner
 from drapery.settings import Settings
-from drapery.studio.kept import Design
+from drapery.studio.records import Design
 from drapery.studio.library import Library
 from drapery.studio.sketch import sketch_of
 library = Library(Path(sys.argv[1]))

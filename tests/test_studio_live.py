@@ -20,21 +20,21 @@ from drapery.render.light import GAME_LIGHT
 from drapery.render.soft import draw_scene
 from drapery.scenes.staging import STEP, still
 from drapery.settings import Settings
-from drapery.studio.breeze import (
-    Breeze,
+from drapery.studio.live import Live, Ray
+from drapery.studio.live_cloth import ClothSpec, grabbed, hang, pulled, rewoven, within_reach
+from drapery.studio.messages import Told, pack, unpack
+from drapery.studio.player import Player
+from drapery.studio.session import find_session, open_session
+from drapery.studio.sketch import sketch_of
+from drapery.studio.stream import UNDER_WAY, UNKNOWN, WRONG, add_routes
+from drapery.studio.viewport import stage_of
+from drapery.studio.wind_controls import (
+    WindControls,
     around,
     carried_on,
     steered,
     wind_of,
 )
-from drapery.studio.hanging import Weave, grabbed, hang, pulled, rewoven, within_reach
-from drapery.studio.live import Live, Ray
-from drapery.studio.messages import Told, pack, unpack
-from drapery.studio.player import Player
-from drapery.studio.session import find_session, open_session
-from drapery.studio.sketch import sketch_of
-from drapery.studio.stage import stage_of
-from drapery.studio.stream import UNDER_WAY, UNKNOWN, WRONG, add_routes
 
 DESIGN = Banner.parse("white creeper:lime border:black")
 SETTINGS = Settings(wind=6.0, time=1.5, size=(96, 96))
@@ -133,7 +133,7 @@ def test_reset_begins_again() -> None:
     assert np.array_equal(live.particles()[0], fresh.particles()[0])
 
 
-WEAVE = Weave((5, 9), (0.8, 1.6), "top", "desbrun")
+WEAVE = ClothSpec((5, 9), (0.8, 1.6), "top", "desbrun")
 
 
 @pytest.mark.parametrize("solver", ["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"])
@@ -230,14 +230,14 @@ def test_another_grid_goes_on_from_the_same_shape() -> None:
     [("w", 0, 180), ("s", 0, 0), ("d", 0, 90), ("a", 0, -90), ("w", 90, -90), ("d", 180, -90)],
 )
 def test_keys_send_the_wind_as_the_viewer_sees_it(key: str, azimuth: float, heading: float) -> None:
-    breeze = Breeze()
+    breeze = WindControls()
     for _ in range(180):
         breeze = steered(breeze, (key,), azimuth, STEP)
     assert abs(around(breeze.heading - heading)) < 1e-6
 
 
 def test_keys_make_the_wind_weaker_and_stronger_within_bounds() -> None:
-    breeze = Breeze(4.0)
+    breeze = WindControls(4.0)
     assert steered(breeze, "e", 0, 0.5).speed == 6.5
     assert steered(breeze, "q", 0, 5.0).speed == 0.0
     assert steered(breeze, "e", 0, 50.0).speed == 40.0
@@ -245,14 +245,16 @@ def test_keys_make_the_wind_weaker_and_stronger_within_bounds() -> None:
 
 
 def test_a_changed_wind_goes_on_where_it_was() -> None:
-    before, time = wind_of(Breeze(4.0)), 61.7
-    after = carried_on(before, wind_of(Breeze(4.3)), time)
+    before, time = wind_of(WindControls(4.0)), 61.7
+    after = carried_on(before, wind_of(WindControls(4.3)), time)
     phase = float(np.asarray(after.phases))
     swells = phase / after.sine_period
     assert abs(swells - round(swells)) < 1e-6
     old, new = (4.0 * time / 1.5) % 4096, (4.3 * (time + phase) / 1.5) % 4096
     assert abs(old - new) < 0.1
-    assert carried_on(before, wind_of(Breeze(4.0, direction=40.0)), time).phases == before.phases
+    assert (
+        carried_on(before, wind_of(WindControls(4.0, direction=40.0)), time).phases == before.phases
+    )
 
 
 def told_positions(told: Told, live: Live, seen: dict[str, Any]) -> list[str]:

@@ -20,7 +20,7 @@ from drapery.settings import Settings
 from drapery.studio.panels.file_options import difference
 from drapery.studio.share import read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
-from drapery.studio.stage import Wishes
+from drapery.studio.viewport import ViewportRequest
 
 DESIGN = Sketch(
     "red", (Stroke(1, "creeper", "lime"), Stroke(2, "border", "black")), "banner", "Lime Ghost"
@@ -131,8 +131,12 @@ def test_a_picture_is_the_commands_to_the_byte(
 
 
 def test_what_the_live_banner_has_alone_is_said() -> None:
-    assert difference(Wishes(), "png") == difference(Wishes(scene="sail"), "json") == ""
-    assert "not the scene" in difference(Wishes(scene="sail"), "glb")
+    assert (
+        difference(ViewportRequest(), "png")
+        == difference(ViewportRequest(scene="sail"), "json")
+        == ""
+    )
+    assert "not the scene" in difference(ViewportRequest(scene="sail"), "glb")
 
 
 def test_no_wind_is_no_wind_in_the_file_too(page: Page) -> None:

@@ -13,8 +13,8 @@ from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError, OptionError, PackError
 from drapery.studio import sketch as edits
-from drapery.studio.desk import desk_of
 from drapery.studio.history import LIMIT, History
+from drapery.studio.selection import desk_of
 from drapery.studio.session import (
     MAX_SESSIONS,
     Session,

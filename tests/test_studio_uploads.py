@@ -12,8 +12,8 @@ from pack_maker import BANNER, CREEPER, META, mcmeta, noise, plain, png, red, zi
 from drapery.errors import DesignError, DraperyError, PackError
 from drapery.settings import Settings
 from drapery.studio import uploads as module
+from drapery.studio.pack_store import PackStore, shelf_of
 from drapery.studio.session import Session
-from drapery.studio.shelf import Shelf, shelf_of
 from drapery.studio.uploads import Purpose, Upload, Uploads, shown_name, uploads_of
 
 
@@ -143,7 +143,7 @@ def test_only_numbers_of_ours_are_known(session: Session, number: object) -> Non
         uploads_of(session).get(1, "library")
 
 
-def shelf_with(session: Session, *packs: bytes) -> Shelf:
+def shelf_with(session: Session, *packs: bytes) -> PackStore:
     shelf = shelf_of(session)
     for number, pack in enumerate(packs):
         kept = send(session, pack, f"{number}.zip")

@@ -11,9 +11,9 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
+from drapery.batch.artifacts import Artifact, packed, paths_of, settled
 from drapery.batch.jobs import OUT_OF_MEMORY, Job, Outcome, do
 from drapery.batch.keys import Digests, our_version
-from drapery.batch.parcels import Parcel, packed, paths_of, settled
 from drapery.batch.pool import Limits, Pool
 from drapery.batch.stores import Store
 from drapery.errors import BackendError, DraperyError
@@ -37,7 +37,7 @@ class LostError(BackendError):
 
 @dataclass
 class DaskCrew:
-    """A crew of a cluster's workers; see `work.Crew`. cluster: to be closed with it, or None."""
+    """The workers of a cluster; see `work.Executor`. cluster: closed with it, or None."""
 
     client: Any
     store: Store
@@ -55,20 +55,20 @@ class DaskCrew:
     _pace: float = TASK
 
     def free(self) -> int:
-        """See `Crew`."""
+        """See `Executor`."""
         if time.monotonic() - self._counted > COUNT_AGAIN:
             self._count()
         busy = sum(len(jobs) for _, jobs in self._running.values()) + len(self._gathered)
         return AHEAD * max(1, self._threads) * self._in_task() - busy
 
     def start(self, job: Job) -> None:
-        """See `Crew`. It is sent with others, at the latest when outcomes are waited for."""
+        """See `Executor`. It is sent with others, at the latest when outcomes are waited for."""
         self._gathered.append(job)
         if len(self._gathered) >= self._in_task():
             self._submit()
 
     def finished(self, patience: float) -> list[Outcome]:
-        """See `Crew`. Raises LostError where the scheduler is gone."""
+        """See `Executor`. Raises LostError where the scheduler is gone."""
         self._submit()
         self._look_for_scheduler()
         try:
@@ -112,7 +112,7 @@ class DaskCrew:
         future.add_done_callback(lambda _: self._ended.put(key))
 
     def close(self) -> None:
-        """See `Crew`."""
+        """See `Executor`."""
         for end in (self.client, self.cluster):
             if end is not None:
                 try:
@@ -148,13 +148,13 @@ class DaskCrew:
 
 
 def task(
-    jobs: Sequence[Job], store: Store, limits: Limits, parcels: Mapping[str, Parcel]
+    jobs: Sequence[Job], store: Store, limits: Limits, parcels: Mapping[str, Artifact]
 ) -> list[Outcome]:
     """Jobs on a worker, one after the other. parcels: packs and textures by their paths."""
     return [_one(job, store, limits, parcels) for job in jobs]
 
 
-def _one(job: Job, store: Store, limits: Limits, parcels: Mapping[str, Parcel]) -> Outcome:
+def _one(job: Job, store: Store, limits: Limits, parcels: Mapping[str, Artifact]) -> Outcome:
     if job.version != our_version():
         fault = (
             f"the worker runs drapery {our_version()}, the job is of {job.version};"

@@ -4,8 +4,8 @@ import io
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from drapery.batch.campaign import Tally
-from drapery.batch.ledger import Entry
+from drapery.batch.results import Entry
+from drapery.batch.run import Progress
 from drapery.batch.stores import Store
 from drapery.errors import DraperyError
 
@@ -49,7 +49,7 @@ _PAGE = """<!doctype html>
 """
 
 
-def numbers(tally: Tally, seconds: float) -> dict[str, str]:
+def numbers(tally: Progress, seconds: float) -> dict[str, str]:
     """The summary of a run, as names and values. seconds: that it took."""
     rate = f"{tally.drawn / seconds:.1f} pictures/s" if seconds > 0 else ""
     said = {
@@ -65,7 +65,7 @@ def numbers(tally: Tally, seconds: float) -> dict[str, str]:
 
 
 def write_page(
-    title: str, tally: Tally, seconds: float, entries: Mapping[str, Entry], store: Store
+    title: str, tally: Progress, seconds: float, entries: Mapping[str, Entry], store: Store
 ) -> None:
     """Write the page beside the outputs. Raises OutputError."""
     from jinja2 import Environment

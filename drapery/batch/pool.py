@@ -33,7 +33,7 @@ class Limits:
 
 
 @dataclass
-class _Hand:
+class _Worker:
     """One worker process. ready: it has reported. resting: its memory without a job [bytes].
 
     jobs: sent to it, of which it does the first; began: when it began that.
@@ -49,7 +49,7 @@ class _Hand:
 
 @dataclass
 class Pool:
-    """A crew of processes on this machine; see `work.Crew`.
+    """A crew of processes on this machine; see `work.Executor`.
 
     work: what does a job, a function of a module. workers: how many processes.
     threads: of each; by default its share of the cores.
@@ -62,7 +62,7 @@ class Pool:
     threads: int | None = None
     ahead: int = 1
     _backlog: deque[Job] = field(default_factory=deque)
-    _hands: list[_Hand] = field(default_factory=list)
+    _hands: list[_Worker] = field(default_factory=list)
     _stillborn: int = 0
     _looked: float = 0.0
 
@@ -70,12 +70,12 @@ class Pool:
         self._hands = [self._hire() for _ in range(self.workers)]
 
     def free(self) -> int:
-        """See `Crew`."""
+        """See `Executor`."""
         taken = len(self._backlog) + sum(len(hand.jobs) for hand in self._hands)
         return self.ahead * sum(hand.ready for hand in self._hands) - taken
 
     def start(self, job: Job) -> None:
-        """See `Crew`."""
+        """See `Executor`."""
         self._backlog.append(job)
         self._deal()
 
@@ -98,7 +98,7 @@ class Pool:
                 hand.pipe.send(hand.jobs[-1])
 
     def finished(self, patience: float) -> list[Outcome]:
-        """See `Crew`. Raises BackendError where no worker starts."""
+        """See `Executor`. Raises BackendError where no worker starts."""
         end = time.monotonic() + patience
         while True:
             left = max(0.0, min(LOOK, end - time.monotonic()))
@@ -118,7 +118,7 @@ class Pool:
         return [hand.process.pid or 0 for hand in self._hands]
 
     def close(self) -> None:
-        """See `Crew`."""
+        """See `Executor`."""
         for hand in self._hands:
             hand.process.kill()
         for hand in self._hands:
@@ -126,7 +126,7 @@ class Pool:
             hand.pipe.close()
         self._hands = []
 
-    def _hire(self) -> _Hand:
+    def _hire(self) -> _Worker:
         # A fresh interpreter: forking one that has threads is not safe.
         context = get_context("spawn")
         ours, theirs = context.Pipe()
@@ -139,9 +139,9 @@ class Pool:
         )
         process.start()
         theirs.close()
-        return _Hand(process, ours)
+        return _Worker(process, ours)
 
-    def _hear(self, hand: _Hand) -> list[Outcome]:
+    def _hear(self, hand: _Worker) -> list[Outcome]:
         try:
             said = hand.pipe.recv()
         except (EOFError, OSError):
@@ -156,7 +156,7 @@ class Pool:
         hand.began = time.monotonic()
         return [said]
 
-    def _check(self, hand: _Hand) -> list[Outcome]:
+    def _check(self, hand: _Worker) -> list[Outcome]:
         """End a worker whose job is over its limits."""
         if not hand.jobs or hand not in self._hands:
             return []
@@ -166,7 +166,7 @@ class Pool:
             return self._lost(hand, OUT_OF_MEMORY)
         return []
 
-    def _lost(self, hand: _Hand, why: str) -> list[Outcome]:
+    def _lost(self, hand: _Worker, why: str) -> list[Outcome]:
         if not hand.ready:
             self._stillborn += 1
             if self._stillborn >= MOST_STILLBORN:
@@ -180,7 +180,7 @@ class Pool:
         self._backlog.extendleft(reversed(others))
         return [Outcome(first, f"{why} (process {pid})", True, took)]
 
-    def _replace(self, hand: _Hand) -> None:
+    def _replace(self, hand: _Worker) -> None:
         hand.process.kill()
         hand.process.join()
         hand.pipe.close()

@@ -13,7 +13,7 @@ PATIENCE = 0.5
 """The longest wait for an outcome before the crew is looked after [s]."""
 
 
-class Crew(Protocol):
+class Executor(Protocol):
     """Workers: processes here, or a cluster's."""
 
     def free(self) -> int:
@@ -41,7 +41,9 @@ class Retries:
         return min(60.0, self.pause * 2.0 ** (tries - 1))
 
 
-def work_off(jobs: Iterable[Job], crew: Crew, retries: Retries) -> Iterator[tuple[Outcome, int]]:
+def work_off(
+    jobs: Iterable[Job], crew: Executor, retries: Retries
+) -> Iterator[tuple[Outcome, int]]:
     """The final outcome of every job, with how often it was tried, as they come."""
     fresh, order = iter(jobs), count()
     later: list[tuple[float, int, Job]] = []

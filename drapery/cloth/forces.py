@@ -57,14 +57,14 @@ class PushBack:
 
 
 @runtime_checkable
-class CustomForce(Protocol):
+class ForceField(Protocol):
     """Any other force."""
 
     def acceleration(self, cloth: Cloth, state: State) -> Array:
         """Acceleration of each particle [m/s²], shape [B, N, 3] or [N, 3]."""
 
 
-Force = Gravity | Drag | Wind | CustomForce
+Force = Gravity | Drag | Wind | ForceField
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,7 @@ class Loads:
     gravity: Array
     drag: float
     gusts: Gusts
-    custom: tuple[CustomForce, ...]
+    custom: tuple[ForceField, ...]
 
 
 def lower_forces(forces: Sequence[Force], count: int) -> Loads:
@@ -85,7 +85,7 @@ def lower_forces(forces: Sequence[Force], count: int) -> Loads:
     gravity = np.zeros(3)
     drag = 0.0
     winds: list[Wind] = []
-    custom: list[CustomForce] = []
+    custom: list[ForceField] = []
     for force in forces:
         if isinstance(force, Gravity):
             gravity += finite_vector("gravity", force.acceleration)
@@ -93,7 +93,7 @@ def lower_forces(forces: Sequence[Force], count: int) -> Loads:
             drag += _rate(force.rate)
         elif isinstance(force, Wind):
             winds.append(force)
-        elif isinstance(force, CustomForce):
+        elif isinstance(force, ForceField):
             custom.append(force)
         else:
             raise OptionError(f"force {force!r} has no method acceleration(cloth, state); add one")

@@ -82,12 +82,12 @@ def add(x: Any, row: Any, lane: Any, part: Any, dx: Any, dy: Any, dz: Any) -> No
 
 
 @kernel
-def shorten(x: Any, links: Any) -> None:
+def shorten(x: Any, attachments: Any) -> None:
     """Provot's correction: links over their longest length are pulled back to it, in order."""
-    for s in range(links.longest.size):
-        i, j = 3 * np.intp(links.pairs[s, 0]), 3 * np.intp(links.pairs[s, 1])
-        most = fill(links.longest[s])
-        part_i, part_j = links.share_i[s], -links.share_j[s]
+    for s in range(attachments.longest.size):
+        i, j = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
+        most = fill(attachments.longest[s])
+        part_i, part_j = attachments.share_i[s], -attachments.share_j[s]
         for lane in range(0, x.shape[1], span(x)):
             dx, dy, dz = way(x, i, j, lane)
             d = larger(root(dx * dx + dy * dy + dz * dz), most)

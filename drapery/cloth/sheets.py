@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.attachments import link_groups
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces
-from drapery.cloth.links import link_groups
 from drapery.mesh import Array
 
 LEAST_COLUMNS = 16
@@ -175,7 +175,7 @@ def anchored(sheet: Sheet, pairs: Pairs) -> Iterator[Piece]:
 
 
 def limits(sheet: Sheet, cloth: Cloth, limit: float, sweeps: int) -> Pulls:
-    """`links.link_groups` in their order; those along rows are taken at once, in part."""
+    """`attachments.link_groups` in their order; those along rows are taken at once, in part."""
     groups = [Pairs(*group) for group in link_groups(cloth, limit, sweeps)]
     pieces: list[Piece] = []
     for group in groups:

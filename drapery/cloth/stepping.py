@@ -38,12 +38,16 @@ def simulate(
     check_step(dt, every)
     state = start or rest_state(cloth, count)
     check_state(cloth, state)
-    memory = solver.init(cloth, dt)
+    solver_state = solver.init(cloth, dt)
     if collisions is not None:
-        yield from _colliding(cloth, solver, forces, dt, state, memory, every, pins, collisions)
+        yield from _colliding(
+            cloth, solver, forces, dt, state, solver_state, every, pins, collisions
+        )
     while True:
         yield state
-        state, memory = solver.step(cloth, state, memory, forces, dt, steps=every, pins=pins)
+        state, solver_state = solver.step(
+            cloth, state, solver_state, forces, dt, steps=every, pins=pins
+        )
 
 
 def _colliding(
@@ -52,7 +56,7 @@ def _colliding(
     forces: Sequence[Force],
     dt: float,
     state: State,
-    memory: Any,
+    solver_state: Any,
     every: int,
     pins: PinPath | None,
     collisions: Collisions,
@@ -66,5 +70,5 @@ def _colliding(
         yield state
         for _ in range(every):
             before = state
-            after, memory = solver.step(cloth, before, memory, forces, dt, pins=pins)
+            after, solver_state = solver.step(cloth, before, solver_state, forces, dt, pins=pins)
             state = stage(before, after)

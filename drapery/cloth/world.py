@@ -222,7 +222,9 @@ class World:
         elif stiff.size:
             herd.velocities[stiff] = 0
 
-    def _simulate(self, herd: _Herd, rows: NDArray[np.intp], cloth: Cloth, memory: Any) -> None:
+    def _simulate(
+        self, herd: _Herd, rows: NDArray[np.intp], cloth: Cloth, solver_state: Any
+    ) -> None:
         if not rows.size:
             return
         positions, velocities = herd.positions[rows], herd.velocities[rows]
@@ -230,7 +232,7 @@ class World:
             positions, velocities = (thin(a, herd.cloth) for a in (positions, velocities))
         state = State(positions, velocities, self.time)
         forces = self.forces(herd.places[rows])
-        state, _ = self.solver.step(cloth, state, memory, forces, self.dt)
+        state, _ = self.solver.step(cloth, state, solver_state, forces, self.dt)
         moved = state.positions, state.velocities
         if cloth is not herd.cloth:
             moved = refine(moved[0], herd.cloth), refine(moved[1], herd.cloth)

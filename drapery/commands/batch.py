@@ -11,11 +11,11 @@ import typer
 from drapery.commands.notices import bar_of, compile_notice, say
 
 if TYPE_CHECKING:
-    from drapery.batch.campaign import Tally
     from drapery.batch.jobs import Job
-    from drapery.batch.ledger import Ledger
+    from drapery.batch.results import ResultsDB
+    from drapery.batch.run import Progress
     from drapery.batch.stores import Store
-    from drapery.batch.work import Crew
+    from drapery.batch.work import Executor
 
 MAX_WORKERS = 512
 MAX_SAID = 50
@@ -63,8 +63,8 @@ def run(
 ) -> None:
     """Draw all jobs of a manifest; exit code 0, 1 where some failed, 2 for a bad manifest."""
     from drapery.batch.cluster import LostError
-    from drapery.batch.ledger import Ledger
     from drapery.batch.page import numbers, write_page
+    from drapery.batch.results import ResultsDB
     from drapery.batch.stores import open_store
     from drapery.settings import within
 
@@ -75,7 +75,7 @@ def run(
     jobs = _jobs(manifest, default or [], format)
     store = open_store(out)
     start = monotonic()
-    with Ledger(_ledger_path(store, ledger, resume)) as book, compile_notice():
+    with ResultsDB(_ledger_path(store, ledger, resume)) as book, compile_notice():
         hire = _hire(store, workers, cluster, scheduler, timeout, memory << 20, jobs)
         try:
             tally = _carry_out(jobs, store, book, hire, resume, retries)
@@ -111,7 +111,7 @@ def _jobs(manifest: Path, defaults: list[str], ending: str) -> "list[Job]":
 
 
 def _ledger_path(store: "Store", given: Path | None, resume: bool) -> Path:
-    from drapery.batch.ledger import FILE
+    from drapery.batch.results import FILE
     from drapery.batch.stores import LocalStore
     from drapery.errors import OptionError
 
@@ -130,7 +130,7 @@ def _hire(
     timeout: float,
     memory: int,
     jobs: "list[Job]",
-) -> "Callable[[int], Crew]":
+) -> "Callable[[int], Executor]":
     import os
     from functools import partial
 
@@ -140,7 +140,7 @@ def _hire(
 
     count, limits = workers or os.cpu_count() or 1, Limits(timeout, memory)
 
-    def hire(todo: int) -> "Crew":
+    def hire(todo: int) -> "Executor":
         if scheduler is None:
             moving = [job.seconds is not None for job in jobs]
             warm(stills=not all(moving), loops=any(moving))
@@ -158,34 +158,32 @@ def _hire(
 def _carry_out(
     jobs: "list[Job]",
     store: "Store",
-    book: "Ledger",
-    hire: "Callable[[int], Crew]",
+    book: "ResultsDB",
+    hire: "Callable[[int], Executor]",
     resume: bool,
     retries: int,
-) -> "Tally":
-    from drapery.batch.campaign import carry_out
+) -> "Progress":
+    from drapery.batch.run import execute
     from drapery.batch.work import Retries
 
     with _progress(sum(len(job.outs) for job in jobs)) as tell:
-        return carry_out(
-            jobs, store, book, hire, resume=resume, retries=Retries(retries), tell=tell
-        )
+        return execute(jobs, store, book, hire, resume=resume, retries=Retries(retries), tell=tell)
 
 
 @contextmanager
-def _progress(total: int) -> "Iterator[Callable[[Tally], None]]":
+def _progress(total: int) -> "Iterator[Callable[[Progress], None]]":
     """A bar: done, rate, time left, failures."""
     with bar_of("pictures", "{task.fields[failed]} failed") as bar:
         task = bar.add_task("pictures", total=total, failed=0)
 
-        def tell(tally: "Tally") -> None:
+        def tell(tally: "Progress") -> None:
             ended = tally.done + len(tally.failed)
             bar.update(task, completed=ended, failed=len(tally.failed))
 
         yield tell
 
 
-def _summarise(said: dict[str, str], tally: "Tally") -> None:
+def _summarise(said: dict[str, str], tally: "Progress") -> None:
     for entry in tally.failed[:MAX_SAID]:
         say(f"{entry.out} ({entry.place}): {entry.why}")
     if len(tally.failed) > MAX_SAID:

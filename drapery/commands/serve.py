@@ -37,7 +37,7 @@ def run(
         raise BackendError('the service needs an extra; pip install "drapery[serve]"') from None
     from drapery.batch.pool import Limits
     from drapery.batch.warming import warm
-    from drapery.serve.wishes import House, Terms
+    from drapery.serve.request_params import PictureLimits, ServiceConfig
 
     within("port", port, 0, 65535)
     within("workers", workers or 1, 1, 512, "processes")
@@ -51,7 +51,7 @@ def run(
     with compile_notice():
         warm()
     app = make_app(
-        House(base, Terms(side=side)),
+        ServiceConfig(base, PictureLimits(side=side)),
         workers=workers or os.cpu_count() or 1,
         limits=Limits(timeout, memory << 20),
         rate=rate,

@@ -26,7 +26,7 @@ def run(
 ) -> None:
     """Say what was understood of one banner or many, or write them in another form."""
     from drapery.banner.formats import read_designs, write_banner
-    from drapery.banner.formats.door import pick
+    from drapery.banner.formats.registry import pick
 
     found = read_designs(design, form=form)
     if out is not None:
@@ -46,7 +46,7 @@ def run(
 def _write(banner: "Banner", out: Path, form: str | None) -> None:
     """The banner as a file: of a form of bytes by its name or the file's ending, or of text."""
     from drapery.banner.formats import write_banner
-    from drapery.banner.formats.door import binary_forms
+    from drapery.banner.formats.registry import binary_forms
     from drapery.errors import DesignError
     from drapery.render.encode.output import replacing
 

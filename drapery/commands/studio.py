@@ -52,7 +52,7 @@ def run(
         if browser:
             _open(address)
 
-    app.run(app.House(settings, library), host=host, port=port, token=token, ready=ready)
+    app.run(app.StudioConfig(settings, library), host=host, port=port, token=token, ready=ready)
 
 
 def _check(host: str, token: str | None) -> None:

@@ -10,7 +10,7 @@ from PIL import Image
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import read_designs
-from drapery.banner.formats.door import pick
+from drapery.banner.formats.registry import pick
 from drapery.errors import OptionError
 from drapery.pictures import draw_with
 from drapery.render.frame import Frame

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drapery.cloth import Cloth, Gravity, Solver, SolverDesbrun, State, Wind
-from drapery.cloth.solvers.rounds import Memory
+from drapery.cloth.solvers.driver import SolverState
 from drapery.render.scene import Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.banners import flag_cloth
@@ -28,11 +28,13 @@ RIGHT, WRONG = paper((222, 234, 220)), paper((246, 222, 216))
 class SolverMisprinted(SolverDesbrun):
     """The method with the sign of its internal force as the paper prints it."""
 
-    def init(self, cloth: Cloth, dt: float) -> Memory:
-        memory = super().init(cloth, dt)
-        body = memory.plan.body
+    def init(self, cloth: Cloth, dt: float) -> SolverState:
+        solver_state = super().init(cloth, dt)
+        body = solver_state.plan.body
         wrong = body.springs._replace(stiffness=-body.springs.stiffness)
-        return replace(memory, plan=memory.plan._replace(body=body._replace(springs=wrong)))
+        return replace(
+            solver_state, plan=solver_state.plan._replace(body=body._replace(springs=wrong))
+        )
 
 
 @dataclass(frozen=True)

@@ -20,12 +20,12 @@ from drapery.batch.jobs import Job, Outcome, do, job_of
 from drapery.batch.keys import Digests
 from drapery.batch.pool import Limits, Pool
 from drapery.batch.stores import LocalStore
-from drapery.batch.work import Crew
+from drapery.batch.work import Executor
 from drapery.errors import DraperyError
-from drapery.serve.desk import BusyError, Desk
+from drapery.serve.job_queue import BusyError, JobQueue
+from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import Rates
-from drapery.serve.shelf import Shelf
-from drapery.serve.wishes import House, parameters, read_wish
+from drapery.serve.request_params import ServiceConfig, parameters, read_wish
 
 KINDS = {".png": "image/png", ".gif": "image/gif"}
 CACHING = "public, max-age=86400"
@@ -61,11 +61,16 @@ class Studio:
     """What the handlers share. house: packs and limits of pictures. The rest: see there."""
 
     def __init__(
-        self, house: House, hire: Callable[[], Crew], waiting: int, shelf: Shelf, rates: Rates
+        self,
+        house: ServiceConfig,
+        hire: Callable[[], Executor],
+        waiting: int,
+        shelf: PictureCache,
+        rates: Rates,
     ) -> None:
         self.house, self.shelf, self.rates = house, shelf, rates
         self.meters, self.digests = Meters(), Digests()
-        self.desk = Desk(hire, waiting, self._keep)
+        self.desk = JobQueue(hire, waiting, self._keep)
         # Packs are read once, at the start.
         for pack in house.base.packs:
             self.digests.of(pack)
@@ -116,7 +121,7 @@ class Studio:
 
 
 def make_app(
-    house: House | None = None,
+    house: ServiceConfig | None = None,
     *,
     workers: int = 1,
     limits: Limits | None = None,
@@ -130,14 +135,14 @@ def make_app(
     rate: requests a minute of one client, 0 for any. shelf: bytes of pictures kept.
     waiting: pictures that may wait to be drawn.
     """
-    chosen, bounds = house or House(), limits or Limits(20.0, 1 << 30)
+    chosen, bounds = house or ServiceConfig(), limits or Limits(20.0, 1 << 30)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         with TemporaryDirectory(prefix="drapery-serve-") as folder:
             store = LocalStore(Path(folder))
             hire = partial(Pool, partial(do, store=store), workers, bounds)
-            studio = Studio(chosen, hire, waiting, Shelf(store.folder, shelf), Rates(rate))
+            studio = Studio(chosen, hire, waiting, PictureCache(store.folder, shelf), Rates(rate))
             app.state.studio = studio
             try:
                 yield
@@ -156,7 +161,7 @@ def make_app(
     return app
 
 
-def _add_picture(app: FastAPI, ending: str, summary: str, house: House) -> None:
+def _add_picture(app: FastAPI, ending: str, summary: str, house: ServiceConfig) -> None:
     async def handler(request: Request) -> Response:
         studio: Studio = request.app.state.studio
         return await studio.answer(request, ending)

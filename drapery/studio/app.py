@@ -18,9 +18,9 @@ from drapery.settings import Settings
 from drapery.studio import page
 from drapery.studio.art import face_png, pattern_sheet
 from drapery.studio.guard import LOOPBACK, Guard
-from drapery.studio.incoming import incoming_of
 from drapery.studio.session import Session, close_all, find_session
 from drapery.studio.sketch import banner_of
+from drapery.studio.upload_queue import incoming_of
 
 RECONNECT = 2.0
 """How long a session waits for its tab to come back [s]."""
@@ -35,7 +35,7 @@ ROUTES: tuple[str, ...] = (
 
 
 @dataclass(frozen=True)
-class House:
+class StudioConfig:
     """What the studio was started with.
 
     settings: what every session begins with. library: the file of saved designs.
@@ -45,7 +45,9 @@ class House:
     library: Path | None = None
 
 
-def make_app(house: House, *, hosts: frozenset[str] | None = LOOPBACK, token: str | None) -> Guard:
+def make_app(
+    house: StudioConfig, *, hosts: frozenset[str] | None = LOOPBACK, token: str | None
+) -> Guard:
     """The studio as an ASGI application; one in a process."""
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None, lifespan=_until_the_end)
     _add_pictures(app)
@@ -115,7 +117,7 @@ def _picture(draw: Callable[[], bytes], keep: str) -> Response:
 
 
 def run(
-    house: House,
+    house: StudioConfig,
     *,
     host: str,
     port: int,

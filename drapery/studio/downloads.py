@@ -9,8 +9,8 @@ from drapery.banner.packs import Packs, open_packs
 from drapery.errors import DraperyError
 from drapery.studio.art import face_png, pattern_sheet
 from drapery.studio.exports import exports_of
+from drapery.studio.pack_store import shelf_of
 from drapery.studio.session import Session, find_session
-from drapery.studio.shelf import shelf_of
 from drapery.studio.sketch import banner_of
 
 COLUMNS = 9

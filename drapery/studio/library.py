@@ -22,7 +22,7 @@ from sqlalchemy.pool import NullPool
 
 from drapery.errors import DesignError, OutputError
 from drapery.render.encode.output import make_folder
-from drapery.studio.kept import (
+from drapery.studio.records import (
     MAX_DESIGNS,
     Design,
     checked,

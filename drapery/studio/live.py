@@ -22,10 +22,9 @@ from drapery.render.shadow import contact_shadow
 from drapery.render.views import frame_view
 from drapery.scenes.staging import STEP
 from drapery.settings import Settings, background_colour
-from drapery.studio.breeze import Breeze, breeze_of, carried_on, steered, wind_of
-from drapery.studio.hanging import (
-    Hanging,
-    Weave,
+from drapery.studio.live_cloth import (
+    ClothSpec,
+    LiveCloth,
     free,
     grabbed,
     hang,
@@ -35,6 +34,13 @@ from drapery.studio.hanging import (
     rewoven,
 )
 from drapery.studio.panes import Pane, Shown
+from drapery.studio.wind_controls import (
+    WindControls,
+    carried_on,
+    steered,
+    wind_controls_of,
+    wind_of,
+)
 from drapery.style.block import turn
 from drapery.style.body import Body, Panel
 from drapery.style.extrusion import Shell, make_shell
@@ -60,7 +66,7 @@ class Sheet:
     """A panel of the body, its cloth and the shell that is drawn of it."""
 
     panel: Panel
-    hanging: Hanging
+    hanging: LiveCloth
     shell: Shell
 
 
@@ -72,7 +78,7 @@ class Live:
     """
 
     def __init__(self, design: Banner | None, packs: Packs, settings: Settings) -> None:
-        self.breeze = breeze_of(settings)
+        self.breeze = wind_controls_of(settings)
         self.ticks = 0
         self.roomy = False
         self._settings = settings
@@ -95,7 +101,7 @@ class Live:
     @property
     def is_picture(self) -> bool:
         """Whether it hangs as in a picture of this `time`: nothing but its own wind moved it."""
-        return not self._disturbed and self.breeze == breeze_of(self._settings)
+        return not self._disturbed and self.breeze == wind_controls_of(self._settings)
 
     def wear(
         self,
@@ -119,10 +125,10 @@ class Live:
         self._captions = captions if other is not None else ("",)
         self._shadow = None
         # What keys have made of the wind stays, unless the settings ask for another.
-        if breeze_of(settings) != breeze_of(before):
-            self.blow(breeze_of(settings, self.breeze.on))
+        if wind_controls_of(settings) != wind_controls_of(before):
+            self.blow(wind_controls_of(settings, self.breeze.on))
 
-    def blow(self, breeze: Breeze) -> None:
+    def blow(self, breeze: WindControls) -> None:
         """Another wind from now on."""
         self._disturbed |= self.ticks > 0
         self.breeze = breeze
@@ -277,7 +283,7 @@ class Live:
         ]
 
     def _rehung_panel(self, panel: Panel, settings: Settings, old: Sheet | None) -> Sheet:
-        weave = Weave(settings.grid, panel.size, settings.pins or panel.pins, settings.solver)
+        weave = ClothSpec(settings.grid, panel.size, settings.pins or panel.pins, settings.solver)
         if old is not None and old.hanging.weave == weave:
             hanging = old.hanging
         else:
@@ -309,7 +315,7 @@ class Live:
                 " a coarser grid or less wind"
             ) from error
 
-    def _change(self, number: int, hanging: Hanging) -> None:
+    def _change(self, number: int, hanging: LiveCloth) -> None:
         self._sheets[number] = replace(self._sheets[number], hanging=hanging)
 
     def _nearest(self, sheet: Sheet, ray: Ray) -> tuple[float, int | None]:

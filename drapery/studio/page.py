@@ -10,16 +10,16 @@ from nicegui import Client, ui
 
 from drapery.errors import DraperyError
 from drapery.settings import Settings
-from drapery.studio.desk import desk_of
-from drapery.studio.incoming import incoming_of
 from drapery.studio.notices import tell
+from drapery.studio.selection import desk_of
 from drapery.studio.session import Session, open_session
 from drapery.studio.share import begun, write_link
 from drapery.studio.sketch import Sketch
+from drapery.studio.upload_queue import incoming_of
 from drapery.studio.widgets import words
 
 if TYPE_CHECKING:
-    from drapery.studio.app import House
+    from drapery.studio.app import StudioConfig
 
 Place = Literal["left", "stage", "under", "side"]
 
@@ -56,7 +56,7 @@ PANELS = (
 
 FIRST_TAB = "patterns"
 
-house = cast("House", None)
+house = cast("StudioConfig", None)
 """What the studio was started with; `app.make_app` sets it."""
 
 _DETAIL = "(event) => emit(event.detail)"

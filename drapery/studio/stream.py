@@ -16,11 +16,11 @@ import numpy as np
 from fastapi import FastAPI, WebSocket, WebSocketDisconnect
 
 from drapery.errors import DraperyError, OptionError
-from drapery.studio.breeze import KEYS
 from drapery.studio.live import Ray
 from drapery.studio.messages import Told
 from drapery.studio.session import find_session
-from drapery.studio.stage import Stage, in_thread, stage_of
+from drapery.studio.viewport import Viewport, in_thread, stage_of
+from drapery.studio.wind_controls import KEYS
 
 UNDER_WAY = 2
 """Messages that a viewer has not yet said to have drawn."""
@@ -35,7 +35,7 @@ fault of its own."""
 class Viewer:
     """One connection's share: what it has been told and what it has drawn."""
 
-    def __init__(self, stage: Stage, which: str) -> None:
+    def __init__(self, stage: Viewport, which: str) -> None:
         self.stage = stage
         self.told = Told(which)
         self.hidden = False

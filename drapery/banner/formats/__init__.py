@@ -1,6 +1,7 @@
 """Every written form of a banner, one file a form."""
 
-from drapery.banner.formats.door import (
+from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.registry import (
     FORMS,
     parse_banner,
     parse_banners,
@@ -9,7 +10,6 @@ from drapery.banner.formats.door import (
     recognise,
     write_banner,
 )
-from drapery.banner.formats.found import Found, find_banners
 
 __all__ = [
     "FORMS",

@@ -1,5 +1,6 @@
 """What cloth can meet, and how it answers."""
 
+from drapery.cloth.colliders.collision_world import Collider, Probes, collide, face_probes, probes
 from drapery.cloth.colliders.meshes import height_collider, load_mesh, mesh_collider
 from drapery.cloth.colliders.pose import Path, Pose, rotation_about, still, straight, swinging
 from drapery.cloth.colliders.shapes import (
@@ -11,7 +12,6 @@ from drapery.cloth.colliders.shapes import (
     TriangleMesh,
     Voxels,
 )
-from drapery.cloth.colliders.stage import Collider, Probes, collide, face_probes, probes
 
 __all__ = [
     "Box",

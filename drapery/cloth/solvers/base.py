@@ -27,7 +27,7 @@ class Solver(Protocol):
         self,
         cloth: Cloth,
         state: State,
-        memory: Any,
+        solver_state: Any,
         forces: Sequence[Force],
         dt: float,
         *,

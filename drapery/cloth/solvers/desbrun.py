@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drapery.cloth import kernels, sheet_kernels, simd
+from drapery.cloth.attachments import Attachments, limited_links
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door
 from drapery.cloth.faces import wind_faces
@@ -28,7 +29,6 @@ from drapery.cloth.filters import (
     is_regular,
     sheet_filter,
 )
-from drapery.cloth.links import Links, limited_links
 from drapery.cloth.sheets import (
     Pairs,
     Pulls,
@@ -40,9 +40,9 @@ from drapery.cloth.sheets import (
     together,
 )
 from drapery.cloth.solvers.base import check_step
-from drapery.cloth.solvers.rounds import (
+from drapery.cloth.solvers.driver import (
     Body,
-    Memory,
+    SolverState,
     Stepped,
     body_of,
     check_count,
@@ -59,14 +59,14 @@ particle past several neighbours in one."""
 class Plan(NamedTuple):
     body: Body
     filter: Filter | BandFilter
-    links: Links
+    attachments: Attachments
     spin: Spin | NoSpin
 
 
 class SheetPlan(NamedTuple):
     sheet: Sheet
     springs: Pulls
-    links: Pulls
+    attachments: Pulls
     filter: SheetFilter
 
 
@@ -93,18 +93,18 @@ class SolverDesbrun(Stepped):
         check_count("sweeps", self.sweeps, 0, 1000)
         check_count("substeps", self.substeps, 1, 1000)
 
-    def init(self, cloth: Cloth, dt: float) -> Memory:
+    def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
         substeps = self.substeps or -(-max(cloth.grid_shape or (1,)) // CELLS)
         h = dt / substeps
         pinned = (cloth.inv_mass == 0).any()
         if is_sheet(cloth) and is_regular(cloth) and (pinned or self.angular == "none"):
             fine = sheet_plan(cloth, h, self.limit, self.sweeps)
-            return Memory(fine, dt, substeps, _advance_sheet, alone=True)
-        links = limited_links(cloth, self.limit, self.sweeps)
+            return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
+        attachments = limited_links(cloth, self.limit, self.sweeps)
         spin = spin_correction(cloth, h, self.angular)
-        plan = Plan(body_of(cloth), cloth_filter(cloth, h), links, spin)
-        return Memory(plan, dt, substeps, _advance)
+        plan = Plan(body_of(cloth), cloth_filter(cloth, h), attachments, spin)
+        return SolverState(plan, dt, substeps, _advance)
 
 
 def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:
@@ -152,7 +152,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.add_uniform(g, mean, body.inv_mass, batch.numbers, batch.push, start)
             kernels.move(y, g, old, dt)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
-            kernels.shorten(y, plan.links)
+            kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, dt)
         kernels.give_lanes(batch.new_x, y, start)
         kernels.give_lanes(batch.new_v, u, start)
@@ -182,7 +182,9 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             sheet_kernels.fall(g, mean, sheet, batch.numbers)
             sheet_kernels.move(y, g, old, dt, sheet)
             sheet_kernels.place(y, sheet, batch.targets, step, cloth)
-            sheet_kernels.pull(y, plan.links, 0, plan.links.a.size, sheet_kernels.LIMIT, work)
+            sheet_kernels.pull(
+                y, plan.attachments, 0, plan.attachments.a.size, sheet_kernels.LIMIT, work
+            )
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
         sheet_kernels.store(batch.new_x, y, cloth, sheet)
         sheet_kernels.store(batch.new_v, u, cloth, sheet)

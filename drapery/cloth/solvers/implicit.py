@@ -4,7 +4,7 @@ Order 1. Each step solves (M - dt ∂f/∂v - dt² ∂f/∂x) Δv = dt (f + dt �
 Jacobian of every spring, by conjugate gradients with their constraint filter: a pinned particle's
 Δv is prescribed and takes no part in the search. Stable at any stiffness; it damps
 what swings faster than the step, and costs tens of products with the matrix a step. Their cloth is
-held by stiffness alone; here, as stiffness differs so much between cloths, links (see `links`)
+held by stiffness alone; here, as stiffness differs so much between cloths, `attachments`
 keep it from stretching, and sweeps=0 is the plain method. To be chosen where stiffness in N/m
 matters and steps are long. Not to be confused with desbrun, which replaces the Jacobian by a
 constant matrix that is inverted once.
@@ -19,16 +19,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drapery.cloth import kernels, simd
+from drapery.cloth.attachments import Attachments, limited_links
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.kernels import way
-from drapery.cloth.links import Links, limited_links
 from drapery.cloth.simd import fill, larger, load, root, span, store
 from drapery.cloth.solvers.base import check_step
-from drapery.cloth.solvers.rounds import (
+from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
     Body,
-    Memory,
+    SolverState,
     Stepped,
     add_loads,
     blow_all,
@@ -48,7 +48,7 @@ class Plan(NamedTuple):
     """mass: [kg], [N]; 0 where a particle is pinned. damping: [s]."""
 
     body: Body
-    links: Links
+    attachments: Attachments
     mass: Array
     damping: Array
 
@@ -83,13 +83,13 @@ class SolverImplicit(Stepped):
         check_count("sweeps", self.sweeps, 0, 1000)
         check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
 
-    def init(self, cloth: Cloth, dt: float) -> Memory:
+    def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
         free = cloth.inv_mass > 0
         mass = np.where(free, 1 / np.where(free, cloth.inv_mass, 1), 0.0)
-        links = limited_links(cloth, self.limit, self.sweeps)
-        plan = Plan(body_of(cloth), links, mass, np.array([self.damping]))
-        return Memory(plan, dt, self.substeps, _advance, (self.iterations, self.tolerance))
+        attachments = limited_links(cloth, self.limit, self.sweeps)
+        plan = Plan(body_of(cloth), attachments, mass, np.array([self.damping]))
+        return SolverState(plan, dt, self.substeps, _advance, (self.iterations, self.tolerance))
 
 
 @kernel
@@ -325,6 +325,6 @@ def _advance(
                     u[row, lane] += dv[row, lane]
             kernels.move(y, u, old, h)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
-            kernels.shorten(y, plan.links)
+            kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
         give_block(batch, y, u, start)

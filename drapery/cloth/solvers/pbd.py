@@ -3,7 +3,7 @@
 Müller, Heidelberger, Hennix, Ratcliff, "Position based dynamics" (J. Vis. Commun. 18(2), 2007);
 before it Jakobsen, "Advanced character physics" (GDC 2001). On top, what a fine cloth needs to keep
 its size: small substeps (Macklin et al. 2019, "Small steps in physics simulation"), constraints in
-order from the pins outwards, and links of every length that may not grow (see `links`).
+order from the pins outwards, and links of every length that may not grow (see `attachments`).
 
 Order 1. Stable for any step. Stiffness is not in N/m: a cloth is as stiff as its passes make it,
 and the springs' own stiffness is not read. To be chosen for cheap, hardly stretching cloth, and
@@ -18,17 +18,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels
+from drapery.cloth.attachments import Attachments, limited_links
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.kernels import add, way
-from drapery.cloth.links import Links, limited_links
 from drapery.cloth.order import outwards, pin_distances, sweep_order
 from drapery.cloth.simd import fill, larger, load, root, smaller, span
 from drapery.cloth.solvers.base import check_step
-from drapery.cloth.solvers.rounds import (
+from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
     Body,
-    Memory,
+    SolverState,
     Stepped,
     add_loads,
     blow_all,
@@ -63,8 +63,8 @@ class Constraints(NamedTuple):
 class Plan(NamedTuple):
     body: Body
     constraints: Constraints
-    links: Links
-    springs: Links
+    attachments: Attachments
+    springs: Attachments
     keep: Array
 
 
@@ -77,7 +77,7 @@ class SolverPBD(Stepped):
     stiffness: part of a correction that one pass makes, for structural, shear and flexion springs.
     order: `pins` outwards from the pins, or `given`, as the cloth lists its springs.
     shares: `mass`, or `half`: each end that is not pinned moves half, even if the other is pinned.
-    limit: longest length of a structural spring over its rest length, seen to by `links`.
+    limit: longest length of a structural spring over its rest length, seen to by `attachments`.
     sweeps: over springs that are still too long, at most, a substep; 0 for no links.
     damping: rate at which all velocities decay [1/s].
     threads: None for as many as there are processors.
@@ -133,14 +133,18 @@ class SolverPBD(Stepped):
             damping=damping,
         )
 
-    def init(self, cloth: Cloth, dt: float) -> Memory:
+    def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
         keep = np.array([1 / (1 + self.damping * dt / self.substeps)])
-        links = limited_links(cloth, self.limit, min(self.sweeps, 1))
+        attachments = limited_links(cloth, self.limit, min(self.sweeps, 1))
         plan = Plan(
-            body_of(cloth), self._constraints(cloth), links, stretched(cloth, self.limit), keep
+            body_of(cloth),
+            self._constraints(cloth),
+            attachments,
+            stretched(cloth, self.limit),
+            keep,
         )
-        return Memory(plan, dt, self.substeps, _advance, (self.passes, self.sweeps))
+        return SolverState(plan, dt, self.substeps, _advance, (self.passes, self.sweeps))
 
     def _constraints(self, cloth: Cloth) -> Constraints:
         stiffness = np.asarray(self.stiffness, float)[cloth.spring_kind]
@@ -165,12 +169,12 @@ def bending_first(cloth: Cloth, springs: NDArray[np.int64]) -> NDArray[np.int64]
     return order[np.argsort(-cloth.spring_kind[springs][order].astype(int), kind="stable")]
 
 
-def stretched(cloth: Cloth, limit: float) -> Links:
+def stretched(cloth: Cloth, limit: float) -> Attachments:
     """The structural springs from the pins outwards, `limit` times their rest length long."""
     chosen = sweep_order(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
     pairs = cloth.spring_pairs[chosen]
     part_i, part_j = mass_shares(cloth, pairs).T.copy()
-    return Links(pairs, cloth.spring_length[chosen] * limit, part_i, part_j)
+    return Attachments(pairs, cloth.spring_length[chosen] * limit, part_i, part_j)
 
 
 def mass_shares(cloth: Cloth, pairs: NDArray[np.integer]) -> Array:
@@ -202,18 +206,22 @@ def relax(y: Any, constraints: Any) -> None:
 
 
 @kernel
-def tidy(y: Any, links: Any, sweeps: Any, most: Any) -> None:
+def tidy(y: Any, attachments: Any, sweeps: Any, most: Any) -> None:
     """Sweeps over the lanes in which a link is too long, each lane until it has none.
 
     most: room, in its first row, for the longest length over `longest` that is let be: all, once a
     lane is done.
     """
     for _ in range(sweeps):
-        if not mark_too_long(most[0], y, links):
+        if not mark_too_long(most[0], y, attachments):
             return
-        for s in range(links.longest.size):
-            i, j = 3 * np.intp(links.pairs[s, 0]), 3 * np.intp(links.pairs[s, 1])
-            longest, part_i, part_j = links.longest[s], links.share_i[s], -links.share_j[s]
+        for s in range(attachments.longest.size):
+            i, j = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
+            longest, part_i, part_j = (
+                attachments.longest[s],
+                attachments.share_i[s],
+                -attachments.share_j[s],
+            )
             for lane in range(0, y.shape[1], span(y)):
                 dx, dy, dz = way(y, i, j, lane)
                 limit = load(most, 0, lane) * longest
@@ -224,7 +232,7 @@ def tidy(y: Any, links: Any, sweeps: Any, most: Any) -> None:
 
 
 @kernel
-def mark_too_long(most: Any, y: Any, links: Any) -> Any:
+def mark_too_long(most: Any, y: Any, attachments: Any) -> Any:
     """1 for lanes with a link over LET_BE times its longest length, else a number over all; whether
     there is such a lane."""
     F = y.dtype.type
@@ -232,9 +240,9 @@ def mark_too_long(most: Any, y: Any, links: Any) -> Any:
     found = False
     for lane in range(most.size):
         most[lane] = F(BEYOND)
-    for s in range(links.longest.size):
-        i, j = 3 * links.pairs[s, 0], 3 * links.pairs[s, 1]
-        square = slack * links.longest[s] * links.longest[s]
+    for s in range(attachments.longest.size):
+        i, j = 3 * attachments.pairs[s, 0], 3 * attachments.pairs[s, 1]
+        square = slack * attachments.longest[s] * attachments.longest[s]
         for lane in range(y.shape[1]):
             dx = y[j, lane] - y[i, lane]
             dy = y[j + 1, lane] - y[i + 1, lane]
@@ -279,7 +287,7 @@ def _advance(
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             for _ in range(passes):
                 relax(y, plan.constraints)
-            kernels.shorten(y, plan.links)
+            kernels.shorten(y, plan.attachments)
             tidy(y, plan.springs, sweeps, work)
             kernels.set_velocities(u, y, old, h)
         give_block(batch, y, u, start)

@@ -13,14 +13,14 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from drapery.cloth import kernels
+from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import FLEXION, Cloth
 from drapery.cloth.compiled import door
-from drapery.cloth.links import Links
 from drapery.cloth.solvers.base import check_step
-from drapery.cloth.solvers.rounds import (
+from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
     Body,
-    Memory,
+    SolverState,
     Stepped,
     blow_all,
     body_of,
@@ -37,7 +37,7 @@ from drapery.cloth.solvers.rounds import (
 
 class Plan(NamedTuple):
     body: Body
-    links: Links
+    attachments: Attachments
 
 
 @dataclass(frozen=True)
@@ -59,19 +59,19 @@ class SolverProvot(Stepped):
         check_count("sweeps", self.sweeps, 0, 1000)
         check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
 
-    def init(self, cloth: Cloth, dt: float) -> Memory:
+    def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
         plan = Plan(body_of(cloth), listed_links(cloth, self.limit))
         substeps = chosen_substeps(self.substeps, cloth, dt)
-        return Memory(plan, dt, substeps, _advance, (self.sweeps,))
+        return SolverState(plan, dt, substeps, _advance, (self.sweeps,))
 
 
-def listed_links(cloth: Cloth, limit: float) -> Links:
+def listed_links(cloth: Cloth, limit: float) -> Attachments:
     """The structural and shear springs, as listed; flexion springs only bend."""
     chosen = (cloth.spring_kind != FLEXION) & movable(cloth)
     pairs = cloth.spring_pairs[chosen]
     part_i, part_j = half_shares(cloth, pairs).T.copy()
-    return Links(pairs, cloth.spring_length[chosen] * limit, part_i, part_j)
+    return Attachments(pairs, cloth.spring_length[chosen] * limit, part_i, part_j)
 
 
 @door
@@ -91,6 +91,6 @@ def _advance(
             kernels.move(y, u, old, h)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             for _ in range(sweeps):
-                kernels.shorten(y, plan.links)
+                kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
         give_block(batch, y, u, start)

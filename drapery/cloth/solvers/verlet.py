@@ -17,16 +17,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drapery.cloth import kernels
+from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.kernels import add, way
-from drapery.cloth.links import Links
 from drapery.cloth.simd import fill, larger, root, span
 from drapery.cloth.solvers.base import check_step
-from drapery.cloth.solvers.rounds import (
+from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
     Body,
-    Memory,
+    SolverState,
     Stepped,
     blow_all,
     body_of,
@@ -44,7 +44,7 @@ from drapery.cloth.solvers.rounds import (
 
 class Plan(NamedTuple):
     body: Body
-    links: Links
+    attachments: Attachments
 
 
 @dataclass(frozen=True)
@@ -72,32 +72,36 @@ class SolverVerlet(Stepped):
         check_part("relaxation", self.relaxation)
         check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
 
-    def init(self, cloth: Cloth, dt: float) -> Memory:
+    def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
         plan = Plan(body_of(cloth), half_links(cloth, self.limit, self.relaxation))
         substeps = chosen_substeps(self.substeps, cloth, dt)
-        return Memory(plan, dt, substeps, _advance, (self.sweeps,))
+        return SolverState(plan, dt, substeps, _advance, (self.sweeps,))
 
 
-def half_links(cloth: Cloth, limit: float, relaxation: float) -> Links:
+def half_links(cloth: Cloth, limit: float, relaxation: float) -> Attachments:
     """The structural springs, each end to take half of a correction times the relaxation."""
     chosen = (cloth.spring_kind == STRUCTURAL) & movable(cloth)
     pairs = cloth.spring_pairs[chosen]
     longest = cloth.spring_length[chosen] * limit
     part_i, part_j = (relaxation * half_shares(cloth, pairs)).T.copy()
-    return Links(pairs, longest, part_i, part_j)
+    return Attachments(pairs, longest, part_i, part_j)
 
 
 @kernel
-def shorten_together(y: Any, links: Any, sums: Any) -> None:
+def shorten_together(y: Any, attachments: Any, sums: Any) -> None:
     """One Jacobi sweep: corrections from the same places are summed, then applied."""
     none = y.dtype.type(0)
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):
             sums[row, lane] = none
-    for s in range(links.longest.size):
-        i, j = 3 * np.intp(links.pairs[s, 0]), 3 * np.intp(links.pairs[s, 1])
-        most, part_i, part_j = fill(links.longest[s]), links.share_i[s], -links.share_j[s]
+    for s in range(attachments.longest.size):
+        i, j = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
+        most, part_i, part_j = (
+            fill(attachments.longest[s]),
+            attachments.share_i[s],
+            -attachments.share_j[s],
+        )
         for lane in range(0, y.shape[1], span(y)):
             dx, dy, dz = way(y, i, j, lane)
             d = larger(root(dx * dx + dy * dy + dz * dz), most)
@@ -126,7 +130,7 @@ def _advance(
             kernels.move(y, u, old, h)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             for _ in range(sweeps):
-                shorten_together(y, plan.links, g)
+                shorten_together(y, plan.attachments, g)
             kernels.set_velocities(u, y, old, h)
             kick(u, y, g, body, batch, wind, half, start, work)
         give_block(batch, y, u, start)

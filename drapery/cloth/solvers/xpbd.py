@@ -14,7 +14,7 @@ iteration a substep its multiplier starts from 0 (2016, eq. 18): Δλ = -C / (w_
 Soft springs take part in a few of a step's n substeps only, in t of them with α / (h dt / t) in
 place of α / h²: as in multiple time stepping (Tuckerman, Berne, Martyna 1992), the short steps are
 spent on what is stiff. Wind and other loads but for gravity act once a step. Long range
-attachments (`drapery.cloth.links`) keep coarse errors from having to travel spring by spring.
+attachments (`drapery.cloth.attachments`) keep coarse errors from having to travel spring by spring.
 """
 
 from dataclasses import dataclass
@@ -25,11 +25,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels, sheet_kernels, simd
+from drapery.cloth.attachments import Attachments, attachments
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.kernels import add, way
-from drapery.cloth.links import Links, attachments
 from drapery.cloth.order import across_then_outwards, pin_distances
 from drapery.cloth.sheets import (
     Pairs,
@@ -45,7 +45,7 @@ from drapery.cloth.sheets import (
 )
 from drapery.cloth.simd import fill, larger, load, span, store
 from drapery.cloth.solvers.base import check_step
-from drapery.cloth.solvers.rounds import Body, Memory, Stepped, body_of, check_count
+from drapery.cloth.solvers.driver import Body, SolverState, Stepped, body_of, check_count
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
@@ -83,7 +83,7 @@ class Constraints(NamedTuple):
 class Plan(NamedTuple):
     body: Body
     constraints: Constraints
-    links: Links
+    attachments: Attachments
 
 
 class SheetPlan(NamedTuple):
@@ -92,7 +92,7 @@ class SheetPlan(NamedTuple):
     sheet: Sheet
     constraints: Pulls
     begin: NDArray[np.int64]
-    links: Pulls
+    attachments: Pulls
     limits: Pulls
 
 
@@ -118,15 +118,15 @@ class SolverXPBD(Stepped):
             if value is not None and not 0 <= value < np.inf:
                 raise OptionError(f"compliance {value!r} is out of range; use 0 or more [m/N]")
 
-    def init(self, cloth: Cloth, dt: float) -> Memory:
+    def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
         substeps = self.substeps or enough_substeps(cloth)
         constraints = solved_springs(cloth, self._compliances(cloth), dt, substeps)
-        links = self._links(cloth)
+        attachments = self._links(cloth)
         if is_sheet(cloth):
-            fine = sheet_plan(cloth, constraints, links)
-            return Memory(fine, dt, substeps, _advance_sheet, alone=True)
-        return Memory(Plan(body_of(cloth), constraints, links), dt, substeps, _advance)
+            fine = sheet_plan(cloth, constraints, attachments)
+            return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
+        return SolverState(Plan(body_of(cloth), constraints, attachments), dt, substeps, _advance)
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -135,12 +135,12 @@ class SolverXPBD(Stepped):
                 own[cloth.spring_kind == kind] = value
         return own
 
-    def _links(self, cloth: Cloth) -> Links:
+    def _links(self, cloth: Cloth) -> Attachments:
         pairs, reach = attachments(cloth, SLACK)
         own = cloth.spring_length[cloth.spring_kind == STRUCTURAL]
         far = self.attach & (reach > (NEAR + 0.5) * SLACK * own.mean())
         ones = np.ones(int(far.sum()))
-        return Links(pairs[far], reach[far], 0 * ones, ones)
+        return Attachments(pairs[far], reach[far], 0 * ones, ones)
 
 
 def is_fine(cloth: Cloth) -> bool:
@@ -208,7 +208,7 @@ def _first_turns(cloth: Cloth, soft: NDArray[np.bool_], substeps: int) -> NDArra
     return first
 
 
-def sheet_plan(cloth: Cloth, constraints: Constraints, links: Links) -> SheetPlan:
+def sheet_plan(cloth: Cloth, constraints: Constraints, attachments: Attachments) -> SheetPlan:
     """The plan of a fine grid, a plane of lanes."""
     sheet = sheet_of(cloth, *wind_faces(cloth))
     pieces: list[Piece] = []
@@ -223,7 +223,7 @@ def sheet_plan(cloth: Cloth, constraints: Constraints, links: Links) -> SheetPla
         )
         pieces += in_turn(sheet, due)
         begin.append(len(pieces))
-    held = pulls(list(anchored(sheet, Pairs(*links))))
+    held = pulls(list(anchored(sheet, Pairs(*attachments))))
     return SheetPlan(
         sheet,
         pulls(pieces),
@@ -249,11 +249,11 @@ def solve(x: Any, constraints: Any, substep: Any) -> None:
 
 
 @kernel
-def hold(x: Any, links: Any) -> None:
+def hold(x: Any, attachments: Any) -> None:
     """Particles that are too far from their pins are pulled back; see the module for the form."""
-    for s in range(links.longest.size):
-        pin, i = 3 * np.intp(links.pairs[s, 0]), 3 * np.intp(links.pairs[s, 1])
-        most = links.longest[s] * links.longest[s]
+    for s in range(attachments.longest.size):
+        pin, i = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
+        most = attachments.longest[s] * attachments.longest[s]
         least = fill(most)
         for lane in range(0, x.shape[1], span(x)):
             dx, dy, dz = way(x, pin, i, lane)
@@ -330,7 +330,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
                 kernels.place_pins(y, old, body.pins, batch.targets, turn, start)
                 solve(y, plan.constraints, substep)
                 if (substeps - substep) % EVERY == 1:
-                    hold(y, plan.links)
+                    hold(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
         kernels.give_lanes(batch.new_x, y, start)
         kernels.give_lanes(batch.new_v, u, start)
@@ -361,8 +361,8 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 begin, end = plan.begin[substep], plan.begin[substep + 1]
                 sheet_kernels.pull(y, plan.constraints, begin, end, sheet_kernels.SOLVE, work)
                 if (substeps - substep) % EVERY == 1:
-                    last = plan.links.a.size
-                    sheet_kernels.pull(y, plan.links, 0, last, sheet_kernels.LIMIT, work)
+                    last = plan.attachments.a.size
+                    sheet_kernels.pull(y, plan.attachments, 0, last, sheet_kernels.LIMIT, work)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)

@@ -8,8 +8,8 @@ from typing import Any, get_args
 from nicegui import ui
 
 from drapery.studio.components import value_of
-from drapery.studio.desk import Desk, desk_of
 from drapery.studio.notices import faults
+from drapery.studio.selection import Selection, desk_of
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, Sketch, clear, random_sketch
 from drapery.studio.widgets import Segments, button, words
@@ -89,7 +89,7 @@ def set_mode(session: Session, name: str) -> None:
     desk_of(session).choose_again()
 
 
-def act(session: Session, desk: Desk, what: str) -> None:
+def act(session: Session, desk: Selection, what: str) -> None:
     """Do what a shortcut of `studio.js` asks for."""
     deeds: dict[str, Callable[[], object]] = {
         "undo": session.undo,

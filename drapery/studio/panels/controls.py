@@ -12,7 +12,7 @@ from nicegui.elements.mixins.value_element import ValueElement
 
 from drapery.studio.notices import faults
 from drapery.studio.session import Session
-from drapery.studio.stage import stage_of
+from drapery.studio.viewport import stage_of
 
 LET_GO = "() => setTimeout(() => document.activeElement?.blur?.(), 60)"
 

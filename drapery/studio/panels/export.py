@@ -7,13 +7,13 @@ from nicegui import ui
 from drapery.errors import DraperyError
 from drapery.studio.exports import Export, exports_of, stem_of
 from drapery.studio.notices import faults, tell
+from drapery.studio.pack_store import shelf_of
 from drapery.studio.panels.fields import copy_field
 from drapery.studio.panels.file_options import Choice, build_options, order_of
 from drapery.studio.session import Session
 from drapery.studio.share import write_link
-from drapery.studio.shelf import shelf_of
 from drapery.studio.snippets import as_command, as_python
-from drapery.studio.stage import stage_of
+from drapery.studio.viewport import stage_of
 from drapery.studio.widgets import button, words
 
 TICK = 0.15

@@ -16,7 +16,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import LOOPS, Order
-from drapery.studio.stage import Wishes, stage_of
+from drapery.studio.viewport import ViewportRequest, stage_of
 from drapery.studio.widgets import words
 
 KINDS = {
@@ -206,7 +206,7 @@ def _ground(session: Session, choice: Choice, fields: Fields, groups: Groups) ->
         )
 
 
-def difference(wishes: Wishes, kind: str) -> str:
+def difference(wishes: ViewportRequest, kind: str) -> str:
     """What of the live banner is not in the file."""
     if kind in ("face", "json") or wishes.scene is None:
         return ""

@@ -8,9 +8,9 @@ from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS
 from drapery.banner.dyes import DYES
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import LayerList, value_of
-from drapery.studio.desk import Desk, desk_of
 from drapery.studio.notices import faults
 from drapery.studio.panels.palette import colour_of
+from drapery.studio.selection import Selection, desk_of
 from drapery.studio.session import Session
 from drapery.studio.sketch import Stroke
 from drapery.studio.words import dye_words, pattern_words
@@ -51,7 +51,7 @@ def build(session: Session) -> None:
 _TOO_MANY = f"A loom stops at {LOOM_LAYERS} layers. This needs a command."
 
 
-def _shown(session: Session, desk: Desk) -> dict[str, Any]:
+def _shown(session: Session, desk: Selection) -> dict[str, Any]:
     sketch = session.sketch
     names = pattern_names(session.packs())
     rows = [_row(session, names, place, each) for place, each in enumerate(sketch.strokes)]

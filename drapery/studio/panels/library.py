@@ -12,10 +12,10 @@ from drapery.banner.packs import Packs
 from drapery.errors import DraperyError
 from drapery.studio import page
 from drapery.studio.components import value_of
-from drapery.studio.desk import desk_of
 from drapery.studio.drop import Drop
 from drapery.studio.notices import Tone, faults, tell
 from drapery.studio.panels.fields import Fields
+from drapery.studio.selection import desk_of
 from drapery.studio.session import Session
 from drapery.studio.share import SHARED, over
 from drapery.studio.shared_library import library_at
@@ -24,8 +24,8 @@ from drapery.studio.uploads import uploads_of
 from drapery.studio.widgets import button, words
 
 if TYPE_CHECKING:
-    from drapery.studio.kept import Design
     from drapery.studio.library import Library
+    from drapery.studio.records import Design
 
 T = TypeVar("T")
 
@@ -217,7 +217,7 @@ class Shelves:
         look, tags = session.settings, _split(self._tags)
 
         def keep(library: "Library") -> "tuple[int, Design | None]":
-            from drapery.studio.kept import Design
+            from drapery.studio.records import Design
 
             picture = thumbnail(banner_of(sketch), session.packs())
             design = Design(sketch, look, tags, picture, number)

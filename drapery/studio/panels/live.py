@@ -8,8 +8,8 @@ from drapery.render.views import VIEWS
 from drapery.scenes import catalogue
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
-from drapery.studio.stage import in_thread, stage_of
 from drapery.studio.viewer import Viewer
+from drapery.studio.viewport import in_thread, stage_of
 
 OWN = "your banner"
 """The choice among the scenes that is none of them."""

@@ -9,8 +9,8 @@ from nicegui import ui
 from drapery.banner.design import LOOM_LAYERS, Banner
 from drapery.banner.loom import fits_loom, simplified, steps
 from drapery.errors import DraperyError
-from drapery.studio.desk import desk_of
 from drapery.studio.notices import faults
+from drapery.studio.selection import desk_of
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
 from drapery.studio.widgets import button, words

@@ -7,10 +7,10 @@ from nicegui import ui
 
 from drapery.cloth import SOLVERS
 from drapery.settings import MAX_LIGHT, MAX_WIND, ROTATIONS, Facing, Placement
-from drapery.studio.breeze import breeze_of
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
-from drapery.studio.stage import stage_of
+from drapery.studio.viewport import stage_of
+from drapery.studio.wind_controls import wind_controls_of
 
 GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (17, 33), (25, 49), (33, 65))
 PINS = {
@@ -56,7 +56,7 @@ def _wind(session: Session, controls: Controls) -> None:
     controls.slider(
         "Direction",
         (-180, 180, 1),
-        lambda: round(breeze_of(session.settings).heading),
+        lambda: round(wind_controls_of(session.settings).heading),
         lambda heading: session.adjust(direction=float(heading)),
         "{:.0f}°".format,
     )

@@ -8,10 +8,10 @@ from nicegui import Client, run, ui
 from drapery.errors import DraperyError
 from drapery.studio.drop import Drop
 from drapery.studio.notices import faults, tell
+from drapery.studio.pack_store import Entry, PackStore, shelf_of
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
-from drapery.studio.shelf import Entry, Shelf, shelf_of
-from drapery.studio.stage import stage_of
+from drapery.studio.viewport import stage_of
 from drapery.studio.widgets import button, words
 
 NOBODY = "nobody"
@@ -45,7 +45,7 @@ def build(session: Session) -> None:
     _comparison(session, shelf)
 
 
-def _list(session: Session, shelf: Shelf) -> None:
+def _list(session: Session, shelf: PackStore) -> None:
     @ui.refreshable
     def entries() -> None:
         with ui.element("ol").classes("packs").props('aria-label="Packs, the one that wins first"'):
@@ -65,7 +65,7 @@ def _name(title: str, name: str, summary: str) -> None:
         words(summary).classes("hint")
 
 
-def _row(session: Session, shelf: Shelf, entry: Entry) -> None:
+def _row(session: Session, shelf: PackStore, entry: Entry) -> None:
     client = ui.context.client
 
     def act(call: Callable[[], None]) -> None:
@@ -99,7 +99,7 @@ def _focus(client: Client, selector: str) -> None:
     client.run_javascript(f"setTimeout(() => document.querySelector(`{selector}`)?.focus(), 60)")
 
 
-def _comparison(session: Session, shelf: Shelf) -> None:
+def _comparison(session: Session, shelf: PackStore) -> None:
     version, other = count(), NOBODY
 
     def choices() -> dict[str, str]:
@@ -136,7 +136,7 @@ def _comparison(session: Session, shelf: Shelf) -> None:
     session.listen("sketch", pictures.refresh)
 
 
-def _paths(shelf: Shelf, other: str) -> tuple[str, ...] | None:
+def _paths(shelf: PackStore, other: str) -> tuple[str, ...] | None:
     """What is laid over our own art on the right; None where nothing is compared."""
     if other == "own":
         return ()

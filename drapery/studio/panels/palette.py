@@ -2,8 +2,8 @@
 
 from drapery.banner.dyes import DYES, Dye
 from drapery.studio.components import Palette, value_of
-from drapery.studio.desk import Desk, desk_of
 from drapery.studio.notices import faults
+from drapery.studio.selection import Selection, desk_of
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
 from drapery.studio.words import dye_words, pattern_words
@@ -27,7 +27,7 @@ def build(session: Session) -> None:
     desk.listen(show)
 
 
-def _heading(session: Session, desk: Desk) -> str:
+def _heading(session: Session, desk: Selection) -> str:
     if desk.chosen == "field":
         return "Dye of the field"
     if desk.chosen is None:

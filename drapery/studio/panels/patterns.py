@@ -3,8 +3,8 @@
 from drapery.errors import DraperyError
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import PatternGrid, value_of
-from drapery.studio.desk import Desk, desk_of
 from drapery.studio.notices import faults
+from drapery.studio.selection import Selection, desk_of
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
 from drapery.studio.words import dye_words, pattern_words
@@ -45,7 +45,7 @@ def build(session: Session) -> None:
     session.listen("packs", show)
 
 
-def _current(session: Session, desk: Desk) -> str:
+def _current(session: Session, desk: Selection) -> str:
     if not isinstance(desk.chosen, int):
         return ""
     return session.sketch.strokes[place_of(session.sketch, desk.chosen)].pattern

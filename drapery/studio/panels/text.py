@@ -4,15 +4,15 @@ from nicegui import context, ui
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import write_banner
-from drapery.banner.formats.door import FORMS
+from drapery.banner.formats.registry import FORMS
 from drapery.banner.names import shown as quoted
 from drapery.errors import DesignError
 from drapery.studio.components import value_of
-from drapery.studio.desk import desk_of
-from drapery.studio.incoming import MAX_FOUND, Incoming, incoming_of
 from drapery.studio.notices import tell
+from drapery.studio.selection import desk_of
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
+from drapery.studio.upload_queue import MAX_FOUND, UploadQueue, incoming_of
 from drapery.studio.widgets import button, words
 from drapery.studio.words import in_words
 
@@ -66,7 +66,7 @@ def _reader(session: Session) -> None:
     incoming.listen(arrive)
 
 
-def _arrive(session: Session, incoming: Incoming) -> None:
+def _arrive(session: Session, incoming: UploadQueue) -> None:
     for note in incoming.notes:
         tell(note, "warning")
     if incoming.line:
@@ -87,7 +87,7 @@ def _lay_out(session: Session, banner: Banner) -> None:
     tell(f"Read a {sketch.kind} of {count} layer{'' if count == 1 else 's'}")
 
 
-def _choices(session: Session, incoming: Incoming) -> None:
+def _choices(session: Session, incoming: UploadQueue) -> None:
     if len({found.banner for found in incoming.found}) < 2:
         return
     for number, found in enumerate(incoming.found[:MAX_FOUND]):

@@ -5,7 +5,7 @@ from collections import OrderedDict
 from pathlib import Path
 
 
-class Shelf:
+class PictureCache:
     """Files of a folder that nobody else writes to. most: bytes of all."""
 
     def __init__(self, folder: Path, most: int = 256 << 20) -> None:

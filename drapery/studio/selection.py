@@ -12,7 +12,7 @@ Chosen = int | Literal["field"] | None
 """A stroke's number, the field beneath all, or nothing: then dyes are for the next layer."""
 
 
-class Desk:
+class Selection:
     """The hand that designs: its clicks become edits of the session's sketch.
 
     All methods that edit raise DesignError where the edit cannot be.
@@ -122,12 +122,12 @@ class Desk:
             call()
 
 
-_DESKS: dict[str, Desk] = {}
+_DESKS: dict[str, Selection] = {}
 
 
-def desk_of(session: Session) -> Desk:
+def desk_of(session: Session) -> Selection:
     """The desk of a session, cleared away with it."""
     if session.token not in _DESKS:
-        _DESKS[session.token] = Desk(session)
+        _DESKS[session.token] = Selection(session)
         session.on_close(lambda: _DESKS.pop(session.token, None))
     return _DESKS[session.token]

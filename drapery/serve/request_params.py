@@ -10,7 +10,7 @@ from drapery.errors import DraperyError, OptionError
 from drapery.options import check_options, unknown
 from drapery.settings import MAX_WIND, Pins, Settings, within
 
-STRANGERS = (
+PUBLIC_OPTIONS = (
     *("size", "pose", "placement", "rotation", "facing", "view", "grid"),
     *("pins", "wind", "direction", "gusts", "time"),
     *("seed", "layers", "thickness", "background", "kind"),
@@ -21,7 +21,7 @@ PAIR = {"type": "string", "pattern": "^[1-9][0-9]{0,3}x[1-9][0-9]{0,3}$"}
 
 
 @dataclass(frozen=True)
-class Terms:
+class PictureLimits:
     """Limits of one picture. side [pixels], pixels of all frames, seconds and fps of a loop,
     particles along a side of the cloth, hang: time that cloth hangs [s], letters of a design."""
 
@@ -35,14 +35,14 @@ class Terms:
 
 
 @dataclass(frozen=True)
-class House:
+class ServiceConfig:
     """What the service draws with. base: its packs and the format it reads them as."""
 
     base: Settings = field(default_factory=lambda: Settings(size=(256, 320)))
-    terms: Terms = field(default_factory=Terms)
+    terms: PictureLimits = field(default_factory=PictureLimits)
 
 
-def parameters(animated: bool, terms: Terms) -> list[dict[str, Any]]:
+def parameters(animated: bool, terms: PictureLimits) -> list[dict[str, Any]]:
     """The query's parameters, for OpenAPI."""
     schemas: dict[str, dict[str, Any]] = {
         "design": {"type": "string", "minLength": 1, "maxLength": terms.letters},
@@ -73,21 +73,25 @@ def parameters(animated: bool, terms: Terms) -> list[dict[str, Any]]:
     ]
 
 
-def read_wish(query: Sequence[tuple[str, str]], ending: str, house: House) -> Request | list[str]:
+def read_wish(
+    query: Sequence[tuple[str, str]], ending: str, house: ServiceConfig
+) -> Request | list[str]:
     """The request of a query, or why it is none, one line for each fault.
 
     query: names and values as they stand in the address. ending: `.png` or `.gif`.
     """
     words = dict(query)
-    known = frozenset({"design", *STRANGERS, *(("seconds", "fps") if ending == ".gif" else ())})
+    known = frozenset(
+        {"design", *PUBLIC_OPTIONS, *(("seconds", "fps") if ending == ".gif" else ())}
+    )
     faults = [unknown(name, known) for name in words if name not in known]
     faults += [f"{name} is given twice; give it once" for name in _twice(query, known)]
     if faults:
         return faults
-    settings = check_options({n: words[n] for n in STRANGERS if n in words}, Path())
+    settings = check_options({n: words[n] for n in PUBLIC_OPTIONS if n in words}, Path())
     if isinstance(settings, list):
         return settings
-    chosen = {n: getattr(settings, n) for n in STRANGERS if n in words}
+    chosen = {n: getattr(settings, n) for n in PUBLIC_OPTIONS if n in words}
     try:
         settings = replace(house.base, **chosen)
         return _request(words, settings, ending, house.terms)
@@ -95,7 +99,9 @@ def read_wish(query: Sequence[tuple[str, str]], ending: str, house: House) -> Re
         return [str(error)]
 
 
-def _request(words: dict[str, str], settings: Settings, ending: str, terms: Terms) -> Request:
+def _request(
+    words: dict[str, str], settings: Settings, ending: str, terms: PictureLimits
+) -> Request:
     from drapery.banner.formats import parse_banner
     from drapery.render.views import VIEWS
     from drapery.settings import one_of
@@ -117,7 +123,7 @@ def _request(words: dict[str, str], settings: Settings, ending: str, terms: Term
     return Request("address", "picture" + ending, banner, settings, seconds, fps)
 
 
-def _times(words: dict[str, str], terms: Terms) -> tuple[float, float]:
+def _times(words: dict[str, str], terms: PictureLimits) -> tuple[float, float]:
     from drapery.pictures import frame_count
 
     seconds, fps = _number("seconds", words, 4.0), _number("fps", words, 20.0)
@@ -134,7 +140,7 @@ def _number(name: str, words: dict[str, str], default: float) -> float:
         raise OptionError(f"{name} {words[name][:20]!r} is no number; write 4 or 2.5") from None
 
 
-def _within(settings: Settings, frames: int, terms: Terms) -> None:
+def _within(settings: Settings, frames: int, terms: PictureLimits) -> None:
     width, height = settings.size
     within("size", max(width, height), 1, terms.side, "pixels")
     within("grid", max(settings.grid), 2, terms.particles, "particles")

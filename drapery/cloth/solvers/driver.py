@@ -65,7 +65,7 @@ class Batch(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Memory:
+class SolverState:
     """A method's plan for one cloth and step, in each floating-point type asked for.
 
     kernel: called with first, last, plan, batch, steps, substeps and the options; it steps whole
@@ -107,56 +107,60 @@ class Stepped:
         self,
         cloth: Cloth,
         state: State,
-        memory: Memory,
+        solver_state: SolverState,
         forces: Sequence[Force],
         dt: float,
         *,
         steps: int = 1,
         pins: PinPath | None = None,
-    ) -> tuple[State, Memory]:
+    ) -> tuple[State, SolverState]:
         """See `base.Solver`."""
         check_step(dt, steps)
         check_state(cloth, state)
-        if dt != memory.dt:
-            raise OptionError(f"dt {dt:g} is not the {memory.dt:g} of the memory; call init again")
+        if dt != solver_state.dt:
+            raise OptionError(
+                f"dt {dt:g} is not the {solver_state.dt:g} of the memory; call init again"
+            )
         loads = lower_forces(forces, len(state.positions))
         at_once = 1 if loads.custom else steps
         threads = lanes.thread_count(self.threads)
         for _ in range(steps // at_once):
-            state = _advance(cloth, state, memory, loads, at_once, pins, threads)
-        return state, memory
+            state = _advance(cloth, state, solver_state, loads, at_once, pins, threads)
+        return state, solver_state
 
 
 def _advance(
     cloth: Cloth,
     state: State,
-    memory: Memory,
+    solver_state: SolverState,
     loads: Loads,
     steps: int,
     pins: PinPath | None,
     threads: int,
 ) -> State:
-    plan = memory.of(state.positions.dtype)
-    batch = batch_of(cloth, state, memory, loads, steps, pins, threads)
+    plan = solver_state.of(state.positions.dtype)
+    batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads)
 
     def work(first: int, last: int) -> None:
-        memory.kernel(first, last, plan, batch, steps, memory.substeps, *memory.options)
+        solver_state.kernel(
+            first, last, plan, batch, steps, solver_state.substeps, *solver_state.options
+        )
 
     count = len(state.positions)
-    lanes.run_blocks(work, count if memory.alone else batch.x.shape[1], batch.width, threads)
+    lanes.run_blocks(work, count if solver_state.alone else batch.x.shape[1], batch.width, threads)
     if not all_finite(batch.new_x):
         raise OptionError(
-            f"the cloth was torn to infinity within {steps} steps of {memory.dt:g} s; "
+            f"the cloth was torn to infinity within {steps} steps of {solver_state.dt:g} s; "
             "use a smaller dt, weaker forces or another solver"
         )
-    time = state.time + steps * memory.dt
+    time = state.time + steps * solver_state.dt
     return State(lanes.from_lanes(batch.new_x, count), lanes.from_lanes(batch.new_v, count), time)
 
 
 def batch_of(
     cloth: Cloth,
     state: State,
-    memory: Memory,
+    solver_state: SolverState,
     loads: Loads,
     steps: int,
     pins: PinPath | None,
@@ -164,19 +168,19 @@ def batch_of(
 ) -> Batch:
     dtype = state.positions.dtype
     x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
-    h, count = memory.dt / memory.substeps, int((cloth.inv_mass == 0).sum())
+    h, count = solver_state.dt / solver_state.substeps, int((cloth.inv_mass == 0).sum())
     return Batch(
         x,
         v,
         # Cloths stepped alone leave the lanes that fill up the last register as they were.
-        x.copy() if memory.alone else np.empty_like(x),
-        v.copy() if memory.alone else np.empty_like(v),
+        x.copy() if solver_state.alone else np.empty_like(x),
+        v.copy() if solver_state.alone else np.empty_like(v),
         loads.gusts._replace(
             phases=lanes.filled(loads.gusts.phases, x.shape[1]),
             origins=lanes.filled(loads.gusts.origins.astype(dtype), x.shape[1]),
         ),
         np.array([h, loads.drag, state.time, *loads.gravity]),
-        lanes.pin_targets(pins, state, h, steps * memory.substeps, count),
+        lanes.pin_targets(pins, state, h, steps * solver_state.substeps, count),
         lanes.to_lanes(custom_accelerations(loads, cloth, state)),
         lanes.block_width(len(cloth.inv_mass), x, threads),
     )

@@ -9,8 +9,8 @@ from fastapi import FastAPI, HTTPException, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from drapery.banner.formats import read_designs
-from drapery.banner.formats.door import parse_banners
 from drapery.banner.formats.found import Found
+from drapery.banner.formats.registry import parse_banners
 from drapery.errors import DraperyError
 from drapery.studio.session import Session, find_session
 from drapery.studio.share import read_link
@@ -31,7 +31,7 @@ _SUFFIXES = (
 )
 
 
-class Incoming:
+class UploadQueue:
     """What was read last.
 
     found: the banners. line: what was wrong. notes: what was warned of. name: of the file, or "".
@@ -89,13 +89,13 @@ def _read(read: Callable[[], list[Found]]) -> tuple[list[Found], str, list[str]]
     return found, line, [str(each.message) for each in caught]
 
 
-_INCOMING: dict[str, Incoming] = {}
+_INCOMING: dict[str, UploadQueue] = {}
 
 
-def incoming_of(session: Session) -> Incoming:
+def incoming_of(session: Session) -> UploadQueue:
     """What came into a session."""
     if session.token not in _INCOMING:
-        _INCOMING[session.token] = Incoming()
+        _INCOMING[session.token] = UploadQueue()
         session.on_close(lambda: _INCOMING.pop(session.token, None))
     return _INCOMING[session.token]
 

@@ -16,7 +16,7 @@ MAX_BYTES = 1 << 30
 
 
 @dataclass(frozen=True)
-class Parcel:
+class Artifact:
     """A file, or a folder as a zip. digest: of its content."""
 
     name: str
@@ -30,7 +30,7 @@ def paths_of(job: Job) -> tuple[Path, ...]:
     return (*map(Path, job.settings.packs), *(() if texture is None else (Path(texture),)))
 
 
-def packed(path: Path, digests: Digests) -> Parcel:
+def packed(path: Path, digests: Digests) -> Artifact:
     """A pack or texture as a parcel. Raises PackError."""
     try:
         data = path.read_bytes() if path.is_file() else _zipped(path)
@@ -39,10 +39,10 @@ def packed(path: Path, digests: Digests) -> Parcel:
     if len(data) > MAX_BYTES:
         raise PackError(f"pack {path} is over {MAX_BYTES >> 20} MiB; leave out what is not needed")
     name = path.name if path.is_file() else f"{path.name}.zip"
-    return Parcel(name, digests.of(path)[:16], data)
+    return Artifact(name, digests.of(path)[:16], data)
 
 
-def unpacked(parcel: Parcel) -> Path:
+def unpacked(parcel: Artifact) -> Path:
     """The parcel as a file of this machine, written once. Raises OutputError."""
     try:
         folder = Path(tempfile.gettempdir(), f"drapery-{os.getuid()}", parcel.digest)
@@ -59,7 +59,7 @@ def unpacked(parcel: Parcel) -> Path:
     return path
 
 
-def settled(job: Job, parcels: tuple[Parcel, ...]) -> Job:
+def settled(job: Job, parcels: tuple[Artifact, ...]) -> Job:
     """The job with its packs and texture where they are on this machine."""
     if not parcels:
         return job

@@ -22,7 +22,7 @@ TRIES = 1 << 16
 
 
 @dataclass(frozen=True)
-class Breeze:
+class WindControls:
     """What blows: speed [m/s], direction [degrees], gusts and seed of `Settings`.
 
     on: whether it blows.
@@ -40,18 +40,20 @@ class Breeze:
         return OWN_HEADING if self.direction is None else around(self.direction)
 
 
-def breeze_of(settings: Settings, on: bool = True) -> Breeze:
+def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
     """What blows in a picture."""
-    return Breeze(settings.wind, settings.direction, settings.gusts, settings.seed, on)
+    return WindControls(settings.wind, settings.direction, settings.gusts, settings.seed, on)
 
 
-def wind_of(breeze: Breeze) -> Wind:
+def wind_of(breeze: WindControls) -> Wind:
     """The wind on a cloth in its own frame: that of pictures, to the bit."""
     speed = breeze.speed if breeze.on else 0.0
     return Wind(flow(speed, breeze.direction), gusts=breeze.gusts, seed=breeze.seed)
 
 
-def steered(breeze: Breeze, keys: Iterable[str], azimuth: float, seconds: float) -> Breeze:
+def steered(
+    breeze: WindControls, keys: Iterable[str], azimuth: float, seconds: float
+) -> WindControls:
     """The breeze after keys have been held for so long.
 
     w, a, s, d: turn it away from the viewer, to the left, near, to the right; q, e: weaker and

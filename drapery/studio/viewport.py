@@ -19,13 +19,13 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
 from drapery.errors import DraperyError
 from drapery.scenes.staging import STEP
-from drapery.studio.breeze import breeze_of
 from drapery.studio.live import Live
+from drapery.studio.pack_store import shelf_of
 from drapery.studio.panes import Shown
 from drapery.studio.player import Player
 from drapery.studio.session import Session
-from drapery.studio.shelf import shelf_of
 from drapery.studio.sketch import banner_of
+from drapery.studio.wind_controls import wind_controls_of
 
 BEHIND = 4
 """Ticks that are caught up at once; what is further behind is left out, and time runs slower."""
@@ -42,7 +42,7 @@ Input = Callable[[Live], object]
 
 
 @dataclass(frozen=True)
-class Wishes:
+class ViewportRequest:
     """What the live cloth is asked for beyond the settings of a picture.
 
     on: the wind blows. paused: time stands. scene: a ready-made scene instead of the design.
@@ -66,7 +66,7 @@ async def in_thread(call: Callable[[], T]) -> T:
     return await asyncio.get_running_loop().run_in_executor(_pool(), call)
 
 
-class Stage:
+class Viewport:
     """The live cloth of a session.
 
     version: counts what can be seen. fault: why the last change did not come about; "" where it
@@ -75,7 +75,7 @@ class Stage:
     """
 
     def __init__(self, session: Session) -> None:
-        self.wishes = Wishes()
+        self.wishes = ViewportRequest()
         self.version = 0
         self.fault = ""
         self.note = ""
@@ -287,7 +287,7 @@ class Stage:
         breeze = self._live.breeze if self._live is not None else None
         if breeze is None or self._stale or self._inputs:
             return False
-        wished = breeze_of(self._session.settings)
+        wished = wind_controls_of(self._session.settings)
         now = round(breeze.speed, 1), round(breeze.heading, 1)
         if now == (round(wished.speed, 1), round(wished.heading, 1)):
             return False
@@ -359,11 +359,11 @@ def _design(session: Session) -> Banner | None:
     return None if session.settings.texture is not None else banner_of(session.sketch)
 
 
-_STAGES: dict[str, Stage] = {}
+_STAGES: dict[str, Viewport] = {}
 
 
-def stage_of(session: Session) -> Stage:
+def stage_of(session: Session) -> Viewport:
     """The live cloth of a session, which ends with it."""
     if session.token not in _STAGES:
-        _STAGES[session.token] = Stage(session)
+        _STAGES[session.token] = Viewport(session)
     return _STAGES[session.token]

@@ -4,14 +4,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from drapery.batch.jobs import Job, Outcome
-from drapery.batch.ledger import Entry, Ledger
+from drapery.batch.results import Entry, ResultsDB
 from drapery.batch.stores import LocalStore, Store
-from drapery.batch.work import Crew, Retries, work_off
+from drapery.batch.work import Executor, Retries, work_off
 from drapery.errors import DraperyError, OutputError
 
 
 @dataclass
-class Tally:
+class Progress:
     """How far a run is. Counts of outputs, not of jobs.
 
     total: of all. drawn: made by this run. copied: of the same key as another. kept: there before.
@@ -32,23 +32,23 @@ class Tally:
         return self.drawn + self.copied + self.kept
 
 
-def carry_out(
+def execute(
     jobs: Sequence[Job],
     store: Store,
-    ledger: Ledger,
-    hire: Callable[[int], Crew],
+    ledger: ResultsDB,
+    hire: Callable[[int], Executor],
     *,
     resume: bool = False,
     retries: Retries = Retries(),  # noqa: B008 - it is frozen
-    tell: Callable[[Tally], None] = lambda tally: None,
-) -> Tally:
+    tell: Callable[[Progress], None] = lambda tally: None,
+) -> Progress:
     """Do what is not done yet.
 
     hire: makes the crew, once it is known that there is work for it, given the number of jobs.
     resume: what failed before stays failed; otherwise it is tried anew.
     tell: is called after each outcome.
     """
-    tally = Tally(sum(len(job.outs) for job in jobs))
+    tally = Progress(sum(len(job.outs) for job in jobs))
     todo = _sift(jobs, store, ledger, tally, resume)
     tell(tally)
     # A worker that outlived its killed run may leave something beside what is done, too.
@@ -68,7 +68,7 @@ def carry_out(
 
 
 def _sift(
-    jobs: Sequence[Job], store: Store, ledger: Ledger, tally: Tally, resume: bool
+    jobs: Sequence[Job], store: Store, ledger: ResultsDB, tally: Progress, resume: bool
 ) -> list[Job]:
     """The jobs that are to be drawn; the others are counted, copied where that is all."""
     known = ledger.known()
@@ -97,7 +97,7 @@ def _intact(known: dict[str, Entry], store: Store) -> dict[str, str]:
 
 
 def _copied(
-    job: Job, missing: list[str], store: Store, ledger: Ledger, there: dict[str, str]
+    job: Job, missing: list[str], store: Store, ledger: ResultsDB, there: dict[str, str]
 ) -> bool:
     """Whether another output has the same picture; then it is copied to those missing."""
     source = next((e for e in ledger.done_with(job.key) if there.get(e.out) == job.key), None)
@@ -113,7 +113,7 @@ def _copied(
     return True
 
 
-def _count(tally: Tally, outcome: Outcome, tries: int) -> None:
+def _count(tally: Progress, outcome: Outcome, tries: int) -> None:
     job = outcome.job
     tally.busy += outcome.seconds
     tally.notes.update(dict.fromkeys(outcome.notes))
@@ -128,7 +128,7 @@ def _count(tally: Tally, outcome: Outcome, tries: int) -> None:
     ]
 
 
-def _record(ledger: Ledger, outcome: Outcome, tries: int, tally: Tally) -> None:
+def _record(ledger: ResultsDB, outcome: Outcome, tries: int, tally: Progress) -> None:
     """Write an outcome down. A full disk must not end the run: what is not written down is made
     again by the next."""
     try:

@@ -32,7 +32,7 @@ class Entry:
         return Path(self.name).name or self.name
 
 
-class Shelf:
+class PackStore:
     """The packs of one session, the lowest first; later ones win. It keeps `settings.packs`."""
 
     def __init__(self, session: Session) -> None:
@@ -125,13 +125,13 @@ class Shelf:
         return self._last
 
 
-_SHELVES: dict[str, Shelf] = {}
+_SHELVES: dict[str, PackStore] = {}
 
 
-def shelf_of(session: Session) -> Shelf:
+def shelf_of(session: Session) -> PackStore:
     """The packs of a session."""
     if session.token not in _SHELVES:
-        _SHELVES[session.token] = Shelf(session)
+        _SHELVES[session.token] = PackStore(session)
         session.on_close(lambda: _SHELVES.pop(session.token, None))
     return _SHELVES[session.token]
 

@@ -7,7 +7,7 @@ from queue import Empty, Full, Queue
 from typing import TypeAlias
 
 from drapery.batch.jobs import Job, Outcome
-from drapery.batch.work import Crew
+from drapery.batch.work import Executor
 
 Answer: TypeAlias = Future[Outcome]
 
@@ -16,7 +16,7 @@ class BusyError(Exception):
     """More jobs wait than the desk takes."""
 
 
-class Desk:
+class JobQueue:
     """A thread that hands jobs to a crew.
 
     hire: makes the crew, in that thread. most: how many may wait.
@@ -25,7 +25,7 @@ class Desk:
 
     def __init__(
         self,
-        hire: Callable[[], Crew],
+        hire: Callable[[], Executor],
         most: int = 64,
         told: Callable[[Outcome], None] = lambda outcome: None,
     ) -> None:
@@ -82,7 +82,7 @@ class Desk:
             crew.close()
             self._give_up("the service is closing")
 
-    def _begin(self, crew: Crew, running: dict[str, Job]) -> None:
+    def _begin(self, crew: Executor, running: dict[str, Job]) -> None:
         while crew.free() > 0:
             try:
                 job = self._waiting.get(block=not running, timeout=0.1)

@@ -34,7 +34,7 @@ class Entry:
     size: int
 
 
-class Ledger:
+class ResultsDB:
     """One run's hand on the file; another run is refused while it is held."""
 
     def __init__(self, path: Path) -> None:
@@ -51,7 +51,7 @@ class Ledger:
         except sqlite3.Error as error:
             raise OutputError(f"ledger {path}: {_reason(error)}") from None
 
-    def __enter__(self) -> "Ledger":
+    def __enter__(self) -> "ResultsDB":
         return self
 
     def __exit__(self, *_: object) -> None:

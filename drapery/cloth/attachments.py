@@ -26,7 +26,7 @@ MOST_LEVELS = 16
 """The longest links go over 2^16 springs."""
 
 
-class Links(NamedTuple):
+class Attachments(NamedTuple):
     """In the order of correction, with the share of it that each end takes.
 
     pairs: [K, 2]. longest: [m], [K]. share_i, share_j: [K].
@@ -38,13 +38,13 @@ class Links(NamedTuple):
     share_j: Array
 
 
-def limited_links(cloth: Cloth, limit: float, sweeps: int) -> Links:
+def limited_links(cloth: Cloth, limit: float, sweeps: int) -> Attachments:
     """Links that hold a cloth's structural springs to `limit` times their rest length."""
     groups = link_groups(cloth, limit, sweeps)
     return joined(groups) if groups else shared(cloth, np.zeros((0, 2), np.int32), np.zeros(0))
 
 
-def link_groups(cloth: Cloth, limit: float, sweeps: int) -> list[Links]:
+def link_groups(cloth: Cloth, limit: float, sweeps: int) -> list[Attachments]:
     """Attachments, long links by their length, the springs once a sweep, and the attachments again,
     which leave no stretch next to the pins; none for 0 sweeps."""
     if sweeps == 0:
@@ -56,10 +56,10 @@ def link_groups(cloth: Cloth, limit: float, sweeps: int) -> list[Links]:
     return [shared(cloth, *group) for group in groups]
 
 
-def joined(groups: Sequence[Links]) -> Links:
+def joined(groups: Sequence[Attachments]) -> Attachments:
     """Groups of links one after another."""
     pairs, longest, share_i, share_j = zip(*groups, strict=True)
-    return Links(
+    return Attachments(
         np.concatenate(pairs),
         np.concatenate(longest),
         np.concatenate(share_i),
@@ -67,14 +67,14 @@ def joined(groups: Sequence[Links]) -> Links:
     )
 
 
-def shared(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Links:
+def shared(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Attachments:
     """Both ends share a correction by their inverse masses; pinned ends take none."""
     w = cloth.inv_mass[pairs]
     total = w.sum(axis=1)
     free = total > 0
     shares = w[free] / total[free, None]
     pairs = pairs[free].astype(np.int32)
-    return Links(pairs, longest[free], shares[:, 0].copy(), shares[:, 1].copy())
+    return Attachments(pairs, longest[free], shares[:, 0].copy(), shares[:, 1].copy())
 
 
 def attachments(cloth: Cloth, slack: float) -> tuple[NDArray[np.int32], Array]:

@@ -26,7 +26,7 @@ ROUNDS = 48
 
 
 @dataclass(frozen=True)
-class Weave:
+class ClothSpec:
     """What a cloth is made of: particles across and down, size [m], pins, solver."""
 
     shape: tuple[int, int]
@@ -36,7 +36,7 @@ class Weave:
 
 
 @dataclass(frozen=True, eq=False)
-class Hand:
+class Grab:
     """What pulls at a particle, and at those so near that a finger would take them too.
 
     around: all that are taken, shape [K]; offsets: where they are from the particle [m], [K, 3].
@@ -50,19 +50,19 @@ class Hand:
 
 
 @dataclass(frozen=True, eq=False)
-class Hanging:
+class LiveCloth:
     """A cloth as it hangs.
 
     whole: the cloth without a hand; cloth: with the held particle pinned. memory: the solver's.
     """
 
-    weave: Weave
+    weave: ClothSpec
     whole: Cloth
     cloth: Cloth
     method: Solver
     memory: Any
     state: State
-    hand: Hand | None = None
+    hand: Grab | None = None
 
     @property
     def positions(self) -> Array:
@@ -71,14 +71,14 @@ class Hanging:
         return found
 
 
-def hang(weave: Weave) -> Hanging:
+def hang(weave: ClothSpec) -> LiveCloth:
     """A cloth at rest. Raises OptionError."""
     whole = grid(*weave.shape, *weave.size, pins=weave.pins)
     method = solver(weave.solver)
-    return Hanging(weave, whole, whole, method, method.init(whole, STEP), rest_state(whole))
+    return LiveCloth(weave, whole, whole, method, method.init(whole, STEP), rest_state(whole))
 
 
-def rewoven(old: Hanging, weave: Weave) -> Hanging:
+def rewoven(old: LiveCloth, weave: ClothSpec) -> LiveCloth:
     """The cloth made otherwise, as it hangs: its motion goes on. Raises OptionError."""
     new = hang(weave)
     if old.weave.size != weave.size:
@@ -86,7 +86,7 @@ def rewoven(old: Hanging, weave: Weave) -> Hanging:
     return replace(new, state=_resampled(old, new))
 
 
-def _resampled(old: Hanging, new: Hanging) -> State:
+def _resampled(old: LiveCloth, new: LiveCloth) -> State:
     """The state on another grid, between its particles in a straight line."""
     if old.weave.shape == new.weave.shape:
         return old.state
@@ -110,7 +110,7 @@ def _bilinear(values: Array, shape: tuple[int, int], uvs: Array) -> Array:
     return mixed
 
 
-def moved(hanging: Hanging, forces: Sequence[Force]) -> Hanging:
+def moved(hanging: LiveCloth, forces: Sequence[Force]) -> LiveCloth:
     """The cloth one tick later. Raises OptionError where it has blown up."""
     state, memory = hanging.method.step(
         hanging.cloth, hanging.state, hanging.memory, forces, STEP, pins=_path(hanging)
@@ -120,7 +120,7 @@ def moved(hanging: Hanging, forces: Sequence[Force]) -> Hanging:
     return replace(hanging, state=replace(state, time=ticks * STEP), memory=memory)
 
 
-def _path(hanging: Hanging) -> PinPath | None:
+def _path(hanging: LiveCloth) -> PinPath | None:
     """Where what is held goes during a tick; None where all is at home."""
     held = np.flatnonzero(hanging.cloth.inv_mass == 0)
     start, began = hanging.positions[held], hanging.state.time
@@ -141,7 +141,7 @@ def _nearer(start: Array, goal: Array) -> Array:
     return np.where(length < NEAR, goal, start + share * way).astype(start.dtype)
 
 
-def grabbed(hanging: Hanging, particle: int) -> Hanging:
+def grabbed(hanging: LiveCloth, particle: int) -> LiveCloth:
     """The cloth with a hand at a particle, which stays where it is."""
     inv_mass, rest = hanging.whole.inv_mass.copy(), hanging.whole.rest_positions
     around = np.flatnonzero((_lengths(rest - rest[particle]) <= FINGER) & (inv_mass > 0))
@@ -149,18 +149,18 @@ def grabbed(hanging: Hanging, particle: int) -> Hanging:
     cloth = replace(hanging.whole, inv_mass=inv_mass)
     memory = hanging.method.init(cloth, STEP)
     place = hanging.positions[particle].astype(np.float64)
-    hand = Hand(particle, around, hanging.positions[around] - place, place)
+    hand = Grab(particle, around, hanging.positions[around] - place, place)
     return replace(hanging, cloth=cloth, memory=memory, hand=hand)
 
 
-def pulled(hanging: Hanging, target: Array) -> Hanging:
+def pulled(hanging: LiveCloth, target: Array) -> LiveCloth:
     """The hand pulls to a place [m], shape [3], or as near as the cloth lets it."""
     if hanging.hand is None:
         return hanging
     return replace(hanging, hand=replace(hanging.hand, target=within_reach(hanging, target)))
 
 
-def released(hanging: Hanging) -> Hanging:
+def released(hanging: LiveCloth) -> LiveCloth:
     """The cloth without a hand."""
     if hanging.hand is None:
         return hanging
@@ -168,12 +168,12 @@ def released(hanging: Hanging) -> Hanging:
     return replace(hanging, cloth=hanging.whole, memory=memory, hand=None)
 
 
-def free(hanging: Hanging) -> NDArray[np.intp]:
+def free(hanging: LiveCloth) -> NDArray[np.intp]:
     """The particles that a hand can take."""
     return np.flatnonzero(hanging.whole.inv_mass > 0)
 
 
-def within_reach(hanging: Hanging, target: Array) -> Array:
+def within_reach(hanging: LiveCloth, target: Array) -> Array:
     """The place near a target to which the hand's particle can go without tearing the cloth.
 
     From each pin it is no further than the flat cloth between them: the target is put back onto

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.packing import pack
@@ -23,7 +24,6 @@ from drapery.cloth.colliders.sweep import BOUNCED, MISSED, Frame, Skin, meet
 from drapery.cloth.colliders.vectors import Vector, along, norm, row, scale, subtract
 from drapery.cloth.compiled import door, kernel
 from drapery.cloth.lanes import run_blocks, thread_count
-from drapery.cloth.links import Links
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
@@ -119,7 +119,7 @@ def collide(
     points: Probes,
     *,
     radius: float,
-    links: Links | None = None,
+    links: Attachments | None = None,
     rounds: int = 1,
     threads: int | None = None,
 ) -> State:
@@ -219,7 +219,9 @@ def collide_one(
 
 
 @door
-def shorten_all(first: int, last: int, x: Array, links: Links, busy: NDArray[np.bool_]) -> None:
+def shorten_all(
+    first: int, last: int, x: Array, links: Attachments, busy: NDArray[np.bool_]
+) -> None:
     """Shorten each link that is too long; cloths without one are done."""
     for cloth in range(first, last):
         if busy[cloth]:
@@ -227,7 +229,7 @@ def shorten_all(first: int, last: int, x: Array, links: Links, busy: NDArray[np.
 
 
 @kernel
-def shorten_one(x: Array, links: Links) -> bool:
+def shorten_one(x: Array, links: Attachments) -> bool:
     """Whether there was a link to shorten."""
     found = False
     for s in range(len(links.longest)):
