@@ -17,7 +17,7 @@ from starlette.testclient import TestClient
 from drapery import Banner, animate, draw
 from drapery.batch.jobs import Job, Outcome
 from drapery.batch.manifest import Request
-from drapery.batch.pool import PictureLimits
+from drapery.batch.pool import Limits
 from drapery.serve.app import make_app
 from drapery.serve.job_queue import BusyError, JobQueue
 from drapery.serve.picture_cache import PictureCache
@@ -30,7 +30,7 @@ LIME = "white+creeper:lime"
 
 @pytest.fixture(scope="module")
 def client() -> Iterator[TestClient]:
-    with TestClient(make_app(workers=1, limits=PictureLimits(20.0, 1 << 30), rate=0)) as client:
+    with TestClient(make_app(workers=1, limits=Limits(20.0, 1 << 30), rate=0)) as client:
         yield client
 
 
