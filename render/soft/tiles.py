@@ -277,17 +277,15 @@ def _shade_tile(
             v_low, v_high = min(a.v, b.v, c.v), max(a.v, b.v, c.v)
 
             material = triangle_material[t]
-            layer, coats_end = (
-                materials[material, 0],
-                materials[material, 0] + materials[material, 1],
-            )
+            lowest = materials[material, 0]
+            end = lowest + materials[material, 1]
             solid = np.uint32(OPAQUE_BITS if materials[material, 2] != BLEND else 0)
-            across, down = np.float64(layers[layer, 2]), np.float64(layers[layer, 3])
-            i_first, i_last = _reach(u_low, u_high, layers[layer, 2])
-            j_first, j_last = _reach(v_low, v_high, layers[layer, 3])
+            across, down = np.float64(layers[lowest, 2]), np.float64(layers[lowest, 3])
+            i_first, i_last = _reach(u_low, u_high, layers[lowest, 2])
+            j_first, j_last = _reach(v_low, v_high, layers[lowest, 3])
             i_low, i_high = np.float64(i_first), np.float64(i_last)
             j_low, j_high = np.float64(j_first), np.float64(j_last)
-            origin = layers[layer, 1] * wide + layers[layer, 0]
+            origin = layers[lowest, 1] * wide + layers[lowest, 0]
             count = last - x + 1
             whole = ((count - 1) // LANES + 1) * LANES
             for k in range(whole):
@@ -302,11 +300,11 @@ def _shade_tile(
             for k in range(count):
                 shown[np.uint64(k)] = atlas[np.uint64(place[np.uint64(k)])] | solid
 
-            red, green, blue = layers[layer, 4], layers[layer, 5], layers[layer, 6]
+            red, green, blue = layers[lowest, 4], layers[lowest, 5], layers[lowest, 6]
             if red & green & blue != 255:
                 for k in range(count):
                     shown[k] = _tinted(np.int64(shown[k]), red, green, blue)
-            for upper in range(layer + 1, coats_end):
+            for upper in range(lowest + 1, end):
                 red, green, blue = layers[upper, 4], layers[upper, 5], layers[upper, 6]
                 i_first, i_last = _reach(u_low, u_high, layers[upper, 2])
                 j_first, j_last = _reach(v_low, v_high, layers[upper, 3])
