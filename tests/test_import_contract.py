@@ -19,6 +19,7 @@ LAW: dict[str, set[str]] = {
     "drapery.mesh": set(),
     "drapery.settings": {"errors"},
     "drapery.options": {"errors", "settings"},
+    "drapery.yaml_text": {"errors"},
     "drapery.cloth": {"errors", "mesh"},
     "drapery.banner": {"errors", "assets"},
     "drapery.assets": {"errors", "banner"},
@@ -29,9 +30,12 @@ LAW: dict[str, set[str]] = {
     "drapery.compare": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
     "drapery.sheets": {"errors", "settings", "banner", "render", "pictures", "compare"},
     "drapery.beet": {"errors", "settings", "banner", "testing"},
-    "drapery.testing": {"errors", "options", "settings", "banner", "render", "pictures", "compare"},
+    "drapery.testing": {
+        *("errors", "options", "settings", "yaml_text", "banner", "render", "pictures", "compare"),
+    },
     "drapery.batch": {
-        *("errors", "options", "settings", "banner", "style", "render", "pictures", "compare"),
+        *("errors", "options", "settings", "yaml_text"),
+        *("banner", "style", "render", "pictures", "compare"),
     },
     "drapery.serve": {
         *("errors", "options", "settings", "banner", "style", "render", "pictures", "batch"),

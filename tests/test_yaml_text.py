@@ -1,0 +1,92 @@
+"""YAML from outside: what is read, and what is refused before it costs memory or time."""
+
+import tracemalloc
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from drapery.errors import OptionError
+from drapery.yaml_text import MAX_REASON, MAX_REPEATED, load_yaml
+
+TEXTS = st.text(st.characters(min_codepoint=32, max_codepoint=126), max_size=20)
+VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers() | TEXTS,
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(TEXTS, inner, max_size=4),
+    max_leaves=20,
+)
+
+
+def bomb(levels: int) -> str:
+    """Each line holds the line before nine times; `levels` of 9 is some 400 bytes."""
+    lines = ["a0: &a0 lol"]
+    for number in range(1, levels + 1):
+        inner = ", ".join([f"*a{number - 1}"] * 9)
+        lines.append(f"a{number}: &a{number} [{inner}]")
+    return "\n".join(lines)
+
+
+@given(VALUES)
+def test_plain_values_come_back(value: object) -> None:
+    assert load_yaml(yaml.safe_dump(value), "x.yaml") == value
+
+
+def test_lists_know_the_lines_of_their_items() -> None:
+    jobs = load_yaml("# jobs\n- design: red\n\n- design: blue\n- [1,\n   2]\n", "x.yaml")
+    assert jobs.lines == [2, 4, 5]
+    assert jobs[2].lines == [5, 6]
+
+
+def test_anchors_and_merges_are_read() -> None:
+    text = "base: &base {size: 64x64, view: iso}\ncase:\n- {<<: *base, view: hero}\n- *base\n"
+    read = load_yaml(text, "x.yaml")
+    assert read["case"] == [{"size": "64x64", "view": "hero"}, {"size": "64x64", "view": "iso"}]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a: 1\nb: [", "did not find expected node content"),
+        ("[" * 30_000, "x.yaml, line 1, column 65: lists and mappings nest more than 64 deep"),
+        ("{a: " * 30_000, "nest more than 64 deep"),
+        (bomb(9), f"aliases repeat more than {MAX_REPEATED} values"),
+        ("a: &a {x: 1}\nb: *c\n", "x.yaml, line 2, column 4: found undefined alias"),
+        ("a: &a [*a]\n", "x.yaml, line 1, column 8: *a repeats a value inside itself"),
+        (
+            "? [a, b]\n: 1\n",
+            "x.yaml, line 1, column 3: while constructing a mapping, found unhashable key",
+        ),
+        ("- a: 1\n  a: 2\n", "x.yaml, line 2, column 3: the key 'a' is given twice"),
+        (f"a: {'9' * 5000}", "x.yaml, line 1, column 4: a number has more than 100 characters"),
+        (f"a: 1{':59' * 5000}", "a number has more than 100 characters"),
+        ("a: 2020-13-45", "x.yaml: month must be in 1..12"),
+        ("a: 1\n---\nb: 2\n", "expected a single document"),
+        ("a: !!python/object:os.system x", "could not determine a constructor for the tag"),
+        ("a: ok\nb: \x00", "x.yaml, line 2, column 4: character"),
+    ],
+)
+def test_a_fault_names_the_file_the_line_and_the_remedy(text: str, message: str) -> None:
+    with pytest.raises(OptionError) as raised:
+        load_yaml(text, "x.yaml")
+    said = str(raised.value)
+    assert message in said
+    assert said.endswith("; correct the YAML there")
+    assert len(said) < MAX_REASON + 100 and "\n" not in said
+
+
+def test_a_bomb_of_aliases_takes_no_memory() -> None:
+    tracemalloc.start()
+    with pytest.raises(OptionError):
+        load_yaml(bomb(9), "x.yaml")
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 1 << 20
+
+
+@given(st.text(st.sampled_from("ab:-[]{}&*!?|>'\"% \n#,<0159.~\t"), max_size=60))
+def test_any_text_is_read_or_refused(text: str) -> None:
+    try:
+        load_yaml(text, "x.yaml")
+    except OptionError as error:
+        assert "\n" not in str(error)
