@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+from drapery.errors import OptionError
 
 Array = NDArray[np.floating[Any]]
 Triangles = NDArray[np.int32]
@@ -25,6 +27,33 @@ class Mesh:
     normals: Array
     triangles: Triangles
     uvs: Array
+
+
+def make_mesh(positions: ArrayLike, triangles: ArrayLike, uvs: ArrayLike | None = None) -> Mesh:
+    """A mesh with the vertex normals of its positions.
+
+    positions: [m], shape [..., V, 3]; float32 stays, all else becomes float64.
+    triangles: vertex indices, shape [T, 3], counter-clockwise seen from outside.
+    uvs: shape [V, 2]; None is (0, 0) everywhere, which suits a plain colour.
+    Raises OptionError for other shapes, for indices outside the vertices, and for positions that
+    are not finite numbers.
+    """
+    points, corners = np.asarray(positions), np.asarray(triangles)
+    points = points if points.dtype == np.float32 else points.astype(np.float64)
+    if points.ndim < 2 or points.shape[-1] != 3 or not np.isfinite(points).all():
+        raise OptionError(f"positions of shape {points.shape}: use [..., V, 3] of finite numbers")
+    count = points.shape[-2]
+    if corners.ndim != 2 or corners.shape[1] != 3 or not np.issubdtype(corners.dtype, np.integer):
+        raise OptionError(
+            f"triangles of shape {corners.shape} and type {corners.dtype}: use [T, 3] of integers"
+        )
+    if corners.size and not (corners.min() >= 0 and corners.max() < count):
+        raise OptionError(f"triangles name vertices outside the {count} positions; use 0 to V - 1")
+    places = np.zeros((count, 2)) if uvs is None else np.asarray(uvs, np.float64)
+    if places.shape != (count, 2):
+        raise OptionError(f"uvs of shape {places.shape}: use ({count}, 2), one for each position")
+    faces = corners.astype(np.int32)
+    return Mesh(points, vertex_normals(points, faces), faces, places)
 
 
 def face_normals(positions: Array, triangles: Triangles) -> Array:

@@ -1,1 +1,114 @@
-"""Pictures of meshes. Knows textures, cameras and lights; never a banner, never a solver."""
+"""Pictures of meshes. Knows textures, cameras and lights; never a banner, never a solver.
+
+A `Scene` holds models, a camera and a light; a backend draws it as a `Frame`; a frame or an
+`Animation` is saved as a file. `draw_models` does it in one line:
+
+    from drapery.render import draw_models, make_mesh, make_model
+
+    draw_models([make_model(make_mesh(positions, triangles), colour="#b02e26")]).save("red.png")
+
+Lengths are metres, angles degrees, colours 8-bit sRGB with straight alpha. The axes are
+right-handed with y up. Names are loaded when they are first used.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from drapery.mesh import Mesh, face_normals, make_mesh, vertex_normals
+    from drapery.render.backends import DrawScene, backend, backend_names
+    from drapery.render.camera import Camera, clip_matrix, projection_matrix, view_matrix
+    from drapery.render.debug import (
+        edges_model,
+        normals_model,
+        pins_model,
+        springs_model,
+        stretch_model,
+    )
+    from drapery.render.drawing import Colour, draw_models, draw_scene, make_model
+    from drapery.render.encode import save_animation, save_frame
+    from drapery.render.export import save_model
+    from drapery.render.frame import Animation, Frame
+    from drapery.render.light import GAME_LIGHT, UNLIT, Light, lit_at
+    from drapery.render.lines import dot_model, line_model
+    from drapery.render.resize import enlarge
+    from drapery.render.scene import Material, Model, Scene, TextureLayer
+    from drapery.render.shadow import contact_shadow
+    from drapery.render.views import VIEWS, View, frame_points, frame_view, turntable
+
+__all__ = [
+    "GAME_LIGHT",
+    "UNLIT",
+    "VIEWS",
+    "Animation",
+    "Camera",
+    "Colour",
+    "DrawScene",
+    "Frame",
+    "Light",
+    "Material",
+    "Mesh",
+    "Model",
+    "Scene",
+    "TextureLayer",
+    "View",
+    "backend",
+    "backend_names",
+    "clip_matrix",
+    "contact_shadow",
+    "dot_model",
+    "draw_models",
+    "draw_scene",
+    "edges_model",
+    "enlarge",
+    "face_normals",
+    "frame_points",
+    "frame_view",
+    "line_model",
+    "lit_at",
+    "make_mesh",
+    "make_model",
+    "normals_model",
+    "pins_model",
+    "projection_matrix",
+    "save_animation",
+    "save_frame",
+    "save_model",
+    "springs_model",
+    "stretch_model",
+    "turntable",
+    "vertex_normals",
+    "view_matrix",
+]
+
+_NAMES = {
+    "drapery.mesh": ("Mesh", "face_normals", "make_mesh", "vertex_normals"),
+    "drapery.render.backends": ("DrawScene", "backend", "backend_names"),
+    "drapery.render.camera": ("Camera", "clip_matrix", "projection_matrix", "view_matrix"),
+    "drapery.render.debug": (
+        *("edges_model", "normals_model", "pins_model", "springs_model", "stretch_model"),
+    ),
+    "drapery.render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),
+    "drapery.render.encode": ("save_animation", "save_frame"),
+    "drapery.render.export": ("save_model",),
+    "drapery.render.frame": ("Animation", "Frame"),
+    "drapery.render.light": ("GAME_LIGHT", "UNLIT", "Light", "lit_at"),
+    "drapery.render.lines": ("dot_model", "line_model"),
+    "drapery.render.resize": ("enlarge",),
+    "drapery.render.scene": ("Material", "Model", "Scene", "TextureLayer"),
+    "drapery.render.shadow": ("contact_shadow",),
+    "drapery.render.views": ("VIEWS", "View", "frame_points", "frame_view", "turntable"),
+}
+_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module 'drapery.render' has no attribute {name!r}")
+    value = getattr(import_module(_MODULE_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -16,7 +16,7 @@ ROOMS = {
 # Each room and the rooms it may import. Longest prefix decides; a room may import itself.
 LAW: dict[str, set[str]] = {
     "drapery.errors": set(),
-    "drapery.mesh": set(),
+    "drapery.mesh": {"errors"},
     "drapery.settings": {"errors"},
     "drapery.options": {"errors", "settings"},
     "drapery.yaml_text": {"errors"},

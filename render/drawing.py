@@ -1,0 +1,100 @@
+"""Pictures of meshes in a line or two; what is behind is a `Scene` drawn by a backend."""
+
+from collections.abc import Iterable
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import ImageColor
+
+from drapery.errors import OptionError
+from drapery.mesh import Mesh
+from drapery.render.backends import backend as backend_named
+from drapery.render.camera import Camera
+from drapery.render.frame import Frame
+from drapery.render.light import GAME_LIGHT, Light
+from drapery.render.scene import Alpha, Material, Model, Scene, TextureLayer
+from drapery.render.views import frame_view
+
+Colour = str | tuple[int, int, int] | tuple[int, int, int, int]
+"""`#rrggbb`, `#rrggbbaa`, a CSS name, or red, green, blue and alpha, each 0 to 255."""
+
+
+def draw_scene(scene: Scene, backend: str = "auto") -> Frame:
+    """Draw a scene by the backend of this name.
+
+    Raises BackendError for a backend that is not known or cannot run, OptionError for sizes,
+    textures or meshes that cannot be drawn.
+    """
+    return backend_named(backend)(scene)
+
+
+def draw_models(
+    models: Iterable[Model | Mesh],
+    *,
+    view: str = "iso",
+    camera: Camera | None = None,
+    size: tuple[int, int] = (512, 512),
+    background: Colour = (0, 0, 0, 0),
+    light: Light = GAME_LIGHT,
+    samples: Literal[1, 4, 16] = 4,
+    backend: str = "auto",
+) -> Frame:
+    """Draw models, framed by a named view; a bare mesh is drawn white.
+
+    view: a name in VIEWS, used where `camera` is None. For the frames of an animation make one
+        camera with `frame_view` from the points of all its moments.
+    size: width and height [pixels]. samples: 1, 4 or 16 for each pixel.
+    Raises OptionError or BackendError as `draw_scene` and `frame_view` do.
+
+        red = make_model(make_mesh(positions, triangles), colour="#b02e26")
+        draw_models([red], view="hero").save("red.png")
+    """
+    drawn = tuple(make_model(one) if isinstance(one, Mesh) else one for one in models)
+    if camera is None:
+        points = [model.mesh.positions.reshape(-1, 3) for model in drawn]
+        everything = np.concatenate([np.zeros((0, 3)), *points])
+        camera = frame_view(view, everything, size[0] / size[1])
+    return draw_scene(Scene(drawn, camera, size, light, rgba(background), samples), backend)
+
+
+def make_model(
+    mesh: Mesh,
+    *,
+    colour: Colour = "white",
+    texture: NDArray[np.uint8] | None = None,
+    alpha: Alpha = "opaque",
+    lit: bool = True,
+) -> Model:
+    """A mesh, or a batch of meshes, with one material.
+
+    colour: of all of the surface; it multiplies the texture where there is one.
+    texture: sRGB, shape [H, W, 3], or with straight alpha [H, W, 4], uint8, top row first. The
+        mesh's UVs say where it lies.
+    alpha, lit: as in `Material`. Raises OptionError for a colour or texture of another form.
+    """
+    red, green, blue, opacity = rgba(colour)
+    texels = np.full((1, 1, 4), 255, np.uint8) if texture is None else np.asarray(texture)
+    if texels.dtype != np.uint8 or texels.ndim != 3 or texels.shape[2] not in (3, 4):
+        raise OptionError(
+            f"texture has shape {texels.shape} and type {texels.dtype};"
+            " use [height, width, 3 or 4] of uint8"
+        )
+    if texels.shape[2] == 3:
+        texels = np.concatenate([texels, np.full_like(texels[..., :1], 255)], axis=2)
+    if opacity < 255:
+        texels = texels.copy()
+        texels[..., 3] = (texels[..., 3].astype(int) * opacity + 127) // 255
+    return Model(mesh, (Material((TextureLayer(texels, (red, green, blue)),), alpha, lit),))
+
+
+def rgba(colour: Colour) -> tuple[int, int, int, int]:
+    """Red, green, blue and alpha of a colour, each 0 to 255. Raises OptionError."""
+    try:
+        values = ImageColor.getrgb(colour) if isinstance(colour, str) else tuple(colour)
+    except (ValueError, TypeError):
+        values = ()
+    if len(values) not in (3, 4) or not all(0 <= int(value) <= 255 for value in values):
+        raise OptionError(f"colour {colour!r} is not a colour; use #rrggbb or 3 to 4 of 0 to 255")
+    red, green, blue, alpha = (*(int(value) for value in values), 255)[:4]
+    return red, green, blue, alpha
