@@ -23,7 +23,7 @@ import numpy as np
 from rich.progress import Progress
 
 from benchmarks.peers import Load, Runner, stretch
-from drapery.cloth import Cloth, Gravity, SolverDesbrun, SolverXPBD, Wind, grid, rest_state
+from drapery.cloth import Cloth, Fabric, Gravity, SolverDesbrun, SolverXPBD, Wind, grid, rest_state
 
 SEED = {"width": 1.25, "height": 2.5, "mass": 1.0, "stiffness": (50.0, 10.0, 2.0)}
 WORKLOADS = {
@@ -80,7 +80,7 @@ class Ours:
 def our_cloth(load: Load) -> Cloth:
     density = load.mass * load.columns * load.rows / (load.width * load.height)
     size = load.columns, load.rows, load.width, load.height
-    return grid(*size, density=density, stiffness=load.stiffness)
+    return grid(*size, fabric=Fabric(density, *load.stiffness))
 
 
 def our_solver(name: str, threads: int, substeps: int) -> Any:

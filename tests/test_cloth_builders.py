@@ -12,6 +12,7 @@ from drapery.cloth import (
     SHEAR,
     STRUCTURAL,
     Cloth,
+    Fabric,
     Gravity,
     Seam,
     SolverDesbrun,
@@ -71,7 +72,7 @@ def test_springs_are_at_rest_in_the_rest_shape():
 
 
 def test_a_disc_is_whole_round_and_faces_up():
-    cloth = disc(6, 0.5, density=2.0)
+    cloth = disc(6, 0.5, fabric=Fabric(2.0))
     assert len(cloth.inv_mass) == 1 + 3 * 6 * 7
     assert euler(cloth) == 1
     assert (face_normals(cloth.rest_positions, cloth.triangles)[:, 1] > 0).all()
@@ -82,7 +83,7 @@ def test_a_disc_is_whole_round_and_faces_up():
 
 def test_a_mesh_gets_each_edge_once_and_a_bend_across_each_inner_one():
     ball = trimesh.creation.icosphere(2)
-    cloth = from_mesh(ball, density=1.0)
+    cloth = from_mesh(ball, fabric=Fabric(1.0))
     assert (cloth.spring_kind == STRUCTURAL).sum() == len(ball.edges_unique)
     assert (cloth.spring_kind == FLEXION).sum() == len(ball.face_adjacency)
     assert euler(cloth) == 2
@@ -148,10 +149,16 @@ WRONG = {
     "pin half": lambda: grid(3, 3, 1, 1, pins=[0.5]),
     "corners of a strip": lambda: strip(3, 1.0, pins="corners"),
     "predicate": lambda: grid(3, 3, 1, 1, pins=lambda x: x),
-    "stiffness nan": lambda: grid(3, 3, 1, 1, stiffness=(np.nan, 1, 1)),
-    "stiffness negative": lambda: grid(3, 3, 1, 1, stiffness=(-1, 1, 1)),
-    "stiffness absurd": lambda: grid(3, 3, 1, 1, stiffness=(1e30, 1, 1)),
-    "stiffness two": lambda: grid(3, 3, 1, 1, stiffness=(1, 1)),
+    "stiffness nan": lambda: grid(3, 3, 1, 1, fabric=Fabric(0.3, np.nan, 1, 1)),
+    "stiffness negative": lambda: grid(3, 3, 1, 1, fabric=Fabric(0.3, -1, 1, 1)),
+    "stiffness absurd": lambda: grid(3, 3, 1, 1, fabric=Fabric(0.3, 1e30, 1, 1)),
+    "stiffness text": lambda: Fabric(bend="soft"),
+    "drag negative": lambda: Fabric(drag=-1.0),
+    "density zero": lambda: Fabric(density=0.0),
+    "density huge": lambda: Fabric(density=10**400),
+    "fabric number": lambda: grid(3, 3, 1, 1, fabric=0.3),
+    "columns half": lambda: grid(2.5, 3, 1, 1),
+    "drags differ": lambda: sew([GRID, replace(GRID, drag=0.5)]),
     "rest nan": lambda: made(rest_positions=GRID.rest_positions * np.nan),
     "mass inf": lambda: made(inv_mass=GRID.inv_mass + np.inf),
     "mass negative": lambda: made(inv_mass=GRID.inv_mass - 1),
@@ -203,8 +210,8 @@ def test_what_cannot_be_is_refused_in_one_line(name):
         grid(3, 3, 1, 1, pins=range(9)),
         grid(17, 3, 1, 1, pins=lambda x: x[:, 0] < 9),
         grid(2, 2, 1, 1, pins="none"),
-        grid(4, 4, 1, 1, stiffness=(1e9, 1e9, 1e9)),
-        grid(4, 4, 1, 1, stiffness=(0.0, 0.0, 0.0)),
+        grid(4, 4, 1, 1, fabric=Fabric(0.3, 1e9, 1e9, 1e9)),
+        grid(4, 4, 1, 1, fabric=Fabric(0.3, 0.0, 0.0, 0.0)),
         grid(4, 4, 1e-3, 1e-3),
         grid(4, 4, 1e3, 1e3),
         strip(2, 1.0),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from drapery.cloth import disc, filters, grid, kernels, sheet_kernels
+from drapery.cloth import Fabric, disc, filters, grid, kernels, sheet_kernels
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.filters import (
     band_filter,
@@ -52,7 +52,7 @@ def test_products_along_rows_and_columns_are_the_matrix(pins, factors, monkeypat
     if factors:
         monkeypatch.setattr(filters, "LARGEST", 0)
     # With structural springs alone no spring leaves the grid, so nothing is mirrored.
-    cloth = grid(7, 12, 0.8, 1.6, pins=pins, stiffness=(5.0, 0.0, 0.0))
+    cloth = grid(7, 12, 0.8, 1.6, pins=pins, fabric=Fabric(0.3, 5.0, 0.0, 0.0))
     values = velocities(cloth)
     found = by(separable_filter(cloth, DT), cloth, values)
     np.testing.assert_allclose(found, by_matrix(cloth, values), atol=1e-13)

@@ -6,7 +6,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from drapery.cloth import Drag, Gravity, Wind, grid, rest_state, simulate
+from drapery.cloth import Drag, Fabric, Gravity, Wind, grid, rest_state, simulate
 from drapery.cloth.solvers.registry import SOLVERS, solver
 from drapery.errors import OptionError
 
@@ -41,8 +41,8 @@ def started(bad):
 
 REFUSED = {
     "width": lambda bad: grid(4, 5, bad, 1.0),
-    "density": lambda bad: grid(4, 5, 1.0, 1.0, density=bad),
-    "stiffness": lambda bad: grid(4, 5, 1.0, 1.0, stiffness=(5.0, bad, 1.0)),
+    "density": lambda bad: grid(4, 5, 1.0, 1.0, fabric=Fabric(bad)),
+    "stiffness": lambda bad: grid(4, 5, 1.0, 1.0, fabric=Fabric(0.3, 5.0, bad, 1.0)),
     "spring": lambda bad: with_length(bad),
     "gravity": lambda bad: moved(CLOTH, forces=[Gravity((0.0, bad, 0.0))]),
     "drag": lambda bad: moved(CLOTH, forces=[Drag(bad)]),
@@ -69,7 +69,10 @@ def test_no_input_may_hold_nan_or_infinity(what, bad):
         (lambda: grid(4, 5, 1, 1, pins=[0, 2, 2]), "pin 2 is given twice"),
         (lambda: grid(4, 5, 1, 1, pins=[0, 20]), "pin 20 is not a particle; use 0 to 19"),
         (lambda: grid(4, 5, 1, 1, pins=[-1]), "pin -1"),
-        (lambda: grid(4, 5, 1, 1, stiffness=(1e30, 1.0, 1.0)), "1e\\+30 N/m"),
+        (
+            lambda: grid(4, 5, 1, 1, fabric=Fabric(0.3, 1e30, 1.0, 1.0)),
+            "fabric stretch 1e\\+30 is out",
+        ),
     ],
 )
 def test_springs_without_length_and_wrong_pins_are_named(make, words):
@@ -96,7 +99,7 @@ def test_a_cloth_of_pins_alone_stays(name, columns):
 @each
 @pytest.mark.parametrize("stiffness", [0.0, 1e-30, 1e9])
 def test_absurd_stiffness_is_refused_or_runs(name, stiffness):
-    cloth = grid(4, 5, 1.0, 1.2, stiffness=(stiffness,) * 3)
+    cloth = grid(4, 5, 1.0, 1.2, fabric=Fabric(0.3, *(stiffness,) * 3))
     try:
         end = moved(cloth, name)
     except OptionError as refusal:

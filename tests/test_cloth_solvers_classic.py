@@ -8,7 +8,17 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from drapery.cloth import STRUCTURAL, Cloth, Drag, Gravity, Wind, grid, max_stretch, simulate
+from drapery.cloth import (
+    STRUCTURAL,
+    Cloth,
+    Drag,
+    Fabric,
+    Gravity,
+    Wind,
+    grid,
+    max_stretch,
+    simulate,
+)
 from drapery.cloth.solvers.implicit import SolverImplicit
 from drapery.cloth.solvers.pbd import SolverPBD
 from drapery.cloth.solvers.provot import SolverProvot
@@ -203,7 +213,7 @@ def reordered(cloth, seed=0):
 
 
 def test_jacobi_order_forgets_how_springs_are_listed_and_provots_does_not():
-    cloth = grid(4, 6, 0.6, 1.0, stiffness=(1.0, 0.2, 0.1))
+    cloth = grid(4, 6, 0.6, 1.0, fabric=Fabric(0.3, 1.0, 0.2, 0.1))
     for solver, same in ((SolverVerlet(substeps=4), True), (SolverProvot(substeps=4), False)):
         ends = [
             run(c, solver, [Gravity()], 1 / 60, 20, start_of(c)).positions
@@ -316,7 +326,7 @@ def test_pbd_stretches_at_most_five_per_cent(shape, speed):
 
 
 def test_one_implicit_step_solves_the_linear_system():
-    cloth = grid(3, 4, 0.6, 0.9, pins="corners", stiffness=(40.0, 10.0, 5.0))
+    cloth = grid(3, 4, 0.6, 0.9, pins="corners", fabric=Fabric(0.3, 40.0, 10.0, 5.0))
     random = np.random.default_rng(8)
     free = cloth.inv_mass > 0
     # All springs are stretched, so no part of a Jacobian is left out.
@@ -356,7 +366,7 @@ def test_one_implicit_step_solves_the_linear_system():
 
 
 def test_implicit_stands_any_stiffness_and_step():
-    cloth = grid(5, 5, 1.0, 1.0, stiffness=(1e8, 1e7, 1e6))
+    cloth = grid(5, 5, 1.0, 1.0, fabric=Fabric(0.3, 1e8, 1e7, 1e6))
     solver = SolverImplicit(sweeps=0, iterations=2000)
     end = run(cloth, solver, [Gravity(), Wind((0.0, 0.0, 30.0))], 0.1, 50, start_of(cloth))
     assert np.isfinite(end.positions).all() and np.abs(end.positions).max() < 2
@@ -468,7 +478,7 @@ def test_nothing_breaks_in_a_gale(name):
         lambda: SolverImplicit(tolerance=0),
         lambda: SolverImplicit(iterations=0),
         lambda: SolverImplicit(damping=np.inf),
-        lambda: SolverVerlet().init(grid(3, 3, 1, 1, stiffness=(1e12, 1, 1)), 1 / 60),
+        lambda: SolverVerlet().init(grid(3, 3, 1, 1, fabric=Fabric(0.3, 1e12, 1, 1)), 1 / 60),
         lambda: SolverPBD().init(grid(3, 3, 1, 1), 0.0),
         lambda: SolverImplicit().init(grid(3, 3, 1, 1), np.nan),
     ],

@@ -10,6 +10,7 @@ from drapery.cloth import (
     STRUCTURAL,
     Cloth,
     Drag,
+    Fabric,
     Gravity,
     PushBack,
     SolverDesbrun,
@@ -93,6 +94,16 @@ def test_drag_ends_a_fall_at_g_over_its_rate(name):
 
 
 @both
+def test_drag_of_the_fabric_adds_to_that_of_the_forces(name):
+    plain = grid(3, 3, 1, 1, pins="none")
+    woolly = grid(3, 3, 1, 1, pins="none", fabric=Fabric(drag=0.5))
+    gravity = Gravity((0, -G, 0))
+    expected = after(1.0, plain, DEFAULT[name], [gravity, Drag(2.0)], 1 / 60)
+    fallen = after(1.0, woolly, DEFAULT[name], [gravity, Drag(1.5)], 1 / 60)
+    np.testing.assert_array_equal(fallen.positions, expected.positions)
+
+
+@both
 @pytest.mark.parametrize("make", [grid_sheet, disc_sheet])
 def test_still_air_slows_a_moving_sheet_by_pressure_times_area(name, make):
     cloth, normal, area = make()
@@ -148,7 +159,7 @@ def test_a_spring_swings_at_its_frequency(name):
 @both
 def test_a_hanging_chain_swings_at_the_period_of_bessels_zero(name):
     length, count, dt = 1.0, 21, 1 / 480
-    cloth = strip(count, length, density=0.1, stiffness=(5.0, 1.0, 0.0))
+    cloth = strip(count, length, fabric=Fabric(0.1, 5.0, 1.0, 0.0))
     start = rest_state(cloth, 1, np.float64)
     # Its slowest shape is J0(2.405 sqrt(1 - s)); a straight line is near enough.
     places = np.zeros((1, count, 3))
@@ -167,7 +178,7 @@ def test_a_hanging_chain_swings_at_the_period_of_bessels_zero(name):
 @pytest.mark.parametrize("solver", [SolverDesbrun(sweeps=40), SolverXPBD(substeps=40)])
 def test_a_chain_between_two_pins_hangs_as_a_catenary(solver):
     count, length, span = 41, 1.0, 0.7
-    cloth = strip(count, length, pins=[0, count - 1], density=0.2, stiffness=(50.0, 1.0, 0.0))
+    cloth = strip(count, length, pins=[0, count - 1], fabric=Fabric(0.2, 50.0, 1.0, 0.0))
     start = rest_state(cloth, 1, np.float64)
     places = start.positions.copy()
     places[..., 0] *= span / length
@@ -216,7 +227,7 @@ def spin_of(cloth, state):
 
 
 def test_the_exact_correction_keeps_angular_momentum_better_than_the_papers_and_than_none():
-    cloth = grid(6, 7, 1, 1, pins="none", density=6.0)
+    cloth = grid(6, 7, 1, 1, pins="none", fabric=Fabric(6.0))
     start = shaken(cloth)
     drift = {}
     for angular in ("none", "paper", "exact"):

@@ -2,6 +2,7 @@
 
 from drapery.cloth.builders import grid, max_stretch, strip
 from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
+from drapery.cloth.fabric import Fabric
 from drapery.cloth.forces import Drag, Force, Gravity, PushBack
 from drapery.cloth.meshes import disc, from_mesh, from_triangles
 from drapery.cloth.pins import PinPath, carried
@@ -23,6 +24,7 @@ __all__ = [
     "Cloth",
     "Detail",
     "Drag",
+    "Fabric",
     "Force",
     "Gravity",
     "PinPath",

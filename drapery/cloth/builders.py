@@ -3,20 +3,17 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.checks import check_count, check_number, shown
 from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
+from drapery.cloth.fabric import Fabric
 from drapery.cloth.pins import Pins, pinned_particles
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
-DENSITY = 0.3
-"""Surface density of a light woollen cloth [kg/m²]."""
-STIFFNESS = (5.0, 1.0, 0.2)
-"""Structural, shear and flexion stiffness [N/m].
-
-In the ratio 50 : 10 : 2 for particles of 1 kg, of a Minecraft mod that inspired this project; on
-its 5 x 9 flag of this density they are about ten times stiffer for their mass.
-"""
 MAX_PARTICLES = 1_000_000
+MIN_SIZE, MAX_SIZE = 1e-6, 1e6
+"""Bounds of a cloth's width, height, length and radius [m]."""
+DEFAULT = Fabric()
 
 
 def grid(
@@ -26,28 +23,26 @@ def grid(
     height: float,
     *,
     pins: Pins = "top",
-    density: float = DENSITY,
-    stiffness: tuple[float, float, float] = STIFFNESS,
+    fabric: Fabric = DEFAULT,
 ) -> Cloth:
     """A rectangle of cloth, hanging from y = 0 and facing +z.
 
     columns, rows: particles across and down; particles are numbered row by row from the top left.
-    width, height: [m]. pins: see `pinned_particles`. density: [kg/m²], shared evenly by the
-    particles. stiffness: of structural, shear and flexion springs [N/m].
-    Raises OptionError.
+    width, height: [m], up to 1e6. pins: see `pinned_particles`. fabric: the material; its mass is
+    shared evenly by the particles. Raises OptionError.
     """
+    check_fabric(fabric)
     for name, count in (("columns", columns), ("rows", rows)):
-        if count < 2:
-            raise OptionError(f"grid {name} {count} is too few; use at least 2")
+        check_count(f"grid {name}", count, 2, MAX_PARTICLES)
     check_particles("grid", columns * rows)
-    for name, size in (("width", width), ("height", height), ("density", density)):
-        check_positive(f"grid {name}", size)
+    for name, size in (("width", width), ("height", height)):
+        check_size(f"grid {name}", size)
     across, down = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
     uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
     rest = np.zeros((rows * columns, 3))
     rest[:, 0] = (uvs[:, 0] - 0.5) * width
     rest[:, 1] = -uvs[:, 1] * height
-    particle_mass = density * width * height / len(rest)
+    particle_mass = fabric.density * width * height / len(rest)
     inv_mass = np.full(len(rest), 1.0 / particle_mass)
     inv_mass[pinned_particles(pins, rest, (rows, columns))] = 0.0
     pairs, kinds = _grid_springs(rows, columns)
@@ -56,11 +51,12 @@ def grid(
         inv_mass=inv_mass,
         spring_pairs=pairs,
         spring_length=np.linalg.norm(rest[pairs[:, 1]] - rest[pairs[:, 0]], axis=1),
-        spring_stiffness=kind_stiffness(stiffness)[kinds],
+        spring_stiffness=np.array(fabric.stiffness)[kinds],
         spring_kind=kinds,
         triangles=_grid_triangles(rows, columns),
         uvs=uvs,
         grid_shape=(rows, columns),
+        drag=fabric.drag,
     )
 
 
@@ -68,24 +64,23 @@ def strip(
     count: int,
     length: float,
     *,
+    width: float = 1.0,
     pins: Pins = (0,),
-    density: float = DENSITY,
-    stiffness: tuple[float, float, float] = STIFFNESS,
+    fabric: Fabric = DEFAULT,
 ) -> Cloth:
-    """A line of particles along +x from the origin: a ribbon, a rope, a chain. It has no faces, so
-    no wind.
+    """A line of particles along +x from the origin: a ribbon, a rope, a chain.
 
-    count: particles; length: [m]; density: [kg/m]; otherwise as `grid`. Raises OptionError.
+    It has no faces, so wind does not move it. count: particles, 2 or more. length: [m]. width:
+    of the ribbon [m]; it counts for the mass alone. pins, fabric: as `grid`. Raises OptionError.
     """
-    if count < 2:
-        raise OptionError(f"strip count {count} is too few; use at least 2 particles")
-    check_particles("strip", count)
-    for name, size in (("length", length), ("density", density)):
-        check_positive(f"strip {name}", size)
+    check_fabric(fabric)
+    check_count("strip count", count, 2, MAX_PARTICLES)
+    for name, size in (("length", length), ("width", width)):
+        check_size(f"strip {name}", size)
     along = np.linspace(0, 1, count)
     rest = np.zeros((count, 3))
     rest[:, 0] = along * length
-    inv_mass = np.full(count, count / (density * length))
+    inv_mass = np.full(count, count / (fabric.density * width * length))
     inv_mass[pinned_particles(pins, rest, None)] = 0.0
     index = np.arange(count, dtype=np.int32)
     near = np.stack([index[:-1], index[1:]], axis=1)
@@ -97,10 +92,11 @@ def strip(
         inv_mass=inv_mass,
         spring_pairs=pairs,
         spring_length=np.linalg.norm(rest[pairs[:, 1]] - rest[pairs[:, 0]], axis=1),
-        spring_stiffness=kind_stiffness(stiffness)[kinds],
+        spring_stiffness=np.array(fabric.stiffness)[kinds],
         spring_kind=kinds,
         triangles=np.zeros((0, 3), np.int32),
         uvs=np.stack([along, np.full(count, 0.5)], axis=1),
+        drag=fabric.drag,
     )
 
 
@@ -110,18 +106,15 @@ def check_particles(name: str, count: int) -> None:
         raise OptionError(f"{name} has {count} particles; use at most {MAX_PARTICLES}")
 
 
-def check_positive(name: str, value: float) -> None:
-    """Raises OptionError unless value is a finite number over 0."""
-    if not (np.isfinite(value) and value > 0):
-        raise OptionError(f"{name} {value!r} is out of range; use a number over 0")
+def check_size(name: str, value: float) -> None:
+    """Raises OptionError unless value is a length from 1e-6 m to 1e6 m."""
+    check_number(name, value, MIN_SIZE, MAX_SIZE, "m")
 
 
-def kind_stiffness(stiffness: tuple[float, float, float]) -> Array:
-    """Structural, shear and flexion stiffness [N/m] as an array. Raises OptionError."""
-    values = np.asarray(stiffness, float)
-    if values.shape != (3,):
-        raise OptionError(f"stiffness {stiffness!r} must be three numbers [N/m], one for each kind")
-    return values
+def check_fabric(fabric: Fabric) -> None:
+    """Raises OptionError unless fabric is a Fabric."""
+    if not isinstance(fabric, Fabric):
+        raise OptionError(f"fabric {shown(fabric)} is not a Fabric; use Fabric(density=0.3)")
 
 
 def _grid_springs(rows: int, columns: int) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:

@@ -5,14 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.checks import check_number
+from drapery.cloth.fabric import MAX_DRAG
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
 
 STRUCTURAL, SHEAR, FLEXION = 0, 1, 2
 """The kinds of spring: between neighbours, across a cell, and over two cells (Provot 1995)."""
 
-MOST = 1e9
-"""The greatest length [m] and stiffness [N/m] of a spring; single precision can hold no more."""
+MAX_SPRING = 1e9
+"""The greatest length [m] and stiffness [N/m] of a spring; single precision cannot hold more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +31,7 @@ class Cloth:
     uvs: texture coordinates, shape [N, 2]; (0, 0) is the top left corner.
     grid_shape: (rows, columns) where the particles are a regular grid, rows from the top,
         particle index = row * columns + column; None for any other topology.
+    drag: rate at which still air slows the cloth [1/s]; see `Fabric`.
     """
 
     rest_positions: Array
@@ -40,6 +43,7 @@ class Cloth:
     triangles: Triangles
     uvs: Array
     grid_shape: tuple[int, int] | None = None
+    drag: float = 0.0
 
     def __post_init__(self) -> None:
         _check_particles(self)
@@ -51,6 +55,7 @@ class Cloth:
                 raise OptionError(f"cloth {name} name particles outside 0 to {last}")
         if self.grid_shape is not None and np.prod(self.grid_shape) != len(self.inv_mass):
             raise OptionError(f"cloth grid_shape {self.grid_shape} does not fit its particles")
+        check_number("cloth drag", self.drag, 0, MAX_DRAG, "1/s")
 
 
 def _check_particles(cloth: Cloth) -> None:
@@ -74,7 +79,7 @@ def _check_springs(cloth: Cloth) -> None:
             raise OptionError(f"cloth {name} have shape {values.shape}; use {(count,)}")
     for name, unit in (("spring_length", "m"), ("spring_stiffness", "N/m")):
         values = getattr(cloth, name)
-        wrong = np.flatnonzero(~((values > 0) & (values <= MOST)))
+        wrong = np.flatnonzero(~((values > 0) & (values <= MAX_SPRING)))
         if name == "spring_stiffness":
             wrong = wrong[values[wrong] != 0]
         if wrong.size:
@@ -82,5 +87,5 @@ def _check_springs(cloth: Cloth) -> None:
             a, b = cloth.spring_pairs[spring]
             raise OptionError(
                 f"cloth {name} of spring {spring} ({a} to {b}) is {values[spring]:g} {unit}; "
-                f"use a number over 0 and up to {MOST:g}"
+                f"use a number over 0 and up to {MAX_SPRING:g}"
             )

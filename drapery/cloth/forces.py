@@ -80,10 +80,10 @@ class Loads:
     custom: tuple[ForceField, ...]
 
 
-def lower_forces(forces: Sequence[Force], count: int) -> Loads:
+def lower_forces(forces: Sequence[Force], cloth: Cloth, count: int) -> Loads:
     """Check and lower the forces on `count` cloths. Raises OptionError."""
     gravity = np.zeros(3)
-    drag = 0.0
+    drag = cloth.drag
     winds: list[Wind] = []
     custom: list[ForceField] = []
     for force in forces:

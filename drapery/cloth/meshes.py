@@ -6,13 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.builders import (
-    DENSITY,
-    STIFFNESS,
+    DEFAULT,
+    MAX_PARTICLES,
+    check_fabric,
     check_particles,
-    check_positive,
-    kind_stiffness,
+    check_size,
 )
+from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import FLEXION, STRUCTURAL, Cloth
+from drapery.cloth.fabric import Fabric
 from drapery.cloth.pins import Pins, pinned_particles
 from drapery.errors import OptionError
 from drapery.mesh import Array, face_normals
@@ -27,8 +29,7 @@ def from_triangles(
     *,
     uvs: Array | None = None,
     pins: Pins = "none",
-    density: float = DENSITY,
-    stiffness: tuple[float, float, float] = STIFFNESS,
+    fabric: Fabric = DEFAULT,
 ) -> Cloth:
     """A cloth in the shape of a triangle mesh.
 
@@ -38,13 +39,13 @@ def from_triangles(
     positions: at rest [m], shape [N, 3]. triangles: [T, 3]. uvs: [N, 2]; without them the x and y
     of the rest shape, scaled to 0..1. Otherwise as `grid`. Raises OptionError.
     """
+    check_fabric(fabric)
     rest = np.array(positions, float)
     faces = np.array(triangles)
     _check_triangles(rest, faces)
-    check_positive("density", density)
     areas = np.linalg.norm(face_normals(rest, faces), axis=1) / 2
     masses = np.zeros(len(rest))
-    np.add.at(masses, faces.ravel(), np.repeat(density * areas / 3, 3))
+    np.add.at(masses, faces.ravel(), np.repeat(fabric.density * areas / 3, 3))
     if not (masses > 0).all():
         alone = int(np.argmin(masses > 0))
         raise OptionError(f"vertex {alone} is in no triangle with an area; remove it")
@@ -58,10 +59,11 @@ def from_triangles(
         inv_mass=inv_mass,
         spring_pairs=pairs,
         spring_length=np.linalg.norm(rest[pairs[:, 1]] - rest[pairs[:, 0]], axis=1),
-        spring_stiffness=kind_stiffness(stiffness)[kinds],
+        spring_stiffness=np.array(fabric.stiffness)[kinds],
         spring_kind=kinds,
         triangles=faces.astype(np.int32),
         uvs=flat_uvs(rest) if uvs is None else np.array(uvs, float),
+        drag=fabric.drag,
     )
 
 
@@ -138,17 +140,15 @@ def disc(
     radius: float,
     *,
     pins: Pins = "none",
-    density: float = DENSITY,
-    stiffness: tuple[float, float, float] = STIFFNESS,
+    fabric: Fabric = DEFAULT,
 ) -> Cloth:
     """A round cloth about the origin, level and facing up: particle 0, then rings of 6, 12, 18, ….
 
     rings: around the middle; radius: [m]; otherwise as `grid`. Raises OptionError.
     """
-    if rings < 1:
-        raise OptionError(f"disc rings {rings} is too few; use at least 1")
+    check_count("disc rings", rings, 1, MAX_PARTICLES)
     check_particles("disc", 1 + 3 * rings * (rings + 1))
-    check_positive("disc radius", radius)
+    check_size("disc radius", radius)
     points, faces = [np.zeros((1, 3))], []
     for ring in range(1, rings + 1):
         turns = 2 * np.pi * np.arange(6 * ring) / (6 * ring)
@@ -157,9 +157,7 @@ def disc(
         faces += _ring_faces(ring)
     rest = np.concatenate(points)
     uvs = 0.5 + 0.5 * rest[:, [0, 2]] / radius
-    return from_triangles(
-        rest, np.array(faces), uvs=uvs, pins=pins, density=density, stiffness=stiffness
-    )
+    return from_triangles(rest, np.array(faces), uvs=uvs, pins=pins, fabric=fabric)
 
 
 def _ring_faces(ring: int) -> list[tuple[int, int, int]]:

@@ -27,10 +27,16 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
 
     A sewn particle has the mean rest position and the sum of the masses; it is pinned if any of
     its parts is, and has the first one's UVs. Springs keep their lengths; of two springs that
-    come to join the same particles the first stays. Raises OptionError.
+    come to join the same particles the first stays. All cloths must have the same drag. Raises
+    OptionError.
     """
     if not cloths:
         raise OptionError("nothing to sew: give at least one cloth")
+    drags = sorted({cloth.drag for cloth in cloths})
+    if len(drags) > 1:
+        raise OptionError(
+            f"sewn cloths have drags of {drags[0]:g} and {drags[-1]:g} 1/s; give all the same"
+        )
     starts = np.cumsum([0, *(len(cloth.inv_mass) for cloth in cloths)])
     number = _merged(int(starts[-1]), _pairs(cloths, starts, seams))
     count = int(number.max()) + 1
@@ -50,6 +56,7 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
         spring_kind=np.concatenate([cloth.spring_kind for cloth in cloths])[kept],
         triangles=_sewn_triangles(cloths, starts, number),
         uvs=np.concatenate([cloth.uvs for cloth in cloths])[first],
+        drag=drags[0],
     )
 
 

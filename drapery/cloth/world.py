@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth.builders import grid
 from drapery.cloth.cloth import Cloth
+from drapery.cloth.fabric import Fabric
 from drapery.cloth.forces import Force, Gravity
 from drapery.cloth.solvers.base import Solver, check_step
 from drapery.cloth.solvers.xpbd import SolverXPBD
@@ -251,7 +252,8 @@ def coarsen(cloth: Cloth) -> Cloth | None:
     free = cloth.inv_mass > 0
     width, height = np.ptp(cloth.rest_positions[:, 0]), np.ptp(cloth.rest_positions[:, 1])
     mass = len(free) / cloth.inv_mass[free].mean() if free.any() else 1.0
-    stiffness = [cloth.spring_stiffness[cloth.spring_kind == kind] for kind in range(3)]
+    by_kind = [cloth.spring_stiffness[cloth.spring_kind == kind] for kind in range(3)]
+    stiffness = [float(k.mean()) if k.size else 0.0 for k in by_kind]
     pinned = np.flatnonzero(thin(cloth.inv_mass[None, :, None], cloth)[0, :, 0] == 0)
     coarse = grid(
         columns // 2 + 1,
@@ -259,8 +261,7 @@ def coarsen(cloth: Cloth) -> Cloth | None:
         float(width),
         float(height),
         pins=pinned,
-        density=float(mass / (width * height)),
-        stiffness=tuple(float(k.mean()) if k.size else 0.0 for k in stiffness),  # type: ignore[arg-type]
+        fabric=Fabric(float(mass / (width * height)), *stiffness, drag=cloth.drag),
     )
     return replace(coarse, rest_positions=rest)
 

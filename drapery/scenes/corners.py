@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, Drag, Gravity, State, grid
+from drapery.cloth import Cloth, Drag, Fabric, Gravity, State, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.verlet import SolverVerlet
@@ -24,7 +24,7 @@ from drapery.style.tailoring import checked, garment
 SIDE, HEIGHT = 2.0, 2.4
 """Of the cloth, and how high it is held [m]."""
 CORNER_VIEW = View(azimuth=32, elevation=20, fov=28)
-STIFFNESS = (20.0, 6.0, 1.0)
+CANVAS = Fabric(stretch=20.0, shear=6.0, bend=1.0)
 """Of structural, shear and flexion springs [N/m]."""
 DRAG = 0.8
 """[1/s]"""
@@ -62,7 +62,7 @@ def level_cloth(pins: PinName, parameters: Parameters) -> Cloth:
 
     One that is held at that row alone will swing, and has it over the middle of the ground.
     """
-    cloth = grid(*parameters.grid, SIDE, SIDE, pins=pins, stiffness=STIFFNESS)
+    cloth = grid(*parameters.grid, SIDE, SIDE, pins=pins, fabric=CANVAS)
     turn = rotation_about((1, 0, 0), -90)
     back = 0.0 if pins == "corners" else -SIDE / 2
     return placed(cloth, np.array([0.0, HEIGHT, back]), turn)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, Drag, Gravity, State, Wind, grid
+from drapery.cloth import Cloth, Drag, Fabric, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.render.camera import Camera
 from drapery.render.scene import Scene
@@ -23,7 +23,7 @@ GROWN = 2.2
 """The flag is a banner so much larger, its top edge at the pole."""
 TOWER, POLE = 5, 6.0
 """Height of the tower [blocks] and of the pole on it [m]."""
-BUNTING = (10.0, 4.0, 0.6)
+BUNTING = Fabric(stretch=10.0, shear=4.0, bend=0.6)
 """Stiffness of the flag's springs [N/m]: it must not crumple at its end."""
 FRICTION = 1.8
 """How readily the air along the flag takes it with it [1/s]: wind alone presses only on faces."""
@@ -56,7 +56,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
 def banner_on_its_side(shape: tuple[int, int]) -> Cloth:
     """The flag, its hoist along the top of the pole."""
     width, height = FLAG_SIZE
-    cloth = grid(*shape, width * GROWN, height * GROWN, stiffness=BUNTING)
+    cloth = grid(*shape, width * GROWN, height * GROWN, fabric=BUNTING)
     top = FOOT + np.array([0.1, POLE - 0.1 - width * GROWN / 2, 0.0])
     return placed(cloth, top, rotation_about((0, 0, 1), 90))
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, Drag, Gravity, State, grid
+from drapery.cloth import Cloth, Drag, Fabric, Gravity, State, grid
 from drapery.cloth.colliders import (
     Collider,
     Plane,
@@ -35,7 +35,7 @@ HEIGHT = 1.9
 """From where the cloths fall [m]."""
 BEETLE_AT, FOX_AT = np.array([-1.0, 0.0, 0.4]), np.array([1.05, 0.0, 0.5])
 GROUND = Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])), friction=0.6)
-STIFFNESS = (8.0, 2.0, 0.15)
+SOFT = Fabric(stretch=8.0, shear=2.0, bend=0.15)
 
 
 @dataclass(frozen=True)
@@ -73,9 +73,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
 
 def sheet(parameters: Parameters, at: Array) -> Cloth:
     """A level cloth over a place on the ground, turned a little."""
-    cloth = grid(
-        *parameters.grid, parameters.side, parameters.side, pins="none", stiffness=STIFFNESS
-    )
+    cloth = grid(*parameters.grid, parameters.side, parameters.side, pins="none", fabric=SOFT)
     flat = placed(cloth, np.array([0, parameters.side / 2, 0]))
     turn = rotation_about((0, 1, 0), 12) @ rotation_about((1, 0, 0), -90)
     return placed(flat, at + np.array([0.0, HEIGHT, 0.0]), turn)

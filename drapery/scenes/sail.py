@@ -8,7 +8,7 @@ from itertools import groupby, pairwise
 import numpy as np
 
 from drapery.banner.packs import Packs, open_packs
-from drapery.cloth import Cloth, Drag, Force, Gravity, State, Wind, grid, rest_state
+from drapery.cloth import Cloth, Drag, Fabric, Force, Gravity, State, Wind, grid, rest_state
 from drapery.cloth.colliders import Capsule, Collider
 from drapery.cloth.collisions import Collisions
 from drapery.cloth.exact import sine_of_turns
@@ -29,7 +29,7 @@ SIDE, SLACK = 2.6, 0.9
 LOW = 0.7
 """Height of its foot over the deck [m]."""
 STERN = View(azimuth=38, elevation=14, fov=30)
-STIFFNESS = (20.0, 6.0, 1.0)
+CANVAS = Fabric(stretch=20.0, shear=6.0, bend=1.0)
 HALF = SIDE * SLACK / 2
 HEAD, FOOT = LOW + 2 * HALF + 0.03, LOW - 0.03
 """Heights of the yards [m]."""
@@ -113,7 +113,7 @@ def spars() -> tuple[Collider, ...]:
 
 def square_sail(shape: tuple[int, int]) -> Cloth:
     """A sail between its yards, held at all four corners nearer than it is wide."""
-    cloth = grid(*shape, SIDE, SIDE, pins="four-corners", stiffness=STIFFNESS)
+    cloth = grid(*shape, SIDE, SIDE, pins="four-corners", fabric=CANVAS)
     return placed(cloth, np.array([0.0, LOW + 2 * HALF, 0.13]), SLACK * np.eye(3))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.sprites import tint
-from drapery.cloth import Cloth, Gravity, State, Wind, grid
+from drapery.cloth import Cloth, Fabric, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.cloth.collisions import Collisions
 from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
@@ -73,7 +73,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
 def tail(aside: float, squares: int) -> Cloth:
     """One tail, hanging from the nape: three particles wide, its uppermost row held."""
     rows = ROWS_PER_SQUARE * squares + 1
-    cloth = grid(3, rows, SQUARE, squares * SQUARE, density=0.2)
+    cloth = grid(3, rows, SQUARE, squares * SQUARE, fabric=Fabric(density=0.2))
     nape = np.array([aside * TEXEL, 25 * TEXEL, -5.2 * TEXEL])
     return placed(cloth, nape, rotation_about((0, 1, 0), 180))
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.sprites import tint
-from drapery.cloth import Cloth, Gravity, State, Wind, from_triangles
+from drapery.cloth import Cloth, Fabric, Gravity, State, Wind, from_triangles
 from drapery.cloth.collisions import Collisions
 from drapery.cloth.exact import sine_of_turns
 from drapery.errors import OptionError
@@ -107,7 +107,10 @@ def skirt_cloth(parameters: Parameters) -> Cloth:
     places = np.stack([wide * away * sine, high, deep * away * cosine], axis=-1) * TEXEL
     triangles = _ring(rows, panels)
     return from_triangles(
-        places.reshape(-1, 3), triangles, pins=list(range(panels)), stiffness=(8.0, 2.0, 0.6)
+        places.reshape(-1, 3),
+        triangles,
+        pins=list(range(panels)),
+        fabric=Fabric(stretch=8.0, shear=2.0, bend=0.6),
     )
 
 

@@ -121,7 +121,7 @@ class Stepped:
             raise OptionError(
                 f"dt {dt:g} is not the {solver_state.dt:g} of the memory; call init again"
             )
-        loads = lower_forces(forces, len(state.positions))
+        loads = lower_forces(forces, cloth, len(state.positions))
         at_once = 1 if loads.custom else steps
         threads = lanes.thread_count(self.threads)
         for _ in range(steps // at_once):
