@@ -114,6 +114,35 @@ def test_another_processors_code_gives_the_same_bits():
     assert there.stdout.split() == here
 
 
+FORK = """
+import os, sys
+sys.path.insert(0, {tests!r})
+from test_cloth_batches import *
+
+def end():
+    states = simulate(grid(5, 9, 0.8, 1.6), SolverDesbrun(threads=2), count=256)
+    return digest(next(islice(states, 3, None)))
+
+def child():
+    print(end(), flush=True)
+    os._exit(0)
+
+print(end(), flush=True)
+if os.fork() == 0:
+    child()
+os.wait()
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
+def test_a_forked_child_simulates_with_threads_of_its_own():
+    program = FORK.format(tests=str(Path(__file__).parent))
+    command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", program]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    parent, child = run.stdout.split()
+    assert parent == child
+
+
 @each
 def test_pins_follow_their_path_exactly(name):
     cloth = grid(4, 6, 0.8, 1.6)

@@ -88,6 +88,10 @@ def _pool(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, thread_name_prefix="drapery-cloth")
 
 
+if hasattr(os, "register_at_fork"):  # a forked child has none of its parent's threads
+    os.register_at_fork(after_in_child=_pool.cache_clear)
+
+
 def thread_count(wanted: int | None) -> int:
     """`wanted`, or as many as this process may use. Raises OptionError."""
     if wanted is None:
