@@ -11,6 +11,7 @@ from pack_maker import BANNER, NEW_BASE, OLD_BASE, folder_pack, noise, plain, pn
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs, open_packs
+from drapery.banner.packs.resampling import resize
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.sprites import (
     FLAG_REGIONS,
@@ -20,7 +21,6 @@ from drapery.banner.sprites import (
     face,
     flag_layers,
     lay_over,
-    resize,
     tint,
 )
 

@@ -17,6 +17,7 @@ from drapery.banner.design import Banner
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
 from drapery.banner.packs.png import Texels
+from drapery.banner.packs.resampling import MAX_COMPOSITE, common_side, nearest_texels
 
 Tint = tuple[int, int, int]
 Tinted = tuple[Texels, Tint]
@@ -26,7 +27,8 @@ WHITE: Tint = (255, 255, 255)
 UNITS = 64
 """Regions are given in 64ths of the sheet's side, whatever its size."""
 
-MAX_COMPOSITE = 2048
+_BAND = 128
+"""Rows that are composited at once, which bounds the memory for intermediate results."""
 
 
 @dataclass(frozen=True)
@@ -43,11 +45,18 @@ class Region:
         return self.left / UNITS, self.top / UNITS, self.right / UNITS, self.bottom / UNITS
 
     def crop(self, sheet: Texels) -> Texels:
-        """The region's texels, where needed magnified by whole numbers until units are whole."""
-        size = lcm(sheet.shape[0], UNITS)
-        unit = size // UNITS
-        rows = np.arange(self.top * unit, self.bottom * unit) * sheet.shape[0] // size
-        columns = np.arange(self.left * unit, self.right * unit) * sheet.shape[1] // size
+        """The region's texels, shape [rows, columns, 4].
+
+        A sheet whose side is not a multiple of UNITS is magnified first: to the least common
+        multiple, or, where that is over MAX_COMPOSITE, to the next multiple of UNITS.
+        """
+        side = len(sheet)
+        size = lcm(side, UNITS)
+        if size > MAX_COMPOSITE:
+            size = -(-side // UNITS) * UNITS
+        unit, index = size // UNITS, nearest_texels(side, size)
+        rows = index[self.top * unit : self.bottom * unit]
+        columns = index[self.left * unit : self.right * unit]
         return np.ascontiguousarray(sheet[rows[:, None], columns])
 
 
@@ -99,27 +108,30 @@ def lay_over(below: Texels, above: Texels) -> Texels:
 def composite(layers: Sequence[Tinted]) -> Texels:
     """One opaque sheet for a stack of square sheets and their tints, lowest first.
 
-    Its side is the least common multiple of theirs, so nearest sampling of it equals nearest
-    sampling of each at its own size. Above 2048 px it is the greatest multiple of the largest
-    sheet that fits, and equals it only to the nearest of its own texels. The lowest sheet counts
-    as opaque, as in the game's solid layer.
+    Its side is that of `common_side`. Where that is the least common multiple, nearest sampling
+    of the sheet equals nearest sampling of each layer at its own size; above MAX_COMPOSITE it
+    equals it only to the nearest texel of the sheet. The lowest layer counts as opaque, as in the
+    game's solid layer.
     """
-    side = _common_side({len(texels) for texels, _ in layers})
-    texels, rgb = layers[0]
-    # Tinted before it grows: the small sheet has fewer texels.
-    result = resize(tint(texels, rgb), side)
-    result[..., 3] = 255
-    for texels, rgb in layers[1:]:
-        result = lay_over(result, resize(tint(texels, rgb), side))
-    return result
+    side = common_side(len(texels) for texels, _ in layers)
+    sheet = np.empty((side, side, 4), np.uint8)
+    for top in range(0, side, _BAND):
+        rows = slice(top, min(top + _BAND, side))
+        band = _tinted_rows(*layers[0], side, rows)
+        band[..., 3] = 255
+        for texels, rgb in layers[1:]:
+            band = lay_over(band, _tinted_rows(texels, rgb, side, rows))
+        sheet[rows] = band
+    return sheet
 
 
-def resize(texels: Texels, side: int) -> Texels:
-    """A square sheet at another size, by nearest sampling at the new texels' middles."""
+def _tinted_rows(texels: Texels, rgb: Tint, side: int, rows: slice) -> Texels:
+    """Some rows of a sheet that is resized to a side and tinted, shape [rows, side, 4]."""
     if len(texels) == side:
-        return texels.copy()
-    index = (2 * np.arange(side) + 1) * len(texels) // (2 * side)
-    return texels[index[:, None], index]
+        return tint(texels[rows], rgb)
+    index = nearest_texels(len(texels), side)
+    # Tinted before its columns are repeated: there are fewer texels.
+    return tint(texels[index[rows]], rgb)[:, index]
 
 
 def flag_layers(banner: Banner, packs: Packs, time: float = 0.0) -> tuple[Tinted, ...]:
@@ -161,9 +173,3 @@ def _divide_by_255(values: NDArray[np.uint16]) -> Texels:
     values += values >> 8
     values >>= 8
     return values.astype(np.uint8)
-
-
-def _common_side(sides: set[int]) -> int:
-    side = lcm(*sides)
-    largest = max(sides)
-    return side if side <= MAX_COMPOSITE else max(1, MAX_COMPOSITE // largest) * largest

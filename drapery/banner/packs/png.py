@@ -68,7 +68,7 @@ def _rgba(image: "PngImageFile", depth: int) -> Texels:
         image.info["transparency"] = clear * (255 // ((1 << depth) - 1))
     if image.mode == "RGB" and isinstance(clear, tuple) and depth == 16:
         image.info["transparency"] = tuple(value >> 8 for value in clear)
-    return np.array(image.convert("RGBA"), np.uint8)
+    return np.asarray(image if image.mode == "RGBA" else image.convert("RGBA"), np.uint8)
 
 
 def _from_grey16(grey: NDArray[np.integer], clear: int | None) -> Texels:

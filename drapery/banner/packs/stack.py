@@ -4,8 +4,8 @@ A pack is a folder, a zip or a client jar. Of several, the later one wins, file 
 named in `pack.mcmeta` lie over the pack that they belong to.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,13 +14,13 @@ from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, open_pack
 from drapery.banner.packs.png import Texels, read_png
 from drapery.banner.packs.sprite_sources import Directory, SpriteSource, parse_atlas, textures_of
+from drapery.banner.packs.texture_cache import TextureCache
 from drapery.banner.packs.texture_ids import full_id, is_id, split_id, texture_file
 from drapery.banner.packs.textures import (
     Texture,
     animated,
     check_sheet,
     checker,
-    from_mask,
     is_mask,
     looks_like_mask,
 )
@@ -52,7 +52,7 @@ class Packs:
 
     packs: tuple[Pack, ...]
     format: int | None = None
-    _textures: dict[object, Texture] = field(default_factory=dict, init=False, repr=False)
+    _textures: TextureCache = field(default_factory=TextureCache, init=False, repr=False)
     _atlases: dict[Kind, tuple[SpriteSource, ...]] = field(
         default_factory=dict, init=False, repr=False
     )
@@ -77,7 +77,7 @@ class Packs:
 
         Raises PackError.
         """
-        return self._kept(base, lambda: self._read_base(base)).at(time)
+        return self._textures.get(base, lambda: self._read_base(base)).at(time)
 
     def base_sheet(self, time: float = 0.0) -> Texels:
         """Pole, bar and undyed cloth of a banner, shape [H, H, 4]. Raises PackError."""
@@ -89,7 +89,7 @@ class Packs:
         A missing one is the game's checker, with a warning. Raises PackError.
         """
         full = full_id(name)
-        return self._kept(full, lambda: self._any_texture(full)).at(time)
+        return self._textures.get(full, lambda: self._any_texture(full)).at(time)
 
     def period(self, pattern: str, kind: Kind = "banner") -> float:
         """How long the animation of a pattern's sheet takes [s]; 0 where it is still."""
@@ -146,13 +146,13 @@ class Packs:
                 f"black covers all below, as the game draws it: {names}"
                 " (masks from before 1.15? pack format 4 would read them so)"
             )
-        if self._textures and len(self.packs) > 1 and not self._used:
+        if (self._ours or self._missing) and len(self.packs) > 1 and not self._used:
             labels = ", ".join(pack.label for pack in self.packs[1:])
             lines.append(f"nothing here comes from {labels}: the textures needed are not in there")
         return tuple(lines)
 
     def _sheet(self, pattern: str, kind: Kind) -> Texture:
-        return self._kept((kind, pattern), lambda: self._read_sheet(pattern, kind))
+        return self._textures.get((kind, pattern), lambda: self._read_sheet(pattern, kind))
 
     def _read_sheet(self, pattern: str, kind: Kind) -> Texture:
         found = self._find_sheet(pattern, kind)
@@ -168,7 +168,7 @@ class Packs:
                 self._black[name] = None
             return sheet
         base = self.base("banner_base" if kind == "banner" else "shield_base")
-        return Texture(tuple(from_mask(frame, base) for frame in sheet.frames), sheet.ticks)
+        return replace(sheet, base=base)
 
     def _read_base(self, base: Base) -> Texture:
         found = self._find_base(base)
@@ -267,11 +267,6 @@ class Packs:
 
     def _place(self, found: Found) -> str:
         return f"{self.packs[found.level].label}: {found.name}"
-
-    def _kept(self, key: object, make: Callable[[], Texture]) -> Texture:
-        if key not in self._textures:
-            self._textures[key] = make()
-        return self._textures[key]
 
 
 def open_packs(paths: Sequence[str | Path] = (), *, format: int | None = None) -> Packs:

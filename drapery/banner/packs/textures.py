@@ -1,13 +1,13 @@
 """Textures of packs: still or animated by an `.mcmeta` beside them, and masks of old packs."""
 
-from dataclasses import dataclass
-from math import lcm
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from drapery.banner.packs.meta import read_json
 from drapery.banner.packs.png import Texels
+from drapery.banner.packs.resampling import common_side, resize
 from drapery.errors import PackError
 
 TICKS_PER_SECOND = 20
@@ -24,18 +24,46 @@ _CHECKER_SIDE = 16
 
 @dataclass(frozen=True, eq=False)
 class Texture:
-    """Frames of one size and the ticks (1/20 s) that each stays; a still texture has one frame."""
+    """Frames of one size and the ticks (1/20 s) that each is shown; a still one has one frame.
+
+    base: the sheet that each frame masks, or None where the frames are the texels themselves.
+    """
 
     frames: tuple[Texels, ...]
     ticks: tuple[int, ...] = (1,)
+    base: Texels | None = None
+    # The masked frame that was shown last, by its index.
+    _masked: dict[int, Texels] = field(default_factory=dict, init=False, repr=False)
 
     def at(self, time: float) -> Texels:
-        """The frame that is seen at a time [s]. Frames are not blended into each other."""
+        """The frame shown at a time [s], shape [H, W, 4]. Frames are not blended."""
+        index = self._index(time)
+        if self.base is None:
+            return self.frames[index]
+        shown = self._masked.get(index)
+        if shown is None:
+            shown = from_mask(self.frames[index], self.base)
+            self._masked.clear()
+            self._masked[index] = shown
+        return shown
+
+    @property
+    def side(self) -> int:
+        """The height of a frame as `at` gives it [px]."""
+        own = len(self.frames[0])
+        return own if self.base is None else common_side((own, len(self.base)))
+
+    def texel_count(self) -> int:
+        """How many texels are in memory for this texture."""
+        frames = sum({id(frame): frame.size // 4 for frame in self.frames}.values())
+        return frames if self.base is None else frames + self.side**2
+
+    def _index(self, time: float) -> int:
         if len(self.frames) == 1:
-            return self.frames[0]
+            return 0
         ends = np.cumsum(self.ticks)
         tick = int(np.floor(time * TICKS_PER_SECOND + 1e-6)) % int(ends[-1])
-        return self.frames[int(np.searchsorted(ends, tick, side="right"))]
+        return int(np.searchsorted(ends, tick, side="right"))
 
     @property
     def period(self) -> float:
@@ -57,8 +85,10 @@ def animated(texels: Texels, mcmeta: bytes | None, name: str) -> Texture:
     width, height = _frame_size(animation, texels, name)
     across, down = texels.shape[1] // width, texels.shape[0] // height
     order = _order(animation, across * down, name)
+    # Copies, so that a frame in use does not hold the others in memory.
     cells = {
-        n: texels[n // across * height :, n % across * width :][:height, :width] for n, _ in order
+        n: texels[n // across * height :, n % across * width :][:height, :width].copy()
+        for n in {n for n, _ in order}
     }
     return Texture(tuple(cells[n] for n, _ in order), tuple(ticks for _, ticks in order))
 
@@ -92,17 +122,28 @@ def is_mask(texels: Texels, pack_format: int | None) -> bool:
 
 def looks_like_mask(texels: Texels) -> bool:
     """Whether a sheet of newer days seems a mask left over: opaque black beside opaque grey."""
-    shown = texels[texels[..., 3] > 0]
-    is_grey = bool((shown[:, :3] == shown[:, :1]).all() and (shown[:, 3] == 255).all())
-    return is_grey and len({0, 255} & set(shown[:, 0].tolist())) == 2
+    alpha, red = texels[..., 3], texels[..., 0]
+    if ((alpha > 0) & (alpha < 255)).any():
+        return False
+    shown = red[alpha > 0]
+    return (
+        bool((shown == 0).any() and (shown == 255).any())
+        and bool(((red == texels[..., 1]) | (alpha == 0)).all())
+        and bool(((red == texels[..., 2]) | (alpha == 0)).all())
+    )
 
 
 def from_mask(mask: Texels, base: Texels) -> Texels:
-    """The sheet that looks today as a mask did over a base: the base's colours, alpha from red."""
-    side = lcm(len(mask), len(base))
-    mask, base = (np.kron(t, np.ones((side // len(t),) * 2 + (1,), np.uint8)) for t in (mask, base))
-    alpha = np.where(mask[..., 3:] > 0, mask[..., :1], 0).astype(np.uint8)
-    return np.concatenate([base[..., :3], alpha], axis=2)
+    """The sheet that looks today as a mask did over a base: the base's colours, alpha from red.
+
+    Its side is that of `common_side`.
+    """
+    side = common_side((len(mask), len(base)))
+    shown = np.where(mask[..., 3] > 0, mask[..., 0], 0).astype(np.uint8)
+    sheet = resize(base, side)
+    sheet[..., 3] = resize(shown, side)
+    sheet.setflags(write=False)
+    return sheet
 
 
 def checker() -> Texels:
