@@ -21,7 +21,7 @@ SHEET_SIZE = 64
 
 
 @dataclass(frozen=True)
-class Region:
+class TexelRect:
     """A rectangle of texels on a sheet: left, top, width, height."""
 
     x: int
@@ -36,7 +36,7 @@ class Region:
 
 
 @dataclass(frozen=True)
-class Box:
+class TextureBox:
     """A box of the game's models: its texture offset (u, v) and its size, all in texels."""
 
     u: int
@@ -46,44 +46,44 @@ class Box:
     depth: int
 
     @property
-    def left(self) -> Region:
-        return Region(self.u, self.v + self.depth, self.depth, self.height)
+    def left(self) -> TexelRect:
+        return TexelRect(self.u, self.v + self.depth, self.depth, self.height)
 
     @property
-    def front(self) -> Region:
-        return Region(self.u + self.depth, self.v + self.depth, self.width, self.height)
+    def front(self) -> TexelRect:
+        return TexelRect(self.u + self.depth, self.v + self.depth, self.width, self.height)
 
     @property
-    def right(self) -> Region:
-        return Region(
+    def right(self) -> TexelRect:
+        return TexelRect(
             self.u + self.depth + self.width, self.v + self.depth, self.depth, self.height
         )
 
     @property
-    def back(self) -> Region:
-        return Region(
+    def back(self) -> TexelRect:
+        return TexelRect(
             self.u + 2 * self.depth + self.width, self.v + self.depth, self.width, self.height
         )
 
     @property
-    def top(self) -> Region:
-        return Region(self.u + self.depth, self.v, self.width, self.depth)
+    def top(self) -> TexelRect:
+        return TexelRect(self.u + self.depth, self.v, self.width, self.depth)
 
     @property
-    def bottom(self) -> Region:
-        return Region(self.u + self.depth + self.width, self.v, self.width, self.depth)
+    def bottom(self) -> TexelRect:
+        return TexelRect(self.u + self.depth + self.width, self.v, self.width, self.depth)
 
     @property
-    def sides(self) -> Region:
+    def sides(self) -> TexelRect:
         """Left, front, right and back as the one strip that goes around the box."""
-        return Region(self.u, self.v + self.depth, 2 * (self.width + self.depth), self.height)
+        return TexelRect(self.u, self.v + self.depth, 2 * (self.width + self.depth), self.height)
 
 
-FLAG = Box(0, 0, 20, 40, 1)
-POLE = Box(44, 0, 2, 42, 2)
-BAR = Box(0, 42, 20, 2, 2)
-PLATE = Box(0, 0, 12, 22, 1)
-HANDLE = Box(26, 0, 2, 6, 6)
+FLAG = TextureBox(0, 0, 20, 40, 1)
+POLE = TextureBox(44, 0, 2, 42, 2)
+BAR = TextureBox(0, 42, 20, 2, 2)
+PLATE = TextureBox(0, 0, 12, 22, 1)
+HANDLE = TextureBox(26, 0, 2, 6, 6)
 
 
 def blank(size: int = SHEET_SIZE) -> Texels:
@@ -91,12 +91,12 @@ def blank(size: int = SHEET_SIZE) -> Texels:
     return np.zeros((size, size, 4), np.uint8)
 
 
-def put(sheet: Texels, region: Region, texels: Texels) -> None:
+def put(sheet: Texels, region: TexelRect, texels: Texels) -> None:
     """Paint `texels` over a region of `sheet`; a single row or column is stretched to fill it."""
     sheet[region.slices] = texels
 
 
-def wrap(sheet: Texels, box: Box, face: Texels) -> None:
+def wrap(sheet: Texels, box: TextureBox, face: Texels) -> None:
     """Lay one face around a box: front, mirrored back, and edges that continue the border texels.
 
     Front and back are one cloth, so the design on the back reads as its mirror image. Each edge

@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.assets.canvas import Box, Region, Texels, blank, put, wrap
+from drapery.assets.canvas import TexelRect, Texels, TextureBox, blank, put, wrap
 from drapery.assets.noise import grid, ranked, scatter, speckle
 
-HEAD = Box(0, 0, 8, 8, 8)
-BODY = Box(16, 16, 8, 12, 4)
-RIGHT_ARM, LEFT_ARM = Box(40, 16, 4, 12, 4), Box(32, 48, 4, 12, 4)
-RIGHT_LEG, LEFT_LEG = Box(0, 16, 4, 12, 4), Box(16, 48, 4, 12, 4)
-CAPE = Box(0, 0, 10, 16, 1)
+HEAD = TextureBox(0, 0, 8, 8, 8)
+BODY = TextureBox(16, 16, 8, 12, 4)
+RIGHT_ARM, LEFT_ARM = TextureBox(40, 16, 4, 12, 4), TextureBox(32, 48, 4, 12, 4)
+RIGHT_LEG, LEFT_LEG = TextureBox(0, 16, 4, 12, 4), TextureBox(16, 48, 4, 12, 4)
+CAPE = TextureBox(0, 0, 10, 16, 1)
 
 Tones = tuple[tuple[int, int, int], ...]
 
@@ -34,7 +34,7 @@ STUFFS: dict[str, Tones] = {
 
 
 @dataclass(frozen=True)
-class MaterialAt:
+class Outfit:
     """What a figure is made of, in letters of STUFFS.
 
     face: the front of the head. hair: the rest of it, row by row.
@@ -50,7 +50,7 @@ class MaterialAt:
     leg: str
 
 
-TRAVELLER = MaterialAt(
+TRAVELLER = Outfit(
     face="hhhhhhhh hhhhhhhh hsssssss ssssssss swessews sssnnsss ssmmmmss ssssssss",
     hair="hhhhhhsn",
     chest="ttwsswtt tttwwttt tttttttt tttttttt tttttttt tttttttt tttttttt llllllll lllgglll"
@@ -59,7 +59,7 @@ TRAVELLER = MaterialAt(
     arm="tttttttlssss",
     leg="ppppppppllll",
 )
-DANCER = MaterialAt(
+DANCER = Outfit(
     face="yyyyyyyy yyyssyyy ysssssys yssssssy ywessewy yssssssy yssmmssy yyssssyy",
     hair="yyyyyyyy",
     chest="wsssssss wwsssssw wwwwwwww rwwwwwwr rrwwwwrr rrrwwrrr rrrggrrr rrrwwrrr rrrggrrr"
@@ -82,11 +82,11 @@ def in_stuff(letters: list[str], seed: int) -> Texels:
     return face
 
 
-def _rows(letters: str, region: Region) -> list[str]:
+def _rows(letters: str, region: TexelRect) -> list[str]:
     return [letter * region.width for letter in letters]
 
 
-def _paint(sheet: Texels, box: Box, sides: str, front: str | None, seed: int) -> None:
+def _paint(sheet: Texels, box: TextureBox, sides: str, front: str | None, seed: int) -> None:
     put(sheet, box.sides, in_stuff(_rows(sides, box.sides), seed))
     if front is not None:
         put(sheet, box.front, in_stuff(front.split(), seed + 1))
@@ -94,15 +94,15 @@ def _paint(sheet: Texels, box: Box, sides: str, front: str | None, seed: int) ->
         put(sheet, cap, in_stuff(_rows(letter * cap.height, cap), seed + 2))
 
 
-def figure_sheet(material_at: MaterialAt) -> Texels:
+def figure_sheet(outfit: Outfit) -> Texels:
     """A skin, shape [64, 64, 4]; what no box covers is transparent."""
     sheet = blank()
-    _paint(sheet, HEAD, material_at.hair, material_at.face, 101)
-    _paint(sheet, BODY, material_at.back, material_at.chest, 111)
+    _paint(sheet, HEAD, outfit.hair, outfit.face, 101)
+    _paint(sheet, BODY, outfit.back, outfit.chest, 111)
     for seed, arm in ((121, RIGHT_ARM), (131, LEFT_ARM)):
-        _paint(sheet, arm, material_at.arm, None, seed)
+        _paint(sheet, arm, outfit.arm, None, seed)
     for seed, leg in ((141, RIGHT_LEG), (151, LEFT_LEG)):
-        _paint(sheet, leg, material_at.leg, None, seed)
+        _paint(sheet, leg, outfit.leg, None, seed)
     return sheet
 
 

@@ -7,7 +7,17 @@ within the rim, 10 x 20, on the front alone: the back of a shield is bare wood.
 import numpy as np
 
 from drapery.assets.bitmaps import centred, charge
-from drapery.assets.canvas import HANDLE, PLATE, Box, Grey, Region, Texels, blank, grey_texels, put
+from drapery.assets.canvas import (
+    HANDLE,
+    PLATE,
+    Grey,
+    TexelRect,
+    Texels,
+    TextureBox,
+    blank,
+    grey_texels,
+    put,
+)
 from drapery.assets.noise import Field, speckle
 from drapery.assets.shading import times
 from drapery.assets.shapes import SHAPES
@@ -16,7 +26,7 @@ from drapery.assets.tile import Palette, paint
 from drapery.assets.timber import SPRUCE
 from drapery.assets.wood import grain
 
-FIELD = Region(PLATE.front.x + 1, PLATE.front.y + 1, PLATE.width - 2, PLATE.height - 2)
+FIELD = TexelRect(PLATE.front.x + 1, PLATE.front.y + 1, PLATE.width - 2, PLATE.height - 2)
 """The painted boards within the rim."""
 
 IRON: Palette = ((70, 72, 76), (92, 95, 99), (116, 119, 123), (140, 143, 146), (168, 171, 173))
@@ -84,11 +94,11 @@ def _paint_plate(sheet: Texels, field: Texels) -> None:
     for region in (PLATE.front, PLATE.back):
         put(sheet, region, paint(_rim(region.width, region.height), IRON))
     put(sheet, FIELD, field)
-    behind = Region(PLATE.back.x + 1, FIELD.y, FIELD.width, FIELD.height)
+    behind = TexelRect(PLATE.back.x + 1, FIELD.y, FIELD.width, FIELD.height)
     put(sheet, behind, _raw_boards(FIELD.width, FIELD.height, 141))
 
 
-def _paint_handle(sheet: Texels, handle: Box = HANDLE) -> None:
+def _paint_handle(sheet: Texels, handle: TextureBox = HANDLE) -> None:
     """A grip of wood, darker where it meets the plate."""
     around = handle.sides
     tones = grain(around.width, around.height, 151)

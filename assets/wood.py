@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drapery.assets.canvas import BAR, POLE, Box, Region, Texels, put
+from drapery.assets.canvas import BAR, POLE, TexelRect, Texels, TextureBox, put
 from drapery.assets.noise import Field, grid, scatter
 
 TONES = ((66, 46, 26), (84, 60, 34), (102, 75, 44), (119, 90, 54), (137, 107, 67))
@@ -32,11 +32,11 @@ def _rings(width: int, height: int) -> Field:
     return 2 + (x + y) % 2
 
 
-def _put_tones(sheet: Texels, region: Region, tones: Field) -> None:
+def _put_tones(sheet: Texels, region: TexelRect, tones: Field) -> None:
     put(sheet, region, in_wood(tones))
 
 
-def paint_pole(sheet: Texels, pole: Box = POLE) -> None:
+def paint_pole(sheet: Texels, pole: TextureBox = POLE) -> None:
     """Upright grain; each side is lighter on its left; the ends are darker."""
     around = pole.sides
     tones = grain(around.width, around.height, seed=11)
@@ -48,7 +48,7 @@ def paint_pole(sheet: Texels, pole: Box = POLE) -> None:
         _put_tones(sheet, cap, _rings(cap.width, cap.height))
 
 
-def paint_bar(sheet: Texels, bar: Box = BAR) -> None:
+def paint_bar(sheet: Texels, bar: TextureBox = BAR) -> None:
     """Grain along the bar, lighter above than below; cut ends on its short sides."""
     for seed, region in enumerate((bar.front, bar.back, bar.top, bar.bottom), start=21):
         tones = grain(region.height, region.width, seed).T.copy()

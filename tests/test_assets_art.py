@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from drapery.assets.banner import pattern_face
-from drapery.assets.canvas import BAR, FLAG, POLE, Box, Region
+from drapery.assets.canvas import BAR, FLAG, POLE, TexelRect, TextureBox
 from drapery.assets.charges import CHARGES
 from drapery.assets.draw_all import all_files, all_sheets, main, write_art
 from drapery.assets.shapes import SHAPES
@@ -192,9 +192,9 @@ def test_the_base_sheet_is_opaque_wood_and_cloth():
 
 
 def test_boxes_unfold_to_the_published_texels():
-    assert FLAG.front == Region(1, 1, 20, 40) and FLAG.back == Region(22, 1, 20, 40)
-    assert FLAG.top == Region(1, 0, 20, 1) and FLAG.bottom == Region(21, 0, 20, 1)
-    assert FLAG.left == Region(0, 1, 1, 40) and FLAG.right == Region(21, 1, 1, 40)
-    assert POLE.sides == Region(44, 2, 8, 42) and POLE.top == Region(46, 0, 2, 2)
-    assert BAR.sides == Region(0, 44, 44, 2) and BAR.bottom == Region(22, 42, 20, 2)
-    assert Box(26, 0, 2, 6, 6).sides == Region(26, 6, 16, 6)
+    assert FLAG.front == TexelRect(1, 1, 20, 40) and FLAG.back == TexelRect(22, 1, 20, 40)
+    assert FLAG.top == TexelRect(1, 0, 20, 1) and FLAG.bottom == TexelRect(21, 0, 20, 1)
+    assert FLAG.left == TexelRect(0, 1, 1, 40) and FLAG.right == TexelRect(21, 1, 1, 40)
+    assert POLE.sides == TexelRect(44, 2, 8, 42) and POLE.top == TexelRect(46, 0, 2, 2)
+    assert BAR.sides == TexelRect(0, 44, 44, 2) and BAR.bottom == TexelRect(22, 42, 20, 2)
+    assert TextureBox(26, 0, 2, 6, 6).sides == TexelRect(26, 6, 16, 6)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from world_maker import LIME, PLAIN, RED, SHIELD
 
 from drapery.banner.design import Banner
-from drapery.banner.formats import Found, read_design
+from drapery.banner.formats import FoundBanner, read_design
 from drapery.banner.formats.binary import BINARY_FORMS
 from drapery.banner.formats.files import banners_in, find_in_bytes, is_binary
 from drapery.banner.formats.lz4 import unlz4
@@ -429,7 +429,7 @@ def documented() -> list[tuple[str, str, str]]:
 @pytest.mark.parametrize(("form", "name", "where"), documented())
 def test_the_docs_say_where_a_banner_is_found(tmp_path: Path, form: str, name: str, where: str):
     path = make.save(tmp_path / name, SAMPLES[form])
-    assert list(banners_in(path)) == [Found(RED, where)]
+    assert list(banners_in(path)) == [FoundBanner(RED, where)]
     assert read_design(path) == RED
     head = SAMPLES[form][:8192]
     assert next(f.name for f in BINARY_FORMS.values() if f.recognises(head, name)) == form

@@ -9,7 +9,7 @@ import pytest
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import (
-    Found,
+    FoundBanner,
     find_banners,
     parse_banner,
     parse_banners,
@@ -28,8 +28,8 @@ CHEST = (
 
 def test_all_banners_of_a_text_are_found_each_with_its_place():
     assert parse_banners(CHEST) == [
-        Found(RED, "Items[0]"),
-        Found(BLUE, "Items[2].components.bundle_contents[0]"),
+        FoundBanner(RED, "Items[0]"),
+        FoundBanner(BLUE, "Items[2].components.bundle_contents[0]"),
     ]
 
 
@@ -48,8 +48,8 @@ def test_a_function_file_is_read_line_by_line():
         "/give @s red_banner\n\ngive @s blue_banner\n"
     )
     assert parse_banners(text) == [
-        Found(RED, "line 4 red_banner"),
-        Found(BLUE, "line 6 blue_banner"),
+        FoundBanner(RED, "line 4 red_banner"),
+        FoundBanner(BLUE, "line 6 blue_banner"),
     ]
 
 
@@ -123,7 +123,7 @@ def test_encodings_of_editors(tmp_path: Path, encoding: str):
 def test_a_dash_is_standard_input(monkeypatch: pytest.MonkeyPatch):
     given = io.TextIOWrapper(io.BytesIO(b"give @s red_banner\r\n"), "utf-8")
     monkeypatch.setattr("sys.stdin", given)
-    assert read_designs("-") == [Found(RED, "red_banner")]
+    assert read_designs("-") == [FoundBanner(RED, "red_banner")]
 
 
 def test_block_entities_get_their_dye_from_their_block():
@@ -134,8 +134,8 @@ def test_block_entities_get_their_dye_from_their_block():
         tree, "chunk", block_of=lambda entity: f"{'red' if 'x' in entity else 'blue'}_banner"
     )
     assert list(found) == [
-        Found(RED, "chunk.block_entities[0]"),
-        Found(BLUE, "chunk.block_entities[1]"),
+        FoundBanner(RED, "chunk.block_entities[0]"),
+        FoundBanner(BLUE, "chunk.block_entities[1]"),
     ]
 
 

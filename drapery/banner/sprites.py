@@ -32,7 +32,7 @@ _BAND = 128
 
 
 @dataclass(frozen=True)
-class Region:
+class SheetRegion:
     """A rectangle of a sheet, in 64ths of its side; v grows downwards."""
 
     left: int
@@ -60,15 +60,15 @@ class Region:
         return np.ascontiguousarray(sheet[rows[:, None], columns])
 
 
-FRONT = Region(1, 1, 21, 41)
-BACK = Region(22, 1, 42, 41)
-TOP_EDGE = Region(1, 0, 21, 1)
-BOTTOM_EDGE = Region(21, 0, 41, 1)
-LEFT_EDGE = Region(0, 1, 1, 41)
+FRONT = SheetRegion(1, 1, 21, 41)
+BACK = SheetRegion(22, 1, 42, 41)
+TOP_EDGE = SheetRegion(1, 0, 21, 1)
+BOTTOM_EDGE = SheetRegion(21, 0, 41, 1)
+LEFT_EDGE = SheetRegion(0, 1, 1, 41)
 """The edge at the left of someone who faces the front."""
-RIGHT_EDGE = Region(21, 1, 22, 41)
+RIGHT_EDGE = SheetRegion(21, 1, 22, 41)
 
-FLAG_REGIONS: dict[str, Region] = {
+FLAG_REGIONS: dict[str, SheetRegion] = {
     "front": FRONT,
     "back": BACK,
     "top": TOP_EDGE,
@@ -77,13 +77,13 @@ FLAG_REGIONS: dict[str, Region] = {
     "right": RIGHT_EDGE,
 }
 
-SHIELD_REGIONS: dict[str, Region] = {
-    "front": Region(1, 1, 13, 23),
-    "back": Region(14, 1, 26, 23),
-    "top": Region(1, 0, 13, 1),
-    "bottom": Region(13, 0, 25, 1),
-    "left": Region(0, 1, 1, 23),
-    "right": Region(13, 1, 14, 23),
+SHIELD_REGIONS: dict[str, SheetRegion] = {
+    "front": SheetRegion(1, 1, 13, 23),
+    "back": SheetRegion(14, 1, 26, 23),
+    "top": SheetRegion(1, 0, 13, 1),
+    "bottom": SheetRegion(13, 0, 25, 1),
+    "left": SheetRegion(0, 1, 1, 23),
+    "right": SheetRegion(13, 1, 14, 23),
 }
 """The plate of a shield."""
 

@@ -11,7 +11,7 @@ from drapery.banner.sprites import (
     FLAG_REGIONS,
     SHIELD_REGIONS,
     UNITS,
-    Region,
+    SheetRegion,
     composite,
     flag_layers,
     resize,
@@ -63,7 +63,7 @@ def _cell(packs: Packs, banner: Banner) -> Pixels:
     return _sampled(FLAG_REGIONS["front"], composite(layers), 1)
 
 
-def _sampled(region: Region, sheet: Pixels, scale: int) -> Pixels:
+def _sampled(region: SheetRegion, sheet: Pixels, scale: int) -> Pixels:
     """A region at `scale` pixels a unit, each the nearest texel to its middle."""
     texels = region.crop(sheet)
     height, width = (region.bottom - region.top) * scale, (region.right - region.left) * scale

@@ -9,7 +9,7 @@ from fastapi import FastAPI, HTTPException, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from drapery.banner.formats import read_designs
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.registry import parse_banners
 from drapery.errors import DraperyError
 from drapery.studio.session import Session, find_session
@@ -39,7 +39,7 @@ class UploadQueue:
     """
 
     def __init__(self) -> None:
-        self.found: tuple[Found, ...] = ()
+        self.found: tuple[FoundBanner, ...] = ()
         self.line = ""
         self.notes: tuple[str, ...] = ()
         self.name = ""
@@ -61,24 +61,24 @@ class UploadQueue:
         found, line, notes = await run_in_threadpool(_read, lambda: read_designs(path))
         self._take(name, found, line.replace(str(path), name).replace(path.name, name), notes)
 
-    def _take(self, name: str, found: list[Found], line: str, notes: list[str]) -> None:
+    def _take(self, name: str, found: list[FoundBanner], line: str, notes: list[str]) -> None:
         self.found, self.line, self.name = tuple(found), line, name
         self.notes = tuple(notes[:3])
         for call in self._listeners:
             call()
 
 
-def _of_text(text: str) -> list[Found]:
+def _of_text(text: str) -> list[FoundBanner]:
     """The banners of a text in any form, or of a link to a design of a studio."""
     address = text.strip()
     if address.startswith(("http://", "https://")) and len(address) < MAX_ADDRESS:
         query = dict(parse_qsl(urlsplit(address).query))
         if set(query) == {"d"}:
-            return [Found(banner_of(read_link(query["d"])[0]))]
+            return [FoundBanner(banner_of(read_link(query["d"])[0]))]
     return parse_banners(text)
 
 
-def _read(read: Callable[[], list[Found]]) -> tuple[list[Found], str, list[str]]:
+def _read(read: Callable[[], list[FoundBanner]]) -> tuple[list[FoundBanner], str, list[str]]:
     """What was found, what was wrong, and what was warned of."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", UserWarning)

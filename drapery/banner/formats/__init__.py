@@ -1,6 +1,6 @@
 """Every written form of a banner, one file a form."""
 
-from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.registry import (
     FORMS,
     parse_banner,
@@ -13,7 +13,7 @@ from drapery.banner.formats.registry import (
 
 __all__ = [
     "FORMS",
-    "Found",
+    "FoundBanner",
     "find_banners",
     "parse_banner",
     "parse_banners",

@@ -7,7 +7,7 @@
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYES
 from drapery.banner.formats.snbt import write_snbt
-from drapery.banner.formats.tree import OMINOUS, Tree
+from drapery.banner.formats.tree import OMINOUS, DataTree
 from drapery.banner.formats.trees import recognises as is_tree
 from drapery.banner.names import BEDROCK_CODES, shown
 from drapery.banner.patterns import PATTERNS
@@ -28,7 +28,7 @@ def write(banner: Banner) -> str:
     return write_snbt(block_entity(banner))
 
 
-def block_entity(banner: Banner) -> dict[str, Tree]:
+def block_entity(banner: Banner) -> dict[str, DataTree]:
     """The block entity as a tree."""
     if banner.kind != "banner":
         raise DesignError("Bedrock's shields bear no design: write the form 'give'")
@@ -39,7 +39,7 @@ def block_entity(banner: Banner) -> dict[str, Tree]:
     return {"id": "Banner", "Base": base, "Patterns": layers, "Type": 0}
 
 
-def _layer(layer: Layer, number: int) -> dict[str, Tree]:
+def _layer(layer: Layer, number: int) -> dict[str, DataTree]:
     pattern = PATTERNS.get(layer.pattern)
     if pattern is None:
         raise DesignError(f"layer {number}: Bedrock has no pattern {shown(layer.pattern)}")

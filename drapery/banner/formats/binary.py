@@ -8,15 +8,15 @@ from drapery.banner.formats import litematic, mcstructure, region, schem, struct
 from drapery.banner.formats.compression import is_compressed
 from drapery.banner.formats.files import find_in_bytes
 from drapery.banner.formats.form import BinaryForm
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.item import item_object
 from drapery.banner.formats.nbt import is_nbt, read_nbt
-from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.tree import DataTree
 from drapery.banner.formats.write_nbt import encode
 from drapery.errors import DesignError
 
-Recognises = Callable[[dict[str, Tree]], bool]
-Find = Callable[[dict[str, Tree]], Iterator[Found]]
+Recognises = Callable[[dict[str, DataTree]], bool]
+Find = Callable[[dict[str, DataTree]], Iterator[FoundBanner]]
 
 
 def _nbt_form(
@@ -29,7 +29,7 @@ def _nbt_form(
 ) -> BinaryForm:
     """A form by its suffix, read only if its tree has the layout."""
 
-    def read(data: bytes) -> Iterator[Found]:
+    def read(data: bytes) -> Iterator[FoundBanner]:
         tree = read_nbt(data, name)
         if not recognises(tree):
             raise DesignError(f"{name}: the file is NBT but no {title}; leave the form out")
@@ -51,7 +51,7 @@ def _is_region(head: bytes, name: str) -> bool:
     return name.lower().endswith(".mca") or region.recognises(head, 1 << 40)
 
 
-def _read_region(data: bytes) -> Iterator[Found]:
+def _read_region(data: bytes) -> Iterator[FoundBanner]:
     return region.find(io.BytesIO(data), "", region.NAME)
 
 

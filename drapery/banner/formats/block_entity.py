@@ -5,7 +5,7 @@
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import commands, trees
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.setblock import write as write_command
 from drapery.banner.formats.tree import is_banner_id
 
@@ -24,7 +24,7 @@ def recognises(text: str) -> bool:
     )
 
 
-def read(text: str) -> list[Found]:
+def read(text: str) -> list[FoundBanner]:
     """The banner of the entity. Raises DesignError where nothing tells its base dye."""
     return trees.read(text) if trees.recognises(text) else commands.read_command(text)
 

@@ -6,9 +6,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.nbt import Numbers
-from drapery.banner.formats.tree import Tree, banner_from_block_entity, base_of, is_banner_id
+from drapery.banner.formats.tree import DataTree, banner_from_block_entity, base_of, is_banner_id
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
@@ -24,7 +24,7 @@ def raise_error(error: DesignError) -> None:
     raise error
 
 
-def compounds(tree: dict[str, Tree], where: str, *keys: str) -> list[dict[str, Tree]]:
+def compounds(tree: dict[str, DataTree], where: str, *keys: str) -> list[dict[str, DataTree]]:
     """The list of compounds under the first of the keys that is there; empty if none is.
 
     Raises DesignError if what is there is anything else.
@@ -38,7 +38,7 @@ def compounds(tree: dict[str, Tree], where: str, *keys: str) -> list[dict[str, T
     return []
 
 
-def compound(tree: dict[str, Tree], where: str, key: str) -> dict[str, Tree]:
+def compound(tree: dict[str, DataTree], where: str, key: str) -> dict[str, DataTree]:
     """The compound under a key; empty if there is none. Raises DesignError for anything else."""
     value = tree.get(key, {})
     if not isinstance(value, dict):
@@ -46,7 +46,7 @@ def compound(tree: dict[str, Tree], where: str, key: str) -> dict[str, Tree]:
     return value
 
 
-def spot(value: Tree, where: str) -> Spot:
+def spot(value: DataTree, where: str) -> Spot:
     """A position [blocks] from three numbers, or from a compound with x, y and z.
 
     Raises DesignError for anything else.
@@ -62,7 +62,7 @@ def _is_finite(value: Any) -> bool:
     return isinstance(value, int | float) and abs(value) < 2**63
 
 
-def longs(value: Tree, where: str) -> NDArray[np.int64]:
+def longs(value: DataTree, where: str) -> NDArray[np.int64]:
     """The numbers of a long array; none of None. Raises DesignError for anything else."""
     if isinstance(value, Numbers) and value.dtype.endswith("i8"):
         return value.array().astype(np.int64)
@@ -76,39 +76,39 @@ def at_block(where: str, place: Spot) -> str:
     return f"{where} block {place[0]},{place[1]},{place[2]}"
 
 
-def state_name(state: Tree) -> str | None:
+def state_name(state: DataTree) -> str | None:
     """A block's id from a palette's entry: `{Name: …}`, or `id[key=value]`."""
     name = state.get("Name") if isinstance(state, dict) else state
     return name.partition("[")[0] if isinstance(name, str) else None
 
 
 def banners_of_block(
-    entity: dict[str, Tree], block: str | None, where: str, on_error: OnError
-) -> Iterator[Found]:
+    entity: dict[str, DataTree], block: str | None, where: str, on_error: OnError
+) -> Iterator[FoundBanner]:
     """The banner that a block entity is, or else those it contains.
 
     block: the block's id, which tells the base dye since 1.13, if the file has it.
     """
     if is_banner_id(block) or is_banner_id(entity.get("id", entity.get("Id"))):
         try:
-            yield Found(banner_from_block_entity(entity, where, block=block), where)
+            yield FoundBanner(banner_from_block_entity(entity, where, block=block), where)
         except DesignError as error:
             on_error(error)
     else:
         yield from find_banners(entity, where, on_error=on_error)
 
 
-def plain_banners(blocks: dict[Spot, str], where: str) -> Iterator[Found]:
+def plain_banners(blocks: dict[Spot, str], where: str) -> Iterator[FoundBanner]:
     """Banners that stand without a block entity: the game makes them plain ones."""
     for place, block in blocks.items():
         if base_of(block) is not None:
             at = at_block(where, place)
-            yield Found(banner_from_block_entity({}, at, block=block), at)
+            yield FoundBanner(banner_from_block_entity({}, at, block=block), at)
 
 
 def banners_of_entities(
-    entities: list[dict[str, Tree]], where: str, on_error: OnError
-) -> Iterator[Found]:
+    entities: list[dict[str, DataTree]], where: str, on_error: OnError
+) -> Iterator[FoundBanner]:
     """The banners that mobs wear, frames show and minecarts carry."""
     for entity in entities:
         inner = entity.get("nbt", entity.get("Data", entity))
@@ -118,7 +118,7 @@ def banners_of_entities(
         yield from find_banners(inner, _at_entity(where, name, position), on_error=on_error)
 
 
-def _at_entity(where: str, name: str, position: Tree) -> str:
+def _at_entity(where: str, name: str, position: DataTree) -> str:
     label = f"{where} {name.removeprefix('minecraft:')[:60]}"
     try:
         x, y, z = spot(position, where)

@@ -24,23 +24,23 @@ from drapery.banner.formats.blocks import (
     spot,
     state_name,
 )
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import bits_for, longs_needed, unpack
-from drapery.banner.formats.tree import Tree, is_banner_id
+from drapery.banner.formats.tree import DataTree, is_banner_id
 from drapery.errors import DesignError
 
 SECTION_BLOCKS = 4096
 LEAST_BITS = 4
 
 
-def recognises(tree: dict[str, Tree]) -> bool:
+def recognises(tree: dict[str, DataTree]) -> bool:
     """Whether an NBT tree is a chunk: of blocks, or of the entities that have their own files."""
     return "sections" in tree or isinstance(tree.get("Level"), dict) or "Entities" in tree
 
 
 def find(
-    tree: dict[str, Tree], where: str = "", on_error: OnError = raise_error
-) -> Iterator[Found]:
+    tree: dict[str, DataTree], where: str = "", on_error: OnError = raise_error
+) -> Iterator[FoundBanner]:
     """Every banner of a chunk: blocks, contents of containers, entities.
 
     tree: of the whole chunk. Raises DesignError where its parts are none of a chunk.
@@ -57,13 +57,13 @@ def find(
     yield from banners_of_entities(compounds(level, where, "entities", "Entities"), where, on_error)
 
 
-def _sections(level: dict[str, Tree], where: str) -> dict[int, dict[str, Tree]]:
+def _sections(level: dict[str, DataTree], where: str) -> dict[int, dict[str, DataTree]]:
     """The sections by their height: section Y begins at block 16 Y."""
     sections = compounds(level, where, "sections", "Sections")
     return {y: section for section in sections if isinstance(y := section.get("Y"), int)}
 
 
-def _block(section: dict[str, Tree] | None, place: Spot, where: str) -> str | None:
+def _block(section: dict[str, DataTree] | None, place: Spot, where: str) -> str | None:
     """The id of the block at a place, if the section has ids."""
     states = (section or {}).get("block_states", section)
     if not isinstance(states, dict):
@@ -76,7 +76,7 @@ def _block(section: dict[str, Tree] | None, place: Spot, where: str) -> str | No
     return names[index] if index < len(names) else None
 
 
-def _index(states: dict[str, Tree], count: int, number: int, where: str) -> int:
+def _index(states: dict[str, DataTree], count: int, number: int, where: str) -> int:
     """The palette index of one of the section's blocks."""
     packed = longs(states.get("data", states.get("BlockStates")), where)
     bits = bits_for(count, LEAST_BITS)

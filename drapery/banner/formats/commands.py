@@ -9,11 +9,11 @@ from collections.abc import Iterator
 
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYES
-from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.snbt import Brackets, Part, parse_command
 from drapery.banner.formats.tree import (
     OLD_BANNERS,
-    Tree,
+    DataTree,
     banner_from_components,
     banner_from_tag,
     bare,
@@ -39,7 +39,7 @@ def command_of(text: str) -> str | None:
     return name if name in COMMANDS else None
 
 
-def read_command(text: str, *, line: int = 1) -> list[Found]:
+def read_command(text: str, *, line: int = 1) -> list[FoundBanner]:
     """All banners in one command, or in an item or block argument alone.
 
     `/give @p minecraft:white_banner[…] 1`, `setblock ~ ~ ~ red_banner[rotation=4]{…}`,
@@ -62,11 +62,11 @@ def _last_run(parts: list[Part]) -> list[Part]:
     return parts[runs[-1] + 1 :] or parts if runs else parts
 
 
-def _found(parts: list[Part]) -> Iterator[Found]:
+def _found(parts: list[Part]) -> Iterator[FoundBanner]:
     """An item or block argument of a banner; else what compounds and components hold."""
     for place, part in enumerate(parts):
         if isinstance(part, str) and (is_banner_id(part) or is_shield_id(part)):
-            yield Found(_argument(str(part), parts[place + 1 :]), bare(part))
+            yield FoundBanner(_argument(str(part), parts[place + 1 :]), bare(part))
             return
     for place, part in enumerate(parts):
         if isinstance(part, dict) and not _is_selector(parts, place):
@@ -87,7 +87,7 @@ def _argument(identifier: str, rest: list[Part]) -> Banner:
         return banner_from_tag(identifier, tag, data=_old_data(rest))
     if tag is not None:
         return banner_from_tag(identifier, tag)
-    components: Tree = None if brackets is None else dict(brackets)
+    components: DataTree = None if brackets is None else dict(brackets)
     return banner_from_components(identifier, components)
 
 

@@ -8,9 +8,9 @@ from typing import NamedTuple
 from drapery.banner.formats import chunk, litematic, mcstructure, region, schem, structure
 from drapery.banner.formats.blocks import OnError, raise_error
 from drapery.banner.formats.compression import MAX_BYTES, check_size, is_compressed
-from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.nbt import is_nbt, read_nbt
-from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.tree import DataTree
 from drapery.errors import DesignError
 
 MAX_FILES = 100_000
@@ -19,30 +19,32 @@ MAX_FILES = 100_000
 _HEAD = 2 * region.SECTOR
 
 
-class Layout(NamedTuple):
+class NbtLayout(NamedTuple):
     """A layout of NBT files: its name, whether a tree has it, and all banners of such a tree."""
 
     name: str
-    recognises: Callable[[dict[str, Tree]], bool]
-    find: Callable[[dict[str, Tree], str, OnError], Iterator[Found]]
+    recognises: Callable[[dict[str, DataTree]], bool]
+    find: Callable[[dict[str, DataTree], str, OnError], Iterator[FoundBanner]]
 
 
-def _find_anywhere(tree: dict[str, Tree], where: str, on_error: OnError) -> Iterator[Found]:
+def _find_anywhere(
+    tree: dict[str, DataTree], where: str, on_error: OnError
+) -> Iterator[FoundBanner]:
     return find_banners(tree, where, on_error=on_error)
 
 
 LAYOUTS = (
-    Layout(schem.NAME, schem.recognises, schem.find),
-    Layout(litematic.NAME, litematic.recognises, litematic.find),
-    Layout(mcstructure.NAME, mcstructure.recognises, mcstructure.find),
-    Layout(structure.NAME, structure.recognises, structure.find),
-    Layout("chunk", chunk.recognises, chunk.find),
-    Layout("nbt", lambda tree: True, _find_anywhere),
+    NbtLayout(schem.NAME, schem.recognises, schem.find),
+    NbtLayout(litematic.NAME, litematic.recognises, litematic.find),
+    NbtLayout(mcstructure.NAME, mcstructure.recognises, mcstructure.find),
+    NbtLayout(structure.NAME, structure.recognises, structure.find),
+    NbtLayout("chunk", chunk.recognises, chunk.find),
+    NbtLayout("nbt", lambda tree: True, _find_anywhere),
 )
 """Layouts in the order in which they are tried; the last is any: players, items, level.dat."""
 
 
-def banners_in(path: str | Path, on_error: OnError = raise_error) -> Iterator[Found]:
+def banners_in(path: str | Path, on_error: OnError = raise_error) -> Iterator[FoundBanner]:
     """Every banner of a file or of a world's folder, with where it was found.
 
     Files: NBT (structures, schematics, Litematica, Bedrock's, players, items) and regions. They
@@ -70,14 +72,16 @@ def is_binary(head: bytes, size: int) -> bool:
     return is_compressed(head) or is_nbt(head, size) or region.recognises(head, size)
 
 
-def find_in_bytes(data: bytes, where: str, on_error: OnError = raise_error) -> Iterator[Found]:
+def find_in_bytes(
+    data: bytes, where: str, on_error: OnError = raise_error
+) -> Iterator[FoundBanner]:
     """Every banner of an NBT file's bytes, by its layout."""
     tree = read_nbt(data, where)
     layout = next(layout for layout in LAYOUTS if layout.recognises(tree))
     return layout.find(tree, where, on_error)
 
 
-def _in_file(path: Path, where: str, on_error: OnError) -> Iterator[Found]:
+def _in_file(path: Path, where: str, on_error: OnError) -> Iterator[FoundBanner]:
     size = path.stat().st_size
     with path.open("rb") as file:
         head = file.read(_HEAD)
@@ -99,7 +103,7 @@ def _refusal(head: bytes) -> str:
     return "neither NBT nor a region file; give a structure, a schematic or a world"
 
 
-def _in_world(folder: Path, on_error: OnError) -> Iterator[Found]:
+def _in_world(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
     if (folder / "db" / "CURRENT").exists():
         raise DesignError(
             f"{folder}: a world of Bedrock Edition, which is not read;"

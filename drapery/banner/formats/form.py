@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from drapery.banner.design import Banner
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Form:
     title: str
     example: str
     recognises: Callable[[str], bool]
-    read: Callable[[str], list[Found]]
+    read: Callable[[str], list[FoundBanner]]
     write: Callable[[Banner], str] | None = None
 
 
@@ -37,10 +37,10 @@ class BinaryForm:
     title: str
     suffixes: tuple[str, ...]
     recognises: Callable[[bytes, str], bool]
-    read: Callable[[bytes], Iterable[Found]]
+    read: Callable[[bytes], Iterable[FoundBanner]]
     write: Callable[[Banner], bytes] | None = None
 
 
-def single(parse: Callable[[str], Banner]) -> Callable[[str], list[Found]]:
+def single(parse: Callable[[str], Banner]) -> Callable[[str], list[FoundBanner]]:
     """A reader of all banners from a parser of one."""
-    return lambda text: [Found(parse(text))]
+    return lambda text: [FoundBanner(parse(text))]

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from drapery.banner.design import Banner
 from drapery.banner.formats.tree import (
-    Tree,
+    DataTree,
     banner_from_block_entity,
     banner_from_item,
     bare,
@@ -19,7 +19,7 @@ from drapery.banner.formats.tree import (
 )
 from drapery.errors import DesignError
 
-BlockOf = Callable[[dict[str, Tree]], str | None]
+BlockOf = Callable[[dict[str, DataTree]], str | None]
 """Gives the id of the block that a block entity belongs to, or None where that is not known."""
 
 _Path: TypeAlias = tuple["_Path | None", str | int]
@@ -31,7 +31,7 @@ _LONGEST_STEP = 200
 
 
 @dataclass(frozen=True)
-class Found:
+class FoundBanner:
     """A banner and where it was found: a path in a tree, with a position or a name before it."""
 
     banner: Banner
@@ -39,12 +39,12 @@ class Found:
 
 
 def find_banners(
-    tree: Tree,
+    tree: DataTree,
     where: str = "",
     *,
     block_of: BlockOf | None = None,
     on_error: Callable[[DesignError], None] | None = None,
-) -> Iterator[Found]:
+) -> Iterator[FoundBanner]:
     """Every banner and patterned shield in the tree, in the order of the text.
 
     Looks into containers, shulker boxes, bundles, equipment, frames: any mapping or list. Plain
@@ -54,7 +54,7 @@ def find_banners(
     block_of: tells a block entity's block, whose id tells the base dye since 1.13.
     on_error: takes the error of one broken banner, and the search goes on; without it, raised.
     """
-    open_nodes: list[Iterator[tuple[_Path, Tree]]] = [iter([((None, where), tree)])]
+    open_nodes: list[Iterator[tuple[_Path, DataTree]]] = [iter([((None, where), tree)])]
     while open_nodes:
         path, node = next(open_nodes[-1], (None, None))
         if path is None:
@@ -66,14 +66,14 @@ def find_banners(
             continue
         at = _spelt(path)
         try:
-            yield Found(read(node, at), at)
+            yield FoundBanner(read(node, at), at)
         except DesignError as error:
             if on_error is None:
                 raise
             on_error(error)
 
 
-def _children(path: _Path, node: Tree) -> Iterator[tuple[_Path, Tree]]:
+def _children(path: _Path, node: DataTree) -> Iterator[tuple[_Path, DataTree]]:
     pairs = (
         node.items()
         if isinstance(node, dict)
@@ -102,7 +102,7 @@ def _spelt(path: _Path) -> str:
     )
 
 
-def _reader(node: Tree, block_of: BlockOf | None) -> Callable[[Tree, str], Banner] | None:
+def _reader(node: DataTree, block_of: BlockOf | None) -> Callable[[DataTree, str], Banner] | None:
     """What reads this node as a banner, or None if it is none."""
     if not isinstance(node, dict):
         return None
@@ -112,7 +112,7 @@ def _reader(node: Tree, block_of: BlockOf | None) -> Callable[[Tree, str], Banne
     return banner_from_item if _is_item(node) else None
 
 
-def _is_block_entity(node: dict[str, Tree]) -> bool:
+def _is_block_entity(node: dict[str, DataTree]) -> bool:
     """A banner's block entity has the id `banner` in every version, an old item has it too."""
     identifier = node.get("id", node.get("Id"))
     if not isinstance(identifier, str) or bare(identifier) != "banner":
@@ -123,7 +123,7 @@ def _is_block_entity(node: dict[str, Tree]) -> bool:
 _ITEM_KEYS = frozenset({"count", "Count", "Damage", "components", "tag"})
 
 
-def _is_item(node: dict[str, Tree]) -> bool:
+def _is_item(node: dict[str, DataTree]) -> bool:
     identifier = node.get("id")
     if identifier is None and _ITEM_KEYS.intersection(node):
         identifier = node.get("Name")  # Bedrock; in Java a block state of a palette has a Name too
@@ -134,7 +134,7 @@ def _is_item(node: dict[str, Tree]) -> bool:
     return base_of(identifier) is not None or bool(_ITEM_KEYS.intersection(node))
 
 
-def _is_patterned_shield(node: dict[str, Tree]) -> bool:
+def _is_patterned_shield(node: dict[str, DataTree]) -> bool:
     components, tag = node.get("components"), node.get("tag")
     if isinstance(components, dict):
         return any(get(components, key)[1] is not None for key in ("banner_patterns", "base_color"))

@@ -4,7 +4,7 @@ from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYES
 from drapery.banner.formats.give import recognises as is_command
 from drapery.banner.formats.snbt import write_snbt
-from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.tree import DataTree
 from drapery.banner.names import shown
 from drapery.banner.patterns import PATTERNS
 from drapery.errors import DesignError
@@ -41,18 +41,18 @@ def argument(banner: Banner) -> str:
     )
 
 
-def tag(entity: dict[str, Tree]) -> dict[str, Tree]:
+def tag(entity: dict[str, DataTree]) -> dict[str, DataTree]:
     """An item's tag that holds a block entity."""
     return {"BlockEntityTag": entity}
 
 
-def _patterns(layers: list[Tree]) -> dict[str, Tree]:
+def _patterns(layers: list[DataTree]) -> dict[str, DataTree]:
     return {"Patterns": layers} if layers else {}
 
 
 def legacy_layers(
     layers: tuple[Layer, ...], version: str, *, inverted: bool = False, lacks: tuple[str, ...] = ()
-) -> list[Tree]:
+) -> list[DataTree]:
     """Layers as `[{"Pattern": code, "Color": number}, …]`.
 
     inverted: numbers count from black. lacks: patterns that the version does not have yet.

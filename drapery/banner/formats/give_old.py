@@ -9,7 +9,7 @@ from drapery.banner.dyes import DYES
 from drapery.banner.formats.commands import command_of
 from drapery.banner.formats.give_legacy import legacy_layers
 from drapery.banner.formats.snbt import write_snbt
-from drapery.banner.formats.tree import Tree, bare
+from drapery.banner.formats.tree import DataTree, bare
 from drapery.errors import DesignError
 
 NAME = "give-1.12"
@@ -41,7 +41,7 @@ def write(banner: Banner) -> str:
     return f"/give @p minecraft:banner 1 {entity['Base']} {write_snbt({'BlockEntityTag': entity})}"
 
 
-def block_entity(banner: Banner) -> dict[str, Tree]:
+def block_entity(banner: Banner) -> dict[str, DataTree]:
     """The block entity: `{"Base": …, "Patterns": […]}`, dyes inverted."""
     if banner.kind != "banner":
         raise DesignError("this form has no shields: write the form 'give' or 'give-legacy'")

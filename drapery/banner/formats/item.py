@@ -5,7 +5,7 @@ So items stand in chests, saves and `/data get`. Before 1.20.5 they had `Count` 
 
 from drapery.banner.design import Banner
 from drapery.banner.formats.snbt import write_snbt
-from drapery.banner.formats.tree import Tree, names
+from drapery.banner.formats.tree import DataTree, names
 from drapery.banner.formats.trees import recognises as is_tree
 
 NAME = "item"
@@ -26,9 +26,9 @@ def write(banner: Banner) -> str:
     return write_snbt(item_object(banner))
 
 
-def item_object(banner: Banner) -> dict[str, Tree]:
+def item_object(banner: Banner) -> dict[str, DataTree]:
     """The item object as a tree."""
-    components: dict[str, Tree] = {}
+    components: dict[str, DataTree] = {}
     if banner.layers:
         components["minecraft:banner_patterns"] = names(banner.layers)
     if banner.kind == "shield":

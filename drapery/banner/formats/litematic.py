@@ -20,9 +20,9 @@ from drapery.banner.formats.blocks import (
     spot,
     state_name,
 )
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import bits_for, longs_needed, names_in_box, packed_pieces
-from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.tree import DataTree
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
@@ -30,14 +30,14 @@ NAME = "litematic"
 LEAST_BITS = 2
 
 
-def recognises(tree: dict[str, Tree]) -> bool:
+def recognises(tree: dict[str, DataTree]) -> bool:
     """Whether an NBT file's tree is a Litematica schematic."""
     return isinstance(tree.get("Regions"), dict)
 
 
 def find(
-    tree: dict[str, Tree], where: str = "", on_error: OnError = raise_error
-) -> Iterator[Found]:
+    tree: dict[str, DataTree], where: str = "", on_error: OnError = raise_error
+) -> Iterator[FoundBanner]:
     """Every banner of a schematic: blocks, contents of containers, entities.
 
     tree: of the whole file. Positions count from the schematic's origin.
@@ -49,7 +49,9 @@ def find(
         yield from _find_in_region(compound(regions, label, name), label, on_error)
 
 
-def _find_in_region(region: dict[str, Tree], where: str, on_error: OnError) -> Iterator[Found]:
+def _find_in_region(
+    region: dict[str, DataTree], where: str, on_error: OnError
+) -> Iterator[FoundBanner]:
     size = spot(region.get("Size"), f"{where} Size")
     corner = _corner(spot(region.get("Position"), f"{where} Position"), size)
     entities = {
@@ -65,7 +67,7 @@ def _find_in_region(region: dict[str, Tree], where: str, on_error: OnError) -> I
 
 
 def _names(
-    region: dict[str, Tree], size: Spot, places: dict[Spot, dict[str, Tree]], where: str
+    region: dict[str, DataTree], size: Spot, places: dict[Spot, dict[str, DataTree]], where: str
 ) -> dict[Spot, str]:
     """The ids of the blocks at these places and of all banners."""
     states = [state_name(state) for state in compounds(region, where, "BlockStatePalette")]

@@ -19,8 +19,8 @@ from drapery.banner.formats.blocks import (
     raise_error,
     spot,
 )
-from drapery.banner.formats.found import Found
-from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.found import FoundBanner
+from drapery.banner.formats.tree import DataTree
 from drapery.banner.formats.write_nbt import encode
 from drapery.errors import DesignError
 
@@ -29,7 +29,7 @@ BLOCK_VERSION = 18_163_713
 """1.21.40.1: the version of the block states, a byte for each number."""
 
 
-def recognises(tree: dict[str, Tree]) -> bool:
+def recognises(tree: dict[str, DataTree]) -> bool:
     """Whether an NBT file's tree is a Bedrock structure."""
     return "structure_world_origin" in tree or (
         "format_version" in tree and isinstance(tree.get("structure"), dict)
@@ -37,8 +37,8 @@ def recognises(tree: dict[str, Tree]) -> bool:
 
 
 def find(
-    tree: dict[str, Tree], where: str = "", on_error: OnError = raise_error
-) -> Iterator[Found]:
+    tree: dict[str, DataTree], where: str = "", on_error: OnError = raise_error
+) -> Iterator[FoundBanner]:
     """Every banner of a structure: blocks, contents of containers, entities.
 
     tree: of the whole file. Positions count from the structure's corner.

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner.formats.compression import inflate
-from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.tree import DataTree
 from drapery.errors import DesignError
 
 MAX_DEPTH = 512
@@ -77,12 +77,12 @@ class _BytesError(Exception):
 class _List(NamedTuple):
     """A list whose children are compounds or lists, and not all read yet."""
 
-    items: list[Tree]
+    items: list[DataTree]
     kind: int
     length: int
 
 
-Container: TypeAlias = dict[str, Tree] | _List
+Container: TypeAlias = dict[str, DataTree] | _List
 
 
 @dataclass
@@ -103,7 +103,7 @@ class _Cursor:
             )
 
 
-def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, Tree]:
+def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, DataTree]:
     """The root compound of an NBT file: gzip, zlib or raw, in either byte order.
 
     where: the file's name, for errors. order: None finds it out. Bedrock's `.dat` header of
@@ -152,17 +152,17 @@ def _guess_order(data: bytes) -> Order:
     return "big"
 
 
-def _read_root(cursor: _Cursor) -> dict[str, Tree]:
+def _read_root(cursor: _Cursor) -> dict[str, DataTree]:
     kind = cursor.data[cursor.at]
     if kind != _COMPOUND:
         raise _BytesError(f"not NBT: byte {cursor.at} is {kind}, not 10; give an NBT file")
     cursor.at = cursor.at + 3 + cursor.codec.short(cursor.data, cursor.at + 1)[0]
-    root: dict[str, Tree] = {}
+    root: dict[str, DataTree] = {}
     _grow(cursor, root)
     return root
 
 
-def _grow(cursor: _Cursor, root: dict[str, Tree]) -> None:
+def _grow(cursor: _Cursor, root: dict[str, DataTree]) -> None:
     """Fill the containers from the innermost open one, without recursion."""
     stack: list[Container] = [root]
     while stack:
@@ -182,7 +182,7 @@ def _fill(cursor: _Cursor, container: Container) -> Container | None:
     return _fill_compound(cursor, container)
 
 
-def _fill_compound(cursor: _Cursor, node: dict[str, Tree]) -> Container | None:
+def _fill_compound(cursor: _Cursor, node: dict[str, DataTree]) -> Container | None:
     data, names = cursor.data, cursor.names
     length_of, readers = cursor.codec.short, cursor.codec.readers
     while kind := data[cursor.at]:
@@ -214,10 +214,10 @@ def _fill_list(cursor: _Cursor, unfinished: _List) -> Container | None:
     return None
 
 
-def _open(cursor: _Cursor, kind: int) -> tuple[Tree, Container | None]:
+def _open(cursor: _Cursor, kind: int) -> tuple[DataTree, Container | None]:
     """The value of a compound or list that begins here, and what of it is still to be filled."""
     if kind == _COMPOUND:
-        node: dict[str, Tree] = {}
+        node: dict[str, DataTree] = {}
         return node, node
     kind, length = _list_head(cursor)
     if kind in _NUMBERS:
@@ -225,7 +225,7 @@ def _open(cursor: _Cursor, kind: int) -> tuple[Tree, Container | None]:
     reader = cursor.codec.readers[kind]
     if reader:
         return _values(cursor, reader, length), None
-    items: list[Tree] = []
+    items: list[DataTree] = []
     return items, _List(items, kind, length)
 
 
@@ -250,7 +250,7 @@ def _numbers(cursor: _Cursor, kind: int, length: int) -> list[Any] | Numbers:
     return value
 
 
-def _values(cursor: _Cursor, reader: Reader, length: int) -> list[Tree]:
+def _values(cursor: _Cursor, reader: Reader, length: int) -> list[DataTree]:
     """A list of strings or arrays."""
     items = []
     for _ in range(length):

@@ -6,7 +6,7 @@ A shield has `"kind": "shield"` as well. Layers may have `dye` for `color`.
 import json
 
 from drapery.banner.design import Banner
-from drapery.banner.formats.tree import Tree, names, read_layers
+from drapery.banner.formats.tree import DataTree, names, read_layers
 from drapery.banner.names import dye_name, shown
 from drapery.errors import DesignError
 
@@ -20,12 +20,12 @@ def recognises(text: str) -> bool:
     return text.lstrip().startswith("{") and any(k in text for k in ('"base"', '"layers"'))
 
 
-def matches(tree: Tree) -> bool:
+def matches(tree: DataTree) -> bool:
     """Whether a tree is meant as this form."""
     return isinstance(tree, dict) and ("base" in tree or "layers" in tree) and "id" not in tree
 
 
-def from_tree(tree: dict[str, Tree], at: str = "") -> Banner:
+def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:
     """The banner of the JSON's tree. Raises DesignError naming the place."""
     if "base" not in tree:
         raise DesignError('the JSON has no "base": give its dye, as {"base": "red", "layers": []}')
@@ -38,7 +38,7 @@ def from_tree(tree: dict[str, Tree], at: str = "") -> Banner:
 
 def write(banner: Banner) -> str:
     """The JSON; it can hold every banner."""
-    tree: dict[str, Tree] = {"base": banner.base, "layers": names(banner.layers)}
+    tree: dict[str, DataTree] = {"base": banner.base, "layers": names(banner.layers)}
     if banner.kind != "banner":
         tree["kind"] = banner.kind
     return json.dumps(tree)

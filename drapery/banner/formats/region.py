@@ -14,7 +14,7 @@ from typing import BinaryIO
 from drapery.banner.formats import chunk
 from drapery.banner.formats.blocks import OnError, raise_error
 from drapery.banner.formats.compression import check_size, inflate
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.lz4 import unlz4
 from drapery.banner.formats.nbt import read_nbt
 from drapery.errors import DesignError
@@ -57,7 +57,7 @@ def find(
     where: str = "",
     on_error: OnError = raise_error,
     folder: Path | None = None,
-) -> Iterator[Found]:
+) -> Iterator[FoundBanner]:
     """Every banner of a region file, with its place: `chunk 3,-1 block 48,71,-9`.
 
     A broken chunk is one error; the others are read.

@@ -29,7 +29,7 @@ from drapery.banner.formats import (
     wynncraft,
 )
 from drapery.banner.formats.form import BinaryForm, Form, single
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.snbt import MAX_TEXT
 from drapery.banner.names import shown
 from drapery.errors import DesignError
@@ -40,7 +40,7 @@ MAX_COMMANDS = 20_000
 _HEAD = 8192
 
 
-def _form(module: ModuleType, read: Callable[[str], list[Found]]) -> Form:
+def _form(module: ModuleType, read: Callable[[str], list[FoundBanner]]) -> Form:
     return Form(module.NAME, module.TITLE, module.EXAMPLE, module.recognises, read, module.write)
 
 
@@ -94,7 +94,7 @@ def recognise(text: str) -> Form:
     )
 
 
-def parse_banners(text: str, *, form: str | None = None) -> list[Found]:
+def parse_banners(text: str, *, form: str | None = None) -> list[FoundBanner]:
     """All banners of a text, at least one, with where in it each was found.
 
     form: one of FORMS, for a text that does not tell its own. Several commands may stand on a
@@ -131,7 +131,7 @@ def write_banner(banner: Banner, form: str = "json") -> str:
     return write(banner)
 
 
-def pick(found: list[Found], number: int | None = None) -> Banner:
+def pick(found: list[FoundBanner], number: int | None = None) -> Banner:
     """The one banner that is meant; several that are the same are one.
 
     number: which, from 1. Raises DesignError if it is needed or out of range.
@@ -158,7 +158,7 @@ def read_design(
     return pick(read_designs(source, form=form), number)
 
 
-def read_designs(source: str | Path, *, form: str | None = None) -> list[Found]:
+def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBanner]:
     """All banners of a text, a file or a world's folder, or standard input ("-").
 
     Raises DesignError as `parse_banners` does, and for files that cannot be read.
@@ -206,18 +206,18 @@ def _command_lines(text: str) -> list[tuple[int, str]]:
     return [(number, line) for number, line in lines if commands.command_of(line)]
 
 
-def _all_lines(lines: list[tuple[int, str]]) -> list[Found]:
+def _all_lines(lines: list[tuple[int, str]]) -> list[FoundBanner]:
     """The banners of all commands; what is broken is passed over while others are whole."""
     if len(lines) > MAX_COMMANDS:
         raise DesignError(f"the text has {len(lines)} commands, over {MAX_COMMANDS}: split it")
-    found: list[Found] = []
+    found: list[FoundBanner] = []
     errors: list[DesignError] = []
     for number, line in lines:
         if "banner" not in line and "shield" not in line:
             continue
         try:
             read = commands.read_command(line, line=number)
-            found += [Found(f.banner, f"line {number} {f.where}") for f in read]
+            found += [FoundBanner(f.banner, f"line {number} {f.where}") for f in read]
         except DesignError as error:
             errors.append(DesignError(_with_line(str(error), number)))
     return _despite(found, errors, "the commands hold no banner: paste a /give command")
@@ -229,7 +229,9 @@ def _with_line(message: str, number: int) -> str:
     return f"line {number}{', ' if message.startswith('column ') else ': '}{message}"
 
 
-def _despite(found: list[Found], errors: list[DesignError], nothing: str) -> list[Found]:
+def _despite(
+    found: list[FoundBanner], errors: list[DesignError], nothing: str
+) -> list[FoundBanner]:
     """What was found, with a warning of what was not; the first error if that was all."""
     if not found:
         raise errors[0] if errors else DesignError(nothing)
@@ -278,7 +280,7 @@ def _is_world(path: Path) -> bool:
     return (path / "level.dat").exists() or (path / "region").is_dir()
 
 
-def _read_path(path: Path, form: str | None) -> list[Found]:
+def _read_path(path: Path, form: str | None) -> list[FoundBanner]:
     from drapery.banner.formats.files import is_binary
 
     if form is not None and form not in FORMS:
@@ -300,7 +302,7 @@ def _read_path(path: Path, form: str | None) -> list[Found]:
         raise DesignError(f"{path}: {error}") from None
 
 
-def _read_as(path: Path, form: BinaryForm) -> list[Found]:
+def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
     """All banners of a file that is said to be of this form."""
     from drapery.banner.formats.compression import MAX_BYTES, check_size
 
@@ -313,7 +315,7 @@ def _read_as(path: Path, form: BinaryForm) -> list[Found]:
         raise DesignError(f"{path}: {error}") from None
 
 
-def _read_binary(path: Path) -> list[Found]:
+def _read_binary(path: Path) -> list[FoundBanner]:
     from drapery.banner.formats.files import banners_in
 
     errors: list[DesignError] = []

@@ -21,24 +21,24 @@ from drapery.banner.formats.blocks import (
     spot,
     state_name,
 )
-from drapery.banner.formats.found import Found
+from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import names_in_box, varint_pieces
-from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.tree import DataTree
 from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode, placeable
 from drapery.errors import DesignError
 
 NAME = "schem"
 
 
-def recognises(tree: dict[str, Tree]) -> bool:
+def recognises(tree: dict[str, DataTree]) -> bool:
     """Whether an NBT file's tree is a schematic."""
     root = tree.get("Schematic", tree)
     return isinstance(root, dict) and {"Width", "Height", "Length"} <= root.keys()
 
 
 def find(
-    tree: dict[str, Tree], where: str = "", on_error: OnError = raise_error
-) -> Iterator[Found]:
+    tree: dict[str, DataTree], where: str = "", on_error: OnError = raise_error
+) -> Iterator[FoundBanner]:
     """Every banner of a schematic: blocks, contents of containers, entities.
 
     tree: of the whole file. Raises DesignError where the file is no schematic.
@@ -55,7 +55,7 @@ def find(
     yield from banners_of_entities(compounds(root, where, "Entities"), where, on_error)
 
 
-def _block_entities(blocks: dict[str, Tree], where: str) -> dict[Spot, dict[str, Tree]]:
+def _block_entities(blocks: dict[str, DataTree], where: str) -> dict[Spot, dict[str, DataTree]]:
     """Block entities by place; version 3 puts what is the game's own under `Data`."""
     entities = {}
     for entity in compounds(blocks, where, "BlockEntities", "TileEntities"):
@@ -68,7 +68,7 @@ def _block_entities(blocks: dict[str, Tree], where: str) -> dict[Spot, dict[str,
 
 
 def _names(
-    root: dict[str, Tree], blocks: dict[str, Tree], places: Iterable[Spot], where: str
+    root: dict[str, DataTree], blocks: dict[str, DataTree], places: Iterable[Spot], where: str
 ) -> dict[Spot, str]:
     """The ids of the blocks at these places and of all banners; none for numeric ids."""
     palette = {
@@ -82,7 +82,7 @@ def _names(
     return names_in_box(varint_pieces(data, where), palette, _size(root, where), places, where)
 
 
-def _size(root: dict[str, Tree], where: str) -> Spot:
+def _size(root: dict[str, DataTree], where: str) -> Spot:
     """Width, height and length, which are stored as unsigned shorts [blocks]."""
     width, height, length = spot([root.get(side) for side in ("Width", "Height", "Length")], where)
     return width & 0xFFFF or 1, height & 0xFFFF or 1, length & 0xFFFF or 1

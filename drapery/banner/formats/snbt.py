@@ -6,7 +6,7 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from drapery.banner.formats.tree import Tree
+from drapery.banner.formats.tree import DataTree
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
@@ -24,7 +24,7 @@ MAX_TOKENS = 120_000
 """Words, texts and brackets; a thousand banners of six layers have some 70,000."""
 
 
-class Brackets(dict[str, Tree]):
+class Brackets(dict[str, DataTree]):
     """What stands in `[name=value,…]`: components, a block's state, or a selector's filters."""
 
 
@@ -32,7 +32,7 @@ Part = Any
 """Of a command: a word (str; lark's Token, which knows its column), Brackets, or a compound."""
 
 
-def parse_snbt(text: str, *, line: int = 1) -> Tree:
+def parse_snbt(text: str, *, line: int = 1) -> DataTree:
     """The tree of an SNBT text. Typed numbers become int and float, typed arrays lists.
 
     line: the number of the text's first line, for errors.
@@ -48,7 +48,7 @@ def parse_command(text: str, *, line: int = 1) -> list[Part]:
     return parts
 
 
-def write_snbt(tree: Tree) -> str:
+def write_snbt(tree: DataTree) -> str:
     """The shortest SNBT of a tree, as the game's commands hold it: `{pattern:"creeper"}`."""
     if isinstance(tree, dict):
         return "{" + ",".join(f"{_key(k)}:{write_snbt(v)}" for k, v in tree.items()) + "}"
@@ -123,7 +123,7 @@ def _build() -> Any:
     from lark import Transformer
 
     class Build(Transformer[Any, Any]):
-        def tree(self, c: list[Any]) -> Tree:
+        def tree(self, c: list[Any]) -> DataTree:
             return c[0]
 
         def command(self, c: list[Any]) -> list[Part]:
@@ -141,22 +141,22 @@ def _build() -> Any:
         def identifier(self, c: list[Any]) -> str:
             return f"{c[0]}:{c[1]}"
 
-        def scalar(self, c: list[Any]) -> Tree:
+        def scalar(self, c: list[Any]) -> DataTree:
             return scalar(c[0])
 
-        def call(self, c: list[Any]) -> Tree:
+        def call(self, c: list[Any]) -> DataTree:
             return _call(c[0], c[1:])
 
-        def pair(self, c: list[Any]) -> tuple[str, Tree]:
+        def pair(self, c: list[Any]) -> tuple[str, DataTree]:
             return c[0], c[1]
 
-        def scoped_pair(self, c: list[Any]) -> tuple[str, Tree]:
+        def scoped_pair(self, c: list[Any]) -> tuple[str, DataTree]:
             return f"{c[0]}:{c[1]}", c[2]
 
-        def entry(self, c: list[Any]) -> tuple[str, Tree]:
+        def entry(self, c: list[Any]) -> tuple[str, DataTree]:
             return c[0], c[1] if len(c) > 1 else None
 
-        def numbered(self, c: list[Any]) -> Tree:
+        def numbered(self, c: list[Any]) -> DataTree:
             return c[1]
 
         def pairs(self, c: list[Any]) -> list[Any]:
@@ -164,16 +164,16 @@ def _build() -> Any:
 
         entries = elements = pairs
 
-        def compound(self, c: list[Any]) -> dict[str, Tree]:
+        def compound(self, c: list[Any]) -> dict[str, DataTree]:
             return dict(c[0]) if c else {}
 
         def brackets(self, c: list[Any]) -> Brackets:
             return Brackets(c[0] if c else ())
 
-        def list(self, c: Any) -> Tree:
+        def list(self, c: Any) -> DataTree:
             return c[0] if c else []
 
-        def array(self, c: Any) -> Tree:
+        def array(self, c: Any) -> DataTree:
             if c[0] not in ("B", "I", "L"):
                 raise _FaultError(c[0], f"{shown(c[0])} is no type of array: they are B, I and L")
             return c[1] if len(c) > 1 else []
@@ -199,7 +199,7 @@ _FLOAT = re.compile(
 _LONGEST_NUMBER = 80
 
 
-def scalar(word: str) -> Tree:
+def scalar(word: str) -> DataTree:
     """What a bare word stands for: `5b` and `0x5` are 5, `true` is 1, `creeper` is itself."""
     word = str(word)
     if word in ("true", "false"):
@@ -221,7 +221,7 @@ def _integer(sign: str, hexadecimal: str, binary: str, decimal: str) -> int:
     return int(sign + (hexadecimal or binary or decimal).replace("_", ""), base)
 
 
-def _call(name: "Token", arguments: list[Tree]) -> Tree:
+def _call(name: "Token", arguments: list[DataTree]) -> DataTree:
     """`bool(x)` and `uuid("…")`, the two functions of 1.21.5."""
     argument = arguments[0] if len(arguments) == 1 else None
     if name == "bool" and isinstance(argument, (int, float)):

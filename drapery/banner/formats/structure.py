@@ -15,21 +15,21 @@ from drapery.banner.formats.blocks import (
     spot,
     state_name,
 )
-from drapery.banner.formats.found import Found
-from drapery.banner.formats.tree import Tree, is_banner_id
+from drapery.banner.formats.found import FoundBanner
+from drapery.banner.formats.tree import DataTree, is_banner_id
 from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode, placeable
 
 NAME = "structure"
 
 
-def recognises(tree: dict[str, Tree]) -> bool:
+def recognises(tree: dict[str, DataTree]) -> bool:
     """Whether an NBT file's tree is a structure."""
     return "blocks" in tree and ("palette" in tree or "palettes" in tree)
 
 
 def find(
-    tree: dict[str, Tree], where: str = "", on_error: OnError = raise_error
-) -> Iterator[Found]:
+    tree: dict[str, DataTree], where: str = "", on_error: OnError = raise_error
+) -> Iterator[FoundBanner]:
     """Every banner of a structure: blocks, contents of containers, entities.
 
     tree: of the whole file. Raises DesignError where the file is no structure.
@@ -48,7 +48,7 @@ def find(
     yield from banners_of_entities(compounds(tree, where, "entities"), where, on_error)
 
 
-def _palette(tree: dict[str, Tree], where: str) -> dict[int, str]:
+def _palette(tree: dict[str, DataTree], where: str) -> dict[int, str]:
     """The ids of the states; of several palettes (ships), which differ in wood, the first."""
     if isinstance(several := tree.get("palettes"), list):
         tree = {"palette": several[0] if several else []}

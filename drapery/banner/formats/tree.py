@@ -12,8 +12,8 @@ from drapery.banner.dyes import DYES
 from drapery.banner.names import dye_name, is_custom, pattern_id, shown
 from drapery.errors import DesignError
 
-Tree: TypeAlias = Any
-"""dict[str, Tree] | list[Tree] | str | int | float | None."""
+DataTree: TypeAlias = Any
+"""dict[str, DataTree] | list[DataTree] | str | int | float | None."""
 
 OLD_BANNERS = frozenset({"banner", "standing_banner", "wall_banner"})
 """Ids that do not tell the dye: Java up to 1.12, and Bedrock."""
@@ -72,7 +72,7 @@ def under(at: str, key: str | int) -> str:
     return f"{at}.{key}" if at else key
 
 
-def get(tree: dict[str, Tree], *keys: str) -> tuple[str, Tree]:
+def get(tree: dict[str, DataTree], *keys: str) -> tuple[str, DataTree]:
     """The first of the keys that the mapping has, with or without `minecraft:`, and its value.
 
     The value is None, and the key the first asked for, where it has none of them.
@@ -84,7 +84,7 @@ def get(tree: dict[str, Tree], *keys: str) -> tuple[str, Tree]:
     return keys[0], None
 
 
-def read_layers(entries: Tree, at: str, *, inverted: bool = False) -> tuple[Layer, ...]:
+def read_layers(entries: DataTree, at: str, *, inverted: bool = False) -> tuple[Layer, ...]:
     """Layers from `[{pattern, color}, …]` or `[{Pattern, Color}, …]`; none from None.
 
     inverted: colour numbers count from black (Java up to 1.12, and Bedrock).
@@ -105,7 +105,7 @@ def check_count(count: int, at: str) -> None:
         )
 
 
-def _layer(entry: Tree, at: str, inverted: bool) -> Layer:
+def _layer(entry: DataTree, at: str, inverted: bool) -> Layer:
     if not isinstance(entry, dict):
         raise DesignError(f"{at}: {shown(entry)} is no layer: write {{pattern:…, color:…}}")
     pattern = _present(entry, at, "pattern", "Pattern")
@@ -113,14 +113,14 @@ def _layer(entry: Tree, at: str, inverted: bool) -> Layer:
     return Layer(_pattern(*pattern), dye_name(colour[0], colour[1], inverted=inverted))
 
 
-def _present(entry: dict[str, Tree], at: str, *keys: str) -> tuple[Tree, str]:
+def _present(entry: dict[str, DataTree], at: str, *keys: str) -> tuple[DataTree, str]:
     key, value = get(entry, *keys)
     if value is None:
         raise DesignError(f"{at}: the layer has no {keys[0]}: write {{pattern:…, color:…}}")
     return value, under(at, key)
 
 
-def _pattern(value: Tree, at: str) -> str:
+def _pattern(value: DataTree, at: str) -> str:
     """A pattern by name, or defined on the spot: `{asset_id:"ns:x", translation_key:"…"}`."""
     if not isinstance(value, dict):
         return pattern_id(value, at)
@@ -130,7 +130,7 @@ def _pattern(value: Tree, at: str) -> str:
     return asset if is_custom(asset) else pattern_id(asset, under(at, key))
 
 
-def banner_from_item(item: Tree, at: str = "") -> Banner:
+def banner_from_item(item: DataTree, at: str = "") -> Banner:
     """A banner or shield from an item object of any version.
 
     `{id, count, components}` (1.20.5+), `{id, Count, tag}` (1.13), with `Damage` (to 1.12), or
@@ -151,7 +151,7 @@ def banner_from_item(item: Tree, at: str = "") -> Banner:
     return banner_from_tag(identifier, item.get("tag"), under(at, "tag"), data=damage)
 
 
-def banner_from_components(item_id: str, components: Tree, at: str = "") -> Banner:
+def banner_from_components(item_id: str, components: DataTree, at: str = "") -> Banner:
     """A banner or shield from the item's id and its component mapping (1.20.5+)."""
     components = _mapping(components, at)
     key, entries = get(components, "banner_patterns")
@@ -162,7 +162,7 @@ def banner_from_components(item_id: str, components: Tree, at: str = "") -> Bann
     return Banner(_known_base(item_id, at), layers)
 
 
-def banner_from_tag(item_id: str, tag: Tree, at: str = "", *, data: Tree = None) -> Banner:
+def banner_from_tag(item_id: str, tag: DataTree, at: str = "", *, data: DataTree = None) -> Banner:
     """A banner or shield from the item's id and its tag (before 1.20.5, and Bedrock).
 
     data: the item's damage value, which is the dye (15 - its number) up to 1.12 and on Bedrock.
@@ -181,7 +181,7 @@ def banner_from_tag(item_id: str, tag: Tree, at: str = "", *, data: Tree = None)
     return banner_from_block_entity(entity, inner, block=item_id)
 
 
-def _shield_from_tag(entity: dict[str, Tree], at: str, *, inverted: bool) -> Banner:
+def _shield_from_tag(entity: dict[str, DataTree], at: str, *, inverted: bool) -> Banner:
     layers = read_layers(entity.get("Patterns"), under(at, "Patterns"), inverted=inverted)
     base = entity.get("Base")
     dye = None if base is None else dye_name(base, under(at, "Base"), inverted=inverted)
@@ -196,7 +196,7 @@ def _shield(base: str | None, layers: tuple[Layer, ...], at: str) -> Banner:
     return Banner(base or "white", layers, kind="shield")
 
 
-def banner_from_block_entity(entity: Tree, at: str = "", *, block: str | None = None) -> Banner:
+def banner_from_block_entity(entity: DataTree, at: str = "", *, block: str | None = None) -> Banner:
     """A banner from its block entity: `patterns` (1.20.5+) or `Patterns`, and `Base` if it is old.
 
     block: the id of the block that it belongs to, which tells the base dye since 1.13. Without
@@ -229,7 +229,7 @@ def _known_base(item_id: str, at: str) -> str:
     return dye
 
 
-def _mapping(tree: Tree, at: str) -> dict[str, Tree]:
+def _mapping(tree: DataTree, at: str) -> dict[str, DataTree]:
     if tree is None:
         return {}
     if not isinstance(tree, dict):

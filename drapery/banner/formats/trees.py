@@ -6,9 +6,9 @@ from contextlib import suppress
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import own_json, wynncraft
-from drapery.banner.formats.found import Found, find_banners
+from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.snbt import MAX_TEXT, parse_snbt
-from drapery.banner.formats.tree import Tree, banner_from_block_entity, banner_from_tag, get
+from drapery.banner.formats.tree import DataTree, banner_from_block_entity, banner_from_tag, get
 from drapery.errors import DesignError
 
 DATA_ANSWER = " has the following "
@@ -22,18 +22,18 @@ def recognises(text: str) -> bool:
     return lists or text.startswith("{") or DATA_ANSWER in text[:200]
 
 
-def read(text: str) -> list[Found]:
+def read(text: str) -> list[FoundBanner]:
     """All banners of the tree. Raises DesignError with the place, also where there is none."""
     return _all(read_text(text))
 
 
-def read_wynncraft(text: str) -> list[Found]:
+def read_wynncraft(text: str) -> list[FoundBanner]:
     """As `read`, but a design in JSON is surely Wynncraft's, so that its names are Bukkit's."""
     tree = read_text(text)
-    return [Found(wynncraft.from_tree(tree))] if wynncraft.may_be(tree) else _all(tree)
+    return [FoundBanner(wynncraft.from_tree(tree))] if wynncraft.may_be(tree) else _all(tree)
 
 
-def _all(tree: Tree) -> list[Found]:
+def _all(tree: DataTree) -> list[FoundBanner]:
     found = list(_found(tree))
     if not found:
         raise DesignError(
@@ -42,7 +42,7 @@ def _all(tree: Tree) -> list[Found]:
     return found
 
 
-def read_text(text: str) -> Tree:
+def read_text(text: str) -> DataTree:
     """The tree of a text, by JSON where it is that, else by SNBT."""
     start = max(text.find("{"), 0) if DATA_ANSWER in text[:200] else 0
     if start == 0 and len(text) <= MAX_TEXT:
@@ -52,18 +52,18 @@ def read_text(text: str) -> Tree:
     return parse_snbt(" " * start + text[start:])
 
 
-def _found(tree: Tree) -> Iterator[Found]:
+def _found(tree: DataTree) -> Iterator[FoundBanner]:
     if wynncraft.matches(tree):
-        yield Found(wynncraft.from_tree(tree))
+        yield FoundBanner(wynncraft.from_tree(tree))
     elif own_json.matches(tree):
-        yield Found(own_json.from_tree(tree))
+        yield FoundBanner(own_json.from_tree(tree))
     elif isinstance(tree, dict) and (banner := _without_id(tree)):
-        yield Found(banner)
+        yield FoundBanner(banner)
     else:
         yield from find_banners(tree)
 
 
-def _without_id(tree: dict[str, Tree]) -> Banner | None:
+def _without_id(tree: dict[str, DataTree]) -> Banner | None:
     """A block entity, a tag or components that somebody cut out: the id is gone."""
     if "id" in tree or "Name" in tree:
         return None
@@ -74,12 +74,12 @@ def _without_id(tree: dict[str, Tree]) -> Banner | None:
     return _baseless(tree) if get(tree, "banner_patterns")[1] is not None else None
 
 
-def _tells_base(tag: dict[str, Tree]) -> bool:
+def _tells_base(tag: dict[str, DataTree]) -> bool:
     entity = get(tag, "BlockEntityTag")[1]
     return isinstance(entity, dict) and ("Base" in entity or entity.get("Type") == 1)
 
 
-def _baseless(tree: dict[str, Tree]) -> Banner:
+def _baseless(tree: dict[str, DataTree]) -> Banner:
     sample = "[…]" if get(tree, "BlockEntityTag")[1] is None else "{…}"
     raise DesignError(
         f"{next(iter(tree))}: the base dye is not told here but by the item's id:"
@@ -87,5 +87,5 @@ def _baseless(tree: dict[str, Tree]) -> Banner:
     )
 
 
-def _sort(tree: Tree) -> str:
+def _sort(tree: DataTree) -> str:
     return "compound" if isinstance(tree, dict) else "list" if isinstance(tree, list) else "text"

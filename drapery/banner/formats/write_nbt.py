@@ -5,7 +5,7 @@ import io
 from typing import TYPE_CHECKING, Any, Literal
 
 from drapery.banner.design import Banner
-from drapery.banner.formats.tree import Tree, names
+from drapery.banner.formats.tree import DataTree, names
 from drapery.errors import DesignError
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ DATA_VERSION = 3953
 """Java 1.21, whose banners the later versions read too."""
 
 
-def encode(tree: dict[str, Tree], order: Literal["big", "little"] = "big") -> bytes:
+def encode(tree: dict[str, DataTree], order: Literal["big", "little"] = "big") -> bytes:
     """The bytes of a tree; Java's compressed, Bedrock's not.
 
     Ints are written as TAG_Int and bools as TAG_Byte; nbtlib's own tags stay what they are.
@@ -30,7 +30,7 @@ def encode(tree: dict[str, Tree], order: Literal["big", "little"] = "big") -> by
     return gzip.compress(data, mtime=0) if order == "big" else data
 
 
-def tag(tree: Tree) -> "Base":
+def tag(tree: DataTree) -> "Base":
     """A plain tree as nbtlib's tags."""
     import nbtlib
 
@@ -44,7 +44,7 @@ def tag(tree: Tree) -> "Base":
     return kinds[type(tree)](tree)
 
 
-def block_entity(banner: Banner) -> dict[str, Tree]:
+def block_entity(banner: Banner) -> dict[str, DataTree]:
     """A banner's block entity; the block's id tells the base dye."""
     layers = names(banner.layers)
     return {"id": "minecraft:banner"} | ({"patterns": layers} if layers else {})

@@ -7,7 +7,7 @@ Patterns and dyes bear Bukkit's names. The guild's whole answer may stand around
 import json
 
 from drapery.banner.design import Banner, Layer
-from drapery.banner.formats.tree import Tree, check_count, under
+from drapery.banner.formats.tree import DataTree, check_count, under
 from drapery.banner.names import bukkit_pattern, dye_name, pattern_id, shown
 from drapery.errors import DesignError
 
@@ -24,7 +24,7 @@ def recognises(text: str) -> bool:
     return text.lstrip().startswith("{") and any(k in text for k in ('"colour"', '"tier"'))
 
 
-def matches(tree: Tree) -> bool:
+def matches(tree: DataTree) -> bool:
     """Whether a tree is meant as this form, alone or in a guild's answer."""
     if not isinstance(tree, dict):
         return False
@@ -32,14 +32,14 @@ def matches(tree: Tree) -> bool:
     return _is_design(inner) or _is_design(tree)
 
 
-def may_be(tree: Tree) -> bool:
+def may_be(tree: DataTree) -> bool:
     """Whether a tree can be read as this form by somebody who knows that it is."""
     if not isinstance(tree, dict) or "id" in tree:
         return False
     return "base" in tree or isinstance(tree.get("banner"), dict)
 
 
-def _is_design(tree: Tree) -> bool:
+def _is_design(tree: DataTree) -> bool:
     if not isinstance(tree, dict) or "base" not in tree:
         return False
     layers = tree.get("layers")
@@ -48,7 +48,7 @@ def _is_design(tree: Tree) -> bool:
     return told or "tier" in tree or "structure" in tree
 
 
-def from_tree(tree: dict[str, Tree], at: str = "") -> Banner:
+def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:
     """The banner of the JSON's tree. Raises DesignError naming the place."""
     if "base" not in tree and isinstance(tree.get("banner"), dict):
         tree, at = tree["banner"], under(at, "banner")
@@ -60,7 +60,7 @@ def from_tree(tree: dict[str, Tree], at: str = "") -> Banner:
     return Banner(dye_name(tree.get("base"), under(at, "base")), read)
 
 
-def _layer(entry: Tree, at: str) -> Layer:
+def _layer(entry: DataTree, at: str) -> Layer:
     if not isinstance(entry, dict):
         raise DesignError(f"{at}: {shown(entry)} is no layer: write {{colour:…, pattern:…}}")
     colour = entry.get("colour", entry.get("color"))

@@ -15,7 +15,7 @@ _MAX_LENGTH = 200
 
 
 @dataclass(frozen=True)
-class Filter:
+class IdFilter:
     """Takes away the ids whose namespace and path both match; None matches all."""
 
     namespace: re.Pattern[str] | None
@@ -27,11 +27,11 @@ class Filter:
         return all(pattern is None or pattern.search(text) for pattern, text in pairs)
 
 
-def parse_filter(entry: Any, name: str) -> Filter:
+def parse_filter(entry: Any, name: str) -> IdFilter:
     """Read `{"namespace": regex, "path": regex}`. Raises PackError, calling the file by name."""
     if not isinstance(entry, dict):
         raise PackError(f"{name}: a filter must be an object with namespace and path")
-    return Filter(
+    return IdFilter(
         *(_regex(entry.get(key), f"{name}: filter {key}") for key in ("namespace", "path"))
     )
 

@@ -18,17 +18,17 @@ class OwnArt:
     label: str = "drapery's own art"
 
     def read(self, name: str, limit: int) -> bytes | None:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         node = self._node(name)
         return node.read_bytes() if node is not None and node.is_file() else None
 
     def files(self, folder: str) -> tuple[str, ...]:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         node = self._node(folder)
         return tuple(sorted(_walk(node, folder))) if node is not None and node.is_dir() else ()
 
     def folders(self, folder: str) -> tuple[str, ...]:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         node = self._node(folder)
         if node is None or not node.is_dir():
             return ()
@@ -47,7 +47,7 @@ class FolderSource:
     label: str
 
     def read(self, name: str, limit: int) -> bytes | None:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         path = self.root / name
         try:
             if not path.is_file():
@@ -60,7 +60,7 @@ class FolderSource:
             raise PackError(f"{self.label}: {name} cannot be read: {reason(error)}") from None
 
     def files(self, folder: str) -> tuple[str, ...]:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         found = []
         for here, folders, names in os.walk(self.root / folder):
             folders.sort()
@@ -73,7 +73,7 @@ class FolderSource:
         return tuple(sorted(found))
 
     def folders(self, folder: str) -> tuple[str, ...]:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         try:
             with os.scandir(self.root / folder) as entries:
                 return tuple(sorted(entry.name for entry in entries if entry.is_dir()))

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from drapery.banner.packs.filters import Filter, parse_filter
+from drapery.banner.packs.filters import IdFilter, parse_filter
 from drapery.errors import PackError
 
 Format = tuple[float, float]
@@ -55,7 +55,7 @@ class PackMeta:
     format: int | None = None
     formats: FormatRange | None = None
     overlays: tuple[Overlay, ...] = ()
-    filters: tuple[Filter, ...] = ()
+    filters: tuple[IdFilter, ...] = ()
     description: str = ""
 
     def newest(self) -> int | None:
@@ -144,7 +144,7 @@ def _overlay(entry: Any, name: str) -> Overlay:
     return Overlay(directory, formats)
 
 
-def _filters(root: dict[str, Any], name: str) -> tuple[Filter, ...]:
+def _filters(root: dict[str, Any], name: str) -> tuple[IdFilter, ...]:
     entries = _list(root, "filter", "block", name)
     if len(entries) > _MAX_OVERLAYS:
         raise PackError(f"{name} has {len(entries)} filters; up to {_MAX_OVERLAYS} are read")

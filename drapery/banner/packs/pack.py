@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from drapery.banner.packs.meta import MAX_JSON, PackMeta, parse_meta, parse_version
-from drapery.banner.packs.sources import Source, open_source
+from drapery.banner.packs.sources import PackSource, open_source
 from drapery.banner.packs.texture_ids import is_id
 from drapery.banner.patterns import PATTERN_NAMES
 
@@ -18,7 +18,7 @@ class Pack:
     format: the resource format it is read as, None where it is unknown.
     """
 
-    source: Source
+    source: PackSource
     meta: PackMeta = field(default_factory=PackMeta)
     roots: tuple[str, ...] = ("",)
     format: int | None = None
@@ -95,7 +95,7 @@ def _without_maps(names: set[str]) -> set[str]:
     return {name for name in names if name[-2:] not in ("_n", "_s") or name[:-2] not in names}
 
 
-def _read_meta(source: Source) -> PackMeta:
+def _read_meta(source: PackSource) -> PackMeta:
     data = source.read("pack.mcmeta", MAX_JSON)
     if data is not None:
         return parse_meta(data, f"{source.label}: pack.mcmeta")

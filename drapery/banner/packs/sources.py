@@ -13,7 +13,7 @@ from drapery.banner.packs.zips import open_zip
 from drapery.errors import PackError
 
 
-class Source(Protocol):
+class PackSource(Protocol):
     """The files of one pack."""
 
     @property
@@ -30,7 +30,7 @@ class Source(Protocol):
         """Names of the folders right under a folder, sorted, without the path to it."""
 
 
-def open_source(path: str | Path) -> Source:
+def open_source(path: str | Path) -> PackSource:
     """A folder, zip or jar as a source. Raises PackError naming the path and the remedy."""
     target = Path(path)
     try:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from drapery.banner.packs.filters import Filter, parse_filter
+from drapery.banner.packs.filters import IdFilter, parse_filter
 from drapery.banner.packs.meta import read_json
 from drapery.banner.packs.texture_ids import full_id, split_id
 from drapery.errors import PackError
@@ -17,7 +17,7 @@ _MAX_SOURCES = 4096
 
 
 @dataclass(frozen=True)
-class Directory:
+class SpriteFolder:
     """Every texture under a folder, in all namespaces; the sprite's path is prefix + the rest."""
 
     source: str
@@ -25,14 +25,14 @@ class Directory:
 
 
 @dataclass(frozen=True)
-class Single:
+class SpriteTexture:
     """One texture under one sprite id; both with namespace."""
 
     resource: str
     sprite: str
 
 
-SpriteSource = Directory | Single | Filter
+SpriteSource = SpriteFolder | SpriteTexture | IdFilter
 
 
 def parse_atlas(data: bytes, name: str) -> tuple[tuple[SpriteSource, ...], tuple[str, ...]]:
@@ -58,10 +58,10 @@ def textures_of(sprite: str, sources: Sequence[SpriteSource]) -> Iterator[str]:
     """
     namespace, path = split_id(sprite)
     for source in reversed(sources):
-        if isinstance(source, Filter):
+        if isinstance(source, IdFilter):
             if source.matches(namespace, path):
                 return
-        elif isinstance(source, Single):
+        elif isinstance(source, SpriteTexture):
             if source.sprite == sprite:
                 yield source.resource
         elif path.startswith(source.prefix):
@@ -71,11 +71,11 @@ def textures_of(sprite: str, sources: Sequence[SpriteSource]) -> Iterator[str]:
 def _source(entry: dict[str, Any], name: str) -> SpriteSource | str:
     kind = _text(entry, "type", name).removeprefix("minecraft:")
     if kind == "directory":
-        return Directory(_text(entry, "source", name).strip("/"), _text(entry, "prefix", name))
+        return SpriteFolder(_text(entry, "source", name).strip("/"), _text(entry, "prefix", name))
     if kind == "single":
         resource = full_id(_text(entry, "resource", name), name)
         sprite = _text(entry, "sprite", name) if "sprite" in entry else resource
-        return Single(resource, full_id(sprite, name))
+        return SpriteTexture(resource, full_id(sprite, name))
     if kind == "filter":
         return parse_filter(entry.get("pattern"), name)
     return kind

@@ -13,7 +13,7 @@ from drapery.banner.packs.folders import OwnArt
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, open_pack
 from drapery.banner.packs.png import Texels, read_png
-from drapery.banner.packs.sprite_sources import Directory, SpriteSource, parse_atlas, textures_of
+from drapery.banner.packs.sprite_sources import SpriteFolder, SpriteSource, parse_atlas, textures_of
 from drapery.banner.packs.texture_cache import TextureCache
 from drapery.banner.packs.texture_ids import full_id, is_id, split_id, texture_file
 from drapery.banner.packs.textures import (
@@ -38,7 +38,7 @@ LAST_OLD_FORMAT = 75
 
 
 @dataclass(frozen=True)
-class Found:
+class PackFile:
     """A file of a pack. level: the pack's place in the stack. name: the file inside it."""
 
     level: int
@@ -180,7 +180,7 @@ class Packs:
     def _any_texture(self, full: str) -> Texture:
         return self._read(self._find([texture_file(full)]), full)
 
-    def _read(self, found: Found | None, name: str) -> Texture:
+    def _read(self, found: PackFile | None, name: str) -> Texture:
         """A texture as its file says, or the checker; noted for the warnings by name."""
         if found is None:
             self._missing[name] = None
@@ -193,7 +193,7 @@ class Packs:
         mcmeta = self.packs[found.level].read(f"{found.name}.mcmeta", MAX_JSON)
         return animated(read_png(found.data, place), mcmeta, f"{place}.mcmeta")
 
-    def _map(self, found: Found | None, ending: str) -> Texels | None:
+    def _map(self, found: PackFile | None, ending: str) -> Texels | None:
         """The map beside a texture, from its pack or one above; those below mapped another."""
         if found is None:
             return None
@@ -201,7 +201,7 @@ class Packs:
         beside = self._find([name], lowest=found.level)
         return None if beside is None else read_png(beside.data, self._place(beside))
 
-    def _find_sheet(self, pattern: str, kind: Kind) -> Found | None:
+    def _find_sheet(self, pattern: str, kind: Kind) -> PackFile | None:
         """The file of a pattern's sheet, through its definition and the atlas."""
         namespace, path = split_id(self._asset_id(full_id(pattern)))
         sprite = f"{namespace}:entity/{kind}/{path}"
@@ -211,7 +211,7 @@ class Packs:
                 return found
         return None
 
-    def _find_base(self, base: Base) -> Found | None:
+    def _find_base(self, base: Base) -> PackFile | None:
         old = f"assets/minecraft/textures/entity/{base}.png"
         if base != "banner_base":
             return self._find([old])
@@ -219,7 +219,9 @@ class Packs:
         is_old = self.format is not None and self.format <= LAST_OLD_FORMAT
         return self._find([old, new] if is_old else [new, old])
 
-    def _find(self, names: Sequence[str], *, lowest: int = 0, limit: int = MAX_PNG) -> Found | None:
+    def _find(
+        self, names: Sequence[str], *, lowest: int = 0, limit: int = MAX_PNG
+    ) -> PackFile | None:
         """The topmost pack's file of one of these names, the first that it has.
 
         None where no pack from `lowest` up has one, or a pack above it hides it.
@@ -229,7 +231,7 @@ class Packs:
             for name in names:
                 data = pack.read(name, limit)
                 if data is not None:
-                    return Found(level, name, data)
+                    return PackFile(level, name, data)
             names = [name for name in names if not pack.hides(name)]
         return None
 
@@ -248,7 +250,7 @@ class Packs:
 
     def _atlas(self, kind: Kind) -> tuple[SpriteSource, ...]:
         if kind not in self._atlases:
-            game = Directory(f"entity/{kind}", f"entity/{kind}/")
+            game = SpriteFolder(f"entity/{kind}", f"entity/{kind}/")
             self._atlases[kind] = (game, *self._added_sources(kind))
         return self._atlases[kind]
 
@@ -265,7 +267,7 @@ class Packs:
     def _note(self, lines: Iterable[str]) -> None:
         self._notes.update(dict.fromkeys(lines))
 
-    def _place(self, found: Found) -> str:
+    def _place(self, found: PackFile) -> str:
         return f"{self.packs[found.level].label}: {found.name}"
 
 

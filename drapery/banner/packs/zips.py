@@ -34,7 +34,7 @@ class ZipSource:
     label: str
 
     def read(self, name: str, limit: int) -> bytes | None:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         entry = self.entries.get(name)
         if entry is None:
             return None
@@ -50,11 +50,11 @@ class ZipSource:
             raise PackError(f"{place} is damaged ({reason(error)}): get the zip anew") from None
 
     def files(self, folder: str) -> tuple[str, ...]:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         return tuple(sorted(name for name in self.entries if name.startswith(f"{folder}/")))
 
     def folders(self, folder: str) -> tuple[str, ...]:
-        """See `pack_sources.Source`."""
+        """See `PackSource`."""
         start = len(folder) + 1
         inside = (name[start:] for name in self.entries if name.startswith(f"{folder}/"))
         return tuple(sorted({rest.split("/", 1)[0] for rest in inside if "/" in rest}))
