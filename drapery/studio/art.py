@@ -7,6 +7,7 @@ import numpy as np
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import Packs
+from drapery.banner.packs.resampling import resize
 from drapery.banner.sprites import (
     FLAG_REGIONS,
     SHIELD_REGIONS,
@@ -14,7 +15,6 @@ from drapery.banner.sprites import (
     SheetRegion,
     composite,
     flag_layers,
-    resize,
     shield_layers,
 )
 from drapery.pictures import face_pixels
