@@ -22,6 +22,7 @@ LAW: dict[str, set[str]] = {
     "drapery.yaml_text": {"errors"},
     "drapery.cloth": {"errors", "mesh"},
     "drapery.banner": {"errors", "assets"},
+    "drapery.packs": {"banner"},
     "drapery.assets": {"errors", "banner"},
     "drapery.render": {"errors", "mesh"},
     "drapery.style": {"errors", "mesh", "settings", "banner", "render"},

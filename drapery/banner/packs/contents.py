@@ -3,10 +3,9 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from drapery.banner.packs.pack import Pack, added_patterns
-from drapery.banner.packs.stack import Base, Kind, Packs, open_packs
+from drapery.banner.packs.stack import Base, Kind, PackLike, Packs, open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
 
@@ -42,18 +41,18 @@ class PackReport:
 
 
 def describe_packs(
-    paths: Sequence[str | Path], *, format: int | None = None
+    packs: PackLike | Sequence[PackLike], *, format: int | None = None
 ) -> tuple[PackReport, ...]:
-    """A report on each pack of a stack, lowest first; see `open_packs`.
+    """A report on each pack of a stack, lowest first; takes what `open_packs` takes.
 
     A broken file in a pack becomes one of its problems. Raises PackError for a pack that cannot
     be opened.
     """
-    opened = open_packs(paths, format=format)
-    ours, *packs = opened.packs
+    opened = open_packs(packs, format=format)
+    ours, *chosen = opened.packs
     reports = []
-    for number, pack in enumerate(packs):
-        lower = [Packs((ours, below), format) for below in packs[:number][::-1]]
+    for number, pack in enumerate(chosen):
+        lower = [Packs((ours, below), format) for below in chosen[:number][::-1]]
         reports.append(_report(pack, Packs((ours, pack), format), lower))
     return tuple(reports)
 

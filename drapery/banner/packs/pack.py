@@ -55,9 +55,10 @@ class Pack:
         return tuple(sorted({n for root in self.roots for n in self.source.folders(root + folder)}))
 
 
-def open_pack(path: str | Path, format: int | None = None) -> Pack:
-    """One pack by itself.
+def open_pack(path: str | Path | PackSource, format: int | None = None) -> Pack:
+    """One pack by itself, without our own art below it.
 
+    path: a folder, zip or jar, or a source of files such as MemoryPack.
     format: the resource format of the game to be; None is the newest that the pack supports.
     Raises PackError naming the path and the remedy.
     """

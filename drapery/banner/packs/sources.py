@@ -5,16 +5,18 @@ handed on. Names are those of the pack's root: `assets/minecraft/textures/…`, 
 """
 
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
+from drapery.banner.names import shown
 from drapery.banner.packs.checks import reason
 from drapery.banner.packs.folders import open_folder
 from drapery.banner.packs.zips import open_zip
 from drapery.errors import PackError
 
 
+@runtime_checkable
 class PackSource(Protocol):
-    """The files of one pack."""
+    """The files of one pack: a folder, a zip, arrays in memory, or a class of your own."""
 
     @property
     def label(self) -> str:
@@ -30,8 +32,15 @@ class PackSource(Protocol):
         """Names of the folders right under a folder, sorted, without the path to it."""
 
 
-def open_source(path: str | Path) -> PackSource:
-    """A folder, zip or jar as a source. Raises PackError naming the path and the remedy."""
+def open_source(path: str | Path | PackSource) -> PackSource:
+    """The files of a folder, zip or jar. A source is returned as it is.
+
+    Raises PackError naming the path and the remedy.
+    """
+    if isinstance(path, PackSource):
+        return path
+    if not isinstance(path, str | Path):
+        raise PackError(f"{shown(path)} is not a pack: give a path, a MemoryPack or an opened pack")
     target = Path(path)
     try:
         if target.is_dir():

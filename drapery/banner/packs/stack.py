@@ -9,10 +9,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
+from drapery.banner.names import shown
 from drapery.banner.packs.folders import OwnArt
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, open_pack
 from drapery.banner.packs.png import Texels, read_png
+from drapery.banner.packs.sources import PackSource
 from drapery.banner.packs.sprite_sources import SpriteFolder, SpriteSource, parse_atlas, textures_of
 from drapery.banner.packs.texture_cache import TextureCache
 from drapery.banner.packs.texture_ids import full_id, is_id, split_id, texture_file
@@ -271,14 +273,41 @@ class Packs:
         return f"{self.packs[found.level].label}: {found.name}"
 
 
-def open_packs(paths: Sequence[str | Path] = (), *, format: int | None = None) -> Packs:
-    """Packs over our own art, the later over the earlier.
+PackLike = str | Path | PackSource | Pack | Packs
+"""A path, a MemoryPack or other source of files, an opened pack, or an opened stack."""
 
-    paths: folders, zips or client jars.
+
+def open_packs(packs: PackLike | Sequence[PackLike] = (), *, format: int | None = None) -> Packs:
+    """A stack of packs over our own art; of several, the later lie over the earlier.
+
+    packs: folders, zips or client jars, packs in memory, or packs already opened. An opened stack
+        is returned as it is; in a list, its packs count without our own art.
     format: the resource format of the game to be (46 is 1.21.4); it chooses overlays, the place of
         the base texture and whether patterns are masks. None takes each pack as in the newest
         version that it claims to support.
-    Raises PackError for a pack that cannot be opened; a broken file in it, only when asked for.
+
+    Raises PackError for a pack that cannot be opened, and for a stack that was opened for another
+    format. A broken file in a pack raises when it is asked for.
     """
-    chosen = [paths] if isinstance(paths, str | Path) else paths
-    return Packs((Pack(OwnArt()), *(open_pack(path, format) for path in chosen)), format)
+    if isinstance(packs, Packs):
+        return _of_format(packs, format)
+    if isinstance(packs, str | Path | Pack | PackSource):
+        packs = [packs]
+    if not isinstance(packs, Iterable):
+        raise PackError(f"packs is {shown(packs)}: give a path, a pack or a list of them")
+    chosen = (pack for each in packs for pack in _opened(each, format))
+    return Packs((Pack(OwnArt()), *chosen), format)
+
+
+def _opened(pack: PackLike, format: int | None) -> tuple[Pack, ...]:
+    if isinstance(pack, Packs):
+        return _of_format(pack, format).packs[1:]
+    return (pack if isinstance(pack, Pack) else open_pack(pack, format),)
+
+
+def _of_format(packs: Packs, format: int | None) -> Packs:
+    if format not in (None, packs.format):
+        raise PackError(
+            f"the packs are opened for format {packs.format}: open them with format={format}"
+        )
+    return packs

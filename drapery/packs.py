@@ -1,0 +1,30 @@
+"""Resource packs: open them, stack them, make them from arrays, and see what they hold.
+
+`open_packs` stacks folders, zips, client jars and packs in memory over our own art; the result
+goes wherever a path of a pack goes:
+
+    heart = MemoryPack(patterns={"mymod:heart": array})  # uint8 [64, 64, 4], or a mask [64, 64]
+    packs = open_packs(["faithful.zip", heart])
+    sheet = packs.sheet("mymod:heart")
+"""
+
+from drapery.banner.packs import Packs, open_packs
+from drapery.banner.packs.contents import PackReport, describe_packs
+from drapery.banner.packs.memory import MemoryPack
+from drapery.banner.packs.pack import Pack, open_pack
+from drapery.banner.packs.png import Texels
+from drapery.banner.packs.sources import PackSource
+from drapery.banner.packs.stack import PackLike
+
+__all__ = [
+    "MemoryPack",
+    "Pack",
+    "PackLike",
+    "PackReport",
+    "PackSource",
+    "Packs",
+    "Texels",
+    "describe_packs",
+    "open_pack",
+    "open_packs",
+]
