@@ -28,7 +28,7 @@ RECONNECT = 2.0
 ROUTES: tuple[str, ...] = (
     "downloads",
     "uploads",
-    "incoming",
+    "upload_queue",
     "stream",
 )
 """Modules of this room with an `add_routes(app)` of their own."""

@@ -1,7 +1,7 @@
 // The live cloth on a canvas: what the server streams, seen from where the user has walked to.
 
 import { Drawing } from "./drawing.js";
-import { Hands } from "./hands.js";
+import { Hands } from "./input.js";
 import { clipMatrix, readCamera, sight } from "./matrices.js";
 import { azimuth, Orbit } from "./orbit.js";
 import { meetsCloth } from "./picking.js";
