@@ -120,6 +120,17 @@ def test_a_fault_is_one_line(tmp_path: Path) -> None:
     assert [*tmp_path.iterdir()] == []
 
 
+def test_an_unforeseen_error_ends_it_with_a_line_and_a_traceback_in_the_log(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    work = export(Order(BANNER, Settings(packs=(7,))), tmp_path)  # no caller is typed to send this
+    work.start()
+    assert work.wait(30)
+    assert work.state == "failed" and "TypeError" in work.fault and "log" in work.fault
+    assert "\n" not in work.fault and "Traceback" in caplog.text
+    assert [*tmp_path.iterdir()] == []
+
+
 @pytest.mark.parametrize(
     "order",
     [

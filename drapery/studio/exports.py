@@ -1,5 +1,6 @@
 """What is ordered becomes a file, by the code that the commands use; in a thread that can stop."""
 
+import logging
 import os
 import sys
 import threading
@@ -17,6 +18,8 @@ from drapery.studio.snippets import KINDS, LOOPS, Order, file_name, options_for
 MAX_PIXELS = 1 << 31
 """Of all frames together: 512 x 512 for six minutes at 20 frames/s."""
 MAX_SCALE = 256
+
+LOG = logging.getLogger(__name__)
 
 Progress = Callable[[int, int], None]
 """Takes how many frames are done, of how many."""
@@ -186,6 +189,11 @@ class Export:
             self.state, self.fault = "failed", str(error)
         except (OSError, MemoryError) as error:
             self.state, self.fault = "failed", f"the export failed: {error or 'out of memory'}"
+        except Exception as error:
+            # Nobody foresaw it: the user must not wait for ever, and we need the traceback.
+            LOG.exception("an export of the kind %s failed", self.order.kind)
+            kind = type(error).__name__
+            self.state, self.fault = "failed", f"the export failed ({kind}); see the studio's log"
         else:
             self.state = "stopped" if self._stop.is_set() else "done"
         if self.state != "done":
