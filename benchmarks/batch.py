@@ -33,13 +33,13 @@ from tempfile import TemporaryDirectory
 
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
-from drapery.batch.jobs import Job, do, plan
+from drapery.batch.jobs import Job, plan, run_job
 from drapery.batch.manifest import read_manifest
-from drapery.batch.pool import Pool
+from drapery.batch.pool import ProcessPool
 from drapery.batch.results import FILE, ResultsDB
 from drapery.batch.run import Progress, execute
 from drapery.batch.stores import open_store
-from drapery.batch.warming import warm
+from drapery.batch.warmup import warm_up
 
 
 def mixed(path: Path, count: int, size: str = "48x48", loops: int = 10) -> Path:
@@ -69,12 +69,18 @@ def catalogue_manifest(path: Path, size: str) -> Path:
     return path
 
 
-def by_pool(jobs: list[Job], folder: Path, workers: int, tell=lambda tally: None) -> Progress:
+def by_pool(
+    jobs: list[Job], folder: Path, workers: int, on_event=lambda progress: None
+) -> Progress:
     """A run of a pool into a folder."""
     store = open_store(str(folder))
-    with ResultsDB(folder / FILE) as book:
+    with ResultsDB(folder / FILE) as results:
         return execute(
-            jobs, store, book, lambda _: Pool(partial(do, store=store), workers, ahead=2), tell=tell
+            jobs,
+            store,
+            results,
+            lambda _: ProcessPool(partial(run_job, store=store), workers, ahead=2),
+            on_event=on_event,
         )
 
 
@@ -85,7 +91,9 @@ FIRST = 20
 def timed_pool(jobs: list[Job], folder: Path, workers: int) -> tuple[float, float]:
     """Seconds for a job of a running pool, and the part of them that is not the job itself."""
     moments: list[tuple[float, float]] = []
-    by_pool(jobs, folder, workers, lambda tally: moments.append((time.perf_counter(), tally.busy)))
+    by_pool(
+        jobs, folder, workers, lambda progress: moments.append((time.perf_counter(), progress.busy))
+    )
     (start, idle), (end, busy) = moments[FIRST], moments[-1]
     count = len(moments) - 1 - FIRST
     return (end - start) / count, 1 - (busy - idle) / workers / (end - start)
@@ -93,13 +101,13 @@ def timed_pool(jobs: list[Job], folder: Path, workers: int) -> tuple[float, floa
 
 def overhead(jobs: list[Job], folder: Path) -> None:
     """The same loop in one process, then the pool of one worker with as many threads."""
-    warm()
+    warm_up()
     store = open_store(str(folder / "loop"))
     memory = []
     start = 0.0
     for number, job in enumerate(jobs):
         start = time.perf_counter() if number == FIRST else start
-        assert do(job, store).fault is None
+        assert run_job(job, store).error is None
         if number in (len(jobs) // 4, len(jobs) - 1):
             memory.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
     loop = (time.perf_counter() - start) / (len(jobs) - FIRST)
@@ -113,7 +121,7 @@ def overhead(jobs: list[Job], folder: Path) -> None:
 def workers(jobs: list[Job], folder: Path) -> None:
     """One worker of one thread against two."""
     os.environ["NUMBA_NUM_THREADS"] = "1"
-    warm()
+    warm_up()
     times = {}
     for number in (1, 2):
         times[number], _ = timed_pool(jobs, folder / str(number), number)
@@ -139,7 +147,7 @@ def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
     start = time.perf_counter()
     subprocess.run([*command, "-o", str(calm)], check=True, stdout=subprocess.DEVNULL)
     pause = (time.perf_counter() - start) / count
-    told: Counter[str] = Counter()
+    on_result: Counter[str] = Counter()
     again = 0
     for number in range(count):
         before = written(torn)
@@ -148,7 +156,7 @@ def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
         _await_more(torn, run)
         time.sleep(chance.uniform(0.0, pause))
         victim = chance.choice(["worker", "run"])
-        told[_kill(run, victim)] += 1
+        on_result[_kill(run, victim)] += 1
         print(f"kill {number + 1}: {victim}, {len(outputs(torn))} pictures", flush=True)
         if victim == "worker":
             time.sleep(chance.uniform(0.0, pause))
@@ -158,7 +166,7 @@ def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
     before = written(torn)
     subprocess.run([*command, "-o", str(torn), "--resume"], check=True)
     again += rewritten(before, torn)
-    print(f"killed {dict(told)}; identical: {outputs(torn) == outputs(calm)}")
+    print(f"killed {dict(on_result)}; identical: {outputs(torn) == outputs(calm)}")
     print(f"drawn twice, since they were in flight: {again} of {len(outputs(torn))}")
     print(f"half-written files left: {len(list(torn.rglob('.*.part')))}")
 
@@ -302,7 +310,7 @@ def _watch(pid: int, end: float) -> list[int]:
 @dataclass(frozen=True)
 class Costs:
     """What the parts of a run cost [s]. job: drawing and storing. schedule: the scheduler's work
-    for one task. client: submitting it and writing its outcome down. trip: there and back."""
+    for one task. client: submitting it and writing its result down. trip: there and back."""
 
     job: float
     schedule: float
@@ -339,20 +347,20 @@ def simulate(jobs: int, machines: int, ahead: int, bundle: int, costs: Costs) ->
 
 def measured(folder: Path, count: int) -> Costs:
     """The costs on this machine: a job by `do`, a task by an empty one on a local cluster, the
-    ledger by itself."""
+    results by itself."""
     import distributed
 
-    warm()
+    warm_up()
     jobs = plan(read_manifest(mixed(folder / "m.jsonl", count, "256x320", 0)))
     store = open_store(str(folder / "costs"))
     start = time.perf_counter()
-    outcomes = [do(job, store) for job in jobs]
+    job_results = [run_job(job, store) for job in jobs]
     job = (time.perf_counter() - start) / count
-    with ResultsDB(folder / FILE) as book:
+    with ResultsDB(folder / FILE) as results:
         start = time.perf_counter()
-        for outcome in outcomes:
-            book.record(outcome, 1)
-        ledger = (time.perf_counter() - start) / count
+        for result in job_results:
+            results.record(result, 1)
+        record = (time.perf_counter() - start) / count
     tasks = 2000
     with (
         distributed.LocalCluster(
@@ -366,9 +374,9 @@ def measured(folder: Path, count: int) -> Costs:
         task = (time.perf_counter() - start) / tasks
         # Scheduler and client share this process here, so half of its time is a fair guess.
         share = (time.process_time() - used) / tasks / 2
-    print(f"measured: job {1000 * job:.1f} ms, ledger {1e6 * ledger:.0f} us,")
+    print(f"measured: job {1000 * job:.1f} ms, a record {1e6 * record:.0f} us,")
     print(f"empty task {1000 * task:.2f} ms, of which the scheduler about {1000 * share:.2f} ms")
-    return Costs(job, share, share + ledger)
+    return Costs(job, share, share + record)
 
 
 def scale(costs: Costs, jobs: int, machines: int) -> None:

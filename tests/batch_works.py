@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 from drapery.banner.design import Banner
-from drapery.batch.jobs import Job, Outcome
+from drapery.batch.jobs import Job, JobResult
 from drapery.settings import Settings
 
 
@@ -16,7 +16,7 @@ def job(name: str, design: str = "white") -> Job:
     return Job(name, (f"{name}.png",), (f"line {name}",), Banner(design), settings, None, None, "1")
 
 
-def work(one: Job) -> Outcome:
+def work(one: Job) -> JobResult:
     """Do what the job's name says; `once-…` goes wrong the first time only."""
     kind, _, mark = one.outs[0].removesuffix(".png").partition("@")
     if kind.startswith("once-"):
@@ -28,12 +28,12 @@ def work(one: Job) -> Outcome:
     if kind.startswith("hang"):
         time.sleep(600)
     if kind.startswith("eat"):
-        return Outcome(one, None, size=len(bytearray(8 << 30)))
+        return JobResult(one, None, size=len(bytearray(8 << 30)))
     if kind.startswith("nibble"):
         kept = []
         while True:
             kept.append(b"x" * (1 << 20))
-    return Outcome(one, None, size=os.getpid())
+    return JobResult(one, None, size=os.getpid())
 
 
 def command(version: str, words: list[str]) -> None:
@@ -41,6 +41,6 @@ def command(version: str, words: list[str]) -> None:
     from drapery import cli
     from drapery.batch import jobs, keys
 
-    jobs.our_version = keys.our_version = lambda: version  # type: ignore[assignment]
+    jobs.code_version = keys.code_version = lambda: version  # type: ignore[assignment]
     sys.argv = ["drapery", *words]
     cli.main()

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pack_maker import CREEPER, META, mcmeta, plain
 
 from drapery.banner.design import Banner
-from drapery.batch.keys import Digests, key_of, our_version
+from drapery.batch.keys import DigestCache, code_version, picture_key
 from drapery.errors import PackError
 from drapery.settings import Settings
 
@@ -21,8 +21,8 @@ SHORT = "white creeper:lime border:black"
 def key(design: str = SHORT, ending: str = ".png", times=(None, None), **options) -> str:
     seconds, fps = times
     settings = Settings(**options)
-    return key_of(
-        Banner.parse(design), settings, Digests(), ending=ending, seconds=seconds, fps=fps
+    return picture_key(
+        Banner.parse(design), settings, DigestCache(), ending=ending, seconds=seconds, fps=fps
     )
 
 
@@ -72,8 +72,8 @@ def test_of_a_pack_its_bytes_count_and_not_its_name(tmp_path: Path) -> None:
 
 def test_a_pack_that_is_gone_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(PackError, match="check the path"):
-        Digests().of(tmp_path / "none.zip")
+        DigestCache().of(tmp_path / "none.zip")
 
 
 def test_the_version_is_one_for_the_same_code() -> None:
-    assert our_version() == our_version.__wrapped__()
+    assert code_version() == code_version.__wrapped__()

@@ -13,7 +13,7 @@ from world_maker import LIME, RED, SHIELD
 
 from drapery.banner.design import Banner, Layer
 from drapery.batch.jobs import plan
-from drapery.batch.manifest import ManifestError, Request, read_manifest
+from drapery.batch.manifest import ManifestError, PictureRequest, read_manifest
 from drapery.errors import DraperyError
 from drapery.settings import Settings
 
@@ -44,7 +44,7 @@ def as_yaml(path: Path) -> Path:
     return write(path / "m.yaml", yaml.safe_dump({"defaults": {"grid": [3, 5]}, "jobs": JOBS}))
 
 
-def bare(requests: list[Request]) -> list[tuple[object, ...]]:
+def bare(requests: list[PictureRequest]) -> list[tuple[object, ...]]:
     return [(r.out, r.banner, r.settings, r.seconds, r.fps) for r in requests]
 
 

@@ -21,8 +21,8 @@ from PIL import Image
 from test_batch_keys import make_pack
 
 from drapery import Banner, draw
-from drapery.batch.jobs import do, plan
-from drapery.batch.keys import our_version
+from drapery.batch.jobs import plan, run_job
+from drapery.batch.keys import code_version
 from drapery.batch.manifest import read_manifest
 from drapery.batch.results import FILE, ResultsDB
 from drapery.batch.stores import open_store
@@ -86,13 +86,13 @@ def test_a_run_killed_at_twenty_random_moments_ends_as_one_undisturbed(
     path = manifest(tmp_path / "m.jsonl", 120)
     calm, torn = tmp_path / "calm", tmp_path / "torn"
     for job in plan(read_manifest(path)):
-        assert do(job, open_store(str(calm))).fault is None
+        assert run_job(job, open_store(str(calm))).error is None
     torn.mkdir()
     words = ["batch", str(path), "-o", str(torn), "--workers", "2", "--retries", "20"]
     chance = random.Random(1)
     for end in (60, 119):
         before = stamps(torn)
-        run = get_context("spawn").Process(target=command, args=(our_version(), words))
+        run = get_context("spawn").Process(target=command, args=(code_version(), words))
         run.start()
         first = len(before)
         for victims in range(1, 10):
@@ -105,7 +105,7 @@ def test_a_run_killed_at_twenty_random_moments_ends_as_one_undisturbed(
         if "--resume" not in words:
             words.append("--resume")
     recorded = sum(state == "done" for _, state, _, _ in rows(torn))
-    assert len(pictures(torn)) - recorded <= 4, "only what was in flight is not in the ledger"
+    assert len(pictures(torn)) - recorded <= 4, "only what was in flight is not in the results"
     code, said, _ = drapery(*words)
     assert code == 0
     assert f"there before        {recorded}" in said
@@ -163,10 +163,10 @@ def test_a_pack_removed_in_the_run_fails_its_jobs_alone(tmp_path: Path) -> None:
     jobs = plan(read_manifest(manifest(tmp_path / "m.jsonl", 2, packs="pack")))
     plain = plan(read_manifest(manifest(tmp_path / "m.jsonl", 2)))
     shutil.rmtree(pack)
-    outcomes = [do(job, open_store(str(tmp_path / "out"))) for job in (*jobs, *plain)]
-    assert [outcome.fault is None for outcome in outcomes] == [False, False, True, True]
-    assert "does not exist" in outcomes[0].fault
-    assert outcomes[0].again
+    results = [run_job(job, open_store(str(tmp_path / "out"))) for job in (*jobs, *plain)]
+    assert [result.error is None for result in results] == [False, False, True, True]
+    assert "does not exist" in results[0].error
+    assert results[0].retryable
 
 
 def test_a_full_disk_leaves_no_half_file(tmp_path: Path, monkeypatch) -> None:
@@ -177,9 +177,9 @@ def test_a_full_disk_leaves_no_half_file(tmp_path: Path, monkeypatch) -> None:
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "replace", full)
-    outcome = do(job, open_store(str(out)))
-    assert "No space left on device" in outcome.fault
-    assert outcome.again
+    result = run_job(job, open_store(str(out)))
+    assert "No space left on device" in result.error
+    assert result.retryable
     assert list(out.iterdir()) == []
 
 

@@ -15,14 +15,15 @@ from PIL import Image
 from starlette.testclient import TestClient
 
 from drapery import Banner, animate, draw
-from drapery.batch.jobs import Job, Outcome
-from drapery.batch.manifest import Request
-from drapery.batch.pool import Limits
+from drapery.batch.jobs import Job, JobResult
+from drapery.batch.manifest import PictureRequest
+from drapery.batch.pool import JobLimits
+from drapery.batch.warmup import warm_up
 from drapery.serve.app import make_app
 from drapery.serve.job_queue import BusyError, JobQueue
 from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import Rates
-from drapery.serve.request_params import ServiceConfig, read_wish
+from drapery.serve.request_params import ServiceConfig, read_request
 
 SMALL = "size=24x32&grid=3x5"
 LIME = "white+creeper:lime"
@@ -30,7 +31,8 @@ LIME = "white+creeper:lime"
 
 @pytest.fixture(scope="module")
 def client() -> Iterator[TestClient]:
-    with TestClient(make_app(workers=1, limits=Limits(20.0, 1 << 30), rate=0)) as client:
+    warm_up()  # as the command does, so that no picture waits for a compiler
+    with TestClient(make_app(workers=1, limits=JobLimits(20.0, 1 << 30), rate=0)) as client:
         yield client
 
 
@@ -127,7 +129,7 @@ def test_many_clients_at_once_share_what_is_drawn(client: TestClient) -> None:
     assert {answer.status_code for answer in answers} == {200}
     assert len({answer.content for answer in answers}) == 3
     assert _drawn(client) - before == 3
-    assert len(client.app.state.studio.desk) == 0
+    assert len(client.app.state.studio.queue) == 0
 
 
 def _drawn(client: TestClient) -> float:
@@ -140,12 +142,14 @@ NAMES = st.sampled_from(["design", "size", "wind", "seed", "x", "time", "rotatio
 
 @given(st.lists(st.tuples(NAMES, st.text(max_size=12)), max_size=5))
 def test_any_query_is_a_request_or_reasons(query: list[tuple[str, str]]) -> None:
-    read = read_wish(query, ".png", ServiceConfig())
-    assert isinstance(read, Request) or (read and all(isinstance(line, str) for line in read))
+    read = read_request(query, ".png", ServiceConfig())
+    assert isinstance(read, PictureRequest) or (
+        read and all(isinstance(line, str) for line in read)
+    )
 
 
 class Slow:
-    """A crew that ends its jobs when it is told to."""
+    """A executor that ends its jobs when it is on_result to."""
 
     def __init__(self) -> None:
         self.may_end, self.began, self.running = threading.Event(), [], []
@@ -157,46 +161,46 @@ class Slow:
         self.began.append(one.key)
         self.running.append(one)
 
-    def finished(self, patience: float) -> list[Outcome]:
-        self.may_end.wait(patience)
+    def poll(self, timeout: float) -> list[JobResult]:
+        self.may_end.wait(timeout)
         if not self.may_end.is_set():
             return []
         ended, self.running = self.running, []
-        return [Outcome(one) for one in ended]
+        return [JobResult(one) for one in ended]
 
     def close(self) -> None:
         pass
 
 
 def test_a_desk_draws_equal_jobs_once_and_says_when_it_is_full() -> None:
-    crew = Slow()
-    desk = JobQueue(lambda: crew, most=2)
+    executor = Slow()
+    queue = JobQueue(lambda: executor, most=2)
     try:
-        first = desk.ask(job("a"))
-        assert desk.ask(job("a")) is first
+        first = queue.ask(job("a"))
+        assert queue.ask(job("a")) is first
         others = []
         with pytest.raises(BusyError):
             for number in range(10):
-                others.append(desk.ask(job(str(number))))
-        crew.may_end.set()
+                others.append(queue.ask(job(str(number))))
+        executor.may_end.set()
         keys = [answer.result(5).job.key for answer in (first, *others) if answer]
-        assert sorted(crew.began) == sorted(keys)
+        assert sorted(executor.began) == sorted(keys)
         assert len(set(keys)) == len(keys)
     finally:
-        desk.close()
-    assert len(desk) == 0
+        queue.close()
+    assert len(queue) == 0
 
 
 def test_a_shelf_keeps_what_was_used_last(tmp_path: Path) -> None:
-    shelf = PictureCache(tmp_path, most=25)
+    cache = PictureCache(tmp_path, most=25)
     for name in "abc":
         (tmp_path / name).write_bytes(name.encode() * 10)
-        shelf.put(name, 10)
-        shelf.take("a")
-    assert (shelf.take("b"), shelf.take("a"), shelf.total) == (None, b"a" * 10, 20)
+        cache.put(name, 10)
+        cache.take("a")
+    assert (cache.take("b"), cache.take("a"), cache.total) == (None, b"a" * 10, 20)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a", "c"]
     (tmp_path / "a").unlink()
-    assert (shelf.take("a"), shelf.total) == (None, 10)
+    assert (cache.take("a"), cache.total) == (None, 10)
 
 
 def test_a_rate_lets_a_burst_pass_and_then_one_at_a_time() -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from drapery.batch.jobs import Job
-from drapery.batch.keys import Digests
+from drapery.batch.keys import DigestCache
 from drapery.errors import OutputError, PackError
 from drapery.settings import Settings
 
@@ -30,8 +30,8 @@ def paths_of(job: Job) -> tuple[Path, ...]:
     return (*map(Path, job.settings.packs), *(() if texture is None else (Path(texture),)))
 
 
-def packed(path: Path, digests: Digests) -> Artifact:
-    """A pack or texture as a parcel. Raises PackError."""
+def bundle(path: Path, digests: DigestCache) -> Artifact:
+    """A pack or texture as a artifact. Raises PackError."""
     try:
         data = path.read_bytes() if path.is_file() else _zipped(path)
     except OSError as error:
@@ -42,28 +42,28 @@ def packed(path: Path, digests: Digests) -> Artifact:
     return Artifact(name, digests.of(path)[:16], data)
 
 
-def unpacked(parcel: Artifact) -> Path:
-    """The parcel as a file of this machine, written once. Raises OutputError."""
+def unbundle(artifact: Artifact) -> Path:
+    """The artifact as a file of this machine, written once. Raises OutputError."""
     try:
-        folder = Path(tempfile.gettempdir(), f"drapery-{os.getuid()}", parcel.digest)
+        folder = Path(tempfile.gettempdir(), f"drapery-{os.getuid()}", artifact.digest)
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        path = folder / parcel.name
-        if not path.exists() or path.stat().st_size != len(parcel.data):
+        path = folder / artifact.name
+        if not path.exists() or path.stat().st_size != len(artifact.data):
             with tempfile.NamedTemporaryFile(dir=folder, delete=False) as file:
-                file.write(parcel.data)
+                file.write(artifact.data)
             Path(file.name).replace(path)
     except OSError as error:
         raise OutputError(
-            f"cannot keep pack {parcel.name}: {error.strerror}; free a disk"
+            f"cannot keep pack {artifact.name}: {error.strerror}; free a disk"
         ) from None
     return path
 
 
-def settled(job: Job, parcels: tuple[Artifact, ...]) -> Job:
+def resolved(job: Job, artifacts: tuple[Artifact, ...]) -> Job:
     """The job with its packs and texture where they are on this machine."""
-    if not parcels:
+    if not artifacts:
         return job
-    here = [unpacked(parcel) for parcel in parcels]
+    here = [unbundle(artifact) for artifact in artifacts]
     count = len(job.settings.packs)
     settings: Settings = replace(
         job.settings, packs=tuple(here[:count]), texture=here[count] if here[count:] else None
@@ -76,7 +76,7 @@ def _zipped(folder: Path) -> bytes:
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
         for path in sorted(folder.rglob("*")):
             if path.is_file() and ".git" not in path.relative_to(folder).parts:
-                # Times stay out, so that the same pack is the same parcel.
+                # Times stay out, so that the same pack is the same artifact.
                 info = zipfile.ZipInfo(path.relative_to(folder).as_posix())
                 file.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
     return buffer.getvalue()

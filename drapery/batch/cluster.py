@@ -11,10 +11,10 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from drapery.batch.artifacts import Artifact, packed, paths_of, settled
-from drapery.batch.jobs import OUT_OF_MEMORY, Job, Outcome, do
-from drapery.batch.keys import Digests, our_version
-from drapery.batch.pool import Limits, Pool
+from drapery.batch.artifacts import Artifact, bundle, paths_of, resolved
+from drapery.batch.jobs import OUT_OF_MEMORY, Job, JobResult, run_job
+from drapery.batch.keys import DigestCache, code_version
+from drapery.batch.pool import JobLimits, ProcessPool
 from drapery.batch.stores import Store
 from drapery.errors import BackendError, DraperyError
 
@@ -24,7 +24,7 @@ in flight that a killed run has little to do again, and the scheduler's memory s
 TASK = 0.25
 """How long a task shall take [s]. A scheduler handles some thousand tasks a second, so short jobs
 travel several in a task; see benchmarks/batch.py."""
-MOST_IN_TASK = 32
+MAX_IN_TASK = 32
 COUNT_AGAIN = 3.0
 """How often the cluster's threads are counted, since workers come and go [s]."""
 LOST_AFTER = 15.0
@@ -36,17 +36,17 @@ class LostError(BackendError):
 
 
 @dataclass
-class DaskCrew:
-    """The workers of a cluster; see `work.Executor`. cluster: closed with it, or None."""
+class DaskExecutor:
+    """The workers of a cluster; see `executor.Executor`. cluster: closed with it, or None."""
 
     client: Any
     store: Store
-    limits: Limits
+    limits: JobLimits
     cluster: Any = None
     _running: dict[str, tuple[Any, list[Job]]] = field(default_factory=dict)
     _ended: SimpleQueue[str] = field(default_factory=SimpleQueue)
     _sent: dict[Path, Any] = field(default_factory=dict)
-    _digests: Digests = field(default_factory=Digests)
+    _digests: DigestCache = field(default_factory=DigestCache)
     _gathered: list[Job] = field(default_factory=list)
     _number: int = 0
     _threads: int = 0
@@ -62,35 +62,35 @@ class DaskCrew:
         return AHEAD * max(1, self._threads) * self._in_task() - busy
 
     def start(self, job: Job) -> None:
-        """See `Executor`. It is sent with others, at the latest when outcomes are waited for."""
+        """See `Executor`. It is sent with others, at the latest when results are waited for."""
         self._gathered.append(job)
         if len(self._gathered) >= self._in_task():
             self._submit()
 
-    def finished(self, patience: float) -> list[Outcome]:
+    def poll(self, timeout: float) -> list[JobResult]:
         """See `Executor`. Raises LostError where the scheduler is gone."""
         self._submit()
         self._look_for_scheduler()
         try:
-            keys = [self._ended.get(timeout=patience)]
+            keys = [self._ended.get(timeout=timeout)]
             while not self._ended.empty():
                 keys.append(self._ended.get())
         except Empty:
             return []
-        outcomes = []
+        results = []
         for future, jobs in map(self._running.pop, keys):
             answered = _answer(future)
             if answered is None:
                 # A worker that went may have held the only copy of what was sent.
                 self._sent.clear()
-            outcomes += answered or _lost(future, jobs)
-        for outcome in outcomes:
-            self._pace += 0.1 * (outcome.seconds - self._pace)
-        return outcomes
+            results += answered or _lost(future, jobs)
+        for result in results:
+            self._pace += 0.1 * (result.seconds - self._pace)
+        return results
 
     def _in_task(self) -> int:
         """How many jobs make a task, by how long the last ones took."""
-        return max(1, min(MOST_IN_TASK, round(TASK / max(self._pace, 1e-3))))
+        return max(1, min(MAX_IN_TASK, round(TASK / max(self._pace, 1e-3))))
 
     def _submit(self) -> None:
         """Send what is gathered as one task."""
@@ -102,7 +102,7 @@ class DaskCrew:
         try:
             needed = {str(path): self._send(path) for job in jobs for path in paths_of(job)}
         except DraperyError as error:
-            self._running[key] = ([Outcome(job, str(error), True) for job in jobs], jobs)
+            self._running[key] = ([JobResult(job, str(error), True) for job in jobs], jobs)
             self._ended.put(key)
             return
         future = self.client.submit(
@@ -118,7 +118,7 @@ class DaskCrew:
                 try:
                     end.close(timeout=5)
                 except Exception as error:
-                    # It has been killed, or is going: the outcomes are in the ledger.
+                    # It has been killed, or is going: the outcomes are in the results database.
                     logging.getLogger(__name__).debug("closing: %s", error)
 
     def _count(self) -> None:
@@ -126,7 +126,7 @@ class DaskCrew:
         try:
             self._threads = sum(self.client.nthreads().values())
         except Exception:
-            # Asked again soon; `finished` tells when the scheduler is gone for good.
+            # Asked again soon; `poll` tells when the scheduler is gone for good.
             self._threads = 0
 
     def _look_for_scheduler(self) -> None:
@@ -139,40 +139,40 @@ class DaskCrew:
             )
 
     def _send(self, path: Path) -> Any:
-        """The parcel's future; workers fetch it once each, from one another."""
+        """The artifact's future; workers fetch it once each, from one another."""
         if path not in self._sent:
-            parcel = packed(path, self._digests)
+            artifact = bundle(path, self._digests)
             # Not broadcast, so that workers that come later are served alike.
-            self._sent[path] = self.client.scatter(parcel, hash=True)
+            self._sent[path] = self.client.scatter(artifact, hash=True)
         return self._sent[path]
 
 
 def task(
-    jobs: Sequence[Job], store: Store, limits: Limits, parcels: Mapping[str, Artifact]
-) -> list[Outcome]:
-    """Jobs on a worker, one after the other. parcels: packs and textures by their paths."""
-    return [_one(job, store, limits, parcels) for job in jobs]
+    jobs: Sequence[Job], store: Store, limits: JobLimits, artifacts: Mapping[str, Artifact]
+) -> list[JobResult]:
+    """Jobs on a worker, one after the other. artifacts: packs and textures by their paths."""
+    return [_one(job, store, limits, artifacts) for job in jobs]
 
 
-def _one(job: Job, store: Store, limits: Limits, parcels: Mapping[str, Artifact]) -> Outcome:
-    if job.version != our_version():
+def _one(job: Job, store: Store, limits: JobLimits, artifacts: Mapping[str, Artifact]) -> JobResult:
+    if job.version != code_version():
         fault = (
-            f"the worker runs drapery {our_version()}, the job is of {job.version};"
+            f"the worker runs drapery {code_version()}, the job is of {job.version};"
             " install the same everywhere"
         )
-        return Outcome(job, fault)
+        return JobResult(job, fault)
     try:
-        here = settled(job, tuple(parcels[str(path)] for path in paths_of(job)))
+        here = resolved(job, tuple(artifacts[str(path)] for path in paths_of(job)))
     except DraperyError as error:
-        return Outcome(job, str(error), True)
+        return JobResult(job, str(error), True)
     try:
-        outcome = do(here, store) if _must_stay(store) else _guarded(here, store, limits)
+        result = run_job(here, store) if _must_stay(store) else _guarded(here, store, limits)
     except MemoryError:
-        return Outcome(job, OUT_OF_MEMORY, True)
-    return replace(outcome, job=job)
+        return JobResult(job, OUT_OF_MEMORY, True)
+    return replace(result, job=job)
 
 
-def local(workers: int, store: Store, limits: Limits) -> DaskCrew:
+def local(workers: int, store: Store, limits: JobLimits) -> DaskExecutor:
     """A cluster of processes on this machine. Raises BackendError where Dask is missing."""
     distributed = _distributed()
     import dask
@@ -186,14 +186,14 @@ def local(workers: int, store: Store, limits: Limits) -> DaskCrew:
         dashboard_address=None,
         silence_logs=logging.CRITICAL,
     )
-    return DaskCrew(distributed.Client(cluster), store, limits, cluster)
+    return DaskExecutor(distributed.Client(cluster), store, limits, cluster)
 
 
-def join(address: str, store: Store, limits: Limits) -> DaskCrew:
+def join(address: str, store: Store, limits: JobLimits) -> DaskExecutor:
     """The cluster of a scheduler. Raises BackendError where there is none."""
     distributed = _distributed()
     try:
-        return DaskCrew(distributed.Client(address, timeout=15), store, limits)
+        return DaskExecutor(distributed.Client(address, timeout=15), store, limits)
     except (OSError, ValueError) as error:
         reason = " ".join(str(error).split())[:200]
         raise BackendError(f"no scheduler at {address}: {reason}; check the address") from None
@@ -207,24 +207,24 @@ def _distributed() -> Any:
     return distributed
 
 
-def _answer(future: Any) -> list[Outcome] | None:
-    """The outcomes of a task; None where it failed, or its answer went with a worker."""
+def _answer(future: Any) -> list[JobResult] | None:
+    """The results of a task; None where it failed, or its answer went with a worker."""
     if isinstance(future, list):
         return future
     if future.status != "finished":
         return None
     try:
-        outcomes: list[Outcome] = future.result()
+        results: list[JobResult] = future.result()
     except Exception as error:  # Dask tells of what it lost in several ways
         logging.getLogger(__name__).debug("an answer is lost: %s", error)
         return None
-    return outcomes
+    return results
 
 
-def _lost(future: Any, jobs: Sequence[Job]) -> list[Outcome]:
+def _lost(future: Any, jobs: Sequence[Job]) -> list[JobResult]:
     error = future.exception() if future.status == "error" else None
     reason = " ".join(str(error or "the cluster lost it").split())[:200]
-    return [Outcome(job, f"{reason}; see the cluster's log", True) for job in jobs]
+    return [JobResult(job, f"{reason}; see the cluster's log", True) for job in jobs]
 
 
 def _must_stay(store: Store) -> bool:
@@ -238,19 +238,19 @@ def _must_stay(store: Store) -> bool:
 _own = threading.local()
 
 
-def _guarded(job: Job, store: Store, limits: Limits) -> Outcome:
+def _guarded(job: Job, store: Store, limits: JobLimits) -> JobResult:
     """Do a job in this thread's own process, which may be killed."""
-    if getattr(_own, "terms", None) != (store, limits):
+    if getattr(_own, "limits", None) != (store, limits):
         if hasattr(_own, "pool"):
             _own.pool.close()
-        _own.pool, _own.terms = (
-            Pool(partial(do, store=store), 1, limits, threads=1),
+        _own.pool, _own.limits = (
+            ProcessPool(partial(run_job, store=store), 1, limits, threads=1),
             (store, limits),
         )
-    pool: Pool = _own.pool
+    pool: ProcessPool = _own.pool
     while pool.free() < 1:
-        pool.finished(1.0)
+        pool.poll(1.0)
     pool.start(job)
     while True:
-        for outcome in pool.finished(1.0):
-            return outcome
+        for result in pool.poll(1.0):
+            return result

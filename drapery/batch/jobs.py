@@ -8,8 +8,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from drapery.banner.design import Banner
-from drapery.batch.keys import Digests, key_of, our_version
-from drapery.batch.manifest import Request
+from drapery.batch.keys import DigestCache, code_version, picture_key
+from drapery.batch.manifest import PictureRequest
 from drapery.batch.stores import LocalStore, Store
 from drapery.errors import BackendError, DesignError, DraperyError, OptionError
 from drapery.settings import Settings
@@ -41,29 +41,29 @@ class Job:
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """What came of a job. fault: why it failed, one line. again: whether another try may help.
+class JobResult:
+    """What came of a job. error: why it failed, one line. retryable: whether another try may help.
 
     seconds: that it took [s]. size: of its file [bytes].
     """
 
     job: Job
-    fault: str | None = None
-    again: bool = False
+    error: str | None = None
+    retryable: bool = False
     seconds: float = 0.0
     size: int = 0
     notes: tuple[str, ...] = ()
 
 
-def plan(requests: Iterable[Request]) -> list[Job]:
+def plan(requests: Iterable[PictureRequest]) -> list[Job]:
     """Jobs for what is asked, those of one motion next to each other, equal ones made one.
 
     Raises PackError where packs cannot be read.
     """
-    digests = Digests()
+    digests = DigestCache()
     jobs: dict[str, Job] = {}
     for request in requests:
-        job = job_of(request, digests)
+        job = make_job(request, digests)
         same = jobs.get(job.key)
         if same is not None:
             job = replace(same, outs=same.outs + job.outs, places=same.places + job.places)
@@ -74,11 +74,11 @@ def plan(requests: Iterable[Request]) -> list[Job]:
     return sorted(jobs.values(), key=lambda job: first[job.motion])
 
 
-def job_of(request: Request, digests: Digests) -> Job:
+def make_job(request: PictureRequest, digests: DigestCache) -> Job:
     """The job of one request. Raises PackError."""
     ending = Path(request.out).suffix.lower()
     times = {"seconds": request.seconds, "fps": request.fps}
-    key = key_of(request.banner, request.settings, digests, ending=ending, **times)
+    key = picture_key(request.banner, request.settings, digests, ending=ending, **times)
     return Job(
         key,
         (request.out,),
@@ -87,31 +87,31 @@ def job_of(request: Request, digests: Digests) -> Job:
         request.settings,
         request.seconds,
         request.fps,
-        our_version(),
+        code_version(),
     )
 
 
-def do(job: Job, store: Store) -> Outcome:
-    """Draw a job's picture and store it whole. Raises MemoryError; other faults are outcomes."""
+def run_job(job: Job, store: Store) -> JobResult:
+    """Draw a job's picture and store it whole. Raises MemoryError; other faults are results."""
     start = time.perf_counter()
     try:
-        size, notes = _do(job, store)
+        size, notes = _draw_and_store(job, store)
     except DraperyError as error:
         hopeless = isinstance(error, (OptionError, DesignError, BackendError))
-        return Outcome(job, str(error), not hopeless, time.perf_counter() - start)
+        return JobResult(job, str(error), not hopeless, time.perf_counter() - start)
     except MemoryError:
         raise
     except Exception as error:
         # A fault of ours, or of an installed backend; the others shall not suffer by it.
         line = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}; please report it"
-        return Outcome(job, line, True, time.perf_counter() - start)
-    return Outcome(job, None, False, time.perf_counter() - start, size, notes)
+        return JobResult(job, line, True, time.perf_counter() - start)
+    return JobResult(job, None, False, time.perf_counter() - start, size, notes)
 
 
 OUT_OF_MEMORY = "it wants more memory than --memory allows; make it smaller or raise the limit"
 
 
-def _do(job: Job, store: Store) -> tuple[int, tuple[str, ...]]:
+def _draw_and_store(job: Job, store: Store) -> tuple[int, tuple[str, ...]]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", UserWarning)
         if isinstance(store, LocalStore):

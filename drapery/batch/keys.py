@@ -19,7 +19,7 @@ from drapery.settings import Settings
 MAX_FILES = 200_000
 
 
-class Digests:
+class DigestCache:
     """Hashes of packs and textures, each read once."""
 
     def __init__(self) -> None:
@@ -48,10 +48,10 @@ def digest(path: Path) -> str:
         raise PackError(f"{path} cannot be read: {error.strerror}; check the path") from None
 
 
-def key_of(
+def picture_key(
     banner: Banner | None,
     settings: Settings,
-    digests: Digests,
+    digests: DigestCache,
     *,
     ending: str,
     seconds: float | None,
@@ -60,7 +60,7 @@ def key_of(
     """The key of a picture: 64 hexadecimal digits. Raises PackError for what cannot be read.
 
     Of the design, its canonical form counts, not how it was written; of packs and textures, their
-    bytes, not their names; of us, `our_version`.
+    bytes, not their names; of us, `code_version`.
     """
     options = asdict(settings)
     options["packs"] = [digests.of(pack) for pack in settings.packs]
@@ -69,13 +69,13 @@ def key_of(
         "design": None if banner is None else asdict(banner),
         "options": options,
         "file": [ending, seconds, fps],
-        "version": our_version(),
+        "version": code_version(),
     }
     return hashlib.sha256(json.dumps(whole, sort_keys=True).encode()).hexdigest()
 
 
 @cache
-def our_version() -> str:
+def code_version() -> str:
     """The release and a hash of its code and art, so that a changed checkout is another version."""
     whole = hashlib.sha256()
     for package in ("drapery", "drapery.render", "drapery.assets"):

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from drapery.banner.design import Banner
-from drapery.batch.rows import Fault, Row, read_rows
+from drapery.batch.rows import ManifestFault, ManifestRow, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
 from drapery.options import NAMES, check_options, one_line, unknown
 from drapery.settings import Settings
@@ -26,13 +26,13 @@ _STEP = re.compile(r"[\w(][\w .,+@()'-]{0,119}")
 class ManifestError(OptionError):
     """A manifest with faults. faults: all of them, in the manifest's order."""
 
-    def __init__(self, path: Path, faults: list[Fault]) -> None:
+    def __init__(self, path: Path, faults: list[ManifestFault]) -> None:
         self.faults = faults
         many = f"; {len(faults)} faults in all" if len(faults) > 1 else ""
         super().__init__(f"{path}: {faults[0]}{many}")
 
 
-class Words(BaseModel):
+class RowFields(BaseModel):
     """What a row says beside the options of the picture."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, coerce_numbers_to_str=True)
@@ -45,7 +45,7 @@ class Words(BaseModel):
 
 
 @dataclass(frozen=True)
-class Request:
+class PictureRequest:
     """One picture that is asked for, checked.
 
     place: where in the manifest. out: its file, relative to where outputs go.
@@ -62,7 +62,7 @@ class Request:
 
 def read_manifest(
     path: str | Path, defaults: Mapping[str, Any] | None = None, ending: str = "png"
-) -> list[Request]:
+) -> list[PictureRequest]:
     """All jobs of a manifest.
 
     defaults: options under all those that the manifest gives; their paths start here, the
@@ -73,19 +73,19 @@ def read_manifest(
     path = Path(path)
     if ending not in ENDINGS:
         raise OptionError(f"format {ending!r} is not known; use one of: {', '.join(ENDINGS)}")
-    faults: list[Fault] = []
-    requests: list[Request] = []
+    faults: list[ManifestFault] = []
+    requests: list[PictureRequest] = []
     for number, row in enumerate(read_rows(path), 1):
         if number > MAX_JOBS:
             raise OptionError(f"{path} has over {MAX_JOBS} jobs; split it")
-        if isinstance(row, Fault):
+        if isinstance(row, ManifestFault):
             faults.append(row)
             continue
         read = _request(_under(row, defaults or {}), number, ending, path.parent)
-        if isinstance(read, Request):
+        if isinstance(read, PictureRequest):
             requests.append(read)
         else:
-            faults += [Fault(row.place, line) for line in read]
+            faults += [ManifestFault(row.place, line) for line in read]
     requests = list(_apart(requests))
     faults += [*_same_targets(requests), *_unusable(requests)]
     if faults:
@@ -95,7 +95,7 @@ def read_manifest(
     return requests
 
 
-def _under(row: Row, defaults: Mapping[str, Any]) -> Row:
+def _under(row: ManifestRow, defaults: Mapping[str, Any]) -> ManifestRow:
     here = {k: _from_here(k, v) for k, v in defaults.items() if k not in row.words}
     return replace(row, words={**here, **row.words}) if here else row
 
@@ -110,16 +110,18 @@ def _from_here(name: str, value: Any) -> Any:
     return value
 
 
-def _request(row: Row, number: int, ending: str, folder: Path) -> Request | list[str]:
+def _request(
+    row: ManifestRow, number: int, ending: str, folder: Path
+) -> PictureRequest | list[str]:
     words = dict(row.words)
     if "pack" in words:
         words["packs"] = words.pop("pack")
     options = {name: words.pop(name) for name in list(words) if name in NAMES}
-    known = frozenset(Words.model_fields) | NAMES
-    strange = [unknown(name, known) for name in words if name not in Words.model_fields]
-    said, faults = _said({k: v for k, v in words.items() if k in Words.model_fields})
+    known = frozenset(RowFields.model_fields) | NAMES
+    unknown_names = [unknown(name, known) for name in words if name not in RowFields.model_fields]
+    said, faults = _said({k: v for k, v in words.items() if k in RowFields.model_fields})
     settings = check_options(options, folder)
-    faults = [*strange, *faults, *(settings if isinstance(settings, list) else [])]
+    faults = [*unknown_names, *faults, *(settings if isinstance(settings, list) else [])]
     if said is None:
         return faults
     banner = row.banner or _design(said.design, folder, faults)
@@ -127,12 +129,12 @@ def _request(row: Row, number: int, ending: str, folder: Path) -> Request | list
     times = _times(out, said, faults)
     if faults or isinstance(settings, list):
         return faults
-    return Request(row.place, out, banner, settings, *times)
+    return PictureRequest(row.place, out, banner, settings, *times)
 
 
-def _said(words: dict[str, Any]) -> tuple[Words | None, list[str]]:
+def _said(words: dict[str, Any]) -> tuple[RowFields | None, list[str]]:
     try:
-        return Words.model_validate(words), []
+        return RowFields.model_validate(words), []
     except ValidationError as error:
         faults = error.errors(include_url=False, include_input=False)
         return None, [f"{'.'.join(map(str, f['loc']))}: {one_line(f['msg'])}" for f in faults]
@@ -153,7 +155,7 @@ def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
         return None
 
 
-def _out(said: Words, row: Row, number: int, ending: str, faults: list[str]) -> str:
+def _out(said: RowFields, row: ManifestRow, number: int, ending: str, faults: list[str]) -> str:
     """The job's file: as it says, or after its name, its place in a world, or its number."""
     if said.out is not None:
         out = said.out
@@ -165,7 +167,9 @@ def _out(said: Words, row: Row, number: int, ending: str, faults: list[str]) -> 
         out = f"{number:05d}.{ending}"
     steps = out.split("/")
     if not all(_STEP.fullmatch(step) for step in steps) or len(out) > 300:
-        faults.append(f"{out[:80]!r} is no file name here; use letters, digits, '-', '.' and '/'")
+        faults.append(
+            f"{out[:80]!r} is no file name here; use max_length, digits, '-', '.' and '/'"
+        )
     elif _ending(out) not in ENDINGS or out.endswith(".sheet.png"):
         faults.append(f"{out}: the ending is one of {', '.join(f'.{e}' for e in ENDINGS)}")
     return out
@@ -179,7 +183,7 @@ def _slug(where: str) -> str:
     return re.sub(r"[^\w.-]+", "_", where).strip("._-")[:100] or "banner"
 
 
-def _times(out: str, said: Words, faults: list[str]) -> tuple[float | None, float | None]:
+def _times(out: str, said: RowFields, faults: list[str]) -> tuple[float | None, float | None]:
     """Length and rate; a WebP is a still unless one of them is given."""
     from drapery.pictures import frame_count
 
@@ -194,7 +198,7 @@ def _times(out: str, said: Words, faults: list[str]) -> tuple[float | None, floa
     return seconds, fps
 
 
-def _apart(requests: list[Request]) -> Iterator[Request]:
+def _apart(requests: list[PictureRequest]) -> Iterator[PictureRequest]:
     """Places of a world that read alike as file names get numbers."""
     seen: dict[str, int] = {}
     for request in requests:
@@ -206,16 +210,18 @@ def _apart(requests: list[Request]) -> Iterator[Request]:
         yield request if count == 1 else replace(request, out=f"{stem}-{count}.{ending}")
 
 
-def _same_targets(requests: list[Request]) -> Iterator[Fault]:
+def _same_targets(requests: list[PictureRequest]) -> Iterator[ManifestFault]:
     first: dict[str, str] = {}
     for request in requests:
         # Some file systems do not tell case apart.
         other = first.setdefault(request.out.lower(), request.place)
         if other != request.place:
-            yield Fault(request.place, f"{request.out} is written by {other} too; name it apart")
+            yield ManifestFault(
+                request.place, f"{request.out} is written by {other} too; name it apart"
+            )
 
 
-def _unusable(requests: Iterable[Request]) -> Iterator[Fault]:
+def _unusable(requests: Iterable[PictureRequest]) -> Iterator[ManifestFault]:
     """What the options name and is not there: packs, views, backends, placements."""
     verdicts: dict[object, str | None] = {}
     for request in requests:
@@ -225,10 +231,10 @@ def _unusable(requests: Iterable[Request]) -> Iterator[Fault]:
             verdicts[key] = _verdict(request)
         line = verdicts[key]
         if line is not None:
-            yield Fault(request.place, line)
+            yield ManifestFault(request.place, line)
 
 
-def _verdict(request: Request) -> str | None:
+def _verdict(request: PictureRequest) -> str | None:
     from drapery.banner.packs import open_packs
     from drapery.render.backends import backend
     from drapery.render.views import VIEWS

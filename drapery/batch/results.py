@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.batch.jobs import Job, Outcome
+from drapery.batch.jobs import Job, JobResult
 from drapery.errors import OutputError
 
 FILE = "drapery-batch.sqlite"
@@ -21,8 +21,8 @@ CREATE INDEX IF NOT EXISTS by_key ON outputs (key, state);
 
 
 @dataclass(frozen=True)
-class Entry:
-    """What the ledger says of an output. state: done or failed, with why."""
+class OutputRecord:
+    """What the results says of an output. state: done or failed, with why."""
 
     out: str
     key: str
@@ -35,7 +35,7 @@ class Entry:
 
 
 class ResultsDB:
-    """One run's hand on the file; another run is refused while it is held."""
+    """One run's worker on the file; another run is refused while it is held."""
 
     def __init__(self, path: Path) -> None:
         """Open or make the file. Raises OutputError where that fails, or another run holds it."""
@@ -49,7 +49,7 @@ class ResultsDB:
             self._db.execute("PRAGMA synchronous = NORMAL")
             self._db.executescript(_SCHEMA)
         except sqlite3.Error as error:
-            raise OutputError(f"ledger {path}: {_reason(error)}") from None
+            raise OutputError(f"results {path}: {_reason(error)}") from None
 
     def __enter__(self) -> "ResultsDB":
         return self
@@ -57,25 +57,25 @@ class ResultsDB:
     def __exit__(self, *_: object) -> None:
         self._db.close()
 
-    def known(self) -> dict[str, Entry]:
+    def known(self) -> dict[str, OutputRecord]:
         """All entries, by output."""
         rows = self._db.execute("SELECT * FROM outputs")
-        return {row[0]: Entry(*row) for row in rows}
+        return {row[0]: OutputRecord(*row) for row in rows}
 
-    def done_with(self, key: str) -> Iterator[Entry]:
+    def done_with(self, key: str) -> Iterator[OutputRecord]:
         """The outputs that hold the picture of this key."""
         query = "SELECT * FROM outputs WHERE key = ? AND state = 'done'"
-        return (Entry(*row) for row in self._db.execute(query, (key,)).fetchall())
+        return (OutputRecord(*row) for row in self._db.execute(query, (key,)).fetchall())
 
-    def record(self, outcome: Outcome, tries: int) -> None:
+    def record(self, result: JobResult, tries: int) -> None:
         """Write down what came of a job. Raises OutputError, as on a full disk."""
-        state = "done" if outcome.fault is None else "failed"
+        state = "done" if result.error is None else "failed"
         self._write(
-            (o, outcome.job.key, p, state, outcome.fault, tries, outcome.seconds, outcome.size)
-            for o, p in zip(outcome.job.outs, outcome.job.places, strict=True)
+            (o, result.job.key, p, state, result.error, tries, result.seconds, result.size)
+            for o, p in zip(result.job.outs, result.job.places, strict=True)
         )
 
-    def copied(self, job: Job, entry: Entry) -> None:
+    def copied(self, job: Job, entry: OutputRecord) -> None:
         """Write down that outputs were copied from another of the same key."""
         self._write(
             (out, job.key, place, "done", None, 0, 0.0, entry.size)
@@ -90,11 +90,11 @@ class ResultsDB:
         except sqlite3.Error as error:
             if self._db.in_transaction:
                 self._db.execute("ROLLBACK")
-            raise OutputError(f"ledger {self.path}: {_reason(error)}") from None
+            raise OutputError(f"results {self.path}: {_reason(error)}") from None
 
 
 def _reason(error: sqlite3.Error) -> str:
     text = str(error)
     if "locked" in text:
         return "another run is using it; wait for it, or choose another folder"
-    return f"{text}; mend that, or name another with --ledger"
+    return f"{text}; mend that, or name another with --results"

@@ -19,7 +19,7 @@ MAX_CELL = 1 << 20
 
 
 @dataclass(frozen=True)
-class Row:
+class ManifestRow:
     """One job as it is written. words: by the names of options. banner: found in a world."""
 
     place: str
@@ -29,7 +29,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Fault:
+class ManifestFault:
     """What is wrong at a place of the manifest, in one line with the remedy."""
 
     place: str
@@ -39,7 +39,7 @@ class Fault:
         return f"{self.place}: {self.line}"
 
 
-Rows: TypeAlias = Iterator[Row | Fault]
+Rows: TypeAlias = Iterator[ManifestRow | ManifestFault]
 
 
 def read_rows(path: Path) -> Rows:
@@ -87,12 +87,14 @@ def _csv(path: Path) -> Rows:
             if not names:
                 names = [cell.strip() for cell in cells]
             elif len(cells) > len(names):
-                yield Fault(place, f"{len(cells)} cells for {len(names)} columns; quote commas")
+                yield ManifestFault(
+                    place, f"{len(cells)} cells for {len(names)} columns; quote commas"
+                )
             elif any(cell.strip() for cell in cells):
                 filled = {n: c.strip() for n, c in zip(names, cells, strict=False) if c.strip()}
-                yield Row(place, {**defaults, **filled})
+                yield ManifestRow(place, {**defaults, **filled})
     except csv.Error as error:
-        yield Fault(f"line {line}", f"{error}; mend the quotes there")
+        yield ManifestFault(f"line {line}", f"{error}; mend the quotes there")
 
 
 def _csv_defaults(text: str) -> tuple[dict[str, str], int]:
@@ -117,14 +119,16 @@ def _json_lines(path: Path) -> Rows:
         try:
             words = json.loads(line)
         except (ValueError, RecursionError) as error:
-            yield Fault(place, f"no JSON ({one_line(str(error))}); write one object on a line")
+            yield ManifestFault(
+                place, f"no JSON ({one_line(str(error))}); write one object on a line"
+            )
             continue
         if not isinstance(words, dict):
-            yield Fault(place, "no object; write {...} with the job's options")
+            yield ManifestFault(place, "no object; write {...} with the job's options")
         elif set(words) == {"defaults"} and isinstance(words["defaults"], dict):
             defaults = words["defaults"]
         else:
-            yield Row(place, {**defaults, **words})
+            yield ManifestRow(place, {**defaults, **words})
 
 
 def _yaml(path: Path) -> Rows:
@@ -139,14 +143,14 @@ def _yaml(path: Path) -> Rows:
             place = f"line {node.start_mark.line + 1}"
             words = loader.construct_object(node, deep=True)
             if isinstance(words, dict) and all(isinstance(key, str) for key in words):
-                yield Row(place, {**defaults, **words})
+                yield ManifestRow(place, {**defaults, **words})
             else:
-                yield Fault(place, "no job; write names of options, each with a value")
+                yield ManifestFault(place, "no job; write names of options, each with a value")
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
         place = f"line {mark.line + 1}" if mark is not None else str(path)
         reason = getattr(error, "problem", None) or str(error)
-        yield Fault(place, f"no YAML ({one_line(reason)}); mend it there")
+        yield ManifestFault(place, f"no YAML ({one_line(reason)}); mend it there")
     finally:
         loader.dispose()
 
@@ -179,7 +183,7 @@ def _banners(path: Path) -> Rows:
     except DraperyError as error:
         raise OptionError(f"{path}: {error}") from None
     for one in found:
-        yield Row(one.where or path.name, {}, one.banner, one.where)
+        yield ManifestRow(one.where or path.name, {}, one.banner, one.where)
 
 
 _READERS = {

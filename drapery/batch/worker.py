@@ -14,7 +14,7 @@ from typing import Any
 def live(pipe: Connection, work: Callable[[Any], Any], memory: int, threads: int) -> None:
     """Do jobs until the other end hangs up; None says that one wanted too much memory.
 
-    Nobody is left to be told when the other end is killed, so the worker ends without a word.
+    Nobody is left to be on_result when the other end is killed, so the worker ends without a word.
 
     memory: what a job may take beyond what the process has [bytes]. threads: for the kernels.
     """

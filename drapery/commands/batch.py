@@ -11,11 +11,11 @@ import typer
 from drapery.commands.notices import bar_of, compile_notice, say
 
 if TYPE_CHECKING:
+    from drapery.batch.executor import Executor
     from drapery.batch.jobs import Job
     from drapery.batch.results import ResultsDB
     from drapery.batch.run import Progress
     from drapery.batch.stores import Store
-    from drapery.batch.work import Executor
 
 MAX_WORKERS = 512
 MAX_SAID = 50
@@ -56,14 +56,14 @@ def run(
     retries: Annotated[int, typer.Option(help="How often a failed job is tried again.")] = 2,
     timeout: Annotated[float, typer.Option(help="Seconds that one job may take.")] = 300.0,
     memory: Annotated[int, typer.Option(help="MiB that one job may take.")] = 2048,
-    ledger: Annotated[
+    results: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="What was done.", show_default="in DIR"),
     ] = None,
 ) -> None:
     """Draw all jobs of a manifest; exit code 0, 1 where some failed, 2 for a bad manifest."""
     from drapery.batch.cluster import LostError
-    from drapery.batch.page import numbers, write_page
+    from drapery.batch.report import numbers, write_page
     from drapery.batch.results import ResultsDB
     from drapery.batch.stores import open_store
     from drapery.settings import within
@@ -75,17 +75,17 @@ def run(
     jobs = _jobs(manifest, default or [], format)
     store = open_store(out)
     start = monotonic()
-    with ResultsDB(_ledger_path(store, ledger, resume)) as book, compile_notice():
-        hire = _hire(store, workers, cluster, scheduler, timeout, memory << 20, jobs)
+    with ResultsDB(_results_path(store, results, resume)) as database, compile_notice():
+        spawn = _spawn(store, workers, cluster, scheduler, timeout, memory << 20, jobs)
         try:
-            tally = _carry_out(jobs, store, book, hire, resume, retries)
+            progress = _execute(jobs, store, database, spawn, resume, retries)
         except LostError as error:
             say(str(error))
             raise typer.Exit(1) from None
         seconds = monotonic() - start
-        write_page(f"{manifest.name} in {store.label}", tally, seconds, book.known(), store)
-    _summarise(numbers(tally, seconds), tally)
-    raise typer.Exit(1 if tally.done < tally.total else 0)
+        write_page(f"{manifest.name} in {store.label}", progress, seconds, database.known(), store)
+    _summarise(numbers(progress, seconds), progress)
+    raise typer.Exit(1 if progress.done < progress.total else 0)
 
 
 def _jobs(manifest: Path, defaults: list[str], ending: str) -> "list[Job]":
@@ -110,7 +110,7 @@ def _jobs(manifest: Path, defaults: list[str], ending: str) -> "list[Job]":
         ) from None
 
 
-def _ledger_path(store: "Store", given: Path | None, resume: bool) -> Path:
+def _results_path(store: "Store", given: Path | None, resume: bool) -> Path:
     from drapery.batch.results import FILE
     from drapery.batch.stores import LocalStore
     from drapery.errors import OptionError
@@ -118,11 +118,11 @@ def _ledger_path(store: "Store", given: Path | None, resume: bool) -> Path:
     folder = store.folder if isinstance(store, LocalStore) else Path()
     path = given or folder / FILE
     if resume and not path.exists():
-        raise OptionError(f"{path}: no ledger, so nothing to resume; leave out --resume")
+        raise OptionError(f"{path}: no results, so nothing to resume; leave out --resume")
     return path
 
 
-def _hire(
+def _spawn(
     store: "Store",
     workers: int | None,
     cluster: bool,
@@ -134,40 +134,48 @@ def _hire(
     import os
     from functools import partial
 
-    from drapery.batch.jobs import do
-    from drapery.batch.pool import Limits, Pool
-    from drapery.batch.warming import warm
+    from drapery.batch.jobs import run_job
+    from drapery.batch.pool import JobLimits, ProcessPool
+    from drapery.batch.warmup import warm_up
 
-    count, limits = workers or os.cpu_count() or 1, Limits(timeout, memory)
+    count, limits = workers or os.cpu_count() or 1, JobLimits(timeout, memory)
 
-    def hire(todo: int) -> "Executor":
+    def spawn(todo: int) -> "Executor":
         if scheduler is None:
             moving = [job.seconds is not None for job in jobs]
-            warm(stills=not all(moving), loops=any(moving))
+            warm_up(stills=not all(moving), loops=any(moving))
         if scheduler is None and not cluster:
-            return Pool(partial(do, store=store), min(count, todo), limits, ahead=2)
+            return ProcessPool(partial(run_job, store=store), min(count, todo), limits, ahead=2)
         from drapery.batch.cluster import join, local
 
         if scheduler is None:
             return local(min(count, todo), store, limits)
         return join(scheduler, store, limits)
 
-    return hire
+    return spawn
 
 
-def _carry_out(
+def _execute(
     jobs: "list[Job]",
     store: "Store",
-    book: "ResultsDB",
-    hire: "Callable[[int], Executor]",
+    database: "ResultsDB",
+    spawn: "Callable[[int], Executor]",
     resume: bool,
     retries: int,
 ) -> "Progress":
+    from drapery.batch.executor import RetryPolicy
     from drapery.batch.run import execute
-    from drapery.batch.work import Retries
 
-    with _progress(sum(len(job.outs) for job in jobs)) as tell:
-        return execute(jobs, store, book, hire, resume=resume, retries=Retries(retries), tell=tell)
+    with _progress(sum(len(job.outs) for job in jobs)) as on_event:
+        return execute(
+            jobs,
+            store,
+            database,
+            spawn,
+            resume=resume,
+            retries=RetryPolicy(retries),
+            on_event=on_event,
+        )
 
 
 @contextmanager
@@ -176,19 +184,19 @@ def _progress(total: int) -> "Iterator[Callable[[Progress], None]]":
     with bar_of("pictures", "{task.fields[failed]} failed") as bar:
         task = bar.add_task("pictures", total=total, failed=0)
 
-        def tell(tally: "Progress") -> None:
-            ended = tally.done + len(tally.failed)
-            bar.update(task, completed=ended, failed=len(tally.failed))
+        def on_event(progress: "Progress") -> None:
+            ended = progress.done + len(progress.failed)
+            bar.update(task, completed=ended, failed=len(progress.failed))
 
-        yield tell
+        yield on_event
 
 
-def _summarise(said: dict[str, str], tally: "Progress") -> None:
-    for entry in tally.failed[:MAX_SAID]:
+def _summarise(said: dict[str, str], progress: "Progress") -> None:
+    for entry in progress.failed[:MAX_SAID]:
         say(f"{entry.out} ({entry.place}): {entry.why}")
-    if len(tally.failed) > MAX_SAID:
-        say(f"and {len(tally.failed) - MAX_SAID} more; all are in the ledger and the report")
-    for note in tally.notes:
+    if len(progress.failed) > MAX_SAID:
+        say(f"and {len(progress.failed) - MAX_SAID} more; all are in the results and the report")
+    for note in progress.notes:
         say(note)
     width = max(map(len, said))
     for name, value in said.items():

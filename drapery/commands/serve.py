@@ -19,7 +19,7 @@ def run(
     rate: Annotated[float, typer.Option(help="Requests a minute of a client; 0: any.")] = 600.0,
     timeout: Annotated[float, typer.Option(help="Seconds that one picture may take.")] = 20.0,
     memory: Annotated[int, typer.Option(help="MiB that one picture may take.")] = 1024,
-    shelf: Annotated[int, typer.Option(help="MiB of pictures that are kept.")] = 256,
+    cache: Annotated[int, typer.Option(help="MiB of pictures that are kept.")] = 256,
     side: Annotated[int, typer.Option(help="The widest and tallest picture in pixels.")] = 1024,
 ) -> None:
     """Answer /banner.png?design=… and /banner.gif?design=…; /docs tells the rest."""
@@ -35,8 +35,8 @@ def run(
         from drapery.serve.app import make_app
     except ImportError:
         raise BackendError('the service needs an extra; pip install "drapery[serve]"') from None
-    from drapery.batch.pool import Limits
-    from drapery.batch.warming import warm
+    from drapery.batch.pool import JobLimits
+    from drapery.batch.warmup import warm_up
     from drapery.serve.request_params import PictureLimits, ServiceConfig
 
     within("port", port, 0, 65535)
@@ -44,18 +44,18 @@ def run(
     within("rate", rate, 0, 1e6, "requests a minute")
     within("timeout", timeout, 0.1, 3600, "s")
     within("memory", memory, 16, 1 << 20, "MiB")
-    within("shelf", shelf, 1, 1 << 20, "MiB")
+    within("cache", cache, 1, 1 << 20, "MiB")
     within("side", side, 16, MAX_SIDE, "pixels")
     base = Settings(packs=tuple(pack or ()), format=format, size=(min(256, side), min(320, side)))
     open_packs(base.packs, format=format)
     with compile_notice():
-        warm()
+        warm_up()
     app = make_app(
         ServiceConfig(base, PictureLimits(side=side)),
         workers=workers or os.cpu_count() or 1,
-        limits=Limits(timeout, memory << 20),
+        limits=JobLimits(timeout, memory << 20),
         rate=rate,
-        shelf=shelf << 20,
+        cache=cache << 20,
     )
     say(f"listening at http://{host}:{port}; /docs tells what may be asked")
     uvicorn.run(app, host=host, port=port, log_level="warning")

@@ -16,16 +16,16 @@ from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, gene
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from starlette.concurrency import run_in_threadpool
 
-from drapery.batch.jobs import Job, Outcome, do, job_of
-from drapery.batch.keys import Digests
-from drapery.batch.pool import Limits, Pool
+from drapery.batch.executor import Executor
+from drapery.batch.jobs import Job, JobResult, make_job, run_job
+from drapery.batch.keys import DigestCache
+from drapery.batch.pool import JobLimits, ProcessPool
 from drapery.batch.stores import LocalStore
-from drapery.batch.work import Executor
 from drapery.errors import DraperyError
 from drapery.serve.job_queue import BusyError, JobQueue
 from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import Rates
-from drapery.serve.request_params import ServiceConfig, parameters, read_wish
+from drapery.serve.request_params import ServiceConfig, parameters, read_request
 
 KINDS = {".png": "image/png", ".gif": "image/gif"}
 CACHING = "public, max-age=86400"
@@ -43,7 +43,7 @@ _DETAIL = {
 }
 
 
-class Meters:
+class Metrics:
     """What /metrics tells."""
 
     def __init__(self) -> None:
@@ -53,26 +53,26 @@ class Meters:
         self.drawn = Counter("drapery_drawn", "Pictures drawn.", registry=own)
         self.kept = Counter("drapery_kept", "Pictures drawn before.", registry=own)
         self.waiting = Gauge("drapery_waiting", "Pictures to be drawn.", registry=own)
-        self.shelf = Gauge("drapery_shelf_bytes", "Bytes of pictures kept.", registry=own)
+        self.cache = Gauge("drapery_shelf_bytes", "Bytes of pictures kept.", registry=own)
         self.seconds = Histogram("drapery_draw_seconds", "Time of a drawing.", registry=own)
 
 
 class Studio:
-    """What the handlers share. house: packs and limits of pictures. The rest: see there."""
+    """What the handlers share. config: packs and limits of pictures. The rest: see there."""
 
     def __init__(
         self,
-        house: ServiceConfig,
-        hire: Callable[[], Executor],
+        config: ServiceConfig,
+        spawn: Callable[[], Executor],
         waiting: int,
-        shelf: PictureCache,
+        cache: PictureCache,
         rates: Rates,
     ) -> None:
-        self.house, self.shelf, self.rates = house, shelf, rates
-        self.meters, self.digests = Meters(), Digests()
-        self.desk = JobQueue(hire, waiting, self._keep)
+        self.config, self.cache, self.rates = config, cache, rates
+        self.meters, self.digests = Metrics(), DigestCache()
+        self.queue = JobQueue(spawn, waiting, self._keep)
         # Packs are read once, at the start.
-        for pack in house.base.packs:
+        for pack in config.base.packs:
             self.digests.of(pack)
 
     async def answer(self, request: Request, ending: str) -> Response:
@@ -80,31 +80,31 @@ class Studio:
         pause = self.rates.wait(request.client.host if request.client else "")
         if pause:
             return _refusal(429, ["too many requests; ask again later"], pause)
-        wish = read_wish(request.query_params.multi_items(), ending, self.house)
-        if isinstance(wish, list):
-            return _refusal(422, wish)
+        picture = read_request(request.query_params.multi_items(), ending, self.config)
+        if isinstance(picture, list):
+            return _refusal(422, picture)
         try:
-            job = _filed(job_of(wish, self.digests), ending)
+            job = _filed(make_job(picture, self.digests), ending)
         except DraperyError as error:
             return _refusal(503, [str(error)])
         headers = {"ETag": f'"{job.key}"', "Cache-Control": CACHING}
         if _names(request.headers.get("if-none-match", ""), job.key):
             return Response(status_code=304, headers=headers)
-        kept = await run_in_threadpool(self.shelf.take, job.outs[0])
+        kept = await run_in_threadpool(self.cache.take, job.outs[0])
         if kept is not None:
             self.meters.kept.inc()
             return Response(kept, media_type=KINDS[ending], headers=headers)
         return await self._draw(job, ending, headers)
 
-    def _keep(self, outcome: Outcome) -> None:
-        if outcome.fault is None:
-            self.shelf.put(outcome.job.outs[0], outcome.size)
+    def _keep(self, result: JobResult) -> None:
+        if result.error is None:
+            self.cache.put(result.job.outs[0], result.size)
             self.meters.drawn.inc()
-            self.meters.seconds.observe(outcome.seconds)
+            self.meters.seconds.observe(result.seconds)
 
     async def _draw(self, job: Job, ending: str, headers: dict[str, str]) -> Response:
         try:
-            answer = self.desk.ask(job, lambda: job.outs[0] in self.shelf)
+            answer = self.queue.ask(job, lambda: job.outs[0] in self.cache)
             if answer is not None:
                 # Others may wait for the same picture, so one who leaves must not cancel it.
                 fault = _fault(await asyncio.shield(asyncio.wrap_future(answer)))
@@ -114,40 +114,40 @@ class Studio:
             return _refusal(503, ["too many pictures are waiting; ask again"], 2)
         except RuntimeError as error:
             return _refusal(503, [str(error)], 5)
-        data = await run_in_threadpool(self.shelf.take, job.outs[0])
+        data = await run_in_threadpool(self.cache.take, job.outs[0])
         if data is None:
             return _refusal(503, ["the picture has gone; ask again"], 1)
         return Response(data, media_type=KINDS[ending], headers=headers)
 
 
 def make_app(
-    house: ServiceConfig | None = None,
+    config: ServiceConfig | None = None,
     *,
     workers: int = 1,
-    limits: Limits | None = None,
+    limits: JobLimits | None = None,
     rate: float = 600.0,
-    shelf: int = 256 << 20,
+    cache: int = 256 << 20,
     waiting: int = 64,
 ) -> FastAPI:
     """The application; its processes live as long as it runs.
 
     workers: processes that draw. limits: of one picture's time and memory.
-    rate: requests a minute of one client, 0 for any. shelf: bytes of pictures kept.
+    rate: requests a minute of one client, 0 for any. cache: bytes of pictures kept.
     waiting: pictures that may wait to be drawn.
     """
-    chosen, bounds = house or ServiceConfig(), limits or Limits(20.0, 1 << 30)
+    chosen, bounds = config or ServiceConfig(), limits or JobLimits(20.0, 1 << 30)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         with TemporaryDirectory(prefix="drapery-serve-") as folder:
             store = LocalStore(Path(folder))
-            hire = partial(Pool, partial(do, store=store), workers, bounds)
-            studio = Studio(chosen, hire, waiting, PictureCache(store.folder, shelf), Rates(rate))
+            spawn = partial(ProcessPool, partial(run_job, store=store), workers, bounds)
+            studio = Studio(chosen, spawn, waiting, PictureCache(store.folder, cache), Rates(rate))
             app.state.studio = studio
             try:
                 yield
             finally:
-                await run_in_threadpool(studio.desk.close)
+                await run_in_threadpool(studio.queue.close)
 
     app = FastAPI(
         title="Drapery",
@@ -161,7 +161,7 @@ def make_app(
     return app
 
 
-def _add_picture(app: FastAPI, ending: str, summary: str, house: ServiceConfig) -> None:
+def _add_picture(app: FastAPI, ending: str, summary: str, config: ServiceConfig) -> None:
     async def handler(request: Request) -> Response:
         studio: Studio = request.app.state.studio
         return await studio.answer(request, ending)
@@ -174,20 +174,20 @@ def _add_picture(app: FastAPI, ending: str, summary: str, house: ServiceConfig) 
         response_class=Response,
         operation_id=f"banner_{ending[1:]}",
         responses=_responses(KINDS[ending]),
-        openapi_extra={"parameters": parameters(ending == ".gif", house.terms)},
+        openapi_extra={"parameters": parameters(ending == ".gif", config.limits)},
     )
 
 
 def _responses(kind: str) -> dict[int | str, dict[str, Any]]:
     picture = {kind: {"schema": {"type": "string", "format": "binary"}}}
-    told: dict[int | str, dict[str, Any]] = {
+    on_result: dict[int | str, dict[str, Any]] = {
         200: {"description": "The picture.", "content": picture}
     }
     for status, reason in REASONS.items():
-        told[status] = {"description": reason}
+        on_result[status] = {"description": reason}
         if status != 304:
-            told[status]["content"] = {"application/json": {"schema": _DETAIL}}
-    return told
+            on_result[status]["content"] = {"application/json": {"schema": _DETAIL}}
+    return on_result
 
 
 def _add_metrics(app: FastAPI) -> None:
@@ -201,8 +201,8 @@ def _add_metrics(app: FastAPI) -> None:
     )
     def metrics(request: Request) -> Response:
         studio: Studio = request.app.state.studio
-        studio.meters.waiting.set(len(studio.desk))
-        studio.meters.shelf.set(studio.shelf.total)
+        studio.meters.waiting.set(len(studio.queue))
+        studio.meters.cache.set(studio.cache.total)
         return Response(generate_latest(studio.meters.registry), media_type=CONTENT_TYPE_LATEST)
 
 
@@ -228,12 +228,12 @@ def _names(header: str, key: str) -> bool:
     return header.strip() == "*" or key in tags
 
 
-def _fault(outcome: Outcome) -> Response | None:
+def _fault(result: JobResult) -> Response | None:
     """The refusal where a picture could not be drawn."""
-    if outcome.fault is None:
+    if result.error is None:
         return None
-    status = 504 if "it took over" in outcome.fault else 503 if outcome.again else 422
-    return _refusal(status, [outcome.fault])
+    status = 504 if "it took over" in result.error else 503 if result.retryable else 422
+    return _refusal(status, [result.error])
 
 
 def _refusal(status: int, reasons: list[str], pause: float = 0.0) -> JSONResponse:

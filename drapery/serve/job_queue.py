@@ -6,35 +6,35 @@ from concurrent.futures import Future
 from queue import Empty, Full, Queue
 from typing import TypeAlias
 
-from drapery.batch.jobs import Job, Outcome
-from drapery.batch.work import Executor
+from drapery.batch.executor import Executor
+from drapery.batch.jobs import Job, JobResult
 
-Answer: TypeAlias = Future[Outcome]
+Answer: TypeAlias = Future[JobResult]
 
 
 class BusyError(Exception):
-    """More jobs wait than the desk takes."""
+    """More jobs wait than the queue takes."""
 
 
 class JobQueue:
-    """A thread that hands jobs to a crew.
+    """A thread that hands jobs to an executor.
 
-    hire: makes the crew, in that thread. most: how many may wait.
-    told: hears of each outcome in that thread, before those who asked.
+    spawn: makes the executor, in that thread. most: how many may wait.
+    on_result: hears of each result in that thread, before those who asked.
     """
 
     def __init__(
         self,
-        hire: Callable[[], Executor],
+        spawn: Callable[[], Executor],
         most: int = 64,
-        told: Callable[[Outcome], None] = lambda outcome: None,
+        on_result: Callable[[JobResult], None] = lambda result: None,
     ) -> None:
-        self._hire, self._told = hire, told
+        self._spawn, self._told = spawn, on_result
         self._waiting: Queue[Job] = Queue(most)
         self._answers: dict[str, Answer] = {}
         self._lock = threading.Lock()
         self._closing = threading.Event()
-        self._thread = threading.Thread(target=self._live, name="drapery-desk", daemon=True)
+        self._thread = threading.Thread(target=self._live, name="drapery-queue", daemon=True)
         self._thread.start()
 
     def __len__(self) -> int:
@@ -42,10 +42,10 @@ class JobQueue:
         return len(self._answers)
 
     def ask(self, job: Job, made: Callable[[], bool] = lambda: False) -> Answer | None:
-        """The outcome of a job, when it is there; equal jobs share one. Raises BusyError.
+        """The result of a job, when it is there; equal jobs share one. Raises BusyError.
 
         made: whether the picture is there by now, so that nothing is to be done: None. What was
-        told of an outcome holds when this is asked.
+        on_result of a result holds when this is asked.
         """
         with self._lock:
             answer = self._answers.get(job.key)
@@ -60,42 +60,42 @@ class JobQueue:
             return answer
 
     def close(self) -> None:
-        """End the crew; what waits is answered with a fault."""
+        """End the executor; what waits is answered with a fault."""
         self._closing.set()
         self._thread.join()
 
     def _live(self) -> None:
-        crew = self._hire()
+        executor = self._spawn()
         running: dict[str, Job] = {}
         try:
             while not self._closing.is_set():
-                self._begin(crew, running)
-                for outcome in crew.finished(_patience(crew.free(), bool(running))):
-                    running.pop(outcome.job.key, None)
-                    self._told(outcome)
-                    self._answer(outcome)
+                self._begin(executor, running)
+                for result in executor.poll(_patience(executor.free(), bool(running))):
+                    running.pop(result.job.key, None)
+                    self._told(result)
+                    self._answer(result)
         except Exception as error:
             self._closing.set()
             self._give_up(f"the pool has ended: {error}")
             raise
         finally:
-            crew.close()
+            executor.close()
             self._give_up("the service is closing")
 
-    def _begin(self, crew: Executor, running: dict[str, Job]) -> None:
-        while crew.free() > 0:
+    def _begin(self, executor: Executor, running: dict[str, Job]) -> None:
+        while executor.free() > 0:
             try:
                 job = self._waiting.get(block=not running, timeout=0.1)
             except Empty:
                 return
             running[job.key] = job
-            crew.start(job)
+            executor.start(job)
 
-    def _answer(self, outcome: Outcome) -> None:
+    def _answer(self, result: JobResult) -> None:
         with self._lock:
-            answer = self._answers.pop(outcome.job.key, None)
+            answer = self._answers.pop(result.job.key, None)
         if answer is not None and answer.set_running_or_notify_cancel():
-            answer.set_result(outcome)
+            answer.set_result(result)
 
     def _give_up(self, why: str) -> None:
         with self._lock:
@@ -106,7 +106,7 @@ class JobQueue:
 
 
 def _patience(free: int, running: bool) -> float:
-    """How long to wait for an outcome [s]: short while a new job, which cannot wake this wait,
+    """How long to wait for a result [s]: short while a new job, which cannot wake this wait,
     could begin at once."""
     if not free:
         return 0.1

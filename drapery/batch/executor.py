@@ -1,4 +1,4 @@
-"""The loop that hands jobs to a crew, tries failed ones again, and loses none."""
+"""The loop that hands jobs to an executor, tries failed ones again, and loses none."""
 
 import heapq
 import time
@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import count
 from typing import Protocol
 
-from drapery.batch.jobs import Job, Outcome
+from drapery.batch.jobs import Job, JobResult
 
 PATIENCE = 0.5
-"""The longest wait for an outcome before the crew is looked after [s]."""
+"""The longest wait for a result before the executor is looked after [s]."""
 
 
 class Executor(Protocol):
@@ -22,7 +22,7 @@ class Executor(Protocol):
     def start(self, job: Job) -> None:
         """Begin a job."""
 
-    def finished(self, patience: float) -> list[Outcome]:
+    def poll(self, timeout: float) -> list[JobResult]:
         """What ended, waiting for the first up to so many seconds."""
 
     def close(self) -> None:
@@ -30,7 +30,7 @@ class Executor(Protocol):
 
 
 @dataclass(frozen=True)
-class Retries:
+class RetryPolicy:
     """How failed jobs are tried again: so many times, after a pause [s] that doubles each time."""
 
     most: int = 2
@@ -41,16 +41,16 @@ class Retries:
         return min(60.0, self.pause * 2.0 ** (tries - 1))
 
 
-def work_off(
-    jobs: Iterable[Job], crew: Executor, retries: Retries
-) -> Iterator[tuple[Outcome, int]]:
-    """The final outcome of every job, with how often it was tried, as they come."""
+def run_jobs(
+    jobs: Iterable[Job], executor: Executor, retries: RetryPolicy
+) -> Iterator[tuple[JobResult, int]]:
+    """The final result of every job, with how often it was tried, as they come."""
     fresh, order = iter(jobs), count()
     later: list[tuple[float, int, Job]] = []
     tries: dict[str, int] = {}
     ahead = next(fresh, None)
     while ahead is not None or tries:
-        while crew.free() > 0:
+        while executor.free() > 0:
             if later and later[0][0] <= time.monotonic():
                 job = heapq.heappop(later)[2]
             elif ahead is not None:
@@ -58,14 +58,14 @@ def work_off(
             else:
                 break
             tries[job.key] = tries.get(job.key, 0) + 1
-            crew.start(job)
-        for outcome in crew.finished(_patience(later)):
-            key = outcome.job.key
-            if outcome.fault is not None and outcome.again and tries[key] <= retries.most:
+            executor.start(job)
+        for result in executor.poll(_patience(later)):
+            key = result.job.key
+            if result.error is not None and result.retryable and tries[key] <= retries.most:
                 due = time.monotonic() + retries.delay(tries[key])
-                heapq.heappush(later, (due, next(order), outcome.job))
+                heapq.heappush(later, (due, next(order), result.job))
             else:
-                yield outcome, tries.pop(key)
+                yield result, tries.pop(key)
 
 
 def _patience(later: list[tuple[float, int, Job]]) -> float:

@@ -4,7 +4,7 @@ import io
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from drapery.batch.results import Entry
+from drapery.batch.results import OutputRecord
 from drapery.batch.run import Progress
 from drapery.batch.stores import Store
 from drapery.errors import DraperyError
@@ -49,15 +49,15 @@ _PAGE = """<!doctype html>
 """
 
 
-def numbers(tally: Progress, seconds: float) -> dict[str, str]:
+def numbers(progress: Progress, seconds: float) -> dict[str, str]:
     """The summary of a run, as names and values. seconds: that it took."""
-    rate = f"{tally.drawn / seconds:.1f} pictures/s" if seconds > 0 else ""
+    rate = f"{progress.drawn / seconds:.1f} pictures/s" if seconds > 0 else ""
     said = {
-        "outputs": str(tally.total),
-        "drawn": str(tally.drawn),
-        "copied from equals": str(tally.copied),
-        "there before": str(tally.kept),
-        "failed": str(len(tally.failed)),
+        "outputs": str(progress.total),
+        "drawn": str(progress.drawn),
+        "copied from equals": str(progress.copied),
+        "there before": str(progress.kept),
+        "failed": str(len(progress.failed)),
         "time": f"{seconds:.1f} s",
         "rate": rate,
     }
@@ -65,7 +65,11 @@ def numbers(tally: Progress, seconds: float) -> dict[str, str]:
 
 
 def write_page(
-    title: str, tally: Progress, seconds: float, entries: Mapping[str, Entry], store: Store
+    title: str,
+    progress: Progress,
+    seconds: float,
+    entries: Mapping[str, OutputRecord],
+    store: Store,
 ) -> None:
     """Write the page beside the outputs. Raises OutputError."""
     from jinja2 import Environment
@@ -75,9 +79,9 @@ def write_page(
     page = Environment(autoescape=True).from_string(_PAGE)
     text = page.render(
         title=title,
-        numbers=numbers(tally, seconds),
-        failed=tally.failed[:MAX_FAILURES],
-        notes=list(tally.notes),
+        numbers=numbers(progress, seconds),
+        failed=progress.failed[:MAX_FAILURES],
+        notes=list(progress.notes),
         pictures=pictures,
         shown=len(pictures),
         total=len(done),

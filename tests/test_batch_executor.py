@@ -10,15 +10,15 @@ from batch_works import job, work
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drapery.batch.jobs import Job, Outcome
-from drapery.batch.pool import Limits, Pool
-from drapery.batch.work import Retries, work_off
+from drapery.batch.executor import RetryPolicy, run_jobs
+from drapery.batch.jobs import Job, JobResult
+from drapery.batch.pool import JobLimits, ProcessPool
 
-SOON = Retries(most=2, pause=0.01)
+SOON = RetryPolicy(most=2, pause=0.01)
 
 
 class Scripted:
-    """A crew without processes: each job fails as often as it says."""
+    """A executor without processes: each job fails as often as it says."""
 
     def __init__(self, fails: dict[str, int], hopeless: set[str], room: int) -> None:
         self.fails, self.hopeless, self.room = dict(fails), hopeless, room
@@ -33,15 +33,15 @@ class Scripted:
         self.began[one.key] += 1
         self.running.append(one)
 
-    def finished(self, patience: float) -> list[Outcome]:
+    def poll(self, timeout: float) -> list[JobResult]:
         ended, self.running = self.running[:2], self.running[2:]
-        return [self.outcome(one) for one in ended]
+        return [self.result(one) for one in ended]
 
-    def outcome(self, one: Job) -> Outcome:
+    def result(self, one: Job) -> JobResult:
         if self.fails[one.key] == 0:
-            return Outcome(one)
+            return JobResult(one)
         self.fails[one.key] -= 1
-        return Outcome(one, "it fails", again=one.key not in self.hopeless)
+        return JobResult(one, "it fails", retryable=one.key not in self.hopeless)
 
     def close(self) -> None:
         pass
@@ -53,21 +53,21 @@ def test_every_job_ends_once_after_as_many_tries_as_it_needs(
 ) -> None:
     fails = {str(n): count for n, (count, _) in enumerate(script)}
     hopeless = {str(n) for n, (_, never) in enumerate(script) if never}
-    crew = Scripted(fails, hopeless, room)
-    ended = list(work_off([job(name) for name in fails], crew, Retries(2, 1e-4)))
-    assert Counter(outcome.job.key for outcome, _ in ended) == Counter(list(fails))
-    for outcome, tries in ended:
-        count, key = fails[outcome.job.key], outcome.job.key
+    executor = Scripted(fails, hopeless, room)
+    ended = list(run_jobs([job(name) for name in fails], executor, RetryPolicy(2, 1e-4)))
+    assert Counter(result.job.key for result, _ in ended) == Counter(list(fails))
+    for result, tries in ended:
+        count, key = fails[result.job.key], result.job.key
         most = 1 if key in hopeless else 3
-        assert tries == crew.began[key] == min(count + 1, most)
-        assert (outcome.fault is None) == (count < most)
+        assert tries == executor.began[key] == min(count + 1, most)
+        assert (result.error is None) == (count < most)
 
 
 def test_a_pool_outlives_what_its_jobs_do() -> None:
     names = ["die", "eat", "hang", "nibble", *(f"fine{n}" for n in range(6))]
-    pool = Pool(work, 2, Limits(seconds=1.5, memory=200 << 20), ahead=2)
+    pool = ProcessPool(work, 2, JobLimits(seconds=1.5, memory=200 << 20), ahead=2)
     try:
-        ended = dict(_ended(pool, names, Retries(0)))
+        ended = dict(_ended(pool, names, RetryPolicy(0)))
     finally:
         pool.close()
     assert set(ended) == set(names)
@@ -79,13 +79,13 @@ def test_a_pool_outlives_what_its_jobs_do() -> None:
 
 
 def test_a_worker_killed_from_outside_loses_no_job(tmp_path: Path) -> None:
-    pool = Pool(work, 2, Limits(), ahead=2)
+    pool = ProcessPool(work, 2, JobLimits(), ahead=2)
     mark = str(tmp_path / "mark").replace("/", "!")
     names = [f"once-die@{mark}", *(f"fine{n}" for n in range(60))]
     try:
         ended = []
-        for outcome, tries in work_off([job(name) for name in names], pool, SOON):
-            ended.append((outcome.job.key, outcome.fault, tries))
+        for result, tries in run_jobs([job(name) for name in names], pool, SOON):
+            ended.append((result.job.key, result.error, tries))
             if len(ended) in (15, 40):
                 os.kill(pool.pids()[0], signal.SIGKILL)
     finally:
@@ -99,14 +99,14 @@ def test_a_worker_killed_from_outside_loses_no_job(tmp_path: Path) -> None:
 def test_a_job_for_very_many_files_does_not_choke_the_pipes() -> None:
     outs = tuple(f"fine{n}.png" for n in range(20_000))
     long = [replace(job(f"fine{n}"), outs=outs, places=outs) for n in range(6)]
-    pool = Pool(work, 1, Limits(seconds=20), ahead=2)
+    pool = ProcessPool(work, 1, JobLimits(seconds=20), ahead=2)
     try:
-        ended = list(work_off(long, pool, SOON))
+        ended = list(run_jobs(long, pool, SOON))
     finally:
         pool.close()
-    assert [outcome.fault for outcome, _ in ended] == [None] * 6
+    assert [result.error for result, _ in ended] == [None] * 6
 
 
-def _ended(pool: Pool, names: list[str], retries: Retries):
-    for outcome, tries in work_off([job(name) for name in names], pool, retries):
-        yield outcome.job.key, (outcome.fault, tries)
+def _ended(pool: ProcessPool, names: list[str], retries: RetryPolicy):
+    for result, tries in run_jobs([job(name) for name in names], pool, retries):
+        yield result.job.key, (result.error, tries)

@@ -1,7 +1,7 @@
 """Kernels compiled once, before the workers that share them are there."""
 
 
-def warm(*, stills: bool = True, loops: bool = True) -> None:
+def warm_up(*, stills: bool = True, loops: bool = True) -> None:
     """Draw tiny pictures of the sorts that will be drawn, so that numba's cache is filled."""
     from drapery.banner.design import Banner
     from drapery.pictures import animate, draw
