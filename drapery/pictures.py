@@ -15,16 +15,9 @@ from drapery.errors import DesignError
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
-from drapery.settings import (
-    MAX_FRAMES,
-    MAX_SIDE,
-    ROTATIONS,
-    Options,
-    Settings,
-    check_format,
-    whole,
-    within,
-)
+from drapery.settings import OPTIONS as TABLE
+from drapery.settings import ROTATIONS, Options, Settings, check_format
+from drapery.settings import frame_count as frame_count
 
 if TYPE_CHECKING:
     from drapery.scenes.catalogue import Entry, Shot
@@ -98,13 +91,6 @@ def _design(given: object) -> Banner | None:
     raise DesignError(f"{str(given)[:40]!r} is no Banner; read a text with Banner.parse(text)")
 
 
-def frame_count(seconds: float, fps: float) -> int:
-    """How many frames an animation of this length [s] has. Raises OptionError."""
-    within("fps", fps, 1, 120, "frames/s")
-    within("seconds", seconds, 1 / fps, MAX_FRAMES / fps, f"s at {fps:g} frames/s")
-    return max(1, round(seconds * fps))
-
-
 def scene_frames(
     scene: "Entry", parameters: Any, shot: "Shot", backend: str = "auto", *, last: bool = False
 ) -> Iterator[Frame]:
@@ -115,8 +101,7 @@ def scene_frames(
     from drapery.render.backends import backend as backend_named
     from drapery.scenes.panels import drawn
 
-    for side in shot.size:
-        whole("size", side, 1, MAX_SIDE, "pixels")
+    TABLE["size"].check(shot.size)
     draw_scene = backend_named(backend)
     pictures = scene.play(parameters, shot)
     if last:

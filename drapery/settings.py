@@ -1,12 +1,23 @@
-"""What one may ask of a picture: the options of the commands and of `draw`, by the same names."""
+"""The table of options: what a picture may be asked for, once for all ways of asking.
 
-import math
-from dataclasses import dataclass
-from numbers import Integral, Real
+`Settings` holds the values, `OPTIONS` describes them. The command line, HTTP parameters, columns of
+manifests, files of cases and the studio's fields are made from the table.
+"""
+# ruff: noqa: RUF009 (`_option` returns a dataclass field)
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Literal, TypedDict, get_args
+from types import MappingProxyType
+from typing import Any, Literal, TypedDict, get_args
 
 from drapery.errors import OptionError
+from drapery.option import Audience as Audience
+from drapery.option import Option, shown
+from drapery.option import one_of as one_of
+from drapery.option import pair as pair
+from drapery.option import whole as whole
+from drapery.option import within as within
 
 Kind = Literal["auto", "banner", "shield", "cape", "elytra"]
 Pose = Literal["cloth", "vanilla"]
@@ -15,6 +26,7 @@ Facing = Literal["south", "west", "north", "east"]
 LayerMode = Literal["stacked", "flat"]
 SolverName = Literal["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"]
 Pins = Literal["none", "top", "corners", "three-corners", "four-corners"]
+ViewName = Literal["front", "back", "iso", "gui", "hero"]
 Samples = Literal[1, 4, 16]
 Lighting = Literal["game", "flat"]
 
@@ -31,7 +43,7 @@ MAX_LIGHT = 15
 ROTATIONS = 16
 """A standing banner turns in steps of a sixteenth."""
 MAX_FORMAT = 9999
-"""Pack formats beyond this are a slip of the finger; 1.21.11 has 75."""
+"""Larger pack formats are a typing error; 1.21.11 has 75."""
 
 
 class Options(TypedDict, total=False):
@@ -69,124 +81,247 @@ class Options(TypedDict, total=False):
     backend: str
 
 
+def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
+    """A field of `Settings` with its line of the table; see `Option`."""
+    return field(default=default, metadata={"help": help, "type": kind, **more})
+
+
 @dataclass(frozen=True)
 class Settings:
-    """Checked options. Raises OptionError, naming the option and what it may be.
+    """Checked options of a picture. Raises OptionError that names the option and its limits."""
 
-    packs: resource packs (folder, zip or jar) laid over our own art; later ones win.
-    format: the pack format of the game to be (46 is 1.21.4); None reads each pack as its newest.
-    kind: what is drawn: `banner`, `shield`, `cape` or `elytra`; `auto` is what the design is of.
-    texture: the picture that a cape or elytra wears, as players have it: 64 x 32, or a multiple.
-    pose: `cloth` is simulated; `vanilla` is the game's own stiff board.
-    placement: `standing` on a pole, hung on a `wall`, or an `item` in its slot of the inventory.
-    rotation: which way what stands is turned, in sixteenths: 0 south, 4 west, 8 north, 12 east.
-    facing: which way a banner on a wall looks; south where none is given.
-    view: a named view of `drapery.render.views`: front, back, iso, gui, hero.
-    size: width and height of the picture [pixels].
-    grid: particles across and down the cloth.
-    solver: the method that moves it; docs/solvers.md says which is for what.
-    pins: where the cloth is held; None is as its kind hangs, a banner's by its top row.
-    wind: mean wind speed [m/s].
-    direction: where the wind blows to [degrees]: 0 is straight out of the front, 90 to the right
-        of one who looks at it; None is out of the front and a little to the right.
-    gusts: their rms over the mean speed of the wind.
-    time: how long the cloth has hung in the wind when the picture is taken [s].
-    seed: which gusts blow.
-    layers: `stacked` quads, as in the game, or one `flat` composite.
-    pbr: whether the packs' LabPBR maps count. `soft` lights every texel by its own normal,
-        `pyrender` by roughness, metal and glow as well.
-    thickness: of the cloth, in texels of the flag (1/24 m); 0 is a bare sheet.
-    background: `transparent` or `#rrggbb`.
-    samples: 1, 4 or 16 for each pixel; 1 is pixel art's hard edge.
-    pixel: the picture is drawn smaller by this and every pixel enlarged to a square of it.
-    light: the `game`'s two lights, or `flat`, the plain colours of the textures.
-    block_light, sky_light: levels 0..15 of torches and of the sky where the banner hangs.
-    daylight: 1 at noon, 0 at night.
-    shadow: a soft shadow on the floor beneath.
-    backend: `auto`, `soft`, `pyrender`, or one that an installed package adds.
-    """
-
-    packs: tuple[str | Path, ...] | list[str | Path] = ()
-    format: int | None = None
-    kind: Kind = "auto"
-    texture: str | Path | None = None
-    pose: Pose = "cloth"
-    placement: Placement = "standing"
-    rotation: int = 0
-    facing: Facing | None = None
-    view: str = "front"
-    size: tuple[int, int] = (512, 512)
-    grid: tuple[int, int] = (5, 9)
-    solver: SolverName = "desbrun"
-    pins: Pins | None = None
-    wind: float = 4.0
-    direction: float | None = None
-    gusts: float = 0.4
-    time: float = 3.0
-    seed: int = 0
-    layers: LayerMode = "stacked"
-    pbr: bool = False
-    thickness: float = 1.0
-    background: str = "transparent"
-    samples: Samples = 1
-    pixel: int = 1
-    light: Lighting = "game"
-    block_light: int = 0
-    sky_light: int = MAX_LIGHT
-    daylight: float = 1.0
-    shadow: bool = False
-    backend: str = "auto"
+    packs: tuple[str | Path, ...] | list[str | Path] = _option(
+        (),
+        Path,
+        "Resource packs (folder, zip or jar) laid over our own art; later ones win",
+        several=True,
+        flag="--pack",
+        metavar="PATH",
+    )
+    format: int | None = _option(
+        None,
+        int,
+        "Read packs as the game of this pack format does; 46 is 1.21.4",
+        bounds=(1, MAX_FORMAT),
+        default_text="newest",
+        metavar="N",
+    )
+    kind: Kind = _option(
+        "auto",
+        str,
+        "What is drawn; auto takes it from the design",
+        choices=get_args(Kind),
+        audience="anyone",
+    )
+    texture: str | Path | None = _option(
+        None,
+        Path,
+        "Texture of a cape or elytra: a PNG file, 64 x 32 or a multiple",
+        metavar="FILE",
+    )
+    pose: Pose = _option(
+        "cloth",
+        str,
+        "cloth is simulated; vanilla is the game's stiff sway",
+        choices=get_args(Pose),
+        audience="anyone",
+    )
+    placement: Placement = _option(
+        "standing",
+        str,
+        "On a pole, on a wall, or an item in its slot of the inventory",
+        choices=get_args(Placement),
+        audience="anyone",
+    )
+    rotation: int = _option(
+        0,
+        int,
+        "Turn of a standing banner in sixteenths: 0 south, 4 west, 8 north, 12 east",
+        bounds=(0, ROTATIONS - 1),
+        audience="anyone",
+    )
+    facing: Facing | None = _option(
+        None,
+        str,
+        "Where a banner on a wall looks to",
+        choices=get_args(Facing),
+        default_text="south",
+        audience="anyone",
+    )
+    view: str = _option(
+        "front",
+        str,
+        "Where the camera stands",
+        choices=get_args(ViewName),
+        audience="anyone",
+    )
+    size: tuple[int, int] = _option(
+        (512, 512),
+        int,
+        "Width and height of the picture",
+        bounds=(1, MAX_SIDE),
+        unit="pixels",
+        parts=("width", "height"),
+        audience="anyone",
+    )
+    grid: tuple[int, int] = _option(
+        (5, 9),
+        int,
+        "Particles across and down the cloth",
+        bounds=(2, MAX_GRID),
+        unit="particles",
+        parts=("columns", "rows"),
+        audience="anyone",
+    )
+    solver: SolverName = _option(
+        "desbrun",
+        str,
+        "Method that moves the cloth",
+        choices=get_args(SolverName),
+    )
+    pins: Pins | None = _option(
+        None,
+        str,
+        "Where the cloth is held",
+        choices=get_args(Pins),
+        default_text="as its kind hangs",
+        audience="anyone",
+    )
+    wind: float = _option(
+        4.0,
+        float,
+        "Mean wind speed",
+        bounds=(0, MAX_WIND),
+        unit="m/s",
+        audience="anyone",
+    )
+    direction: float | None = _option(
+        None,
+        float,
+        "Where the wind blows to: 0 out of the front, 90 to the viewer's right",
+        bounds=(-360, 360),
+        unit="degrees",
+        default_text="19.3",
+        metavar="DEGREES",
+        audience="anyone",
+    )
+    gusts: float = _option(
+        0.4,
+        float,
+        "Strength of the gusts: their rms over the mean wind speed",
+        bounds=(0, 2),
+        audience="anyone",
+    )
+    time: float = _option(
+        3.0,
+        float,
+        "How long the cloth has hung in the wind when it is drawn",
+        bounds=(0, 3600),
+        unit="s",
+        audience="anyone",
+    )
+    seed: int = _option(
+        0,
+        int,
+        "Which gusts blow",
+        bounds=(0, 2**32 - 1),
+        audience="anyone",
+    )
+    layers: LayerMode = _option(
+        "stacked",
+        str,
+        "Quads one over the other as in the game, or one composite",
+        choices=get_args(LayerMode),
+        audience="anyone",
+    )
+    pbr: bool = _option(
+        False,
+        bool,
+        "Light by the LabPBR maps of the packs (_n and _s)",
+    )
+    thickness: float = _option(
+        1.0,
+        float,
+        "Thickness of the cloth; a texel is 1/24 m, and 0 is a bare sheet",
+        bounds=(0, 8),
+        unit="texels",
+        audience="anyone",
+    )
+    background: str = _option(
+        "transparent",
+        str,
+        "Colour behind the picture: transparent or #rrggbb",
+        audience="anyone",
+    )
+    samples: Samples = _option(
+        1,
+        int,
+        "Samples of each pixel; 1 gives the hard edges of pixel art",
+        choices=get_args(Samples),
+    )
+    pixel: int = _option(
+        1,
+        int,
+        "Draw smaller, then enlarge each pixel to a square of this side",
+        bounds=(1, MAX_PIXEL),
+        unit="pixels",
+    )
+    light: Lighting = _option(
+        "game",
+        str,
+        "The game's two lights, or the flat colours of the textures",
+        choices=get_args(Lighting),
+    )
+    block_light: int = _option(
+        0,
+        int,
+        "Light level of torches",
+        bounds=(0, MAX_LIGHT),
+    )
+    sky_light: int = _option(
+        MAX_LIGHT,
+        int,
+        "Light level of the sky",
+        bounds=(0, MAX_LIGHT),
+    )
+    daylight: float = _option(
+        1.0,
+        float,
+        "1 at noon, 0 at night",
+        bounds=(0, 1),
+    )
+    shadow: bool = _option(
+        False,
+        bool,
+        "Draw a soft shadow on the floor",
+    )
+    backend: str = _option(
+        "auto",
+        str,
+        "Renderer: auto, soft, pyrender, or one of an installed package",
+    )
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "packs", _paths(self.packs))
-        check_format(self.format)
-        one_of("kind", self.kind, get_args(Kind))
-        one_of("pose", self.pose, get_args(Pose))
-        one_of("placement", self.placement, get_args(Placement))
-        self._check_turn()
-        one_of("layers", self.layers, get_args(LayerMode))
-        one_of("solver", self.solver, get_args(SolverName))
-        if self.pbr and self.layers == "flat":
-            raise OptionError("pbr needs each layer's own maps; use layers stacked")
-        for side, pixels in zip(("width", "height"), _two("size", self.size), strict=True):
-            whole(f"size ({side})", pixels, 1, MAX_SIDE, "pixels")
-        for side, count in zip(("columns", "rows"), _two("grid", self.grid), strict=True):
-            whole(f"grid ({side})", count, 2, MAX_GRID, "particles")
-        if self.pins is not None:
-            one_of("pins", self.pins, get_args(Pins))
-        within("wind", self.wind, 0, MAX_WIND, "m/s")
-        if self.direction is not None:
-            within("direction", self.direction, -360, 360, "degrees")
-        within("gusts", self.gusts, 0, 2)
-        within("time", self.time, 0, 3600, "s")
-        whole("seed", self.seed, 0, 2**32 - 1)
-        within("thickness", self.thickness, 0, 8, "texels")
+        for name, option in OPTIONS.items():
+            object.__setattr__(self, name, option.check(getattr(self, name)))
         background_colour(self.background)
-        self._check_picture()
-
-    def _check_picture(self) -> None:
-        if self.samples not in get_args(Samples):
-            raise OptionError(f"samples {self.samples} is not known; use one of: 1, 4, 16")
-        whole("pixel", self.pixel, 1, MAX_PIXEL)
+        self._check_turn()
+        if self.pbr and self.layers == "flat":
+            raise OptionError("pbr needs the maps of each layer; use layers stacked")
         if any(side % self.pixel for side in self.size):
-            width, height = self.size
-            raise OptionError(
-                f"size {width}x{height} is not whole in pixels of {self.pixel}; use a multiple"
-            )
-        one_of("light", self.light, get_args(Lighting))
-        whole("block_light", self.block_light, 0, MAX_LIGHT)
-        whole("sky_light", self.sky_light, 0, MAX_LIGHT)
-        within("daylight", self.daylight, 0, 1)
+            size = OPTIONS["size"].to_text(self.size)
+            raise OptionError(f"size {size} is not a multiple of pixel {self.pixel}; use one")
 
     def _check_turn(self) -> None:
-        whole("rotation", self.rotation, 0, ROTATIONS - 1)
-        if self.facing is not None:
-            one_of("facing", self.facing, get_args(Facing))
-            if self.placement != "wall":
-                raise OptionError(f"facing {self.facing} is of banners on a wall; use rotation")
+        if self.facing is not None and self.placement != "wall":
+            raise OptionError(
+                f"facing {self.facing} applies only to banners on a wall; use rotation"
+            )
         if self.rotation and self.placement != "standing":
             remedy = "use facing on a wall" if self.placement == "wall" else "leave it out"
-            raise OptionError(f"rotation {self.rotation} is of what stands; {remedy}")
+            raise OptionError(
+                f"rotation {self.rotation} applies only to standing banners; {remedy}"
+            )
 
     @property
     def drawn_size(self) -> tuple[int, int]:
@@ -201,73 +336,58 @@ class Settings:
         return self.rotation * 360.0 / ROTATIONS
 
 
-def one_of(option: str, value: str, allowed: tuple[str, ...]) -> None:
-    """Raise OptionError unless the value is one of those allowed."""
-    if value not in allowed:
-        raise OptionError(f"{option} {value!r} is not known; use one of: {', '.join(allowed)}")
+OPTIONS: Mapping[str, Option] = MappingProxyType(
+    {f.name: Option(f.name, default=f.default, **f.metadata) for f in fields(Settings)}
+)
+"""The options of a picture by name, in the order in which help lists them."""
+
+LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
+    {
+        "seconds": Option(
+            "seconds",
+            "Length of the loop",
+            float,
+            4.0,
+            bounds=(1 / 120, MAX_FRAMES),
+            unit="s",
+            audience="anyone",
+        ),
+        "fps": Option(
+            "fps",
+            "Frames per second",
+            float,
+            20.0,
+            bounds=(1, 120),
+            unit="frames/s",
+            audience="anyone",
+        ),
+    }
+)
+"""The options that an animation has beside those of a picture."""
+
+Settings.__doc__ = "\n".join(
+    [f"{Settings.__doc__}\n", *(f"    {name}: {o.describe()}" for name, o in OPTIONS.items())]
+)
 
 
-def within(option: str, value: float, least: float, most: float, unit: str = "") -> None:
-    """Raise OptionError unless the value is a finite number between two bounds."""
-    limits = f"{least:g} to {most:g} {unit}".strip()
-    if not _is(value, Real):
-        raise OptionError(f"{option} {value!r} is no number; use {limits}")
-    if not (math.isfinite(value) and least <= value <= most):
-        raise OptionError(f"{option} {value:g} is out of range; use {limits}")
-
-
-def whole(option: str, value: int, least: int, most: int, unit: str = "") -> None:
-    """Raise OptionError unless the value is a whole number between two bounds."""
-    within(option, value, least, most, unit)
-    if not _is(value, Integral):
-        raise OptionError(f"{option} {value:g} is no whole number; round it")
-
-
-def _is(value: object, kind: type) -> bool:
-    return isinstance(value, kind)
+def frame_count(seconds: float, fps: float) -> int:
+    """How many frames an animation of this length [s] has. Raises OptionError."""
+    LOOP_OPTIONS["fps"].check(fps)
+    within("seconds", seconds, 1 / fps, MAX_FRAMES / fps, f"s at {fps:g} frames/s")
+    return max(1, round(seconds * fps))
 
 
 def check_format(number: int | None) -> None:
     """Raise OptionError unless this may be the number of a pack format; None is the newest."""
-    if number is not None:
-        whole("format", number, 1, MAX_FORMAT)
-
-
-def _paths(packs: object) -> tuple[str | Path, ...]:
-    # A text is a sequence too, of letters.
-    if not isinstance(packs, tuple | list):
-        raise OptionError(f"packs {str(packs)!r} is no list; put it in brackets: [{str(packs)!r}]")
-    return tuple(packs)
-
-
-def _two(option: str, value: object) -> tuple[int, int]:
-    if not isinstance(value, tuple | list) or len(value) != 2:
-        raise OptionError(f"{option} {value!r} is not a pair of whole numbers; write it (512, 512)")
-    first, second = value
-    return first, second
+    OPTIONS["format"].check(number)
 
 
 def background_colour(text: str) -> tuple[int, int, int, int]:
     """`transparent` or `#rrggbb` as straight-alpha sRGB. Raises OptionError."""
     if text == "transparent":
         return 0, 0, 0, 0
-    digits = str(text).removeprefix("#")
+    digits = text.removeprefix("#")
     if len(digits) != 6 or not all(c in "0123456789abcdefABCDEF" for c in digits):
-        raise OptionError(f"background {text!r} is not a colour; use transparent or #rrggbb")
+        raise OptionError(f"background {shown(text)} is not a colour; use transparent or #rrggbb")
     red, green, blue = bytes.fromhex(digits)
     return red, green, blue, 255
-
-
-def pair(option: str, text: str) -> tuple[int, int]:
-    """Two whole numbers written `512x512`. Raises OptionError."""
-    first, cross, second = text.lower().partition("x")
-    if not (
-        cross
-        and first.isascii()
-        and first.isdigit()
-        and second.isascii()
-        and second.isdigit()
-        and len(text) < 16
-    ):
-        raise OptionError(f"{option} {text!r} is not two whole numbers; write it like 512x512")
-    return int(first), int(second)

@@ -98,7 +98,7 @@ def test_all_faults_are_told_with_their_lines(tmp_path: Path, drapery: Run) -> N
         [
             ("line 2", "wind 99 is out of rang"),
             ("line 2", "size (width) 0 is out "),
-            ("line 3", "wind"),
+            ("line 3", "wind 'x' is not a numb"),
             ("line 3", "design"),
             ("line 4", "'colour' is no option;"),
             ("line 6", "A.png is written by li"),

@@ -194,7 +194,7 @@ def test_the_library_raises_what_the_command_line_prints() -> None:
 @pytest.mark.parametrize(
     "options",
     [
-        {"packs": "one-pack"},
+        {"packs": 5},
         {"size": (64,)},
         {"size": "64x64"},
         {"grid": (5.5, 9)},

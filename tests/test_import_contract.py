@@ -17,7 +17,8 @@ ROOMS = {
 LAW: dict[str, set[str]] = {
     "drapery.errors": set(),
     "drapery.mesh": {"errors"},
-    "drapery.settings": {"errors"},
+    "drapery.option": {"errors"},
+    "drapery.settings": {"errors", "option"},
     "drapery.options": {"errors", "settings"},
     "drapery.yaml_text": {"errors"},
     "drapery.cloth": {"errors", "mesh"},

@@ -21,8 +21,8 @@ OutOption = Annotated[
 @o.pictured()
 def run(
     out: OutOption,
-    seconds: Annotated[float, typer.Option(help="Length of the loop.")] = 4.0,
-    fps: Annotated[float, typer.Option(help="Frames per second.")] = 20.0,
+    seconds: o.SecondsOption = 4.0,
+    fps: o.FpsOption = 20.0,
     matte: Annotated[
         str | None,
         typer.Option(metavar="#RRGGBB", help="Behind half-transparent pixels of a GIF or video."),
@@ -30,9 +30,9 @@ def run(
     **words: Any,
 ) -> None:
     """Draw a banner waving in the wind, as a seamless loop."""
-    from drapery.pictures import frame_count, frames
+    from drapery.pictures import frames
     from drapery.render.encode import check_animation_target, save_animation
-    from drapery.settings import Settings, background_colour
+    from drapery.settings import Settings, background_colour, frame_count
 
     settings = Settings(**o.options_of(words))
     behind = None if matte is None else background_colour(matte)[:3]

@@ -66,7 +66,7 @@ def run(
     from drapery.batch.report import numbers, write_page
     from drapery.batch.results import ResultsDB
     from drapery.batch.stores import open_store
-    from drapery.settings import within
+    from drapery.option import within
 
     within("workers", workers or 1, 1, MAX_WORKERS, "processes")
     within("retries", retries, 0, 100)

@@ -55,7 +55,8 @@ def run(
     """Hold pictures against the first; exit code 0 same, 1 different, 2 bad input."""
     from drapery.compare.comparison import compare_variants
     from drapery.compare.variants import draw_variants
-    from drapery.settings import Settings, within
+    from drapery.option import within
+    from drapery.settings import Settings
 
     for target in out or []:
         _check_target(target)

@@ -58,14 +58,15 @@ def run(
     backend: o.BackendOption = "auto",
 ) -> None:
     """Make the gallery: all scenes, and an index page."""
+    from drapery.option import one_of
     from drapery.render.encode.output import replacing
     from drapery.scenes.catalogue import find
     from drapery.scenes.catalogue import names as all_names
-    from drapery.settings import one_of, pair
+    from drapery.settings import OPTIONS
 
     one_of("as", kind, KINDS)
     scenes = [find(name) for name in names or all_names()]
-    pixels = pair("size", size)
+    pixels = OPTIONS["size"].parse(size)
     _make_folder(out)
     entries = []
     for scene in scenes:
@@ -81,8 +82,9 @@ def _play(
 ) -> None:
     from dataclasses import replace
 
-    from drapery.pictures import frame_count, scene_frames
+    from drapery.pictures import scene_frames
     from drapery.render.encode import check_animation_target, save_animation
+    from drapery.settings import frame_count
 
     check_animation_target(target)
     shot = replace(scene.shot, size=size)

@@ -36,7 +36,7 @@ def run(
     from drapery.banner.formats import read_design
     from drapery.banner.packs import open_packs
     from drapery.pictures import draw_exploded
-    from drapery.settings import Settings, pair
+    from drapery.settings import OPTIONS, Settings
     from drapery.sheets.faces import steps_sheet
     from drapery.sheets.sheet import check_sheet_target
 
@@ -44,7 +44,7 @@ def run(
         packs=tuple(pack or ()),
         format=format,
         view=view,
-        size=pair("size", size),
+        size=OPTIONS["size"].parse(size),
         background=background,
         backend=backend,
     )

@@ -27,17 +27,16 @@ FLAT = (
 def run(
     out: OutOption,
     seconds: Annotated[float, typer.Option(help="Length of the loop; 0 for one pose.")] = 4.0,
-    fps: Annotated[float, typer.Option(help="Frames per second.")] = 20.0,
+    fps: o.FpsOption = 20.0,
     **words: Any,
 ) -> None:
     """Write a banner, shield, cape or elytra as a 3-D file: a waving GLB, or one pose."""
     from drapery.banner.packs import open_packs
-    from drapery.pictures import frame_count
     from drapery.render.export import check_model_target, save_model
     from drapery.scenes.staging import loop, still
-    from drapery.settings import Settings
+    from drapery.settings import Settings, frame_count
 
-    settings = Settings(**o.options_of(words | {"size": "512x512"}))
+    settings = Settings(**o.options_of(words))
     moves = check_model_target(out) == ".glb" and seconds != 0
     packs = open_packs(settings.packs, format=settings.format)
     banner = o.design_of(words)

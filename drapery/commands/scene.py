@@ -60,10 +60,10 @@ def _play(
     size: str,
     backend: str,
 ) -> None:
-    from drapery.pictures import frame_count, scene_frames
+    from drapery.pictures import scene_frames
     from drapery.render.encode import check_animation_target, check_still_target, save_animation
     from drapery.scenes.catalogue import Shot, find
-    from drapery.settings import pair
+    from drapery.settings import OPTIONS, frame_count
 
     scene, words = find(name), _words(parameters)
     is_still = out.lower().endswith(".png") and not out.lower().endswith(".sheet.png")
@@ -71,7 +71,7 @@ def _play(
     own = scene.shot
     fps = own.fps if fps is None else fps
     length = own.count / own.fps if seconds is None else seconds
-    shot = Shot(pair("size", size), frame_count(length, fps), fps)
+    shot = Shot(OPTIONS["size"].parse(size), frame_count(length, fps), fps)
     with compile_notice(), progress("frames", shot.count) as tick:
         drawn = scene_frames(scene, scene.parameters(words), shot, backend, last=is_still)
         if is_still:

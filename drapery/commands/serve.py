@@ -27,7 +27,8 @@ def run(
 
     from drapery.banner.packs import open_packs
     from drapery.errors import BackendError
-    from drapery.settings import MAX_SIDE, Settings, within
+    from drapery.option import within
+    from drapery.settings import MAX_SIDE, Settings
 
     try:
         import uvicorn

@@ -90,7 +90,7 @@ def write_packs(
 ) -> None:
     """One design over our own art and over each of many packs."""
     from drapery.banner.formats import read_design
-    from drapery.settings import Settings, pair
+    from drapery.settings import OPTIONS, Settings
     from drapery.sheets.drawn import packs_sheet
     from drapery.sheets.sheet import check_sheet_target
 
@@ -99,7 +99,7 @@ def write_packs(
     settings = Settings(
         format=format,
         view=view,
-        size=pair("size", size),
+        size=OPTIONS["size"].parse(size),
         wind=wind,
         background=background,
         backend=backend,
@@ -111,7 +111,7 @@ def write_packs(
 
 
 def _check_scale(scale: int) -> None:
-    from drapery.settings import within
+    from drapery.option import within
 
     within("scale", scale, 1, MAX_SCALE, "pixels")
 

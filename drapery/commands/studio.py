@@ -31,7 +31,8 @@ def run(
 ) -> None:
     """Open the studio: design a banner on a page and watch it wave."""
     from drapery.errors import BackendError
-    from drapery.settings import Settings, within
+    from drapery.option import within
+    from drapery.settings import Settings
 
     _check(host, token)
     within("port", port, 0, 65535)

@@ -1,0 +1,228 @@
+"""What one option is: its type and bounds, its help, and how a text becomes its value."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from numbers import Integral, Real
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+from drapery.errors import OptionError
+
+Audience: TypeAlias = Literal["anyone", "local", "python"]
+"""Who may set an option: anyone over HTTP, the user of this machine, or only a Python program."""
+OptionType: TypeAlias = type[bool] | type[int] | type[float] | type[str] | type[Path] | None
+
+_TRUE = frozenset({"1", "true", "yes", "on"})
+_FALSE = frozenset({"0", "false", "no", "off"})
+_MAX_SHOWN = 48
+
+
+@dataclass(frozen=True)
+class Option:
+    """One option of a picture.
+
+    help: its meaning, without a full stop at the end; `describe` adds the limits.
+    type: of one value in Python; None where only the objects of `attributes` are allowed.
+    default: its value if nobody sets it. An option whose default is None may be set to None.
+    default_text: the meaning of a default None.
+    bounds: the lowest and the highest number that are allowed, both included.
+    unit: of the number.
+    choices: the values that are allowed, where they are few.
+    parts: the names of the two whole numbers of a pair such as `512x512`.
+    several: whether the value is a tuple of any number of values.
+    attributes: an object that has all of these is taken as it is, in place of a name or number.
+    audience: who may set it.
+    flag: its name on the command line.
+    metavar: what help shows in place of the value.
+    """
+
+    name: str
+    help: str
+    type: OptionType
+    default: Any = None
+    default_text: str = ""
+    bounds: tuple[float, float] | None = None
+    unit: str = ""
+    choices: tuple[str | int, ...] = ()
+    parts: tuple[str, ...] = ()
+    several: bool = False
+    attributes: tuple[str, ...] = ()
+    audience: Audience = "local"
+    flag: str = ""
+    metavar: str | None = None
+
+    @property
+    def public(self) -> bool:
+        """Whether anyone may set it over HTTP."""
+        return self.audience == "anyone"
+
+    @property
+    def command_flag(self) -> str:
+        """Its name on the command line, such as `--block-light`."""
+        return self.flag or "--" + self.name.replace("_", "-")
+
+    @property
+    def limits(self) -> str:
+        """The values that are allowed, such as `0 to 40 m/s`; empty if any text will do."""
+        if self.choices:
+            *first, last = map(str, self.choices)
+            return f"{', '.join(first)} or {last}"
+        return "" if self.bounds is None else limits(*self.bounds, self.unit)
+
+    def describe(self) -> str:
+        """Its help with its limits, as one sentence."""
+        return f"{self.help} ({self.limits})." if self.limits else f"{self.help}."
+
+    def check(self, value: object) -> Any:
+        """The value in its own type. Raises OptionError that names the option and its limits."""
+        if value is None and self.default is None:
+            return None
+        if self.attributes and all(hasattr(value, name) for name in self.attributes):
+            return value
+        if self.several:
+            return tuple(self._check_one(self.name, each) for each in _sequence(self.name, value))
+        if self.parts:
+            return self._check_pair(value)
+        return self._check_one(self.name, value)
+
+    def parse(self, value: object, folder: Path | None = None) -> Any:
+        """A text, or a value of JSON, TOML or YAML, as `check` returns it.
+
+        folder: relative paths start here; None leaves them as they are.
+        Raises OptionError.
+        """
+        if self.several and isinstance(value, str):
+            value = [part.strip() for part in value.split(";") if part.strip()]
+        if self.parts and isinstance(value, str):
+            return self.check(pair(self.name, value))
+        if self.several and isinstance(value, list | tuple):
+            return self.check([self._parse_one(each, folder) for each in value])
+        return self.check(self._parse_one(value, folder))
+
+    def to_text(self, value: object) -> str:
+        """A value as `parse` reads it; an empty text for None."""
+        if value is None:
+            return ""
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        if isinstance(value, tuple | list):
+            return ("x" if self.parts else ";").join(map(str, value))
+        return str(value)
+
+    def _check_pair(self, value: object) -> tuple[int, int]:
+        if not isinstance(value, tuple | list) or len(value) != len(self.parts):
+            example = self.to_text(self.default)
+            raise OptionError(
+                f"{self.name} {shown(value)} is not two whole numbers; write it like {example}"
+            )
+        first, second = (
+            self._check_one(f"{self.name} ({part})", each)
+            for part, each in zip(self.parts, value, strict=True)
+        )
+        return first, second
+
+    def _check_one(self, name: str, value: Any) -> Any:
+        if self.type is None:
+            raise OptionError(f"{name} {shown(value)} is not what it takes; {self.help}")
+        if self.type is bool:
+            if not isinstance(value, bool):
+                raise OptionError(f"{name} {shown(value)} is not yes or no; use one of them")
+            return value
+        if self.type is Path:
+            if not isinstance(value, str | Path) or "\0" in str(value):
+                raise OptionError(f"{name} {shown(value)} is not a path; give the path of a file")
+            return value
+        if self.choices:
+            one_of(name, value, self.choices)
+        elif self.type is str:
+            if not isinstance(value, str):
+                raise OptionError(f"{name} {shown(value)} is not a text; put it in quotes")
+        elif self.bounds is not None:
+            (whole if self.type is int else within)(name, value, *self.bounds, self.unit)
+        return self.type(value)
+
+    def _parse_one(self, value: object, folder: Path | None) -> object:
+        if isinstance(value, str):
+            value = _from_text(value.strip(), self.type)
+        elif self.type is int and isinstance(value, float) and value.is_integer():
+            value = int(value)
+        if self.type is Path and folder is not None and isinstance(value, str | Path):
+            value = folder / value
+        return value
+
+
+def _from_text(text: str, kind: OptionType) -> object:
+    """The text as a value of the type, or the text itself if it is none of that type."""
+    if kind is bool:
+        word = text.lower()
+        return word in _TRUE if word in _TRUE | _FALSE else text
+    if kind not in (int, float) or "_" in text:
+        return text
+    try:
+        number = float(text)
+        if kind is int and number.is_integer():
+            # A float holds whole numbers exactly only up to 2^53.
+            return int(number) if "." in text or "e" in text.lower() else int(text)
+    except (ValueError, OverflowError):
+        return text
+    return number
+
+
+def shown(value: object) -> str:
+    """A value as an error message quotes it: at most some 50 characters long."""
+    try:
+        text = f"{value:g}" if isinstance(value, float) else repr(value)
+    except ValueError:  # Python does not write whole numbers of over 4300 digits
+        return "of thousands of digits"
+    return text if len(text) <= _MAX_SHOWN else text[: _MAX_SHOWN - 4] + " ..."
+
+
+def limits(least: float, most: float, unit: str = "") -> str:
+    """Two bounds as help and messages write them, such as `0 to 40 m/s`."""
+    return f"{_plain(least)} to {_plain(most)} {unit}".strip()
+
+
+def _plain(number: float) -> str:
+    return str(int(number)) if float(number).is_integer() else f"{number:g}"
+
+
+def one_of(option: str, value: object, allowed: Sequence[object]) -> None:
+    """Raise OptionError unless the value is one of those allowed."""
+    # True equals 1, and an array equals nothing as a whole.
+    if isinstance(value, bool) or not isinstance(value, str | Integral) or value not in allowed:
+        names = ", ".join(map(str, allowed))
+        raise OptionError(f"{option} {shown(value)} is not known; use one of: {names}")
+
+
+def within(option: str, value: Any, least: float, most: float, unit: str = "") -> None:
+    """Raise OptionError unless the value is a finite number between two bounds, both included."""
+    allowed = limits(least, most, unit)
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise OptionError(f"{option} {shown(value)} is not a number; use {allowed}")
+    # A whole number may be too large for a float, and NaN fails each comparison.
+    if not (least <= value <= most) or (not isinstance(value, Integral) and math.isinf(value)):
+        raise OptionError(f"{option} {shown(value)} is out of range; use {allowed}")
+
+
+def whole(option: str, value: object, least: float, most: float, unit: str = "") -> None:
+    """Raise OptionError unless the value is a whole number between two bounds, both included."""
+    within(option, value, least, most, unit)
+    if not isinstance(value, Integral):
+        raise OptionError(f"{option} {shown(value)} is not a whole number; round it")
+
+
+def pair(option: str, text: str) -> tuple[int, int]:
+    """Two whole numbers written `512x512`. Raises OptionError."""
+    sides = text.strip().lower().split("x")
+    if len(sides) != 2 or len(text) > 16 or not all(s.isascii() and s.isdigit() for s in sides):
+        raise OptionError(f"{option} {shown(text)} is not two whole numbers; write it like 512x512")
+    return int(sides[0]), int(sides[1])
+
+
+def _sequence(option: str, value: object) -> Sequence[object]:
+    if isinstance(value, str | Path):
+        return (value,)
+    if not isinstance(value, tuple | list):
+        raise OptionError(f"{option} {shown(value)} is not a list; put it in brackets: [...]")
+    return value

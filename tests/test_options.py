@@ -1,0 +1,183 @@
+"""One table describes every option, and all that takes options agrees with it."""
+
+from dataclasses import fields
+from pathlib import Path
+from typing import Any, get_args, get_type_hints
+
+import pytest
+import typer.main
+from conftest import Run
+
+from drapery.cli import app
+from drapery.errors import OptionError
+from drapery.option import Option, limits, one_of, shown, whole, within
+from drapery.options import check_options
+from drapery.settings import LOOP_OPTIONS, OPTIONS, Options, Settings, ViewName, frame_count
+
+HUGE = 10**310 - 1
+"""A whole number that is too large for a float."""
+ALL = {**OPTIONS, **LOOP_OPTIONS}
+NUMBERS = [
+    name for name, option in ALL.items() if option.type in (int, float) and not option.several
+]
+
+
+def test_the_table_the_settings_and_the_keywords_are_the_same() -> None:
+    assert list(OPTIONS) == [field.name for field in fields(Settings)]
+    assert get_type_hints(Options) == get_type_hints(Settings)
+    assert {name: option.default for name, option in OPTIONS.items()} == {
+        field.name: field.default for field in fields(Settings)
+    }
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_the_type_and_choices_are_those_of_the_annotation(name: str) -> None:
+    option, annotation = OPTIONS[name], get_type_hints(Options)[name]
+    parts = [part for part in get_args(annotation) if part is not type(None)]
+    assert (type(None) in get_args(annotation)) is (option.default is None)
+    if option.choices and name != "view":
+        allowed = [value for part in parts for value in get_args(part) or (part,)]
+        assert tuple(allowed) == option.choices
+    if option.choices:
+        assert {type(choice) for choice in option.choices} == {option.type}
+
+
+def test_the_views_are_those_of_the_renderer() -> None:
+    from drapery.render.views import VIEWS
+
+    assert tuple(VIEWS) == get_args(ViewName)
+
+
+@pytest.mark.parametrize("option", ALL.values(), ids=lambda o: o.name)
+def test_a_default_is_allowed_and_reads_back_from_its_text(option: Option) -> None:
+    assert option.check(option.default) == option.default
+    if option.default is not None:
+        assert option.parse(option.to_text(option.default)) == option.default
+
+
+@pytest.mark.parametrize("option", ALL.values(), ids=lambda o: o.name)
+def test_help_is_a_sentence_with_the_limits(option: Option) -> None:
+    said = option.describe()
+    assert said.endswith(".") and not said.endswith("..") and option.limits in said
+
+
+def commands() -> dict[str, Any]:
+    found: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+    return found
+
+
+@pytest.mark.parametrize("command", ["render", "animate"])
+def test_the_command_line_has_every_option_once(command: str) -> None:
+    flags = [flag for each in commands()[command].params for flag in each.opts]
+    for option in OPTIONS.values():
+        assert flags.count(option.command_flag) == 1, option.name
+    helps = {each.opts[0]: each.help for each in commands()[command].params if each.opts}
+    assert helps["--wind"] == "Mean wind speed (0 to 40 m/s)."
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+@pytest.mark.parametrize(
+    "value", [HUGE, -HUGE, 10**5000, float("inf"), float("nan")], ids=lambda v: shown(v)[:8]
+)
+def test_a_number_beyond_every_float_is_refused_in_one_line(name: str, value: float) -> None:
+    option = ALL[name]
+    with pytest.raises(OptionError) as caught:
+        option.check((value, 9) if option.parts else value)
+    line = str(caught.value)
+    assert name in line and len(line) < 160 and "\n" not in line
+
+
+def test_a_long_frame_rate_is_refused() -> None:
+    with pytest.raises(OptionError, match=r"fps .* is out of range; use 1 to 120 frames/s"):
+        frame_count(4.0, HUGE)
+    with pytest.raises(OptionError, match=r"seconds .* is out of range"):
+        frame_count(HUGE, 20.0)
+
+
+@pytest.mark.parametrize("flag", ["--seed", "--rotation", "--pixel", "--block-light", "--format"])
+def test_the_command_line_refuses_them_too(drapery: Run, tmp_path: Path, flag: str) -> None:
+    code, _, err = drapery("render", "white", "-o", tmp_path / "x.png", flag, HUGE)
+    assert code == 2 and "is out of range" in err and len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("given", "line"),
+    [
+        ({"wind": "fast"}, "wind 'fast' is not a number; use 0 to 40 m/s"),
+        ({"wind": True}, "wind True is not a number; use 0 to 40 m/s"),
+        ({"wind": float("nan")}, "wind nan is out of range; use 0 to 40 m/s"),
+        ({"seed": 1.5}, "seed 1.5 is not a whole number; round it"),
+        ({"size": "64"}, "size '64' is not two whole numbers; write it like 512x512"),
+        ({"size": (64,)}, "size (64,) is not two whole numbers; write it like 512x512"),
+        ({"size": (0, 9)}, "size (width) 0 is out of range; use 1 to 8192 pixels"),
+        ({"pose": "still"}, "pose 'still' is not known; use one of: cloth, vanilla"),
+        ({"samples": True}, "samples True is not known; use one of: 1, 4, 16"),
+        ({"view": 5}, "view 5 is not known; use one of: front, back, iso, gui, hero"),
+        ({"shadow": "dark"}, "shadow 'dark' is not yes or no; use one of them"),
+        ({"background": 112233}, "background 112233 is not a text; put it in quotes"),
+        ({"texture": 5}, "texture 5 is not a path; give the path of a file"),
+        ({"packs": 5}, "packs 5 is not a list; put it in brackets: [...]"),
+        ({"rotation": 2, "placement": "item"}, "applies only to standing banners; leave it out"),
+        ({"facing": "west"}, "facing west applies only to banners on a wall; use rotation"),
+        ({"size": (9, 9), "pixel": 2}, "size 9x9 is not a multiple of pixel 2; use one"),
+    ],
+    ids=str,
+)
+def test_a_message_names_the_option_and_the_remedy(given: dict[str, Any], line: str) -> None:
+    with pytest.raises(OptionError) as caught:
+        Settings(**given)
+    assert line in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "read"),
+    [
+        ("wind", "6", 6.0),
+        ("wind", 6, 6.0),
+        ("seed", "4294967295", 2**32 - 1),
+        ("seed", "3.0", 3),
+        ("seed", 3.0, 3),
+        ("samples", "4", 4),
+        ("shadow", "yes", True),
+        ("shadow", "FALSE", False),
+        ("size", "64X48", (64, 48)),
+        ("grid", [9, 17], (9, 17)),
+        ("facing", None, None),
+        ("packs", "a; b.zip;", (Path("here/a"), Path("here/b.zip"))),
+        ("packs", ["a"], (Path("here/a"),)),
+        ("packs", Path("a"), (Path("here/a"),)),
+        ("texture", "/x.png", Path("/x.png")),
+    ],
+)
+def test_a_text_from_outside_becomes_a_value(name: str, value: object, read: object) -> None:
+    parsed = OPTIONS[name].parse(value, Path("here"))
+    assert parsed == read and type(parsed) is type(read)
+
+
+def test_every_fault_of_many_options_is_listed() -> None:
+    given = {"wind": "-1", "pose": "x", "wnid": "3", "seed": "9" * 310, "view": "hero"}
+    faults = check_options(given, Path())
+    assert isinstance(faults, list)
+    assert [line.split()[0] for line in faults] == ["wind", "pose", "'wnid'", "seed"]
+    assert faults[2].endswith("did you mean wind?")
+    assert check_options({"wind": "3", "view": "hero"}, Path()) == Settings(wind=3, view="hero")
+
+
+def test_options_that_fit_together_are_judged_together() -> None:
+    read = check_options({"facing": "west", "placement": "wall", "wind": 99}, Path())
+    assert read == ["wind 99 is out of range; use 0 to 40 m/s"]
+
+
+def test_checks_take_numpy_numbers_and_no_truth_values() -> None:
+    import numpy as np
+
+    within("wind", np.float32(3), 0, 40)
+    whole("seed", np.int64(3), 0, 40)
+    one_of("samples", np.int64(4), (1, 4, 16))
+    assert type(Settings(seed=np.int64(3)).seed) is int  # type: ignore[arg-type]
+    for wrong in (np.zeros(3), np.bool_(True), [1], None):
+        with pytest.raises(OptionError):
+            one_of("samples", wrong, (1, 4, 16))
+        with pytest.raises(OptionError):
+            whole("seed", wrong, 0, 40)
+    assert limits(0, 2**32 - 1) == "0 to 4294967295"
