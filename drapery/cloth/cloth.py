@@ -10,8 +10,12 @@ from drapery.cloth.fabric import MAX_DRAG
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
 
-STRUCTURAL, SHEAR, FLEXION = 0, 1, 2
-"""The kinds of spring: between neighbours, across a cell, and over two cells (Provot 1995)."""
+STRUCTURAL = 0
+"""The kind of springs between neighbours (Provot 1995, section 3)."""
+SHEAR = 1
+"""The kind of springs across a cell."""
+FLEXION = 2
+"""The kind of springs over two cells, which resist bending."""
 
 MAX_SPRING = 1e9
 """The greatest length [m] and stiffness [N/m] of a spring; single precision cannot hold more."""

@@ -1,0 +1,29 @@
+"""The public API: every change is announced, and every name is documented."""
+
+from public_api import ROOT, announced, changed, load, public_objects, read_record, signatures
+
+
+
+
+def test_every_change_of_a_public_signature_is_in_the_changelog() -> None:
+    names = announced((ROOT / "CHANGELOG.md").read_text(encoding="utf-8"))
+    silent = [
+        name for name in changed(read_record(), signatures()) if not names & set(name.split(".")[1:])
+    ]
+    assert not silent, f"write in CHANGELOG.md, in backquotes, what changed of: {', '.join(silent)}"
+
+
+def test_a_changed_signature_is_noticed() -> None:
+    before = {"drapery.draw": "function(banner: Banner)", "drapery.Gone": "class()"}
+    now = {"drapery.draw": "function(banner: str)", "drapery.New": "class()"}
+    assert changed(before, now) == ["drapery.Gone", "drapery.New", "drapery.draw"]
+
+
+def test_only_the_newest_section_of_the_changelog_announces() -> None:
+    text = "# Changes\n\n## 0.2\n- `draw(banner=)` is new\n\n## 0.1\n- `old`\n"
+    assert announced(text) == {"draw", "banner"}
+
+
+def test_every_public_name_has_a_docstring() -> None:
+    bare = [name for name, found in public_objects(load()) if not found.has_docstring]
+    assert not bare, f"document: {', '.join(bare)}"
