@@ -1,11 +1,13 @@
 """Where a picture is taken from. Right-handed, y up; the camera looks along its own -z."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.errors import OptionError
+from drapery.render.vectors import dots
 
 Vector = tuple[float, float, float]
 Matrix = NDArray[np.float64]
@@ -32,16 +34,29 @@ class Camera:
 
 
 def view_matrix(camera: Camera) -> Matrix:
-    """World to eye space, shape [4, 4]."""
-    back = np.subtract(camera.position, camera.target).astype(np.float64)
-    back /= np.linalg.norm(back)
-    right = np.cross(camera.up, back)
-    right /= np.linalg.norm(right)
-    rows = np.stack([right, np.cross(back, right), back])
+    """World to eye space, shape [4, 4]; not finite for a camera that spans no view."""
+    rows = _axes(camera)
     matrix = np.eye(4)
     matrix[:3, :3] = rows
-    matrix[:3, 3] = -rows @ np.asarray(camera.position, np.float64)
+    matrix[:3, 3] = -dots(rows, np.asarray(camera.position, np.float64))
     return matrix
+
+
+def camera_pose(camera: Camera) -> Matrix:
+    """Eye to world space, shape [4, 4]; the inverse of `view_matrix`."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = _axes(camera).T
+    matrix[:3, 3] = camera.position
+    return matrix
+
+
+def _axes(camera: Camera) -> Matrix:
+    """Unit vectors to the right, to the top and towards the viewer, shape [3, 3]."""
+    back = np.subtract(camera.position, camera.target).astype(np.float64)
+    back /= np.sqrt(dots(back, back))
+    right = np.cross(camera.up, back)
+    right /= np.sqrt(dots(right, right))
+    return np.stack([right, np.cross(back, right), back])
 
 
 def projection_matrix(camera: Camera, aspect: float) -> Matrix:
@@ -49,7 +64,7 @@ def projection_matrix(camera: Camera, aspect: float) -> Matrix:
     near, far = camera.near, camera.far
     matrix = np.zeros((4, 4))
     if camera.height is None:
-        scale = 1.0 / np.tan(np.radians(camera.fov) / 2.0)
+        scale = 1.0 / math.tan(math.radians(camera.fov) / 2.0)
         matrix[2, 2], matrix[2, 3], matrix[3, 2] = (
             (far + near) / (near - far),
             2.0 * far * near / (near - far),

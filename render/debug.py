@@ -12,6 +12,7 @@ from drapery.mesh import Array, Mesh, Triangles
 from drapery.render.camera import Camera
 from drapery.render.lines import dot_model, line_model
 from drapery.render.scene import Material, Model, Texels, TextureLayer
+from drapery.render.vectors import dots
 
 Index = NDArray[np.integer[Any]]
 
@@ -82,7 +83,7 @@ def stretch_model(mesh: Mesh, stretch: Array, limit: float = 0.1) -> Model:
 def spring_stretch(positions: Array, pairs: Index, lengths: Array) -> Array:
     """Length over rest length, less 1, of springs between positions [N, 3]; shape [S]."""
     between = positions[pairs[:, 1]] - positions[pairs[:, 0]]
-    stretch: Array = np.linalg.norm(between, axis=-1) / lengths - 1
+    stretch: Array = np.sqrt(dots(between, between)) / lengths - 1
     return stretch
 
 

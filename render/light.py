@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.mesh import Array
+from drapery.render.vectors import dots
 
 Vector = tuple[float, float, float]
 
@@ -27,7 +28,7 @@ class Light:
     def unit_directions(self) -> NDArray[np.float64]:
         """Towards each light, shape [L, 3]."""
         towards = np.array(self.directions, np.float64).reshape(-1, 3)
-        unit: NDArray[np.float64] = towards / np.linalg.norm(towards, axis=1, keepdims=True)
+        unit: NDArray[np.float64] = towards / np.sqrt(dots(towards, towards))[:, None]
         return unit
 
     def brightness(self, normals: Array) -> Array:

@@ -1,5 +1,6 @@
 """Lines and dots as thin meshes that face the camera: any backend draws them, with depth."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.scene import Alpha, Material, Model, Texels, TextureLayer
+from drapery.render.vectors import dots, unit
 
 NEARER = 0.004
 """Lines are drawn this share of their distance nearer, so the surface they lie on shows them."""
@@ -29,7 +31,7 @@ def line_model(
     """
     ends: Array = points[segments].astype(np.float64)
     along = ends[:, 1] - ends[:, 0]
-    across = _unit(np.cross(along[:, None], _towards(ends, camera)))
+    across = unit(np.cross(along[:, None], _towards(ends, camera)))
     half = _pixel_size(ends, camera, height)[..., None] * width / 2
     middle, beside = _nearer(ends, camera), across * half
     corners = np.stack([middle - beside, middle + beside], axis=2)
@@ -46,7 +48,7 @@ def dot_model(
     """
     places: Array = points.astype(np.float64)
     towards = _towards(places, camera)
-    right = _unit(np.cross(np.asarray(camera.up), towards))
+    right = unit(np.cross(np.asarray(camera.up), towards))
     up = np.cross(towards, right)
     half = _pixel_size(places, camera, height)[..., None] * width / 2
     sides = [(-1, -1), (1, -1), (-1, 1), (1, 1)]
@@ -73,8 +75,8 @@ def _towards(points: Array, camera: Camera) -> Array:
     """Unit vectors from points [..., 3] to the eye."""
     eye = np.asarray(camera.position, np.float64)
     if camera.height is not None:
-        return np.broadcast_to(_unit(eye - np.asarray(camera.target)), points.shape)
-    return _unit(eye - points)
+        return np.broadcast_to(unit(eye - np.asarray(camera.target)), points.shape)
+    return unit(eye - points)
 
 
 def _nearer(points: Array, camera: Camera) -> Array:
@@ -84,8 +86,8 @@ def _nearer(points: Array, camera: Camera) -> Array:
 def _depth(points: Array, camera: Camera) -> Array:
     """Distance [m] of points from the camera's plane, at least that of the near plane."""
     eye = np.asarray(camera.position, np.float64)
-    sight = _unit(np.asarray(camera.target) - eye)
-    away: Array = np.maximum(np.sum((points - eye) * sight, axis=-1), camera.near)
+    sight = unit(np.asarray(camera.target) - eye)
+    away: Array = np.maximum(dots(points - eye, sight), camera.near)
     return away
 
 
@@ -93,11 +95,5 @@ def _pixel_size(points: Array, camera: Camera, height: int) -> Array:
     """Metres that a pixel spans at points [..., 3], shape [...]."""
     if camera.height is not None:
         return np.full(points.shape[:-1], camera.height / height)
-    spanned: Array = _depth(points, camera) * 2 * np.tan(np.radians(camera.fov) / 2) / height
+    spanned: Array = _depth(points, camera) * 2 * math.tan(math.radians(camera.fov) / 2) / height
     return spanned
-
-
-def _unit(vectors: Array) -> Array:
-    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    unit: Array = vectors / np.where(lengths > 0, lengths, 1)
-    return unit

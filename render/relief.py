@@ -17,6 +17,7 @@ from drapery.render.flatten import lay_over
 from drapery.render.light import Light
 from drapery.render.recent import Recent
 from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
+from drapery.render.vectors import dots, unit
 
 SLACK = 1e-9
 """A texel's middle on a triangle's edge belongs to it, whichever way its corners were rounded."""
@@ -139,7 +140,7 @@ def _relief(material: Material) -> Relief:
             bends += share * (_bends(_sized(layer.normal, size)) - bends)
         if layer.specular is not None:
             matter += share * (_matter(_sized(layer.specular, size)) - matter)
-    return Relief(texels, _unit(bends[..., :3]), bends[..., 3], matter)
+    return Relief(texels, unit(bends[..., :3]), bends[..., 3], matter)
 
 
 def _bends(texels: Texels) -> Array:
@@ -238,19 +239,19 @@ def _inverse(corners: Array) -> Array:
 def _light(relief: Relief, layout: Layout, mesh: Mesh, light: Light) -> Array:
     """The factors for red, green and blue at each texel worn, shape [K, 3]."""
     used = mesh.triangles[layout.triangle]
-    normals = _unit(np.sum(mesh.normals[used] * layout.weights[..., None], axis=1))
+    normals = unit(np.sum(mesh.normals[used] * layout.weights[..., None], axis=1))
     edges = mesh.positions[mesh.triangles[:, 1:]] - mesh.positions[mesh.triangles[:, :1]]
     # dP/du and dP/dv, shape [T, 2, 3], then square to the normal, shape [K, 3] each.
     axes = np.sum(layout.inverse[..., None] * edges[:, None], axis=2)[layout.triangle]
-    right = _unit(axes[:, 0] - normals * np.sum(normals * axes[:, 0], axis=1, keepdims=True))
+    right = unit(axes[:, 0] - normals * dots(normals, axes[:, 0])[:, None])
     down = np.cross(normals, right)
-    down *= np.where(np.sum(down * axes[:, 1], axis=1, keepdims=True) < 0, -1, 1)
+    down *= np.where(dots(down, axes[:, 1])[:, None] < 0, -1, 1)
     x, y, z = np.moveaxis(relief.bends[layout.rows, layout.columns], -1, 0)[..., None]
-    bent = _unit(x * right + y * down + z * normals)
+    bent = unit(x * right + y * down + z * normals)
     openness = relief.open[layout.rows, layout.columns]
     total = openness * light.ambient
-    for unit in light.unit_directions():
-        total = total + light.diffuse * np.maximum(np.sum(bent * unit, axis=1), 0)
+    for towards in light.unit_directions():
+        total = total + light.diffuse * np.maximum(dots(bent, towards), 0)
     factors: Array = np.minimum(total, 1)[:, None] * np.array(light.tint)
     return factors.astype(np.float32)
 
@@ -258,9 +259,3 @@ def _light(relief: Relief, layout: Layout, mesh: Mesh, light: Light) -> Array:
 def _cross(a: Array, b: Array) -> Array:
     cross: Array = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     return cross
-
-
-def _unit(vectors: Array) -> Array:
-    lengths = np.sqrt(np.sum(vectors * vectors, axis=-1, keepdims=True))
-    unit: Array = vectors / np.where(lengths == 0, 1, lengths)
-    return unit

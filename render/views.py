@@ -1,5 +1,6 @@
 """Named cameras that frame what is to be seen."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.camera import Camera, Vector
+from drapery.render.vectors import dots
 
 
 @dataclass(frozen=True)
@@ -61,13 +63,13 @@ def turntable(view: View, points: Array, aspect: float, frames: int) -> list[Cam
 
 
 def _ring(degrees: float, radius: Array, height: Array) -> Array:
-    angle = np.radians(degrees)
-    return np.stack([radius * np.sin(angle), height, radius * np.cos(angle)], axis=-1)
+    angle = math.radians(degrees)
+    return np.stack([radius * math.sin(angle), height, radius * math.cos(angle)], axis=-1)
 
 
 def _turned(camera: Camera, axis: Array, degrees: float) -> Camera:
     """The camera carried around an upright axis, counter-clockwise seen from above."""
-    sin, cos = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+    sin, cos = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
 
     def turn(vector: Array) -> Vector:
         x, y, z = vector
@@ -91,7 +93,7 @@ def frame_points(view: View, points: Array, aspect: float, margin: float = 0.05)
         raise OptionError("the subject's points are not finite; there is nothing to frame")
     back, right, up = _axes(view)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    x, y, z = (np.sum((points - middle) * axis, axis=1) for axis in (right, up, back))
+    x, y, z = (dots(points - middle, axis) for axis in (right, up, back))
     room = 1 - 2 * margin
     # At least as deep as half a pixel of a large picture, so a flat subject has a near plane.
     radius = float(np.abs(z).max()) + 1e-3
@@ -99,7 +101,7 @@ def frame_points(view: View, points: Array, aspect: float, margin: float = 0.05)
         centre = middle + right * (x.min() + x.max()) / 2 + up * (y.min() + y.max()) / 2
         height = max(float(np.ptp(y)), float(np.ptp(x)) / aspect, 1e-6) / room
         return _camera(centre, back, up, 4 * radius + 1, radius, height=height)
-    tan = np.tan(np.radians(view.fov) / 2) * room
+    tan = math.tan(math.radians(view.fov) / 2) * room
     (x_mid, x_away), (y_mid, y_away) = _fit(x, z, tan * aspect), _fit(y, z, tan)
     centre = middle + right * x_mid + up * y_mid
     return _camera(centre, back, up, max(x_away, y_away, radius * 1.05), radius, fov=view.fov)
@@ -118,9 +120,9 @@ def _fit(across: Array, depth: Array, tan: float) -> tuple[float, float]:
 
 def _axes(view: View) -> tuple[Array, Array, Array]:
     """Unit vectors from the subject to the camera, and to the right and the top of the picture."""
-    azimuth, elevation = np.radians(view.azimuth), np.radians(view.elevation)
-    sin, cos = np.sin(azimuth), np.cos(azimuth)
-    back = np.array([sin * np.cos(elevation), np.sin(elevation), cos * np.cos(elevation)])
+    azimuth, elevation = math.radians(view.azimuth), math.radians(view.elevation)
+    sin, cos, level = math.sin(azimuth), math.cos(azimuth), math.cos(elevation)
+    back = np.array([sin * level, math.sin(elevation), cos * level])
     right = np.array([cos, 0.0, -sin])
     return back, right, np.cross(back, right)
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.render.camera import Camera, view_matrix
+from drapery.render.camera import Camera, camera_pose
 from drapery.render.drawlist import Float32
 from drapery.render.encode.png import png_bytes
 from drapery.render.export.parts import Part, Parts
@@ -162,7 +162,7 @@ def _camera_node(tree: Tree, camera: Camera, aspect: float) -> Json:
     else:
         lens = {"ymag": camera.height / 2, "xmag": camera.height / 2 * aspect} | near | far
         entry = {"type": "orthographic", "orthographic": lens}
-    pose = np.linalg.inv(view_matrix(camera))
+    pose = camera_pose(camera)
     return {
         "name": "camera",
         "camera": tree.add("cameras", entry),

@@ -27,6 +27,7 @@ from drapery.render.gl.platform import load_pyrender, release
 from drapery.render.materials import BLEND, CUTOUT, MaterialTables
 from drapery.render.relief import has_relief
 from drapery.render.scene import Scene
+from drapery.render.vectors import dots
 
 CUTOUT_BIT, SOLID_BIT, UNLIT_BIT = 1, 2, 4  # as in flat.frag
 
@@ -166,8 +167,9 @@ def _draw(stage: Stage, scene: Scene, drawing: DrawList) -> Pixels:
 
 def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Triangles:
     """Triangles that blend [T, 3], sorted by the depth of their middle; equals keep their order."""
-    clip = positions[triangles].astype(np.float64) @ matrix[2:, :3].T + matrix[2:, 3]
-    depth = (clip[..., 0] / clip[..., 1]).sum(axis=1)
+    corners = positions[triangles].astype(np.float64)
+    z, w = (dots(corners, row[:3]) + row[3] for row in matrix[2:])
+    depth = (z / w).sum(axis=1)
     return triangles[np.argsort(-depth, kind="stable")]
 
 

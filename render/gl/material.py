@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from OpenGL import GL
 
 from drapery.mesh import Array
-from drapery.render.camera import Camera, view_matrix
+from drapery.render.camera import Camera, camera_pose
 from drapery.render.gl.passes import LayeredRenderer
 from drapery.render.light import Light
 from drapery.render.relief import relief_of
 from drapery.render.scene import Material, Model, Scene, Texels
+from drapery.render.vectors import unit
 
 GAMMA = 2.2
 
@@ -44,7 +45,7 @@ def draw_materials(renderer: MaterialRenderer, scene: Scene) -> NDArray[np.uint8
         stage.add(pyrender.Mesh(list(_primitives(model))))
     for towards in scene.light.unit_directions():
         stage.add(_lamp(scene.light), pose=_looking_along(-towards))
-    pose = np.linalg.inv(view_matrix(scene.camera))
+    pose = camera_pose(scene.camera)
     stage.add(_lens(scene.camera, scene.size), pose=pose)
     flags = pyrender.RenderFlags
     samples: NDArray[np.uint8] = renderer.render(stage, flags.OFFSCREEN | flags.RGBA)
@@ -118,8 +119,7 @@ def _lamp(light: Light) -> Any:
 def _looking_along(direction: NDArray[np.float64]) -> NDArray[np.float64]:
     """A pose whose -z runs along a unit vector, shape [4, 4]."""
     side = np.array([1.0, 0, 0]) if abs(direction[0]) < 0.9 else np.array([0.0, 1, 0])
-    right = np.cross(direction, side)
-    right /= np.linalg.norm(right)
+    right = unit(np.cross(direction, side))
     pose = np.eye(4)
     pose[:3, :3] = np.stack([right, np.cross(-direction, right), -direction], axis=1)
     return pose

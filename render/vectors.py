@@ -1,0 +1,23 @@
+"""Products of vectors with sums in a fixed order.
+
+A product of matrices is left to the BLAS, whose kernels differ by processor in how they round. What
+reaches a picture is written out here instead, so that it has the same bits everywhere.
+"""
+
+import numpy as np
+
+from drapery.mesh import Array
+
+
+def dots(first: Array, second: Array) -> Array:
+    """Scalar products along the last axis of 3; shapes [..., 3] broadcast to shape [...]."""
+    products = first * second
+    total: Array = products[..., 0] + products[..., 1] + products[..., 2]
+    return total
+
+
+def unit(vectors: Array) -> Array:
+    """Vectors of length 1, shape [..., 3]; one without length stays 0."""
+    lengths = np.sqrt(dots(vectors, vectors))[..., None]
+    scaled: Array = vectors / np.where(lengths > 0, lengths, 1)
+    return scaled

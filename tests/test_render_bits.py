@@ -1,0 +1,72 @@
+"""The same bits whatever kernels the BLAS chooses for its processor."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+PROGRAM = """
+import hashlib
+import numpy as np
+from drapery.render import *
+from drapery.render.gl import far_to_near
+
+random = np.random.default_rng(5)
+found = {}
+
+def note(name, *values):
+    digest = found.setdefault(name, hashlib.sha256())
+    for value in values:
+        digest.update(value if isinstance(value, bytes) else repr(value).encode())
+
+for number in range(300):
+    position, target = (tuple(map(float, random.normal(size=3))) for _ in range(2))
+    camera = Camera(position, target, fov=50)
+    note("view matrix", view_matrix(camera).tobytes())
+    note("clip matrix", clip_matrix(camera, (40, 30)).tobytes())
+    points = random.normal(size=(20, 3))
+    note("frame_view", [frame_view(name, points, 1.5) for name in VIEWS])
+    note("turntable", turntable(VIEWS["hero"], points, 1.0, 5))
+    note("light", Light((position,), 0.3, 0.6).brightness(points).tobytes())
+
+triangles = random.integers(0, 20, (500, 3)).astype(np.int32)
+note("depth", far_to_near(triangles, points, clip_matrix(camera, (40, 30))).tobytes())
+cloth = make_mesh(random.normal(size=(300, 3)), random.integers(0, 300, (400, 3)))
+texture = random.integers(0, 256, (16, 16, 4), dtype=np.uint8)
+model = make_model(cloth, texture=texture, alpha="blend")
+camera = frame_view("hero", cloth.positions, 1.0)
+edges = edges_model(cloth, camera, 200)
+dots = dot_model(cloth.positions, (255, 0, 0, 255), camera, 200)
+shadow = contact_shadow([model], float(cloth.positions[:, 1].min()))
+picture = draw_models([model, edges, dots, shadow], view="hero", size=(200, 200))
+note("picture", picture.pixels.tobytes())
+scene = Scene((make_model(cloth, texture=texture),), camera)
+save_model(scene, "scene.glb")
+note("glb", open("scene.glb", "rb").read())
+for name, digest in found.items():
+    print(name, digest.hexdigest())
+"""
+
+
+@pytest.fixture(scope="module")
+def usual(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    return results(tmp_path_factory.mktemp("usual"), "Haswell")
+
+
+def results(folder: object, kernels: str) -> dict[str, str]:
+    said = subprocess.run(
+        [sys.executable, "-c", PROGRAM],
+        env={**os.environ, "OPENBLAS_CORETYPE": kernels},
+        cwd=str(folder),
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
+    return dict(line.rsplit(" ", 1) for line in said.splitlines())
+
+
+@pytest.mark.parametrize("kernels", ["Nehalem", "Prescott"])
+def test_the_blas_reaches_no_result(tmp_path: object, kernels: str, usual: dict[str, str]) -> None:
+    assert len(usual) == 8
+    assert results(tmp_path, kernels) == usual
