@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
+from drapery.render.pixels import Pixels
 
-Pixels = NDArray[np.uint8]
+__all__ = ["Animation", "Frame", "Pixels"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,7 +16,10 @@ class Frame:
     pixels: Pixels
 
     def save(self, path: str | Path) -> None:
-        """Write the picture; the ending chooses the format. Raises OutputError."""
+        """Write the picture as .png, .apng, .webp or .gif.
+
+        Raises OptionError for another ending, OutputError for a file that cannot be written.
+        """
         from drapery.render.encode import save_frame
 
         save_frame(self, path)
@@ -25,7 +27,10 @@ class Frame:
 
 @dataclass(frozen=True, eq=False)
 class Animation:
-    """Frames of one size shown at a steady rate [frames/s]; the last is followed by the first."""
+    """Frames of one size, shown in a loop.
+
+    frames: at least one, in order. fps: frames/s, above 0.
+    """
 
     frames: tuple[Frame, ...]
     fps: float
@@ -37,7 +42,11 @@ class Animation:
         return len(self.frames)
 
     def save(self, path: str | Path) -> None:
-        """Write the animation; the ending, or a folder, chooses the format. Raises OutputError."""
+        """Write the animation as .gif, .apng, .png, .webp, .mp4, .webm, .sheet.png or folder/.
+
+        Raises OptionError for another ending or for no frames, OutputError for a target that
+        cannot be written, BackendError for a video without PyAV.
+        """
         from drapery.render.encode import save_animation
 
         save_animation(self.frames, self.fps, path)

@@ -108,3 +108,32 @@ def test_numbers_of_a_mesh_keep_their_precision() -> None:
     single = make_mesh(SQUARE.positions.astype(np.float32), SQUARE.triangles)
     assert single.positions.dtype == single.normals.dtype == np.float32
     assert (single.normals == (0, 0, 1)).all()
+
+
+def test_no_circle_of_imports() -> None:
+    """Imports inside functions count; those for type checkers alone do not."""
+    folder = Path(inspect.getfile(drapery.render)).parent
+    imports = {}
+    for path in folder.rglob("*.py"):
+        parts = path.relative_to(folder).with_suffix("").parts
+        name = ".".join(("drapery.render", *parts)).removesuffix(".__init__")
+        imports[name] = _imported(ast.parse(path.read_text(encoding="utf-8")))
+    # Modules that import no module left in the table are taken out until none is left.
+    while imports:
+        free = [name for name, others in imports.items() if not others & (imports.keys() - {name})]
+        assert free, f"a circle among {sorted(imports)}"
+        for name in free:
+            del imports[name]
+
+
+def _imported(tree: ast.AST) -> set[str]:
+    found: set[str] = set()
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            continue
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            found |= {str(node.module), *(f"{node.module}.{alias.name}" for alias in node.names)}
+        found |= _imported(node)
+    return found

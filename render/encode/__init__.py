@@ -23,17 +23,17 @@ from typing import BinaryIO
 from drapery.errors import OptionError
 from drapery.render.encode.output import check_writable, replacing
 from drapery.render.encode.palette import Matte
-from drapery.render.frame import Frame
+from drapery.render.pixels import HasPixels
 
 Progress = Callable[[int, int | None], None]
-Writer = Callable[[BinaryIO, Iterable[Frame]], None]
+Writer = Callable[[BinaryIO, Iterable[HasPixels]], None]
 
 STILL_ENDINGS = (".png", ".apng", ".webp", ".gif")
 ANIMATION_ENDINGS = (".gif", ".apng", ".png", ".webp", ".mp4", ".webm", ".sheet.png")
 MAX_FPS = 1000
 
 
-def save_frame(frame: Frame, path: str | Path, *, matte: Matte | None = None) -> None:
+def save_frame(frame: HasPixels, path: str | Path, *, matte: Matte | None = None) -> None:
     """Write one picture as PNG, lossless WebP or GIF.
 
     matte: in a GIF, the colour behind half-transparent pixels; None keeps those of at least half
@@ -51,7 +51,7 @@ def save_frame(frame: Frame, path: str | Path, *, matte: Matte | None = None) ->
 
 
 def save_animation(
-    frames: Iterable[Frame],
+    frames: Iterable[HasPixels],
     fps: float,
     path: str | Path,
     *,
@@ -110,8 +110,8 @@ def check_fps(fps: float) -> None:
 
 
 def _checked(
-    frames: Iterable[Frame], total: int | None, progress: Progress | None
-) -> Iterator[Frame]:
+    frames: Iterable[HasPixels], total: int | None, progress: Progress | None
+) -> Iterator[HasPixels]:
     rest = iter(frames)
     first = next(rest, None)
     if first is None:
@@ -125,7 +125,7 @@ def _checked(
             progress(number + 1, total)
 
 
-def _still_bytes(frame: Frame, ending: str) -> bytes:
+def _still_bytes(frame: HasPixels, ending: str) -> bytes:
     if ending == ".webp":
         from drapery.render.encode.webp import webp_bytes
 
@@ -135,7 +135,9 @@ def _still_bytes(frame: Frame, ending: str) -> bytes:
     return png_bytes(frame.pixels)
 
 
-def _write(kind: str, path: Path, frames: Iterator[Frame], fps: float, matte: Matte | None) -> None:
+def _write(
+    kind: str, path: Path, frames: Iterator[HasPixels], fps: float, matte: Matte | None
+) -> None:
     if kind == "/":
         from drapery.render.encode.sequence import write_sequence
 

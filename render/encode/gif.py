@@ -19,7 +19,7 @@ from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import Patch, bounding_box, changed_patch, cut, with_previous
 from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
-from drapery.render.frame import Frame
+from drapery.render.pixels import HasPixels
 
 MAX_FPS = 50
 KEEP, CLEAR = 1, 2  # what a viewer does with a frame before it shows the next
@@ -42,7 +42,7 @@ class Painted(NamedTuple):
 
 
 def write_gif(
-    file: BinaryIO, frames: Iterable[Frame], fps: float, matte: Matte | None = None
+    file: BinaryIO, frames: Iterable[HasPixels], fps: float, matte: Matte | None = None
 ) -> None:
     """An animation that loops forever, or a still where there is one frame.
 
@@ -63,7 +63,7 @@ def write_gif(
     file.write(b";")
 
 
-def _squeeze(table: ColourTable, matte: Matte | None, frame: Frame) -> Squeezed:
+def _squeeze(table: ColourTable, matte: Matte | None, frame: HasPixels) -> Squeezed:
     places = table.places(frame.pixels, matte)
     colours = np.count_nonzero(np.bincount(places.ravel())[1:])
     return Squeezed(frame.pixels.shape[:2], int(colours), zlib.compress(places.tobytes(), 1))

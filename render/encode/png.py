@@ -15,7 +15,7 @@ from PIL import Image
 
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import Patch, changed_patch, with_previous
-from drapery.render.frame import Frame, Pixels
+from drapery.render.pixels import HasPixels, Pixels
 
 STILL_LEVEL = 6
 FRAME_LEVEL = 3  # two thirds of the time of level 6, for a file that is half as big again
@@ -30,7 +30,7 @@ def png_bytes(pixels: Pixels, level: int = STILL_LEVEL) -> bytes:
     return file.getvalue()
 
 
-def write_apng(file: BinaryIO, frames: Iterable[Frame], fps: float) -> None:
+def write_apng(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
     """An animation that loops forever.
 
     Each frame replaces its rectangle (blend "source") and stays (dispose "none"), so that neither

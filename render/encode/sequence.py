@@ -15,12 +15,12 @@ from drapery.errors import OutputError
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.output import check_writable, explained, partial_path
 from drapery.render.encode.png import FRAME_LEVEL, png_bytes
-from drapery.render.frame import Frame
+from drapery.render.pixels import HasPixels
 
 FRAME_NAME = re.compile(r"frame_\d{4,}\.png")
 
 
-def write_sequence(folder: Path, frames: Iterable[Frame]) -> None:
+def write_sequence(folder: Path, frames: Iterable[HasPixels]) -> None:
     """Write frame_0000.png and so on. Raises OutputError where the folder cannot be written."""
     check_folder(folder)
     gathering = partial_path(folder)
@@ -48,7 +48,7 @@ def check_folder(folder: Path) -> None:
         raise OutputError(f"cannot write frames into {folder}: it may not be written to")
 
 
-def _gather(gathering: Path, frames: Iterable[Frame]) -> None:
+def _gather(gathering: Path, frames: Iterable[HasPixels]) -> None:
     files = encode_ahead(frames, lambda frame: png_bytes(frame.pixels, FRAME_LEVEL))
     for number, png in enumerate(files):
         path = gathering / f"frame_{number:04d}.png"

@@ -15,12 +15,12 @@ from drapery.errors import OutputError
 from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.output import replacing
 from drapery.render.encode.png import png_bytes
-from drapery.render.frame import Frame, Pixels
+from drapery.render.pixels import HasPixels, Pixels
 
 MAX_SIDE = 16_384  # the largest texture that common graphics hardware takes
 
 
-def sheet_pixels(frames: Sequence[Frame]) -> Pixels:
+def sheet_pixels(frames: Sequence[HasPixels]) -> Pixels:
     """The frames row by row in a sheet about as wide as high. Raises OutputError if too large."""
     height, width = frames[0].pixels.shape[:2]
     columns, rows = grid_of(len(frames), width, height)
@@ -36,7 +36,7 @@ def sheet_pixels(frames: Sequence[Frame]) -> Pixels:
     return sheet
 
 
-def sheet_index(frames: Sequence[Frame], fps: float, name: str) -> dict[str, Any]:
+def sheet_index(frames: Sequence[HasPixels], fps: float, name: str) -> dict[str, Any]:
     """The JSON beside the sheet; `name` is the sheet's file name, durations are in ms."""
     height, width = frames[0].pixels.shape[:2]
     columns, rows = grid_of(len(frames), width, height)
@@ -66,7 +66,7 @@ def sheet_index(frames: Sequence[Frame], fps: float, name: str) -> dict[str, Any
     }
 
 
-def write_sheet(path: Path, frames: Sequence[Frame], fps: float) -> None:
+def write_sheet(path: Path, frames: Sequence[HasPixels], fps: float) -> None:
     """Write NAME.sheet.png and NAME.sheet.json. Raises OutputError."""
     index = json.dumps(sheet_index(frames, fps, path.name), indent=1) + "\n"
     png = png_bytes(sheet_pixels(frames))

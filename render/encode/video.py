@@ -12,7 +12,7 @@ import numpy as np
 from drapery.errors import BackendError, OutputError
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.palette import Matte, over_matte
-from drapery.render.frame import Frame, Pixels
+from drapery.render.pixels import HasPixels, Pixels
 
 WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1
@@ -24,7 +24,7 @@ CODECS = {
 
 
 def write_video(
-    path: Path, kind: str, frames: Iterable[Frame], fps: float, matte: Matte | None = None
+    path: Path, kind: str, frames: Iterable[HasPixels], fps: float, matte: Matte | None = None
 ) -> None:
     """An MP4 or WebM; `kind` is the ending. Odd sizes grow by repeating the last row or column.
 
@@ -57,7 +57,7 @@ def load_av() -> Any:
     return av
 
 
-def _peek(frames: Iterable[Frame]) -> tuple[Frame, Iterator[Frame]]:
+def _peek(frames: Iterable[HasPixels]) -> tuple[HasPixels, Iterator[HasPixels]]:
     rest = iter(frames)
     first = next(rest)
     return first, chain([first], rest)
@@ -74,7 +74,7 @@ def _describe(stream: Any, pixels: Pixels, pixel_format: str) -> None:
     context.color_range = LIMITED_RANGE
 
 
-def _video_frame(av: Any, pixel_format: str, matte: Matte | None, frame: Frame) -> Any:
+def _video_frame(av: Any, pixel_format: str, matte: Matte | None, frame: HasPixels) -> Any:
     pixels = frame.pixels if matte is None else over_matte(frame.pixels, matte)
     height, width = pixels.shape[:2]
     even = np.pad(pixels, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")

@@ -14,7 +14,7 @@ from PIL import Image
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import Patch, changed_patch, with_previous
 from drapery.render.encode.delays import frame_delays
-from drapery.render.frame import Frame, Pixels
+from drapery.render.pixels import HasPixels, Pixels
 
 ANIMATED_WITH_ALPHA = 0x12
 DO_NOT_BLEND = 0x02
@@ -29,7 +29,7 @@ def webp_bytes(pixels: Pixels, method: int = 4) -> bytes:
     return file.getvalue()
 
 
-def write_webp(file: BinaryIO, frames: Iterable[Frame], fps: float) -> None:
+def write_webp(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
     """An animation that loops forever; each frame replaces its rectangle, without blending."""
     pairs, times = with_previous(frame.pixels for frame in frames), frame_delays(fps, 1000)
     for count, (patch, webp) in enumerate(encode_ahead(pairs, _encode_patch)):
