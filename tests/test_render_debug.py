@@ -17,7 +17,6 @@ from drapery.render.debug import (
     springs_model,
     stretch_model,
 )
-from drapery.render.facets import faceted
 from drapery.render.frame import Frame
 from drapery.render.light import GAME_LIGHT, UNLIT, lit_at
 from drapery.render.lines import dot_model, line_model
@@ -146,17 +145,3 @@ def test_enlarging_keeps_pixels_square() -> None:
     for times in (0, 9999):
         with pytest.raises(OptionError, match="5x3 cannot be enlarged"):
             enlarge(Frame(pixels), times)
-
-
-def test_facets_have_one_brightness_each_and_the_same_outline() -> None:
-    roof = quad()
-    roof.positions[:, 2] = (0, 0.9, 0.9, 0)
-    roof.normals[:] = roof.positions  # nonsense that must not be used
-    flat = faceted(roof)
-    material = (Material((plain(255, 255, 255, 255),)),)
-    before, after = (
-        draw_scene(Scene((Model(shape, material),), FACING, (64, 64))).pixels
-        for shape in (roof, flat)
-    )
-    assert (before[..., 3] == after[..., 3]).all()
-    assert len(np.unique(after[after[..., 3] > 0], axis=0)) == 2

@@ -1,12 +1,12 @@
-"""Vertices from the world to the raster: one loop over all vertices of a model."""
+"""Vertices from the world to the raster: one loop over all vertices of a model.
+
+Corners are snapped to 1/256 pixel, as llvmpipe and most graphics cards do.
+"""
 
 from typing import Any
 
 import numpy as np
 from numba import njit
-
-SUBPIXEL_BITS = 8
-"""Corners are snapped to 1/256 pixel, as llvmpipe and most graphics cards do."""
 
 BEHIND, BEYOND, ASIDE, BROKEN = 1, 2, 4, 8
 """Flags of a vertex: before the near plane, past the far plane, too far aside, not finite."""
