@@ -1,14 +1,17 @@
 """One check of a picture against its golden, on top of syrupy's snapshots."""
 
+import hashlib
 from pathlib import Path
 from typing import Any
 
 import pytest
 from syrupy.assertion import SnapshotAssertion
+from syrupy.extensions.base import AbstractSyrupyExtension
 from syrupy.extensions.single_file import SingleFileSnapshotExtension
 from syrupy.location import PyTestLocation
 
 from drapery.banner.design import Banner
+from drapery.errors import OutputError
 from drapery.render.frame import Frame
 from drapery.render.scene import Scene
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
@@ -24,14 +27,26 @@ from drapery.testing.golden import (
 )
 
 FOLDER = "goldens"
+MAX_NAME = 200
+"""The most bytes of a golden's name; file systems take 255 with the ending."""
 
 
 class _GoldenFile(SingleFileSnapshotExtension):
-    """Where goldens lie; what is in them and when it matches is a subclass's."""
+    """The place and name of a golden file; subclasses define what is in it."""
 
     @classmethod
     def dirname(cls, *, test_location: PyTestLocation) -> str:
         return str(Path(test_location.filepath).parent / FOLDER / test_location.basename)
+
+    @classmethod
+    def get_snapshot_name(cls, *, test_location: PyTestLocation, index: Any = 0) -> str:
+        """Test and golden name as a file name; a digest stands for what no file name can hold."""
+        whole = AbstractSyrupyExtension.get_snapshot_name(test_location=test_location, index=index)
+        clean = super().get_snapshot_name(test_location=test_location, index=index)
+        short = clean.encode()[:MAX_NAME].decode(errors="ignore")
+        if short == whole:
+            return whole
+        return f"{short}-{hashlib.sha256(whole.encode()).hexdigest()[:8]}"
 
 
 class HashGolden(_GoldenFile):
@@ -81,10 +96,31 @@ def check_golden(
     update = request.config.getoption("--drapery-update")
     snapshot = _snapshot(request, extension, bool(update))
     label = _label(name, snapshot.num_executions, backend)
+    location = snapshot.extension.get_location(test_location=snapshot.test_location, index=label)
+    _check_case(request.config, label, Path(location))
     if snapshot(name=label) == (frame, notes):
         return None
     result = list(snapshot.executions.values())[-1]
     return _fault(request.node.nodeid, label, result, frame, notes, report)
+
+
+_NAMES: pytest.StashKey[dict[Path, dict[str, str]]] = pytest.StashKey()
+"""For each folder of goldens the names of its files, by their names without case."""
+
+
+def _check_case(config: pytest.Config, label: str, path: Path) -> None:
+    """Raise GoldenError for a file that differs from another by case alone.
+
+    A file system that ignores case would keep one file for both.
+    """
+    folders = config.stash.setdefault(_NAMES, {})
+    if path.parent not in folders:
+        folders[path.parent] = {file.name.casefold(): file.name for file in path.parent.glob("*")}
+    other = folders[path.parent].setdefault(path.name.casefold(), path.name)
+    if other != path.name:
+        raise GoldenError(
+            f"golden {label!r}: {path.name} differs from {other} by case alone; use another name"
+        )
 
 
 def _snapshot(
@@ -144,23 +180,24 @@ def _fault(
     test: str, label: str, result: Any, frame: Frame, notes: list[LayerNote] | None, report: Path
 ) -> str:
     path = result.snapshot_location
-    accept = "; accept it with --drapery-update"
+    if result.exception is not None:
+        reason = getattr(result.exception, "strerror", None) or str(result.exception)
+        return f"golden {label!r}: {path}: {reason}; make the file readable and writable"
+
+    def failed(line: str, expected: Frame | None = None) -> str:
+        try:
+            picture = keep_failure(report, test, label, expected, frame, line)
+        except OutputError as error:
+            return f"golden {label!r}: {line}; {error}"
+        return f"golden {label!r}: {line}; see {picture}; accept it with --drapery-update"
+
     if result.recalled_data is None:
-        keep_failure(report, test, label, None, frame, "there is no golden yet")
-        return f"golden {label!r}: no golden at {path}{accept}"
+        return failed(f"no golden at {path}")
     if path.endswith(".sha256"):
         was = result.recalled_data.decode("ascii", "replace").strip()
-        line = f"the hash changed from {was} to {fingerprint(frame).decode().strip()}"
-        keep_failure(report, test, label, None, frame, line)
-        return f"golden {label!r}: {line}{accept}"
+        return failed(f"the hash changed from {was} to {fingerprint(frame).decode().strip()}")
     try:
         expected, before = decode(result.recalled_data)
     except GoldenError as error:
-        keep_failure(report, test, label, None, frame, str(error))
-        return (
-            f"golden {label!r}: {path}: {error}; restore the file, or replace it with"
-            " --drapery-update"
-        )
-    line = explain_change(expected, frame, before, notes)
-    kept = keep_failure(report, test, label, expected, frame, line)
-    return f"golden {label!r}: {line}; see {kept}{accept}"
+        return failed(f"{path}: {error}; restore the file")
+    return failed(explain_change(expected, frame, before, notes), expected)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from drapery.compare.panels import side_by_side
 from drapery.compare.report import Entry, data_of, html_report, write_text
+from drapery.errors import OutputError
 from drapery.render.encode.output import make_folder
 from drapery.render.frame import Frame
 
@@ -52,13 +53,22 @@ def write_report(folder: Path) -> Path | None:
 
 
 def clear(folder: Path) -> None:
-    """Remove what earlier runs kept; files that are not ours stay."""
-    for facts in folder.glob(f"*{_FACTS}"):
-        stem = facts.name.removesuffix(_FACTS)
-        for kind in _PICTURES:
-            (folder / f"{stem}.{kind}.png").unlink(missing_ok=True)
-        facts.unlink()
-        (folder / _PAGE).unlink(missing_ok=True)
+    """Remove the failures of earlier runs; other files stay.
+
+    Raises OutputError where one cannot be removed, as in a folder of another user.
+    """
+    try:
+        for facts in folder.glob(f"*{_FACTS}"):
+            stem = facts.name.removesuffix(_FACTS)
+            for kind in _PICTURES:
+                (folder / f"{stem}.{kind}.png").unlink(missing_ok=True)
+            facts.unlink()
+            (folder / _PAGE).unlink(missing_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"the report of an earlier run in {folder} cannot be removed ({error.strerror});"
+            " remove the folder, or choose another for reports"
+        ) from None
 
 
 def _entry(facts: Path) -> Entry:

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from drapery.banner.design import Banner
 
 Golden = Callable[..., None]
+"""What the fixture `golden` is: `golden(picture, name, *, tolerance, pixels, ...)`."""
+
+_STALE: pytest.StashKey[bool] = pytest.StashKey()
+"""Whether the report folder holds failures of an earlier run that cannot be removed."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -34,20 +38,30 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    if not _is_worker(session.config):
-        from drapery.testing.failures import clear
+    if _is_worker(session.config):
+        return
+    from drapery.testing.failures import clear
 
+    try:
         clear(_report_folder(session.config))
+    except DraperyError as error:
+        session.config.stash[_STALE] = True
+        warning = pytest.PytestWarning(f"{error} with --drapery-report DIR")
+        session.config.issue_config_time_warning(warning, 2)
 
 
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    if _is_worker(config):
+    if _is_worker(config) or config.stash.get(_STALE, False):
         return
     from drapery.testing.failures import write_report
 
-    page = write_report(_report_folder(config))
+    try:
+        page = write_report(_report_folder(config))
+    except DraperyError as error:
+        terminalreporter.write_line(f"drapery: {error}")
+        return
     if page is not None:
-        terminalreporter.write_line(f"drapery: what the pictures show: {page}")
+        terminalreporter.write_line(f"drapery: report of the failed pictures: {page}")
 
 
 @pytest.fixture
@@ -65,7 +79,7 @@ def golden(request: pytest.FixtureRequest) -> Golden:
     try:
         from drapery.testing.check import check_golden
     except ModuleNotFoundError as missing:
-        pytest.fail(f'golden wants {missing.name}: pip install "drapery[testing]"', pytrace=False)
+        pytest.fail(f'golden needs {missing.name}: pip install "drapery[testing]"', pytrace=False)
 
     def check(
         picture: Any,

@@ -1,0 +1,94 @@
+"""The fixture `golden` in small projects: names of files, reports, failed updates."""
+
+from pathlib import Path
+
+import pytest
+
+pytest_plugins = ["pytester"]
+
+HEAD = """
+import numpy as np, pytest
+
+def grey(level):
+    return np.full((4, 4, 4), level, np.uint8)
+"""
+
+
+def test_every_id_has_a_golden_of_its_own(pytester: pytest.Pytester) -> None:
+    """Characters that no file name may have are left out of the name, and none is lost by it."""
+    pytester.makepyfile(
+        HEAD
+        + """
+IDS = ["a/b", "a:b", "a?b", "ab", "x" * 300 + "1", "x" * 300 + "2"]
+
+@pytest.mark.parametrize("number, name", list(enumerate(IDS)), ids=IDS)
+def test_one(golden, number, name):
+    golden(grey(40 * number))
+    golden(grey(40 * number + 1), name)
+"""
+    )
+    pytester.runpytest_subprocess("--drapery-update").assert_outcomes(passed=6)
+    assert len(list(pytester.path.glob("goldens/*/*.png"))) == 12
+    pytester.runpytest_subprocess().assert_outcomes(passed=6)
+
+
+def test_names_that_differ_by_case_alone_are_refused(pytester: pytest.Pytester) -> None:
+    """A file system that ignores case would keep one file for both."""
+    pytester.makepyfile(
+        HEAD
+        + """
+def test_one(golden):
+    golden(grey(10), "A")
+
+def test_one_again(golden):
+    golden(grey(10), "B")
+    golden(grey(20), "b")
+"""
+    )
+    result = pytester.runpytest_subprocess("--drapery-update")
+    result.assert_outcomes(passed=1, failed=1)
+    result.stdout.fnmatch_lines(
+        ["golden 'b': *test_one_again?b?.png differs from *test_one_again?B?.png by case alone;*"]
+    )
+
+
+def test_a_failed_update_says_why(pytester: pytest.Pytester) -> None:
+    pytester.makepyfile(test_it=HEAD + "\ndef test_one(golden):\n    golden(grey(10), 'a')\n")
+    folder = pytester.mkdir("goldens") / "test_it" / "test_one[a].png"
+    folder.mkdir(parents=True)
+    for words in (["--drapery-update"], []):
+        result = pytester.runpytest_subprocess(*words)
+        result.assert_outcomes(failed=1)
+        result.stdout.fnmatch_lines(["golden 'a': *test_one?a?.png: *; *"])
+        result.stdout.no_fnmatch_line("*accept it*")
+
+
+def test_a_report_that_cannot_be_deleted_stops_no_test(pytester: pytest.Pytester) -> None:
+    """Another user's report folder: tests run, and what went wrong is said once."""
+    pytester.makepyfile(
+        HEAD
+        + """
+def test_without_goldens():
+    pass
+
+def test_with_a_golden(golden):
+    golden(grey(10), "a")
+"""
+    )
+    pytester.runpytest_subprocess("--drapery-update").assert_outcomes(passed=2)
+    # No user, not even the super-user, can unlink a folder.
+    stuck = pytester.path / "drapery-report" / "old.failure.json"
+    stuck.mkdir(parents=True)
+    result = pytester.runpytest_subprocess()
+    result.assert_outcomes(passed=2, warnings=1)
+    result.stdout.fnmatch_lines(["*drapery-report*cannot be removed*--drapery-report*"])
+
+
+def test_a_report_that_cannot_be_written_keeps_the_fault(pytester: pytest.Pytester) -> None:
+    test = pytester.makepyfile(HEAD + "\ndef test_one(golden):\n    golden(grey(10), 'a')\n")
+    pytester.runpytest_subprocess("--drapery-update").assert_outcomes(passed=1)
+    Path(test).write_text(Path(test).read_text().replace("grey(10)", "grey(11)"))
+    (pytester.path / "drapery-report").write_text("a file in the way of the folder")
+    result = pytester.runpytest_subprocess()
+    result.assert_outcomes(failed=1)
+    result.stdout.fnmatch_lines(["golden 'a': 16 pixels differ, max 1; *drapery-report*"])
