@@ -73,3 +73,21 @@ def test_a_golden_whose_note_was_harmed_is_compared_without_it(
     Image.new("RGBA", (32, 40)).save(tmp_path / "goldens/one.png", pnginfo=kept)
     code, out, _ = drapery("golden", "check", file, "--report", tmp_path / "report")
     assert code == 1 and "pixels differ" in out
+
+
+def test_a_yaml_file_of_cases_is_bounded(drapery: Run, tmp_path: Path) -> None:
+    """400 bytes of aliases, each nine times the one before, once took 4.6 GB."""
+    lines = ["a0: &a0 lol"]
+    for number in range(1, 10):
+        lines.append(f"a{number}: &a{number} [{', '.join([f'*a{number - 1}'] * 9)}]")
+    file = tmp_path / "cases.yaml"
+    file.write_text("\n".join([*lines, "case: [{name: one, design: *a9}]"]))
+    code, _, err = drapery("golden", "check", file)
+    assert (code, err.count("\n")) == (2, 1) and len(err) < 500
+    assert f"{file}, line 7" in err and "aliases repeat more than 100000 values" in err
+
+
+def test_a_long_name_does_not_fill_the_message(drapery: Run, tmp_path: Path) -> None:
+    file = file_of(tmp_path, f'[[case]]\nname = "{"x" * 100_000}"\nwnid = 3\n')
+    code, _, err = drapery("golden", "check", file)
+    assert code == 2 and len(err) < 600

@@ -16,7 +16,6 @@ Paths are relative to the file. A case's keys are the options of `drapery render
 has a `texture` in place of a design.
 """
 
-import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -24,8 +23,9 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from drapery.errors import OptionError
-from drapery.options import NAMES, check_options, unknown
+from drapery.options import NAMES, check_options, one_line, unknown
 from drapery.settings import Settings
+from drapery.yaml_text import load_yaml
 
 MAX_FILE = 4 << 20
 MAX_CASES = 100_000
@@ -35,7 +35,7 @@ OWN = ("name", "design", "tolerance", "pixels", "hashed")
 
 
 class Case(BaseModel):
-    """One picture to be kept: what is drawn, and how exactly it must stay."""
+    """One picture: what is drawn, and how far it may differ from its golden."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -48,7 +48,7 @@ class Case(BaseModel):
 
 
 class CaseFile(BaseModel):
-    """The whole file."""
+    """A file of cases. goldens: their folder, relative to the file."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -76,7 +76,7 @@ def read_cases(path: Path) -> CaseFile:
 
 
 def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
-    """A case's own words, and its checked settings. Raises OptionError."""
+    """A case's own keys, and its checked settings. Raises OptionError."""
     own = {name: value for name, value in words.items() if name in OWN}
     options = {name: value for name, value in words.items() if name in NAMES}
     known = NAMES.union(OWN)
@@ -87,28 +87,26 @@ def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
     if faults:
         name = words.get("name", number)
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
-        raise OptionError(f"{path}: case {name!r}: {faults[0]}{more}")
+        raise OptionError(f"{path}: case {str(name)[:100]!r}: {faults[0]}{more}")
     return own | {"settings": settings}
 
 
 def _load(path: Path) -> dict[str, Any]:
-    import yaml
-
     try:
         data = path.read_bytes()
         if len(data) > MAX_FILE:
             raise OptionError(f"{path} is larger than {MAX_FILE >> 20} MiB; split it")
         text = data.decode("utf-8")
         if path.suffix.lower() in (".yaml", ".yml"):
-            loaded = yaml.safe_load(text)
+            loaded = load_yaml(text, path)
         else:
             loaded = tomllib.loads(text)
     except OSError as error:
         raise OptionError(f"{path}: {error.strerror}; name a TOML or YAML file") from None
-    except (ValueError, RecursionError, yaml.YAMLError) as error:
-        raise OptionError(f"{path}: {_one_line(str(error))}; mend it there") from None
+    except (ValueError, RecursionError) as error:
+        raise OptionError(f"{path}: {one_line(str(error))}; correct it there") from None
     if not isinstance(loaded, dict):
-        raise OptionError(f"{path} holds no cases; write [[case]] with name and design")
+        raise OptionError(f"{path} has no cases; write [[case]] with name and design")
     return loaded
 
 
@@ -126,8 +124,4 @@ def _first_fault(error: ValidationError) -> str:
     first = faults[0]
     place = ".".join(str(part) for part in first["loc"])
     more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
-    return f"{place}: {_one_line(first['msg'])}{more}"
-
-
-def _one_line(text: str) -> str:
-    return re.sub(r"\s+", " ", text).strip()
+    return f"{place}: {one_line(first['msg'])}{more}"
