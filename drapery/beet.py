@@ -5,7 +5,9 @@ In `beet.json`:
     {"pipeline": ["drapery.beet"], "meta": {"drapery": {"goldens": "goldens"}}}
 """
 
+import hashlib
 import re
+from collections import Counter
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -25,11 +27,12 @@ BANNER_TEXTURES = "minecraft:entity/banner/"
 
 
 class DraperyOptions(PluginOptions):
-    """What `meta.drapery` may say.
+    """The options in `meta.drapery`; paths are relative to the project.
 
-    previews: folder for a picture of each pattern. goldens: folder of pictures that must not
-    change; none are checked without it. update: write the goldens anew instead of checking.
-    base, dye: dyes of the banner and of the pattern. designs: more banners to draw, by name.
+    previews: folder for a picture of each pattern. goldens: folder of goldens; without it none is
+    checked. update: write the goldens instead of checking them. report: folder for failures.
+    base, dye: dyes of the banner and of the pattern. size: of a picture [pixels]. view: a named
+    view of `drapery.render.VIEWS`. designs: more banners to draw, by name.
     """
 
     previews: str = "previews"
@@ -50,21 +53,21 @@ def beet_default(ctx: Context) -> None:
 
 @configurable("drapery", validator=DraperyOptions)
 def drapery(ctx: Context, opts: DraperyOptions) -> None:
-    """Draw the project's patterns; raise ErrorMessage where one is no longer as its golden."""
+    """Draw the project's patterns; raise ErrorMessage where one differs from its golden."""
     folder = Path(ctx.directory)
     try:
-        with TemporaryDirectory() as kept:
-            packs = _save_packs(ctx, Path(kept))
+        with TemporaryDirectory() as temporary:
+            packs = _save_packs(ctx, Path(temporary))
             cases = _cases(ctx, opts, packs)
             if cases:
                 _write_previews(cases, opts, folder)
-                _hold_goldens(cases, opts, folder)
+                _check_goldens(cases, opts, folder)
     except DraperyError as error:
         raise ErrorMessage(str(error)) from None
 
 
 def pattern_ids(ctx: Context) -> list[str]:
-    """Patterns that the project adds, and those of the game that it draws anew."""
+    """Patterns that the project adds, and patterns of the game whose textures it replaces."""
     added = list(ctx.data[BannerPattern])
     textures = (name.removeprefix(BANNER_TEXTURES) for name in ctx.assets.textures)
     return sorted({*added, *(name for name in textures if name in PATTERNS)})
@@ -81,14 +84,23 @@ def _save_packs(ctx: Context, folder: Path) -> tuple[str, ...]:
 
 def _cases(ctx: Context, opts: DraperyOptions, packs: tuple[str, ...]) -> tuple[Case, ...]:
     designs = {name: f"{opts.base} {name}:{opts.dye}" for name in pattern_ids(ctx)} | opts.designs
+    settings = Settings(packs=packs, size=opts.size, view=opts.view)
     return tuple(
-        Case(
-            name=re.sub(r"[^A-Za-z0-9._-]", "-", name),
-            design=design,
-            settings=Settings(packs=packs, size=opts.size, view=opts.view),
-        )
-        for name, design in designs.items()
+        Case(name=file_name, design=design, settings=settings)
+        for file_name, design in zip(_file_names(list(designs)), designs.values(), strict=True)
     )
+
+
+def _file_names(names: list[str]) -> list[str]:
+    """Each name as a file name; those that would share one get a digest of the name."""
+    clean = [re.sub(r"[^A-Za-z0-9._-]", "-", name)[:80] for name in names]
+    count = Counter(file_name.lower() for file_name in clean)
+    return [
+        file_name
+        if count[file_name.lower()] == 1
+        else f"{file_name}-{hashlib.sha256(name.encode()).hexdigest()[:8]}"
+        for name, file_name in zip(names, clean, strict=True)
+    ]
 
 
 def _write_previews(cases: tuple[Case, ...], opts: DraperyOptions, folder: Path) -> None:
@@ -96,7 +108,7 @@ def _write_previews(cases: tuple[Case, ...], opts: DraperyOptions, folder: Path)
         pass
 
 
-def _hold_goldens(cases: tuple[Case, ...], opts: DraperyOptions, folder: Path) -> None:
+def _check_goldens(cases: tuple[Case, ...], opts: DraperyOptions, folder: Path) -> None:
     if opts.goldens is None:
         return
     file = CaseFile(goldens=opts.goldens, case=cases)

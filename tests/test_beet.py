@@ -60,3 +60,11 @@ def test_previews_goldens_and_a_failing_build(tmp_path: Path) -> None:
 def test_bad_options_stop_the_build_in_one_line(tmp_path: Path) -> None:
     with pytest.raises(ErrorMessage, match="view 'below' is not known"):
         build(tmp_path, view="below")
+
+
+def test_patterns_whose_names_are_cleaned_alike_have_pictures_of_their_own(tmp_path: Path) -> None:
+    designs = {"a/b": "red", "a:b": "blue", "A/b": "lime", "c": "white"}
+    build(tmp_path, designs=designs)
+    names = sorted(path.name for path in (tmp_path / "previews").iterdir())
+    assert len(names) == 6 and "c.png" in names
+    assert len({name.lower() for name in names}) == 6
