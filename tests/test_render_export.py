@@ -115,11 +115,10 @@ def test_the_reopened_glb_draws_the_same_picture(tmp_path: Path) -> None:
             np.asarray(geometry.faces, np.int32),
             uvs.astype(np.float32),
         )
-        material = Material(
-            (TextureLayer(texels),), alpha[material.alphaMode], lit="unlit" not in name
-        )
         assert material.doubleSided
-        models.append(Model(mesh, (material,)))
+        lit = "unlit" not in name
+        drawn = Material((TextureLayer(texels),), alpha[material.alphaMode], lit=lit)
+        models.append(Model(mesh, (drawn,)))
     ours = draw_scene(SCENES[0]).pixels
     theirs = draw_scene(replace(SCENES[0], models=tuple(models))).pixels
     assert (ours[..., 3] > 0).mean() > 0.2
