@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
+from drapery.render.identity_cache import IdentityCache
 from drapery.render.light import Light
 from drapery.render.materials import MaterialTables, make_material_tables
-from drapery.render.recent import Recent
 from drapery.render.scene import Model
 
 Float32 = NDArray[np.float32]
@@ -31,9 +31,9 @@ class Topology:
 
     uvs: fractions of the sprite, shape [V, 2]; (0, 0) is its top left corner.
     triangles: vertex indices into the merged list, shape [T, 3], int32.
-    triangle_material: a place in the wardrobe, shape [T], int32.
+    triangle_material: a material's place in the tables, shape [T], int32.
     vertex_start: where each model's vertices begin, shape [M + 1].
-    material_tables: what the triangles wear.
+    material_tables: the materials, their layers and textures.
     """
 
     uvs: Float32
@@ -49,7 +49,7 @@ class DrawList:
 
     positions: [m], shape [V, 3], float32.
     normals: unit vectors, shape [V, 3], float32.
-    topology: triangles, UVs and what they wear.
+    topology: triangles, UVs and materials.
     """
 
     positions: Float32
@@ -68,7 +68,7 @@ class DrawList:
         return [(self.topology.triangles[shines == lit], lit) for lit in (False, True)]
 
 
-_recent: Recent[Topology] = Recent()
+_cache: IdentityCache[Topology] = IdentityCache()
 
 
 def draw_list(models: Sequence[Model]) -> DrawList:
@@ -92,7 +92,7 @@ def topology(models: Sequence[Model]) -> Topology:
         for part in (model.mesh.triangles, model.mesh.uvs, model.material_index, *model.materials)
     )
     shapes = [(model.mesh.positions.shape, model.mesh.normals.shape) for model in models]
-    return _recent.get(arrays, shapes, lambda: _merge(models))
+    return _cache.get(arrays, shapes, lambda: _merge(models))
 
 
 def _merge(models: Sequence[Model]) -> Topology:

@@ -1,7 +1,7 @@
-"""Layers laid over one another once, texel by texel, instead of at every sample.
+"""A material's layers composited once, texel by texel, instead of at every sample.
 
-The rasteriser lays layers over one another before it lights them, so one composited texture gives
-the same picture to the bit, in a fraction of the time.
+The rasteriser composites layers before it lights them, so one composited texture gives the same
+picture to the bit, in a fraction of the time.
 """
 
 from dataclasses import replace
@@ -10,30 +10,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.render.atlas import make_atlas
+from drapery.render.identity_cache import IdentityCache
 from drapery.render.materials import CUTOUT, OPAQUE, MaterialTables
-from drapery.render.recent import Recent
 from drapery.render.scene import Texels
 
 MAX_TEXELS = 1 << 20
-"""Wardrobes that would need more texels stay as they are; layers then meet at every sample."""
+"""The most texels of composited textures; beyond it the layers are composited at every sample."""
 
-_recent: Recent[MaterialTables] = Recent()
-
-
-def flattened(worn: MaterialTables) -> MaterialTables:
-    """The same looks, each of one layer, where their textures' sizes allow it."""
-    return _recent.get((worn,), None, lambda: _flatten(worn))
+_cache: IdentityCache[MaterialTables] = IdentityCache()
 
 
-def _flatten(worn: MaterialTables) -> MaterialTables:
-    sizes = [_common_size(worn, material) for material in range(len(worn.material_layers))]
+def flattened(tables: MaterialTables) -> MaterialTables:
+    """The same materials with one layer each; `tables` itself where their sizes do not allow it."""
+    return _cache.get((tables,), None, lambda: _flatten(tables))
+
+
+def _flatten(tables: MaterialTables) -> MaterialTables:
+    sizes = [_common_size(tables, material) for material in range(len(tables.material_layers))]
     if None in sizes or sum(w * h for w, h in filter(None, sizes)) > MAX_TEXELS:
-        return worn
-    sprites = [_composite(worn, material, size) for material, size in enumerate(sizes) if size]
+        return tables
+    sprites = [_composite(tables, material, size) for material, size in enumerate(sizes) if size]
     atlas = make_atlas(sprites)
     numbers = np.arange(len(sprites), dtype=np.int32)
     return replace(
-        worn,
+        tables,
         material_layers=np.stack([numbers, np.ones_like(numbers)], axis=1),
         layer_rects=atlas.rects,
         layer_tints=np.full((len(sprites), 3), 255, np.uint8),
@@ -41,38 +41,38 @@ def _flatten(worn: MaterialTables) -> MaterialTables:
     )
 
 
-def _common_size(worn: MaterialTables, material: int) -> tuple[int, int] | None:
+def _common_size(tables: MaterialTables, material: int) -> tuple[int, int] | None:
     """The largest size among a material's textures, if each of the others divides it."""
-    first, count = worn.material_layers[material]
-    sizes = worn.layer_rects[first : first + count, 2:]
+    first, count = tables.material_layers[material]
+    sizes = tables.layer_rects[first : first + count, 2:]
     largest = sizes.max(axis=0)
     if (largest % sizes).any():
         return None
     return int(largest[0]), int(largest[1])
 
 
-def _composite(worn: MaterialTables, material: int, size: tuple[int, int]) -> Texels:
-    first, count = worn.material_layers[material]
-    below = _sprite(worn, first, size)
+def _composite(tables: MaterialTables, material: int, size: tuple[int, int]) -> Texels:
+    first, count = tables.material_layers[material]
+    below = _sprite(tables, first, size)
     alpha = below[..., 3]
-    if worn.material_alpha[material] == OPAQUE:
+    if tables.material_alpha[material] == OPAQUE:
         alpha[:] = 255
-    elif worn.material_alpha[material] == CUTOUT:
+    elif tables.material_alpha[material] == CUTOUT:
         cut = alpha < 128
         below[cut] = 0
         alpha[~cut] = 255
     for layer in range(first + 1, first + count):
-        below = lay_over(_sprite(worn, layer, size), below)
-    if worn.material_alpha[material] == CUTOUT:
+        below = lay_over(_sprite(tables, layer, size), below)
+    if tables.material_alpha[material] == CUTOUT:
         below[cut] = 0
     return below
 
 
-def _sprite(worn: MaterialTables, layer: int, size: tuple[int, int]) -> Texels:
+def _sprite(tables: MaterialTables, layer: int, size: tuple[int, int]) -> Texels:
     """A layer's texels, tinted, at the common size."""
-    x, y, width, height = worn.layer_rects[layer]
-    texels = worn.atlas[y : y + height, x : x + width].copy()
-    tint = worn.layer_tints[layer].astype(np.uint16)
+    x, y, width, height = tables.layer_rects[layer]
+    texels = tables.atlas[y : y + height, x : x + width].copy()
+    tint = tables.layer_tints[layer].astype(np.uint16)
     texels[..., :3] = (texels[..., :3] * tint + 127) // 255
     return texels.repeat(size[1] // height, axis=0).repeat(size[0] // width, axis=1)
 

@@ -1,4 +1,4 @@
-"""A memory of the last few preparations, so that an animation prepares its constant parts once."""
+"""A cache of the last few preparations, so that an animation prepares its constant parts once."""
 
 from collections import deque
 from collections.abc import Callable
@@ -7,24 +7,26 @@ from typing import Generic, TypeVar
 T = TypeVar("T")
 
 
-class Recent(Generic[T]):
-    """The last few values made, each known by the identity of the arrays it was made from.
+class IdentityCache(Generic[T]):
+    """The last few values made, found by the identity of the arrays they were made from.
 
-    It holds those arrays, so no other array can take their identity; with a fixed number of
-    places the memory does not grow.
+    The caches of functools and cachetools need keys that hash, and arrays do not. The entries
+    hold their arrays, so that no new array can have the identity of one of them.
     """
 
-    def __init__(self, places: int = 4) -> None:
-        self._known: deque[tuple[tuple[object, ...], object, T]] = deque(maxlen=places)
+    def __init__(self, maxsize: int = 4) -> None:
+        self._entries: deque[tuple[tuple[object, ...], object, T]] = deque(maxlen=maxsize)
 
     def get(self, arrays: tuple[object, ...], plain: object, make: Callable[[], T]) -> T:
-        """What was made from the same arrays and equal plain values; made now if it is new."""
-        for known, rest, value in tuple(self._known):
-            same = len(known) == len(arrays) and all(
-                a is b for a, b in zip(known, arrays, strict=True)
-            )
+        """The value made from the same arrays and equal plain values; `make()` where none is."""
+        for known, rest, value in tuple(self._entries):
+            same = len(known) == len(arrays) and all(map(_is, known, arrays))
             if same and rest == plain:
                 return value
         value = make()
-        self._known.appendleft((arrays, plain, value))
+        self._entries.appendleft((arrays, plain, value))
         return value
+
+
+def _is(first: object, second: object) -> bool:
+    return first is second

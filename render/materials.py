@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.render.atlas import Atlas, make_atlas
-from drapery.render.recent import Recent
+from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Alpha, Material, Texels, TextureLayer
 
 OPAQUE, CUTOUT, BLEND = 0, 1, 2
@@ -20,7 +20,7 @@ MAX_TEXTURE = 16384
 
 @dataclass(frozen=True, eq=False)
 class MaterialTables:
-    """What the triangles of a draw list can wear.
+    """The materials of a draw list, which its triangles name by their place.
 
     material_layers: a material's first layer and how many it has, shape [L, 2], int32.
     material_alpha: OPAQUE, CUTOUT or BLEND, shape [L], uint8.
@@ -38,20 +38,20 @@ class MaterialTables:
     atlas: Texels
 
 
-_recent: Recent[MaterialTables] = Recent()
+_cache: IdentityCache[MaterialTables] = IdentityCache()
 
 
 def make_material_tables(materials: Sequence[Material]) -> MaterialTables:
     """The tables of these materials; material i keeps its place, and each texture is packed once.
 
-    Raises OptionError for a material without layers or a texture that is none.
+    Raises OptionError for a material without layers or a texture of another shape or type.
     """
     arrays = tuple(layer.texels for material in materials for layer in material.layers)
     plain = [
         (material.alpha, material.lit, [layer.tint for layer in material.layers])
         for material in materials
     ]
-    return _recent.get(arrays, plain, lambda: _make(materials))
+    return _cache.get(arrays, plain, lambda: _make(materials))
 
 
 def _make(materials: Sequence[Material]) -> MaterialTables:
@@ -92,7 +92,7 @@ def _checked(texels: Texels) -> Texels:
     good = texels.dtype == np.uint8 and texels.ndim == 3 and texels.shape[2] == 4
     if not (good and min(texels.shape[:2]) >= 1 and max(texels.shape[:2]) <= MAX_TEXTURE):
         raise OptionError(
-            f"a texture of shape {texels.shape} and type {texels.dtype} cannot be worn;"
+            f"a texture of shape {texels.shape} and type {texels.dtype} cannot be drawn;"
             f" use [height, width, 4] of uint8 with sides of 1 to {MAX_TEXTURE}"
         )
     return texels

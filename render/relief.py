@@ -4,7 +4,7 @@ Textures are sampled to the nearest texel, so light worked out once a texel is a
 can show of a normal map, and every backend draws it alike. A texel's place on the surface is that
 of its middle in texture space: the mesh is laid out flat by its UVs, as in Heckbert, "Survey of
 texture mapping" (1986); its normal there, bent by the map, meets the scene's light. Each part of
-a sheet is worn once by a mesh; where triangles share texels, the last of them lights these.
+a sheet covers one part of a mesh; where triangles share texels, the last of them lights these.
 """
 
 from dataclasses import dataclass, replace
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from drapery.mesh import Array, Mesh, Triangles
 from drapery.render.flatten import lay_over
+from drapery.render.identity_cache import IdentityCache
 from drapery.render.light import Light
-from drapery.render.recent import Recent
 from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
 from drapery.render.vectors import dots, unit
 
@@ -91,8 +91,8 @@ class Relief:
 
 
 @dataclass(frozen=True, eq=False)
-class Layout:
-    """Which texels a mesh wears.
+class TexelLayout:
+    """Which texels a mesh shows.
 
     rows, columns: of K texels. triangle: on which their middles lie, shape [K]. weights: of its
     corners there, shape [K, 3]. inverse: UV edges to texture axes, shape [T, 2, 2].
@@ -105,17 +105,17 @@ class Layout:
     inverse: Array
 
 
-_reliefs: Recent[Relief] = Recent(16)
-_layouts: Recent[Layout] = Recent(16)
+_reliefs: IdentityCache[Relief] = IdentityCache(16)
+_layouts: IdentityCache[TexelLayout] = IdentityCache(16)
 
 
 def relief_of(material: Material) -> Relief:
-    """The material's layers and their maps as one; those of the last few looks are kept."""
+    """The material's layers and their maps as one; the last 16 results are cached."""
     return _reliefs.get((material,), None, lambda: _relief(material))
 
 
 def has_relief(scene: Scene) -> bool:
-    """Whether a normal or specular map is worn anywhere in the scene."""
+    """Whether any material of the scene has a normal or specular map."""
     layers = (
         layer for model in scene.models for material in model.materials for layer in material.layers
     )
@@ -181,7 +181,7 @@ def _sized(texels: Texels, size: tuple[int, int]) -> Texels:
     return sized
 
 
-def _layout(triangles: Triangles, uvs: Array, size: tuple[int, int]) -> Layout:
+def _layout(triangles: Triangles, uvs: Array, size: tuple[int, int]) -> TexelLayout:
     height, width = size
     # Texel (i, j) has its middle at the whole number (i, j).
     corners = (uvs.astype(np.float64) * (width, height) - 0.5)[triangles]
@@ -196,8 +196,8 @@ def _layout(triangles: Triangles, uvs: Array, size: tuple[int, int]) -> Layout:
         weights[window][inside] = found[inside]
     _spread(of_texel, weights)
     rows, columns = np.nonzero(of_texel >= 0)
-    worn = of_texel[rows, columns]
-    return Layout(rows, columns, worn, weights[rows, columns], _inverse(uvs[triangles]))
+    seen = of_texel[rows, columns]
+    return TexelLayout(rows, columns, seen, weights[rows, columns], _inverse(uvs[triangles]))
 
 
 def _within(
@@ -236,8 +236,8 @@ def _inverse(corners: Array) -> Array:
     return inverse / sound[:, None, None]
 
 
-def _light(relief: Relief, layout: Layout, mesh: Mesh, light: Light) -> Array:
-    """The factors for red, green and blue at each texel worn, shape [K, 3]."""
+def _light(relief: Relief, layout: TexelLayout, mesh: Mesh, light: Light) -> Array:
+    """The factors for red, green and blue at each texel shown, shape [K, 3]."""
     used = mesh.triangles[layout.triangle]
     normals = unit(np.sum(mesh.normals[used] * layout.weights[..., None], axis=1))
     edges = mesh.positions[mesh.triangles[:, 1:]] - mesh.positions[mesh.triangles[:, :1]]

@@ -47,7 +47,7 @@ class Material:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A mesh, or a batch of B meshes, and what each wears.
+    """A mesh, or a batch of B meshes, and the material of each.
 
     mesh: positions [V, 3] or [B, V, 3].
     materials: the materials in use.

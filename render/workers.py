@@ -23,7 +23,7 @@ def worker_count() -> int:
     return int(getattr(config, "NUMBA_NUM_THREADS", 1))
 
 
-def share_out(task: Callable[[int], T], parts: int, workers: int) -> list[T]:
+def run_parts(task: Callable[[int], T], parts: int, workers: int) -> list[T]:
     """Run task(0) … task(parts - 1) on up to `workers` threads; their results, in that order."""
     results: dict[int, T] = {}
     left = iter(range(parts))
@@ -49,11 +49,11 @@ def _threads() -> ThreadPoolExecutor:
     return _pool
 
 
-def _forget() -> None:
+def _reset_after_fork() -> None:
     """A forked child has none of its parent's threads."""
     global _pool
     _pool = None
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_forget)
+    os.register_at_fork(after_in_child=_reset_after_fork)

@@ -123,15 +123,15 @@ def bad(**change: object) -> Model:
         (Model(quad(), (Material(()),)), "look 1 has no layers"),
         (
             Model(quad(), (Material((TextureLayer(np.zeros((4, 4, 3), np.uint8)),)),)),
-            "cannot be worn",
+            "cannot be drawn",
         ),
         (
             Model(quad(), (Material((TextureLayer(np.zeros((4, 4, 4))),)),)),
-            "type float64 cannot be worn",
+            "type float64 cannot be drawn",
         ),  # type: ignore[arg-type]
         (
             Model(quad(), (Material((TextureLayer(np.zeros((0, 4, 4), np.uint8)),)),)),
-            "cannot be worn",
+            "cannot be drawn",
         ),
         (
             Model(quad(), (Material((TextureLayer(np.zeros((1, 16385, 4), np.uint8)),)),)),

@@ -21,8 +21,8 @@ from drapery.mesh import Array
 from drapery.render.camera import Camera
 from drapery.render.drawlist import Topology, topology
 from drapery.render.flatten import flattened
+from drapery.render.identity_cache import IdentityCache
 from drapery.render.light import Light
-from drapery.render.recent import Recent
 from drapery.render.relief import relieved
 from drapery.render.scene import Model
 from drapery.studio.panes import Pane, Shown
@@ -73,7 +73,7 @@ class Told:
     _cameras: list[Camera] = field(default_factory=list)
     _moved: list[tuple[Array, Array, Light]] = field(default_factory=list)
     _lit_of: tuple[Topology, NDArray[np.bool_]] | None = None
-    _recent: Recent[Topology] = field(default_factory=lambda: Recent(2))
+    _recent: IdentityCache[Topology] = field(default_factory=lambda: IdentityCache(2))
 
     def forget(self) -> None:
         """Tell everything again."""

@@ -11,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from drapery.mesh import Array, Mesh
-from drapery.render.workers import share_out, worker_count
+from drapery.render.workers import run_parts, worker_count
 from drapery.style.extrusion import Shell
 
 
@@ -42,7 +42,7 @@ def cover_crowd(shell: Shell, positions: Array, thickness: float) -> Mesh:
             normals,
         )
 
-    share_out(run, parts, worker_count())
+    run_parts(run, parts, worker_count())
     return Mesh(points, normals, shell.triangles, shell.uvs)
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 Picture = TypeVar("Picture", bound=NDArray[Any])
 
 
-class Patch(NamedTuple):
+class FramePatch(NamedTuple):
     """A rectangle of a frame: its left and top pixel, and what it holds [h, w, ...]."""
 
     left: int
@@ -25,18 +25,18 @@ def bounding_box(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
     return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
 
 
-def cut(pixels: NDArray[Any], box: tuple[int, int, int, int]) -> Patch:
+def cut(pixels: NDArray[Any], box: tuple[int, int, int, int]) -> FramePatch:
     left, top, right, bottom = box
-    return Patch(left, top, np.ascontiguousarray(pixels[top:bottom, left:right]))
+    return FramePatch(left, top, np.ascontiguousarray(pixels[top:bottom, left:right]))
 
 
-def changed_patch(before: NDArray[Any] | None, after: NDArray[Any], grid: int = 1) -> Patch:
+def changed_patch(before: NDArray[Any] | None, after: NDArray[Any], grid: int = 1) -> FramePatch:
     """The part of `after` that differs from `before`, its corner on a multiple of `grid` pixels.
 
     before, after: shape [H, W] or [H, W, channels]; without `before` everything is new.
     """
     if before is None:
-        return Patch(0, 0, after)
+        return FramePatch(0, 0, after)
     differs = before != after
     left, top, right, bottom = bounding_box(differs.any(axis=2) if differs.ndim > 2 else differs)
     return cut(after, (left - left % grid, top - top % grid, right, bottom))

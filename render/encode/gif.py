@@ -16,7 +16,13 @@ from PIL import GifImagePlugin, Image
 
 from drapery.errors import OptionError
 from drapery.render.encode.ahead import encode_ahead
-from drapery.render.encode.changes import Patch, bounding_box, changed_patch, cut, with_previous
+from drapery.render.encode.changes import (
+    FramePatch,
+    bounding_box,
+    changed_patch,
+    cut,
+    with_previous,
+)
 from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
 from drapery.render.pixels import HasPixels
@@ -26,7 +32,7 @@ KEEP, CLEAR = 1, 2  # what a viewer does with a frame before it shows the next
 LOOP_FOREVER = b"!\xff\x0bNETSCAPE2.0\x03\x01\0\0\0"
 
 
-class Squeezed(NamedTuple):
+class CompressedFrame(NamedTuple):
     """One frame's colour places, compressed, so that many frames wait in little memory."""
 
     size: tuple[int, int]
@@ -34,7 +40,7 @@ class Squeezed(NamedTuple):
     data: bytes
 
 
-class Painted(NamedTuple):
+class IndexedImage(NamedTuple):
     """A palette, colour 0 being the transparent one, and indices into it [h, w]."""
 
     palette: Colours
@@ -52,44 +58,44 @@ def write_gif(
     if fps > MAX_FPS:
         raise OptionError(f"fps {fps:g}: a GIF shows at most {MAX_FPS}; use .apng or .webp")
     table = ColourTable()
-    squeezed = list(encode_ahead(frames, partial(_squeeze, table, matte), workers=1))
-    paint, shared = _painter(table, max(frame.colours for frame in squeezed))
+    compressed = list(encode_ahead(frames, partial(_compress, table, matte), workers=1))
+    paint, shared = _painter(table, max(frame.colours for frame in compressed))
     clear = bool(table.counts[0])
-    times = frame_delays(fps, 100) if len(squeezed) > 1 else iter([0])
-    pages = zip(_patches(squeezed, clear), times, strict=False)
-    file.write(_header(squeezed[0].size, shared) + (LOOP_FOREVER if len(squeezed) > 1 else b""))
+    times = frame_delays(fps, 100) if len(compressed) > 1 else iter([0])
+    pages = zip(_patches(compressed, clear), times, strict=False)
+    file.write(_header(compressed[0].size, shared) + (LOOP_FOREVER if len(compressed) > 1 else b""))
     for data in encode_ahead(pages, lambda page: _frame_data(*page, paint, shared is None, clear)):
         file.write(data)
     file.write(b";")
 
 
-def _squeeze(table: ColourTable, matte: Matte | None, frame: HasPixels) -> Squeezed:
+def _compress(table: ColourTable, matte: Matte | None, frame: HasPixels) -> CompressedFrame:
     places = table.places(frame.pixels, matte)
     colours = np.count_nonzero(np.bincount(places.ravel())[1:])
-    return Squeezed(frame.pixels.shape[:2], int(colours), zlib.compress(places.tobytes(), 1))
+    return CompressedFrame(frame.pixels.shape[:2], int(colours), zlib.compress(places.tobytes(), 1))
 
 
 def _painter(
     table: ColourTable, most_in_frame: int
-) -> tuple[Callable[[Places], Painted], Colours | None]:
+) -> tuple[Callable[[Places], IndexedImage], Colours | None]:
     """How places become indices, and the palette that all frames share, if they do."""
     colours = table.colours()
     if len(colours) > 1 + MAX_COLOURS and most_in_frame <= MAX_COLOURS:
         return partial(_own_palette, colours), None
     palette, index_of = reduced(colours, table.counts)
-    return lambda places: Painted(palette, index_of[places]), palette
+    return lambda places: IndexedImage(palette, index_of[places]), palette
 
 
-def _own_palette(colours: Colours, places: Places) -> Painted:
+def _own_palette(colours: Colours, places: Places) -> IndexedImage:
     used = np.union1d(0, places)
-    return Painted(colours[used], np.searchsorted(used, places).astype(np.uint8))
+    return IndexedImage(colours[used], np.searchsorted(used, places).astype(np.uint8))
 
 
-def _patches(squeezed: Iterable[Squeezed], clear: bool) -> Iterator[Patch]:
+def _patches(compressed: Iterable[CompressedFrame], clear: bool) -> Iterator[FramePatch]:
     """What each frame stores: what is seen where the frame before is cleared, else the changes."""
     frames = (
         np.frombuffer(zlib.decompress(frame.data), np.int32).reshape(frame.size)
-        for frame in squeezed
+        for frame in compressed
     )
     if clear:
         return (cut(places, bounding_box(places != 0)) for places in frames)
@@ -106,11 +112,15 @@ def _header(size: tuple[int, int], palette: Colours | None) -> bytes:
 
 
 def _frame_data(
-    patch: Patch, delay: int, paint: Callable[[Places], Painted], own_palette: bool, clear: bool
+    patch: FramePatch,
+    delay: int,
+    paint: Callable[[Places], IndexedImage],
+    own_palette: bool,
+    clear: bool,
 ) -> bytes:
-    painted = paint(patch.pixels)
-    image = Image.fromarray(painted.indices)
-    image.putpalette(painted.palette.tobytes())
+    indexed = paint(patch.pixels)
+    image = Image.fromarray(indexed.indices)
+    image.putpalette(indexed.palette.tobytes())
     options = {"transparency": 0} if clear else {}
     blocks = GifImagePlugin.getdata(
         image,

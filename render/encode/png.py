@@ -14,7 +14,7 @@ from typing import BinaryIO
 from PIL import Image
 
 from drapery.render.encode.ahead import encode_ahead
-from drapery.render.encode.changes import Patch, changed_patch, with_previous
+from drapery.render.encode.changes import FramePatch, changed_patch, with_previous
 from drapery.render.pixels import HasPixels, Pixels
 
 STILL_LEVEL = 6
@@ -55,12 +55,12 @@ def write_apng(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
     file.write(_chunk(b"acTL", struct.pack(">II", count, 0)))
 
 
-def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[Patch, bytes]:
+def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[FramePatch, bytes]:
     patch = changed_patch(*pair)
     return patch, png_bytes(patch.pixels, FRAME_LEVEL)
 
 
-def _frame_control(sequence: int, patch: Patch, fps: float) -> bytes:
+def _frame_control(sequence: int, patch: FramePatch, fps: float) -> bytes:
     height, width = patch.pixels.shape[:2]
     delay = (1 / Fraction(fps)).limit_denominator(10_000)
     return struct.pack(

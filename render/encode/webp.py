@@ -12,7 +12,7 @@ from typing import BinaryIO
 from PIL import Image
 
 from drapery.render.encode.ahead import encode_ahead
-from drapery.render.encode.changes import Patch, changed_patch, with_previous
+from drapery.render.encode.changes import FramePatch, changed_patch, with_previous
 from drapery.render.encode.delays import frame_delays
 from drapery.render.pixels import HasPixels, Pixels
 
@@ -44,12 +44,12 @@ def write_webp(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
     file.write(struct.pack("<I", length - 8))
 
 
-def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[Patch, bytes]:
+def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[FramePatch, bytes]:
     patch = changed_patch(*pair, grid=2)  # the format counts offsets in steps of two pixels
     return patch, webp_bytes(patch.pixels, method=0)
 
 
-def _frame_header(patch: Patch, milliseconds: int) -> bytes:
+def _frame_header(patch: FramePatch, milliseconds: int) -> bytes:
     height, width = patch.pixels.shape[:2]
     corner = _uint24(patch.left // 2) + _uint24(patch.top // 2)
     return corner + _size(width) + _size(height) + _uint24(milliseconds) + bytes([DO_NOT_BLEND])

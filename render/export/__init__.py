@@ -22,7 +22,7 @@ from drapery.errors import OptionError
 from drapery.render.encode import check_fps
 from drapery.render.encode.output import check_writable, replacing
 from drapery.render.encode.png import png_bytes
-from drapery.render.export.parts import Part, Parts, take_apart
+from drapery.render.export.parts import MeshPart, MeshParts, take_apart
 from drapery.render.scene import Scene, Texels
 
 Files = dict[str, bytes]
@@ -67,14 +67,14 @@ def _write(path: Path, files: Files) -> None:
             stack.enter_context(replacing(path.with_name(name))).write_bytes(data)
 
 
-def _glb(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
+def _glb(parts: MeshParts, scene: Scene, fps: float, name: str) -> Files:
     from drapery.render.export.gltf import glb_bytes
 
     width, height = scene.size
     return {f"{name}.glb": glb_bytes(parts, fps, scene.camera, width / height)}
 
 
-def _obj(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
+def _obj(parts: MeshParts, scene: Scene, fps: float, name: str) -> Files:
     from PIL import Image
 
     visual = _library("trimesh.visual")
@@ -103,7 +103,7 @@ def _obj(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
     return {**others, f"{name}.obj": text.encode()}
 
 
-def _ply(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
+def _ply(parts: MeshParts, scene: Scene, fps: float, name: str) -> Files:
     starts = np.cumsum([0, *(len(part.uvs) for part in parts.parts)])
     triangles = [p.triangles + start for p, start in zip(parts.parts, starts[:-1], strict=True)]
     mesh = _library("trimesh").Trimesh(
@@ -116,13 +116,13 @@ def _ply(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
     return {f"{name}.ply": _library("trimesh.exchange.ply").export_ply(mesh, vertex_normal=True)}
 
 
-def _bbmodel(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
+def _bbmodel(parts: MeshParts, scene: Scene, fps: float, name: str) -> Files:
     from drapery.render.export.blockbench import bbmodel_text
 
     return {f"{name}.bbmodel": bbmodel_text(parts, name).encode()}
 
 
-def _bedrock(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
+def _bedrock(parts: MeshParts, scene: Scene, fps: float, name: str) -> Files:
     from drapery.render.export.blockbench import bedrock_text
 
     texture = f"{name}_texture.png"
@@ -132,7 +132,7 @@ def _bedrock(parts: Parts, scene: Scene, fps: float, name: str) -> Files:
     }
 
 
-WRITERS: dict[str, Callable[[Parts, Scene, float, str], Files]] = {
+WRITERS: dict[str, Callable[[MeshParts, Scene, float, str], Files]] = {
     ".glb": _glb,
     ".obj": _obj,
     ".ply": _ply,
@@ -151,7 +151,7 @@ def _upward(uvs: Any) -> Any:
     return np.stack([uvs[:, 0], 1 - uvs[:, 1]], axis=1)
 
 
-def _vertex_colours(part: Part, atlas: Texels) -> Texels:
+def _vertex_colours(part: MeshPart, atlas: Texels) -> Texels:
     """The texel at each vertex, shape [V, 4]; opaque where the part is."""
     height, width = atlas.shape[:2]
     x, y = (part.uvs * [width, height]).astype(np.int64).T

@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.render.encode.png import png_bytes
-from drapery.render.export.parts import Part, Parts
+from drapery.render.export.parts import MeshPart, MeshParts
 
 UNITS = 16  # per block
 
 Json = dict[str, Any]
 
 
-def bbmodel_text(parts: Parts, name: str) -> str:
+def bbmodel_text(parts: MeshParts, name: str) -> str:
     """A generic model with the texture inside. The same parts and name give the same text."""
     height, width = parts.atlas.shape[:2]
     png = base64.b64encode(png_bytes(parts.atlas)).decode()
@@ -45,7 +45,7 @@ def bbmodel_text(parts: Parts, name: str) -> str:
     return _text(model)
 
 
-def bedrock_text(parts: Parts, name: str) -> str:
+def bedrock_text(parts: MeshParts, name: str) -> str:
     """A geometry document; the texture is a file of its own."""
     height, width = parts.atlas.shape[:2]
     points = np.concatenate([part.positions[0] for part in parts.parts])
@@ -67,7 +67,7 @@ def bedrock_text(parts: Parts, name: str) -> str:
     return _text({"format_version": "1.12.0", "minecraft:geometry": [geometry]})
 
 
-def _mesh(part: Part, width: int, height: int, identity: str) -> Json:
+def _mesh(part: MeshPart, width: int, height: int, identity: str) -> Json:
     corners = [f"v{number}" for number in range(part.uvs.shape[0])]
     uvs = _rounded(part.uvs * [width, height])
     return {
@@ -88,7 +88,7 @@ def _mesh(part: Part, width: int, height: int, identity: str) -> Json:
     }
 
 
-def _poly_mesh(part: Part) -> Json:
+def _poly_mesh(part: MeshPart) -> Json:
     mirror = np.array([-1, 1, 1])
     return {
         "normalized_uvs": True,

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from drapery.render.camera import Camera, camera_pose
 from drapery.render.drawlist import Float32
 from drapery.render.encode.png import png_bytes
-from drapery.render.export.parts import Part, Parts
+from drapery.render.export.parts import MeshPart, MeshParts
 
 Json = dict[str, Any]
 
@@ -24,7 +24,7 @@ NEAREST, CLAMP_TO_EDGE = 9728, 33071
 ALPHA_MODES = {"opaque": "OPAQUE", "cutout": "MASK", "blend": "BLEND"}
 
 
-class Tree:
+class GltfDocument:
     """A glTF document that grows: its JSON, and the bytes that this points into."""
 
     def __init__(self) -> None:
@@ -54,45 +54,46 @@ class Tree:
         return self.add("accessors", entry | bounds)
 
 
-def glb_bytes(parts: Parts, fps: float, camera: Camera | None, aspect: float) -> bytes:
-    """The file. Parts that move do so for one loop, `fps` frames/s; the last frame leads to the
+def glb_bytes(parts: MeshParts, fps: float, camera: Camera | None, aspect: float) -> bytes:
+    """The file. MeshParts that move do so for one loop, `fps` frames/s; the last frame leads to the
     first."""
-    tree = Tree()
-    texture = _texture(tree, parts)
+    document = GltfDocument()
+    texture = _texture(document, parts)
     materials: dict[tuple[str, bool], int] = {}
     channels = []
     for part in parts.parts:
         kind = part.alpha, part.lit
         if kind not in materials:
-            materials[kind] = tree.add("materials", _material(part, texture))
-        mesh = tree.add("meshes", _mesh(tree, part, materials[kind]))
-        node = tree.add("nodes", {"name": part.name, "mesh": mesh})
+            materials[kind] = document.add("materials", _material(part, texture))
+        mesh = document.add("meshes", _mesh(document, part, materials[kind]))
+        node = document.add("nodes", {"name": part.name, "mesh": mesh})
         if len(part.positions) > 1:
             channels.append(node)
     if channels:
-        tree.add("animations", _animation(tree, channels, parts.frames, fps))
+        document.add("animations", _animation(document, channels, parts.frames, fps))
     if camera is not None:
-        tree.add("nodes", _camera_node(tree, camera, aspect))
+        document.add("nodes", _camera_node(document, camera, aspect))
     if any(not part.lit for part in parts.parts):
-        tree.json["extensionsUsed"] = ["KHR_materials_unlit"]
-    tree.json |= {"scene": 0, "scenes": [{"nodes": list(range(len(tree.json["nodes"])))}]}
-    return _file(tree)
+        document.json["extensionsUsed"] = ["KHR_materials_unlit"]
+    document.json |= {"scene": 0, "scenes": [{"nodes": list(range(len(document.json["nodes"])))}]}
+    return _file(document)
 
 
-def _texture(tree: Tree, parts: Parts) -> int:
-    image = {"mimeType": "image/png", "bufferView": tree.view(png_bytes(parts.atlas))}
+def _texture(document: GltfDocument, parts: MeshParts) -> int:
+    image = {"mimeType": "image/png", "bufferView": document.view(png_bytes(parts.atlas))}
     sampler = {
         "magFilter": NEAREST,
         "minFilter": NEAREST,
         "wrapS": CLAMP_TO_EDGE,
         "wrapT": CLAMP_TO_EDGE,
     }
-    return tree.add(
-        "textures", {"source": tree.add("images", image), "sampler": tree.add("samplers", sampler)}
+    return document.add(
+        "textures",
+        {"source": document.add("images", image), "sampler": document.add("samplers", sampler)},
     )
 
 
-def _material(part: Part, texture: int) -> Json:
+def _material(part: MeshPart, texture: int) -> Json:
     """Matt cloth and wood, seen from both sides."""
     surface = {
         "baseColorTexture": {"index": texture},
@@ -108,20 +109,20 @@ def _material(part: Part, texture: int) -> Json:
     return material
 
 
-def _mesh(tree: Tree, part: Part, material: int) -> Json:
+def _mesh(document: GltfDocument, part: MeshPart, material: int) -> Json:
     """The first frame as the mesh, each later one as a morph target by its difference."""
 
     def vectors(values: Float32) -> int:
-        return tree.accessor(values, "VEC3", VERTICES)
+        return document.accessor(values, "VEC3", VERTICES)
 
     later = range(1, len(part.positions))
     primitive: Json = {
         "attributes": {
             "POSITION": vectors(part.positions[0]),
             "NORMAL": vectors(part.normals[0]),
-            "TEXCOORD_0": tree.accessor(part.uvs, "VEC2", VERTICES),
+            "TEXCOORD_0": document.accessor(part.uvs, "VEC2", VERTICES),
         },
-        "indices": tree.accessor(part.triangles.astype(np.uint32).ravel(), "SCALAR", INDICES),
+        "indices": document.accessor(part.triangles.astype(np.uint32).ravel(), "SCALAR", INDICES),
         "material": material,
     }
     mesh: Json = {"name": part.name, "primitives": [primitive]}
@@ -138,13 +139,13 @@ def _mesh(tree: Tree, part: Part, material: int) -> Json:
     return mesh
 
 
-def _animation(tree: Tree, nodes: list[int], frames: int, fps: float) -> Json:
+def _animation(document: GltfDocument, nodes: list[int], frames: int, fps: float) -> Json:
     """At key k frame k's weight is 1 and all others 0; the last key is the first frame again."""
     weights = np.eye(frames + 1, frames, dtype=np.float32)[:, 1:]
     times = (np.arange(frames + 1) / fps).astype(np.float32)
     sampler = {
-        "input": tree.accessor(times, "SCALAR"),
-        "output": tree.accessor(weights.ravel(), "SCALAR"),
+        "input": document.accessor(times, "SCALAR"),
+        "output": document.accessor(weights.ravel(), "SCALAR"),
         "interpolation": "LINEAR",
     }
     return {
@@ -154,7 +155,7 @@ def _animation(tree: Tree, nodes: list[int], frames: int, fps: float) -> Json:
     }
 
 
-def _camera_node(tree: Tree, camera: Camera, aspect: float) -> Json:
+def _camera_node(document: GltfDocument, camera: Camera, aspect: float) -> Json:
     near, far = {"znear": camera.near}, {"zfar": camera.far}
     if camera.height is None:
         lens = {"yfov": float(np.radians(camera.fov)), "aspectRatio": aspect} | near | far
@@ -165,15 +166,15 @@ def _camera_node(tree: Tree, camera: Camera, aspect: float) -> Json:
     pose = camera_pose(camera)
     return {
         "name": "camera",
-        "camera": tree.add("cameras", entry),
+        "camera": document.add("cameras", entry),
         "matrix": pose.T.ravel().tolist(),  # column by column
     }
 
 
-def _file(tree: Tree) -> bytes:
-    tree.json["buffers"] = [{"byteLength": len(tree.binary)}]
-    content = json.dumps(tree.json, separators=(",", ":")).encode()
+def _file(document: GltfDocument) -> bytes:
+    document.json["buffers"] = [{"byteLength": len(document.binary)}]
+    content = json.dumps(document.json, separators=(",", ":")).encode()
     chunks = [(b"JSON", content + b" " * (-len(content) % 4))]
-    chunks.append((b"BIN\0", bytes(tree.binary) + bytes(-len(tree.binary) % 4)))
+    chunks.append((b"BIN\0", bytes(document.binary) + bytes(-len(document.binary) % 4)))
     body = b"".join(struct.pack("<I", len(data)) + kind + data for kind, data in chunks)
     return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body

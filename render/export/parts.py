@@ -21,7 +21,7 @@ MAX_NUMBERS = 1 << 27
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class MeshPart:
     """The triangles of one model that mean the same by alpha and light.
 
     positions, normals: [m], shape [F, V, 3], one frame where it does not move.
@@ -38,15 +38,15 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False)
-class Parts:
+class MeshParts:
     """What a 3-D file holds. frames: how many moments; atlas: the texture of all parts."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[MeshPart, ...]
     atlas: Texels
     frames: int
 
 
-def take_apart(scenes: Iterable[Scene]) -> Parts:
+def take_apart(scenes: Iterable[Scene]) -> MeshParts:
     """The parts of an animation's scenes, whose models must differ in nothing but positions.
 
     Raises OptionError where they do, where there is nothing to write, or too much.
@@ -80,7 +80,7 @@ def _same(one: Topology, other: Topology) -> bool:
     )
 
 
-def _parts(topology: Topology, positions: Float32, normals: Float32) -> Parts:
+def _parts(topology: Topology, positions: Float32, normals: Float32) -> MeshParts:
     material_tables = flattened(topology.material_tables)
     if (material_tables.material_layers[:, 1] > 1).any():
         raise OptionError(
@@ -100,7 +100,7 @@ def _parts(topology: Topology, positions: Float32, normals: Float32) -> Parts:
                 if len(chosen):
                     name = _name(number, alpha, lit)
                     parts.append(_part(name, positions, normals, chosen, uvs, alpha, lit))
-    return Parts(tuple(parts), material_tables.atlas, len(positions))
+    return MeshParts(tuple(parts), material_tables.atlas, len(positions))
 
 
 def _name(number: int, alpha: Alpha, lit: bool) -> str:
@@ -119,14 +119,14 @@ def _part(
     uvs: Float32,
     alpha: Alpha,
     lit: bool,
-) -> Part:
+) -> MeshPart:
     """One part with vertices of its own; frames that are all the same become one."""
     used, numbers = np.unique(triangles, return_inverse=True)
     moving, turning = positions[:, used], normals[:, used]
     if (moving == moving[:1]).all() and (turning == turning[:1]).all():
         moving, turning = moving[:1], turning[:1]
     own = numbers.reshape(triangles.shape).astype(np.int32)
-    return Part(name, moving, turning, own, uvs[used], alpha, lit)
+    return MeshPart(name, moving, turning, own, uvs[used], alpha, lit)
 
 
 def _atlas_uvs(topology: Topology, material_tables: MaterialTables) -> Float32:

@@ -33,7 +33,7 @@ CUTOUT_BIT, SOLID_BIT, UNLIT_BIT = 1, 2, 4  # as in flat.frag
 
 
 @dataclass
-class Stage:
+class OffscreenContext:
     """What one process keeps: pyrender, its platform and renderer, and the scene drawn last."""
 
     pyrender: Any
@@ -59,73 +59,73 @@ def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
     than once beforehand in the texture. That is slower; colours round by up to 2/255 otherwise.
     """
     drawing = draw_list(scene.models)
-    with _current() as stage:
-        _check(stage, scene, drawing)
+    with _current() as context:
+        _check(context, scene, drawing)
         if has_relief(scene):
-            return _draw_materials(stage, scene)
-        if stage.topology is not drawing.topology or stage.stacked != stacked:
-            _set_up(stage, drawing.topology, stacked)
-        samples = _draw(stage, scene, drawing)
+            return _draw_materials(context, scene)
+        if context.topology is not drawing.topology or context.stacked != stacked:
+            _set_up(context, drawing.topology, stacked)
+        samples = _draw(context, scene, drawing)
     return Frame(resolved(samples, round(scene.samples**0.5)))
 
 
-def _draw_materials(stage: Stage, scene: Scene) -> Frame:
+def _draw_materials(context: OffscreenContext, scene: Scene) -> Frame:
     from drapery.render.gl.material import MaterialRenderer, draw_materials
 
-    if stage.materials is None:
-        stage.materials = MaterialRenderer(1, 1)
-    samples = draw_materials(stage.materials, scene)
+    if context.materials is None:
+        context.materials = MaterialRenderer(1, 1)
+    samples = draw_materials(context.materials, scene)
     return Frame(resolved(samples, round(scene.samples**0.5)))
 
 
 def describe() -> str:
     """The OpenGL renderer in use. Raises BackendError where there is none."""
-    with _current() as stage:
-        name = type(stage.platform).__name__.removesuffix("Platform")
-        return f"{name}, {stage.passes.renderer_name()}"
+    with _current() as context:
+        name = type(context.platform).__name__.removesuffix("Platform")
+        return f"{name}, {context.passes.renderer_name()}"
 
 
 @contextmanager
-def _current() -> Iterator[Stage]:
-    """The stage, its context current in this thread alone."""
+def _current() -> Iterator[OffscreenContext]:
+    """The context, its context current in this thread alone."""
     with _lock:
-        stage = _stage()
-        if stage.process != os.getpid():
+        context = _context()
+        if context.process != os.getpid():
             raise BackendError(
                 "OpenGL was started before this process was forked from another; start processes"
                 " by `spawn`, or use the backend soft"
             )
-        stage.platform.make_current()
+        context.platform.make_current()
         try:
-            yield stage
+            yield context
         finally:
-            release(stage.platform)
+            release(context.platform)
 
 
 @cache
-def _stage() -> Stage:
+def _context() -> OffscreenContext:
     pyrender, platform = load_pyrender()
     from drapery.render.gl import passes
 
-    stage = Stage(pyrender, passes, platform, passes.LayeredRenderer())
-    atexit.register(_close, stage)
-    return stage
+    context = OffscreenContext(pyrender, passes, platform, passes.LayeredRenderer())
+    atexit.register(_close, context)
+    return context
 
 
-def _close(stage: Stage) -> None:
+def _close(context: OffscreenContext) -> None:
     """End OpenGL while its modules are still whole."""
-    if stage.process == os.getpid():
-        stage.platform.make_current()
-        if stage.materials is not None:
-            stage.materials.delete()
-        stage.renderer.delete()
-        stage.platform.delete_context()
+    if context.process == os.getpid():
+        context.platform.make_current()
+        if context.materials is not None:
+            context.materials.delete()
+        context.renderer.delete()
+        context.platform.delete_context()
 
 
-def _check(stage: Stage, scene: Scene, drawing: DrawList) -> None:
+def _check(context: OffscreenContext, scene: Scene, drawing: DrawList) -> None:
     if scene.samples not in (1, 4, 16):
         raise OptionError(f"samples {scene.samples} is not known; use 1, 4 or 16")
-    most = stage.passes.largest_side()
+    most = context.passes.largest_side()
     width, height = scene.size
     if min(scene.size) < 1 or max(scene.size) * round(scene.samples**0.5) > most:
         raise OptionError(
@@ -148,20 +148,20 @@ def _check(stage: Stage, scene: Scene, drawing: DrawList) -> None:
             )
 
 
-def _draw(stage: Stage, scene: Scene, drawing: DrawList) -> Pixels:
+def _draw(context: OffscreenContext, scene: Scene, drawing: DrawList) -> Pixels:
     """Premultiplied samples, shape [H * n, W * n, 4], n * n samples a pixel."""
     grid = round(scene.samples**0.5)
-    renderer = stage.renderer
+    renderer = context.renderer
     renderer.viewport_width, renderer.viewport_height = (side * grid for side in scene.size)
     renderer.matrix = clip_matrix(scene.camera, scene.size)
     renderer.light_tint = np.array(scene.light.tint, np.float32)
-    stage.vertices.upload(drawing.positions, scene.light.brightness(drawing.normals))
-    for primitive, triangles in stage.blends:
+    context.vertices.upload(drawing.positions, scene.light.brightness(drawing.normals))
+    for primitive, triangles in context.blends:
         primitive.reorder(far_to_near(triangles, drawing.positions, renderer.matrix))
     background = np.array(scene.background) / 255
-    stage.scene.bg_color = background * [*[background[3]] * 3, 1]
-    flags = stage.pyrender.RenderFlags
-    samples: Pixels = renderer.render(stage.scene, flags.OFFSCREEN | flags.RGBA | flags.FLAT)
+    context.scene.bg_color = background * [*[background[3]] * 3, 1]
+    flags = context.pyrender.RenderFlags
+    samples: Pixels = renderer.render(context.scene, flags.OFFSCREEN | flags.RGBA | flags.FLAT)
     return samples
 
 
@@ -173,34 +173,34 @@ def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Tri
     return triangles[np.argsort(-depth, kind="stable")]
 
 
-def _set_up(stage: Stage, topology: Topology, stacked: bool) -> None:
+def _set_up(context: OffscreenContext, topology: Topology, stacked: bool) -> None:
     """Put the constant part of a draw list on the graphics side, and the last one's away."""
-    pyrender, passes, old = stage.pyrender, stage.passes, stage.vertices
-    material_tables = _wardrobe(topology.material_tables, stacked)
+    pyrender, passes, old = context.pyrender, context.passes, context.vertices
+    material_tables = _material_tables(topology.material_tables, stacked)
     vertex_material = np.zeros(len(topology.uvs), np.int32)
     vertex_material[topology.triangles] = topology.triangle_material[:, None]
-    base_rects, _ = coat_attributes(material_tables, vertex_material, 0)
-    stage.topology, stage.stacked = topology, stacked
-    stage.vertices = passes.Vertices(topology.uvs, base_rects)
+    base_rects, _ = layer_attributes(material_tables, vertex_material, 0)
+    context.topology, context.stacked = topology, stacked
+    context.vertices = passes.Vertices(topology.uvs, base_rects)
     material = _material(pyrender, material_tables)
-    stage.blends, primitives = [], []
-    for layer, triangles, blend in coat_passes(topology, material_tables):
-        rects, tints = coat_attributes(material_tables, vertex_material, layer)
+    context.blends, primitives = [], []
+    for layer, triangles, blend in layer_passes(topology, material_tables):
+        rects, tints = layer_attributes(material_tables, vertex_material, layer)
         primitives.append(
-            passes.LayeredPrimitive(stage.vertices, rects, tints, triangles, blend, material)
+            passes.LayeredPrimitive(context.vertices, rects, tints, triangles, blend, material)
         )
         if blend:
-            stage.blends.append((primitives[-1], triangles))
-    stage.scene = pyrender.Scene()
-    stage.scene.add(pyrender.PerspectiveCamera(yfov=1.0))  # pyrender asks for one
+            context.blends.append((primitives[-1], triangles))
+    context.scene = pyrender.Scene()
+    context.scene.add(pyrender.PerspectiveCamera(yfov=1.0))  # pyrender asks for one
     if primitives:
         # One mesh: pyrender draws a mesh's primitives in order, but its meshes in any.
-        stage.scene.add(pyrender.Mesh(primitives))
+        context.scene.add(pyrender.Mesh(primitives))
     if old is not None:
         old.delete()
 
 
-def _wardrobe(material_tables: MaterialTables, stacked: bool) -> MaterialTables:
+def _material_tables(material_tables: MaterialTables, stacked: bool) -> MaterialTables:
     """Layers composited beforehand; if stacked only where they blend, for there a triangle must lay
     down all its layers at once."""
     many = material_tables.material_layers[:, 1] > 1
@@ -219,7 +219,7 @@ def _material(pyrender: Any, material_tables: MaterialTables) -> Any:
     return pyrender.MetallicRoughnessMaterial(baseColorTexture=texture)
 
 
-class Pass(NamedTuple):
+class LayerPass(NamedTuple):
     """One draw call: layer number `layer` of triangles [T, 3], over what lies behind if `blend`."""
 
     layer: int
@@ -227,7 +227,7 @@ class Pass(NamedTuple):
     blend: bool
 
 
-def coat_passes(topology: Topology, material_tables: MaterialTables) -> list[Pass]:
+def layer_passes(topology: Topology, material_tables: MaterialTables) -> list[LayerPass]:
     """What to draw in turn: layer k of everything solid, for k = 0, 1, ...; then what blends."""
     material = topology.triangle_material
     counts, blends = (
@@ -235,26 +235,26 @@ def coat_passes(topology: Topology, material_tables: MaterialTables) -> list[Pas
         material_tables.material_alpha[material] == BLEND,
     )
     return [
-        Pass(layer, topology.triangles[(blends == blend) & (counts > layer)], blend)
+        LayerPass(layer, topology.triangles[(blends == blend) & (counts > layer)], blend)
         for blend in (False, True)
         for layer in range(counts[blends == blend].max(initial=0))
     ]
 
 
-def coat_attributes(
+def layer_attributes(
     material_tables: MaterialTables, vertex_material: NDArray[np.int32], layer: int
 ) -> tuple[NDArray[np.uint16], NDArray[np.uint8]]:
     """At each vertex its layer's rectangle [V, 4], and its tint and kind [V, 4] as in flat.frag."""
     first, count = material_tables.material_layers.T
-    worn = first + np.minimum(layer, count - 1)
+    chosen = first + np.minimum(layer, count - 1)
     alpha = material_tables.material_alpha
     kind = (
         CUTOUT_BIT * (alpha == CUTOUT)
         + SOLID_BIT * ((alpha != BLEND) & (layer == 0))
         + UNLIT_BIT * ~material_tables.material_lit
     )
-    tints = np.column_stack([material_tables.layer_tints[worn], kind]).astype(np.uint8)
-    return material_tables.layer_rects[worn].astype(np.uint16)[vertex_material], tints[
+    tints = np.column_stack([material_tables.layer_tints[chosen], kind]).astype(np.uint8)
+    return material_tables.layer_rects[chosen].astype(np.uint16)[vertex_material], tints[
         vertex_material
     ]
 

@@ -37,18 +37,18 @@ def draw_materials(renderer: MaterialRenderer, scene: Scene) -> NDArray[np.uint8
     grid = round(scene.samples**0.5)
     renderer.viewport_width, renderer.viewport_height = (side * grid for side in scene.size)
     red, green, blue, alpha = (channel / 255 for channel in scene.background)
-    stage = pyrender.Scene(
+    gl_scene = pyrender.Scene(
         bg_color=[red * alpha, green * alpha, blue * alpha, alpha],
         ambient_light=scene.light.ambient**GAMMA * np.array(scene.light.tint),
     )
     for model in scene.models:
-        stage.add(pyrender.Mesh(list(_primitives(model))))
+        gl_scene.add(pyrender.Mesh(list(_primitives(model))))
     for towards in scene.light.unit_directions():
-        stage.add(_lamp(scene.light), pose=_looking_along(-towards))
+        gl_scene.add(_lamp(scene.light), pose=_looking_along(-towards))
     pose = camera_pose(scene.camera)
-    stage.add(_lens(scene.camera, scene.size), pose=pose)
+    gl_scene.add(_lens(scene.camera, scene.size), pose=pose)
     flags = pyrender.RenderFlags
-    samples: NDArray[np.uint8] = renderer.render(stage, flags.OFFSCREEN | flags.RGBA)
+    samples: NDArray[np.uint8] = renderer.render(gl_scene, flags.OFFSCREEN | flags.RGBA)
     return samples
 
 

@@ -25,7 +25,7 @@ EGL_PLATFORM_DEVICE = 0x313F
 MAX_DEVICES = 64
 
 
-class Probe(NamedTuple):
+class ProbeResult(NamedTuple):
     """Whether a way to OpenGL works, what is missing if not, and on which of EGL's devices."""
 
     works: bool
@@ -33,31 +33,31 @@ class Probe(NamedTuple):
     device: int = 0
 
 
-def probe_egl() -> Probe:
+def probe_egl() -> ProbeResult:
     """The first of EGL's devices that starts, or the one that EGL_DEVICE_ID names.
 
     A graphics card comes before software, but its driver may be there without the card.
     """
     if not any(map(_loaded, ("libGL.so.1", "libOpenGL.so.0"))):
-        return Probe(False, "libGL.so.1 is missing")
+        return ProbeResult(False, "libGL.so.1 is missing")
     egl = _loaded("libEGL.so.1")
     if egl is None:
-        return Probe(False, "libEGL.so.1 is missing")
+        return ProbeResult(False, "libEGL.so.1 is missing")
     wanted = os.environ.get("EGL_DEVICE_ID", "")
     for number, display in enumerate(_displays(egl)):
         starts = display and egl.eglInitialize(ctypes.c_void_p(display), None, None)
         if starts and wanted in ("", str(number)):
-            return Probe(True, device=number)
-    return Probe(False, f"no EGL device {wanted} starts".replace("  ", " "))
+            return ProbeResult(True, device=number)
+    return ProbeResult(False, f"no EGL device {wanted} starts".replace("  ", " "))
 
 
-def probe_osmesa() -> Probe:
+def probe_osmesa() -> ProbeResult:
     """Whether Mesa's off-screen library is there."""
     for name in ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"):
         library = _loaded(name)
         if library is not None and hasattr(library, "OSMesaCreateContextAttribs"):
-            return Probe(True)
-    return Probe(False, "libOSMesa.so.8 is missing")
+            return ProbeResult(True)
+    return ProbeResult(False, "libOSMesa.so.8 is missing")
 
 
 def pyrender_installed() -> bool:

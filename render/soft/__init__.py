@@ -25,7 +25,7 @@ from drapery.render.soft.bins import RECORD, TILE, sort_into_tiles
 from drapery.render.soft.clipping import Corners, clip
 from drapery.render.soft.projection import BROKEN, NEAREST, VERTEX, project
 from drapery.render.soft.tiles import FULL_LIGHT, draw_tiles
-from drapery.render.workers import share_out, worker_count
+from drapery.render.workers import run_parts, worker_count
 
 MAX_SIZE = 16384
 """The longest side of a picture [pixels]."""
@@ -37,7 +37,7 @@ FEW = 4096
 """So many vertices or triangles at least are worked on at a time."""
 
 PARTS = 8
-"""Parts of the work for each thread; see `share_out`."""
+"""Parts of the work for each thread; see `run_parts`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ class Raster:
 
 
 @dataclass(frozen=True, eq=False)
-class Tables:
+class KernelTables:
     """A `MaterialTables` as the kernels read it; see `draw_tiles`."""
 
     materials: NDArray[np.int32]
@@ -83,12 +83,12 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
     return Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
 
 
-def _tables(worn: MaterialTables) -> Tables:
-    modes = np.stack([worn.material_alpha, worn.material_lit], axis=1)
-    return Tables(
-        np.concatenate([worn.material_layers, modes], axis=1, dtype=np.int32),
-        np.concatenate([worn.layer_rects, worn.layer_tints], axis=1, dtype=np.int32),
-        worn.atlas.view(np.uint32)[..., 0],
+def _tables(tables: MaterialTables) -> KernelTables:
+    modes = np.stack([tables.material_alpha, tables.material_lit], axis=1)
+    return KernelTables(
+        np.concatenate([tables.material_layers, modes], axis=1, dtype=np.int32),
+        np.concatenate([tables.layer_rects, tables.layer_tints], axis=1, dtype=np.int32),
+        tables.atlas.view(np.uint32)[..., 0],
     )
 
 
@@ -158,7 +158,7 @@ def _project_model(
         )
         return union
 
-    return int(np.bitwise_or.reduce(share_out(run, len(share) - 1, workers)))
+    return int(np.bitwise_or.reduce(run_parts(run, len(share) - 1, workers)))
 
 
 def _vectors(points: NDArray[Any]) -> Float32:
@@ -179,10 +179,10 @@ def _clipped(scene: Scene, raster: Raster, matrix: Matrix, grid: int) -> Raster:
     (whole,), (cut,) = np.nonzero(~flagged), np.nonzero(flagged)
     used = raster.triangles[cut]
     size = scene.size[0] * grid, scene.size[1] * grid
-    pieces = clip(_clip_corners(scene, raster, matrix, used), cut, *size)
-    new = _on_picture(pieces.corners.reshape(-1, pieces.corners.shape[-1]), *size)
+    clipped = clip(_clip_corners(scene, raster, matrix, used), cut, *size)
+    new = _on_picture(clipped.corners.reshape(-1, clipped.corners.shape[-1]), *size)
     numbers = len(raster.vertices) + np.arange(len(new), dtype=np.int32).reshape(-1, 3)
-    source = np.concatenate([whole, pieces.source])
+    source = np.concatenate([whole, clipped.source])
     order = np.argsort(source, kind="stable")
     return Raster(
         np.concatenate([raster.vertices, new]),
@@ -232,7 +232,7 @@ def _blends_last(raster: Raster, material_alpha: NDArray[np.uint8]) -> Raster:
 
 def _draw(
     scene: Scene,
-    tables: Tables,
+    tables: KernelTables,
     raster: Raster,
     grid: int,
     workers: int,
@@ -260,7 +260,7 @@ def _draw(
             ranges += [(middle, end), (first, middle)]
             continue
         given = (tiles_x, first, starts, records, *constant)
-        share_out(partial(_draw_part, parts, given), parts, workers)
+        run_parts(partial(_draw_part, parts, given), parts, workers)
 
 
 def _draw_part(parts: int, given: tuple[Any, ...], part: int) -> None:
@@ -293,7 +293,7 @@ def _tile_lists(
         )
 
     nothing = np.empty((0, RECORD), np.int32)
-    share_out(lambda part: run(part, nothing), len(cursors), workers)
+    run_parts(lambda part: run(part, nothing), len(cursors), workers)
     ends = np.cumsum(cursors.T).reshape(cursors.T.shape).T
     starts = np.concatenate([[0], ends[-1]])
     if starts[-1] > MAX_RECORDS and tiles[3] - tiles[2] > 1:
@@ -301,5 +301,5 @@ def _tile_lists(
     np.subtract(ends, cursors, out=cursors)
     records = np.empty((int(starts[-1]), RECORD), np.int32)
     if len(records):
-        share_out(lambda part: run(part, records), len(cursors), workers)
+        run_parts(lambda part: run(part, records), len(cursors), workers)
     return starts, records

@@ -20,19 +20,19 @@ Index = NDArray[np.integer[Any]]
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class ClippedTriangles:
     """What is left of some triangles. corners: shape [P, 3, 4 + A]; source: shape [P]."""
 
     corners: Corners
     source: Index
 
 
-def clip(corners: Corners, source: Index, width: int, height: int) -> Pieces:
+def clip(corners: Corners, source: Index, width: int, height: int) -> ClippedTriangles:
     """Cut triangles [K] to the space between near and far plane and within the guard band."""
-    pieces = Pieces(corners, source)
+    clipped = ClippedTriangles(corners, source)
     for plane in _planes(width, height):
-        pieces = _cut(pieces, plane)
-    return pieces
+        clipped = _cut(clipped, plane)
+    return clipped
 
 
 def _planes(width: int, height: int) -> Matrix:
@@ -52,27 +52,27 @@ def _planes(width: int, height: int) -> Matrix:
     )
 
 
-def _cut(pieces: Pieces, plane: NDArray[np.float64]) -> Pieces:
-    distance = sum(pieces.corners[..., axis] * plane[axis] for axis in range(4))
+def _cut(clipped: ClippedTriangles, plane: NDArray[np.float64]) -> ClippedTriangles:
+    distance = sum(clipped.corners[..., axis] * plane[axis] for axis in range(4))
     inside = np.asarray(distance) >= 0
     count = inside.sum(axis=1)
     whole, one, two = (np.nonzero(count == corners)[0] for corners in (3, 1, 2))
-    (a, b, c), (da, db, dc) = _turned(pieces, distance, one, inside.argmax(axis=1))
+    (a, b, c), (da, db, dc) = _turned(clipped, distance, one, inside.argmax(axis=1))
     tip = np.stack([a, _between(a, b, da, db), _between(a, c, da, dc)], axis=1)
-    (a, b, c), (da, db, dc) = _turned(pieces, distance, two, inside.argmin(axis=1))
+    (a, b, c), (da, db, dc) = _turned(clipped, distance, two, inside.argmin(axis=1))
     on_ab, on_ca = _between(b, a, db, da), _between(c, a, dc, da)
-    kept = [pieces.corners[whole], tip, np.stack([on_ab, b, c], 1), np.stack([on_ab, c, on_ca], 1)]
-    source = [pieces.source[which] for which in (whole, one, two, two)]
-    return Pieces(np.concatenate(kept), np.concatenate(source))
+    kept = [clipped.corners[whole], tip, np.stack([on_ab, b, c], 1), np.stack([on_ab, c, on_ca], 1)]
+    source = [clipped.source[which] for which in (whole, one, two, two)]
+    return ClippedTriangles(np.concatenate(kept), np.concatenate(source))
 
 
 def _turned(
-    pieces: Pieces, distance: Any, which: Index, first: Index
+    clipped: ClippedTriangles, distance: Any, which: Index, first: Index
 ) -> tuple[list[Corners], list[NDArray[np.float64]]]:
     """Corners and their distances, turned so that each triangle begins with corner `first`."""
     turns = [(first[which] + step) % 3 for step in range(3)]
     return (
-        [pieces.corners[which, corner] for corner in turns],
+        [clipped.corners[which, corner] for corner in turns],
         [distance[which, corner] for corner in turns],
     )
 

@@ -133,14 +133,14 @@ def _cover_tile(
     vertices: Any,
     triangles: Any,
     triangle_material: Any,
-    worn: Any,
+    tables: Any,
     keys: Any,
 ) -> Any:
     """Write the keys of records first..last - 1 in the tile at x0, y0.
 
     Returns the bounds of the samples tried: left, right, top, bottom.
     """
-    materials, layers, atlas, wide = worn
+    materials, layers, atlas, wide = tables
     edge_left, edge_right, edge_top, edge_bottom = TILE, -1, TILE, -1
     for entry in range(first, last):
         ax, ay = np.int64(records[entry, 0]) - (x0 << 8), np.int64(records[entry, 1]) - (y0 << 8)
@@ -233,7 +233,7 @@ def _shade_tile(
     vertices: Any,
     triangles: Any,
     triangle_material: Any,
-    worn: Any,
+    tables: Any,
     tint: Any,
     keys: Any,
     colours: Any,
@@ -246,7 +246,7 @@ def _shade_tile(
     All layers are laid over one another first and lit at the end, once. Each step is a loop of its
     own over whole groups of samples, so that it can be done for a group at once.
     """
-    materials, layers, atlas, wide = worn
+    materials, layers, atlas, wide = tables
     u, v, light, place, shown = scratch
     left, right, top, bottom = bounds
     for row in range(top, bottom + 1):
@@ -369,7 +369,7 @@ def draw_tiles(
     starts: Any,
     records: Any,
     mesh: Any,
-    worn: Any,
+    tables: Any,
     tint: Any,
     background: Any,
     grid: Any,
@@ -382,8 +382,8 @@ def draw_tiles(
     starts, records: the triangles of tile i are records[starts[i] : starts[i + 1]]; those that
         blend come last and are drawn in their order.
     mesh: vertices [V] of VERTEX, triangles [T, 3], triangle_material [T].
-    worn: materials [L, 4], a row each of first layer, count, alpha mode, lit; layers [C, 7], a row
-        each of x, y, width, height in the atlas and tint; atlas [H * W], one uint32 a texel; W.
+    tables: materials [L, 4]: first layer, count, alpha mode, lit; layers [C, 7]: x, y, width,
+        height in the atlas, and tint; atlas [H * W], one uint32 a texel; W.
     tint: the light's colour, three factors in units of 1 / FULL_LIGHT, int64.
     background: one uint32, 0xAABBGGRR, as all colours here.
     grid: samples along a pixel's side.
@@ -419,7 +419,7 @@ def draw_tiles(
             if until == entry:
                 until, layer = entry + 1, LAYER
             bounds = _cover_tile(
-                entry, until, x0, y0, records, vertices, triangles, triangle_material, worn, keys
+                entry, until, x0, y0, records, vertices, triangles, triangle_material, tables, keys
             )
             _shade_tile(
                 layer,
@@ -429,7 +429,7 @@ def draw_tiles(
                 vertices,
                 triangles,
                 triangle_material,
-                worn,
+                tables,
                 tint,
                 keys,
                 colours,

@@ -23,10 +23,10 @@ void main()
     uint kind = tint >> 24;
     if ((kind & CUTOUT) != 0u && texel(rects.zw).a < 0.5)
         discard;
-    vec4 coat = texel(rects.xy);
-    float alpha = (kind & SOLID) != 0u ? 1.0 : coat.a;
+    vec4 layer = texel(rects.xy);
+    float alpha = (kind & SOLID) != 0u ? 1.0 : layer.a;
     vec3 shine = (kind & UNLIT) != 0u ? vec3(1.0) : uv_light.z * light_tint;
     vec3 dye = vec3(tint & 0xFFu, tint >> 8 & 0xFFu, tint >> 16 & 0xFFu);
-    vec3 dyed = floor(coat.rgb * dye + 0.5) / 255.0;
+    vec3 dyed = floor(layer.rgb * dye + 0.5) / 255.0;
     colour = vec4(dyed * shine * alpha, alpha);
 }

@@ -3,9 +3,9 @@
 
 layout(location = 0) in vec4 position_light; // [m]; w is the light's factor
 layout(location = 1) in vec2 sprite_uv;      // fractions of the sprite
-layout(location = 2) in uvec2 coat_rect;     // x | y << 16, width | height << 16 [texels]
-layout(location = 3) in uvec2 base_rect;     // the same for the lowest coat
-layout(location = 4) in uint coat_tint;      // a byte each: red, green, blue, bits of flat.frag
+layout(location = 2) in uvec2 layer_rect;    // x | y << 16, width | height << 16 [texels]
+layout(location = 3) in uvec2 base_rect;     // the same for the lowest layer
+layout(location = 4) in uint layer_tint;     // a byte each: red, green, blue, bits of flat.frag
 
 uniform mat4 P;
 
@@ -17,6 +17,6 @@ void main()
 {
     gl_Position = P * vec4(position_light.xyz, 1.0);
     uv_light = vec3(sprite_uv, position_light.w);
-    rects = uvec4(coat_rect, base_rect);
-    tint = coat_tint;
+    rects = uvec4(layer_rect, base_rect);
+    tint = layer_tint;
 }
