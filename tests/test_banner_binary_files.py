@@ -310,6 +310,30 @@ def test_a_bomb_in_every_chunk_goes_off_in_none(tmp_path: Path):
     assert len(errors) == 1 and "MiB unpacked" in str(errors[0])
 
 
+def test_a_chunk_that_a_thousand_places_list_is_read_once(tmp_path: Path):
+    blocks = {(n, 1, 0): (make.block_id(RED), make.entity(RED)) for n in range(16)}
+    region = bytearray(make.region({(0, 0): make.chunk("1.18", blocks)}))
+    assert len(region) == 12288
+    region[4:4096] = region[:4] * 1023
+    path = make.save(tmp_path / "r.0.0.mca", bytes(region))
+    errors: list[DesignError] = []
+    start = time.process_time()
+    assert [one.banner for one in banners_in(path, errors.append)] == [RED] * 16
+    assert time.process_time() - start < 1
+    assert len(errors) == 1023
+    assert str(errors[0]).startswith("r.0.0.mca chunk 1,0: lies where chunk 0,0 lies")
+
+
+@pytest.mark.parametrize("name", ["r.--5.0.mca", "r.-.0.mca", "r.٣.0.mca", "r.²-1.0.mca"])
+def test_regions_of_any_name_are_read(tmp_path: Path, name: str):
+    make_world(tmp_path)
+    path = make.save(tmp_path / "region" / name, make.region({(0, 0): RED_CHUNK}))
+    make.save(tmp_path / "notes.--5.txt", b"x")
+    assert [one.banner for one in banners_in(path)] == [RED]
+    places = [one.where for one in banners_in(tmp_path)]
+    assert any(place.startswith(f"region/{name} chunk") for place in places)
+
+
 def test_a_schematic_of_nothing_but_banners_is_too_much():
     size = (2000, 1, 1000)
     tree = make.schem(2, (1, 1, 1), {(0, 0, 0): (make.block_id(RED), None)}, padding=0)

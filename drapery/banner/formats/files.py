@@ -1,6 +1,7 @@
 """Files that hold banners: what a file is, by its bytes, and all banners in it or in a world."""
 
 import os
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -17,6 +18,7 @@ MAX_FILES = 100_000
 """Files of one world; 100,000 regions are 50,000 km in a square."""
 
 _HEAD = 2 * region.SECTOR
+_NUMBER = re.compile(r"-?[0-9]{1,11}")
 
 
 class NbtLayout(NamedTuple):
@@ -148,8 +150,5 @@ def _may_hold(path: Path) -> bool:
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
-    """Regions by the numbers in their names, -1 before 10."""
-    return [
-        (int(part), "") if part.lstrip("-").isdecimal() and len(part) < 12 else (0, part)
-        for part in name.split(".")
-    ]
+    """A key that sorts regions by the numbers in their names, -1 before 10."""
+    return [(int(part), "") if _NUMBER.fullmatch(part) else (0, part) for part in name.split(".")]

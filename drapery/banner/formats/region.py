@@ -35,7 +35,7 @@ _OWN_FILE = 0x80
 _WORDS = (b"banner", b"Banner", b"shield")
 """A chunk without any of these in its bytes bears no design and need not be read further."""
 
-_FILE_NAME = re.compile(r"r\.(-?\d{1,9})\.(-?\d{1,9})\.mc[ar]")
+_FILE_NAME = re.compile(r"r\.(-?[0-9]{1,9})\.(-?[0-9]{1,9})\.mc[ar]")
 
 
 def recognises(head: bytes, size: int) -> bool:
@@ -69,11 +69,14 @@ def find(
     limit = max(MAX_CHUNK, MAX_RATIO * file.seek(0, os.SEEK_END))
     unpacked = file.seek(0)
     head = file.read(SECTOR)
+    owners: dict[int, str] = {}
     for number in _listed(head, where, on_error):
         x, z = corner[0] + number % SIDE, corner[1] + number // SIDE
         at = f"{where} chunk {x},{z}"
+        place = _place(head, number)
         try:
-            data = _unpacked(file, _place(head, number), folder, f"c.{x}.{z}.mcc", at)
+            _check_place(owners, place[0], f"{x},{z}", at)
+            data = _unpacked(file, place, folder, f"c.{x}.{z}.mcc", at)
             unpacked += len(data)
             check_size(unpacked, where, limit)
             if any(word in data for word in _WORDS):
@@ -104,6 +107,16 @@ def _place(head: bytes, number: int) -> tuple[int, int]:
     """A chunk's first sector and its number of sectors."""
     entry = head[4 * number : 4 * number + 4]
     return int.from_bytes(entry[:3], "big"), entry[3]
+
+
+def _check_place(owners: dict[int, str], sector: int, chunk: str, where: str) -> None:
+    """Raise DesignError for a sector that another chunk has, which would be read once for each."""
+    owner = owners.setdefault(sector, chunk)
+    if owner != chunk:
+        raise DesignError(
+            f"{where}: lies where chunk {owner} lies, at byte {sector * SECTOR};"
+            " let the game repair the world"
+        )
 
 
 def _unpacked(
