@@ -152,6 +152,13 @@ def test_shorthand_and_json_load_no_grammar():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
+@pytest.mark.parametrize("module", ["drapery", "drapery.banner", "drapery.banner.design"])
+def test_a_banner_parses_texts_whatever_is_imported_first(module: str):
+    code = f"from {module} import Banner; print(Banner.parse('white cross:red').layers[0].dye)"
+    run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert run.stdout == "red\n"
+
+
 def test_a_folder_that_is_no_world_is_named(tmp_path: Path):
     with pytest.raises(DesignError, match="a folder, and no Java world"):
         read_designs(str(tmp_path))

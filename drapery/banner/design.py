@@ -1,5 +1,6 @@
 """What a banner is: a base dye and layers of (pattern, dye), in the order they were loomed."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -60,13 +61,22 @@ class Banner:
 
     @staticmethod
     def parse(text: str) -> "Banner":
-        """Read a banner from any form that `drapery.banner.formats` knows.
+        """The banner of a text in any form that `drapery.banner.formats` knows.
 
         Raises DesignError, naming the place in the text and the remedy.
         """
-        from drapery.banner.formats import parse_banner
+        return _parsers[-1](text)
 
-        return parse_banner(text)
+
+def use_parser(parser: Callable[[str], Banner]) -> None:
+    """Set what `Banner.parse` calls; the package `drapery.banner` does so when it is imported.
+
+    The forms build banners, so they import this module, and this module cannot import them.
+    """
+    _parsers.append(parser)
+
+
+_parsers: list[Callable[[str], Banner]] = []
 
 
 def _check_layers(layers: tuple[object, ...]) -> None:
