@@ -1,1 +1,1 @@
-"""Our own art in the game's pack layout, and the code that draws it."""
+"""Our own art in the game's pack layout. `assets/drawing` in the checkout draws it."""

@@ -1,6 +1,7 @@
 """What all tests share: strict numerics, a real pack, the command line."""
 
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +11,10 @@ from hypothesis import settings
 from studio_browser import chromium, studio
 
 from drapery import cli
+
+# For `assets.drawing`, which draws our art and is not installed. Last, so that the installed
+# package comes first.
+sys.path.append(str(Path(__file__).parents[1]))
 
 # Fixtures are found by their names here.
 __all__ = ["chromium", "studio"]

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from drapery.assets.banner import pattern_face
-from drapery.assets.canvas import BAR, FLAG, POLE, TexelRect, TextureBox
-from drapery.assets.charges import CHARGES
-from drapery.assets.draw_all import all_files, all_sheets, main, write_art
-from drapery.assets.shapes import SHAPES
+from assets.drawing.banner import pattern_face
+from assets.drawing.canvas import BAR, FLAG, POLE, TexelRect, TextureBox
+from assets.drawing.charges import CHARGES
+from assets.drawing.draw_all import all_files, all_sheets, main, write_art
+from assets.drawing.shapes import SHAPES
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import OutputError
 
@@ -48,7 +48,7 @@ def cut(sheet, region):
 
 @pytest.mark.parametrize("name", FILES)
 def test_regenerating_gives_the_committed_bytes(name):
-    assert FILES[name] == committed(name), f"{name}: run python -m drapery.assets.draw_all"
+    assert FILES[name] == committed(name), f"{name}: run python -m assets.drawing.draw_all"
 
 
 @pytest.mark.parametrize("path", SHEETS)

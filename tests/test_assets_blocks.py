@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from drapery.assets.blocks import BLOCKS
-from drapery.assets.ground import DIRT, GRASS
-from drapery.assets.noise import blurred, ranked, scatter, speckle
-from drapery.assets.tile import paint
+from assets.drawing.blocks import BLOCKS
+from assets.drawing.ground import DIRT, GRASS
+from assets.drawing.noise import blurred, ranked, scatter, speckle
+from assets.drawing.tile import paint
 
 REPEATING = sorted(set(BLOCKS) - {"grass_block_side", "oak_log_top"})
 

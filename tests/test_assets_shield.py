@@ -5,11 +5,11 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from drapery.assets.canvas import HANDLE, PLATE
-from drapery.assets.charges import CHARGES
-from drapery.assets.shapes import SHAPES
-from drapery.assets.shield import FIELD, base_sheet, field_face, plain_sheet, shield_sheet
-from drapery.assets.shield_charges import SHIELD_CHARGES
+from assets.drawing.canvas import HANDLE, PLATE
+from assets.drawing.charges import CHARGES
+from assets.drawing.shapes import SHAPES
+from assets.drawing.shield import FIELD, base_sheet, field_face, plain_sheet, shield_sheet
+from assets.drawing.shield_charges import SHIELD_CHARGES
 from drapery.banner.patterns import PATTERN_NAMES
 
 

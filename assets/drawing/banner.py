@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from drapery.assets.bitmaps import charge
-from drapery.assets.canvas import FLAG, Grey, Texels, blank, grey_texels, wrap
-from drapery.assets.charges import CHARGES
-from drapery.assets.shading import cloth, seam, times
-from drapery.assets.shapes import SHAPES
-from drapery.assets.wood import paint_bar, paint_pole
+from assets.drawing.bitmaps import charge
+from assets.drawing.canvas import FLAG, Grey, Texels, blank, grey_texels, wrap
+from assets.drawing.charges import CHARGES
+from assets.drawing.shading import cloth, seam, times
+from assets.drawing.shapes import SHAPES
+from assets.drawing.wood import paint_bar, paint_pole
 
 UNDYED = 235
 """Shade of the cloth that no dye has touched yet; the base pattern always covers it."""

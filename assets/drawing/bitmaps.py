@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drapery.assets.canvas import Grey
+from assets.drawing.canvas import Grey
 
 SHADES = {"#": 255, "o": 218}
 """Brightness of a drawn texel, out of 255."""

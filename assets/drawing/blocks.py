@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from drapery.assets import ground, masonry, timber
-from drapery.assets.canvas import Texels
+from assets.drawing import ground, masonry, timber
+from assets.drawing.canvas import Texels
 
 BLOCKS: dict[str, Callable[[], Texels]] = {
     "grass_block_top": ground.grass_block_top,

@@ -1,14 +1,14 @@
-"""Draws all our art into a folder: `python -m drapery.assets.draw_all [FOLDER]`."""
+"""Draws all our art into a folder: `python -m assets.drawing.draw_all [FOLDER]`, in a checkout."""
 
 import json
 import sys
 from pathlib import Path
 
-from drapery.assets import banner, shield
-from drapery.assets.blocks import BLOCKS
-from drapery.assets.canvas import Texels
-from drapery.assets.figure import DANCER, TRAVELLER, cape_sheet, figure_sheet
-from drapery.assets.png import encode
+from assets.drawing import banner, shield
+from assets.drawing.blocks import BLOCKS
+from assets.drawing.canvas import Texels
+from assets.drawing.figure import DANCER, TRAVELLER, cape_sheet, figure_sheet
+from assets.drawing.png import encode
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DraperyError, OutputError
 
@@ -83,8 +83,8 @@ def write_art(folder: Path) -> list[Path]:
 
 
 def main(arguments: list[str]) -> int:
-    """Draw into the folder named first, else into this package itself."""
-    folder = Path(arguments[0]) if arguments else Path(__file__).parent
+    """Draw into the folder that the first argument names, or into the checkout's `assets`."""
+    folder = Path(arguments[0]) if arguments else Path(__file__).parents[1]
     try:
         written = write_art(folder)
     except DraperyError as fault:

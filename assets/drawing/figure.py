@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.assets.canvas import TexelRect, Texels, TextureBox, blank, put, wrap
-from drapery.assets.noise import grid, ranked, scatter, speckle
+from assets.drawing.canvas import TexelRect, Texels, TextureBox, blank, put, wrap
+from assets.drawing.noise import grid, ranked, scatter, speckle
 
 HEAD = TextureBox(0, 0, 8, 8, 8)
 BODY = TextureBox(16, 16, 8, 12, 4)

@@ -5,9 +5,9 @@ Grass is drawn green here; nothing has to tint it.
 
 import numpy as np
 
-from drapery.assets.canvas import Texels
-from drapery.assets.noise import Field, blurred, ranked, speckle
-from drapery.assets.tile import SIZE, Palette, paint
+from assets.drawing.canvas import Texels
+from assets.drawing.noise import Field, blurred, ranked, speckle
+from assets.drawing.tile import SIZE, Palette, paint
 
 GRASS: Palette = ((75, 118, 43), (88, 134, 50), (101, 149, 57), (114, 163, 66), (130, 178, 78))
 DIRT: Palette = ((86, 60, 40), (105, 75, 51), (124, 90, 62), (142, 105, 74), (124, 114, 104))

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from drapery.assets.canvas import Texels
-from drapery.assets.noise import Field, blurred, ranked, speckle
-from drapery.assets.tile import SIZE, Palette, paint
+from assets.drawing.canvas import Texels
+from assets.drawing.noise import Field, blurred, ranked, speckle
+from assets.drawing.tile import SIZE, Palette, paint
 
 STONE: Palette = ((104, 104, 106), (116, 116, 117), (126, 126, 127), (136, 136, 137))
 COBBLE: Palette = (

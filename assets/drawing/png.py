@@ -5,7 +5,7 @@ import zlib
 
 from PIL import Image
 
-from drapery.assets.canvas import Texels
+from assets.drawing.canvas import Texels
 
 # Run-length matching leaves the compressor no choices: zlib and zlib-ng, which differ at the usual
 # levels, then write the same bytes.

@@ -7,7 +7,7 @@ A dye multiplies these shades: they stay above 200 to keep its colour.
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.assets.canvas import Grey
+from assets.drawing.canvas import Grey
 
 Axis = NDArray[np.int64]
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.assets.canvas import Grey
+from assets.drawing.canvas import Grey
 
 Mask = NDArray[np.bool_]
 Axis = NDArray[np.int64]

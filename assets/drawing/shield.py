@@ -6,8 +6,8 @@ within the rim, 10 x 20, on the front alone: the back of a shield is bare wood.
 
 import numpy as np
 
-from drapery.assets.bitmaps import centred, charge
-from drapery.assets.canvas import (
+from assets.drawing.bitmaps import centred, charge
+from assets.drawing.canvas import (
     HANDLE,
     PLATE,
     Grey,
@@ -18,13 +18,13 @@ from drapery.assets.canvas import (
     grey_texels,
     put,
 )
-from drapery.assets.noise import Field, speckle
-from drapery.assets.shading import times
-from drapery.assets.shapes import SHAPES
-from drapery.assets.shield_charges import SHIELD_CHARGES
-from drapery.assets.tile import Palette, paint
-from drapery.assets.timber import SPRUCE
-from drapery.assets.wood import grain
+from assets.drawing.noise import Field, speckle
+from assets.drawing.shading import times
+from assets.drawing.shapes import SHAPES
+from assets.drawing.shield_charges import SHIELD_CHARGES
+from assets.drawing.tile import Palette, paint
+from assets.drawing.timber import SPRUCE
+from assets.drawing.wood import grain
 
 FIELD = TexelRect(PLATE.front.x + 1, PLATE.front.y + 1, PLATE.width - 2, PLATE.height - 2)
 """The painted boards within the rim."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from drapery.assets.canvas import Texels
-from drapery.assets.noise import Field
+from assets.drawing.canvas import Texels
+from assets.drawing.noise import Field
 
 SIZE = 16
 """Texels to a block's side."""

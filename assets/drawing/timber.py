@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from drapery.assets.canvas import Texels
-from drapery.assets.noise import Field, blurred, ranked, speckle
-from drapery.assets.tile import SIZE, Palette, paint
-from drapery.assets.wood import grain
+from assets.drawing.canvas import Texels
+from assets.drawing.noise import Field, blurred, ranked, speckle
+from assets.drawing.tile import SIZE, Palette, paint
+from assets.drawing.wood import grain
 
 OAK: Palette = ((104, 80, 46), (139, 110, 66), (158, 127, 78), (172, 140, 88), (186, 154, 100))
 SPRUCE: Palette = ((62, 44, 24), (90, 66, 38), (105, 78, 46), (118, 89, 54), (130, 100, 62))

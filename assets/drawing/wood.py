@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from drapery.assets.canvas import BAR, POLE, TexelRect, Texels, TextureBox, put
-from drapery.assets.noise import Field, grid, scatter
+from assets.drawing.canvas import BAR, POLE, TexelRect, Texels, TextureBox, put
+from assets.drawing.noise import Field, grid, scatter
 
 TONES = ((66, 46, 26), (84, 60, 34), (102, 75, 44), (119, 90, 54), (137, 107, 67))
 """From the dark of a joint to the light of a planed face."""
