@@ -1,5 +1,7 @@
 """What packs are said to hold, and the real pack."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 from pack_maker import (
@@ -19,6 +21,8 @@ from drapery.banner.packs import open_packs
 from drapery.banner.packs.contents import describe_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
+
+MAPS = ("", "_n", "_s")
 
 
 def test_a_report_says_what_a_pack_has_lacks_and_overrides(tmp_path: Path) -> None:
@@ -45,6 +49,32 @@ def test_a_report_says_what_a_pack_has_lacks_and_overrides(tmp_path: Path) -> No
     assert report.format == 46 and report.overlays == ("new",) and report.description == "a test"
     (problem,) = report.problems
     assert "flower.png is not a PNG file" in problem
+
+
+MEASURED = """
+import resource, sys, time
+from drapery.packs import describe_packs
+start = time.process_time()
+(report,) = describe_packs([sys.argv[1]])
+print(len(report.sides), len(report.unchecked), len(report.problems))
+print(time.process_time() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+"""
+
+
+def test_a_report_on_gigabytes_of_texels_takes_bounded_memory_and_time(tmp_path: Path) -> None:
+    strip = plain(9, 9, 9, 99, side=4096)
+    meta = '{"animation": {"width": 2048, "height": 2048}}'
+    sheets = {BANNER + f"{name}{ending}.png": strip for name in PATTERN_NAMES for ending in MAPS}
+    metas = {BANNER + f"{name}.png.mcmeta": meta for name in PATTERN_NAMES}
+    pack = zip_pack(tmp_path / "large.zip", sheets | metas)
+    assert pack.stat().st_size < 1 << 20
+    command = [sys.executable, "-c", MEASURED, str(pack)]
+    run = subprocess.run(command, check=True, capture_output=True, text=True)
+    counts, measures = run.stdout.splitlines()
+    seconds, mebibytes = map(float, measures.split())
+    assert seconds < 15 and mebibytes < 600
+    sides, unchecked, problems = map(int, counts.split())
+    assert (sides, problems) == (1, 0) and 0 < unchecked < 43
 
 
 def test_the_real_pack_renders_front_back_and_edges(real_pack: Path) -> None:

@@ -40,7 +40,7 @@ def test_sizes_from_8_to_512_mix_in_one_design(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("shape", "message"),
-    [((64, 32), "is 32 x 64 px; a sheet is square"), ((2049, 2049), "at most 2048")],
+    [((64, 32), "is 32 x 64 px, but a sheet is square"), ((2049, 2049), "at most 2048")],
 )
 def test_sheets_of_other_shapes_are_refused(
     tmp_path: Path, shape: tuple[int, int], message: str

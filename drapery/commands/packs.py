@@ -60,9 +60,14 @@ def _lines(report: "PackReport") -> list[str]:
         "normal maps": ", ".join(report.normal_maps),
         "specular maps": ", ".join(report.specular_maps),
         "overrides": _overridden(report),
+        "not checked": _too_many(report.unchecked),
     }
     lines = [f"  {name:13} {' '.join(text.split())}" for name, text in facts.items() if text]
     return [report.label, *lines, *(f"  problem       {line}" for line in report.problems)]
+
+
+def _too_many(names: "tuple[str, ...]") -> str:
+    return f"{', '.join(names)} (the pack's sheets are too large in all)" if names else ""
 
 
 def _overridden(report: "PackReport") -> str:

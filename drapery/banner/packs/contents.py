@@ -5,9 +5,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from drapery.banner.packs.pack import Pack, added_patterns
-from drapery.banner.packs.stack import Base, Kind, PackLike, Packs, open_packs
+from drapery.banner.packs.png import png_size
+from drapery.banner.packs.stack import Base, Kind, PackFile, PackLike, Packs, open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
+
+MAX_CHECKED_BYTES = 512 << 20
+"""Most bytes, of files and of decoded texels, that are read to check the sheets of one pack."""
 
 
 @dataclass(frozen=True)
@@ -21,6 +25,8 @@ class PackReport:
     sides: pairs of a sheet's side [px] and how many have it, small ones first.
     normal_maps, specular_maps: patterns with LabPBR maps. animated: patterns with frames.
     problems: the errors of files that cannot be used.
+    unchecked: patterns beyond MAX_CHECKED_BYTES; their sheets and maps are not decoded, and are
+        not among the sides, maps, animations and problems.
     """
 
     label: str
@@ -38,6 +44,7 @@ class PackReport:
     specular_maps: tuple[str, ...]
     animated: tuple[str, ...]
     problems: tuple[str, ...]
+    unchecked: tuple[str, ...] = ()
 
 
 def describe_packs(
@@ -63,7 +70,7 @@ def _report(pack: Pack, alone: Packs, lower: Sequence[Packs]) -> PackReport:
     has = _had(alone, PATTERN_NAMES, "banner", problems)
     shields = _had(alone, PATTERN_NAMES, "shield", problems)
     mine = (*has, *_had(alone, added, "banner", problems))
-    sound = [name for name in mine if _works(alone, name, problems)]
+    sheets, unchecked = _decoded_sheets(alone, mine, problems)
     return PackReport(
         pack.label,
         pack.meta.description,
@@ -75,12 +82,52 @@ def _report(pack: Pack, alone: Packs, lower: Sequence[Packs]) -> PackReport:
         shields,
         _bases(alone, problems),
         tuple(pair for name in mine for pair in _hidden(name, lower)),
-        tuple(sorted(Counter(len(alone.sheet(name)) for name in sound).items())),
-        tuple(name for name in sound if alone.normal_map(name) is not None),
-        tuple(name for name in sound if alone.specular_map(name) is not None),
-        tuple(name for name in sound if alone.period(name)),
+        tuple(sorted(Counter(sheet.side for sheet in sheets.values()).items())),
+        tuple(name for name, sheet in sheets.items() if sheet.has_normal),
+        tuple(name for name, sheet in sheets.items() if sheet.has_specular),
+        tuple(name for name, sheet in sheets.items() if sheet.is_animated),
         tuple(dict.fromkeys(problems)),
+        unchecked,
     )
+
+
+@dataclass(frozen=True)
+class _SheetFacts:
+    side: int
+    is_animated: bool
+    has_normal: bool
+    has_specular: bool
+
+
+def _decoded_sheets(
+    alone: Packs, names: Sequence[str], problems: list[str]
+) -> tuple[dict[str, _SheetFacts], tuple[str, ...]]:
+    """The sheets that are sound, by pattern, and the patterns beyond the limit."""
+    sheets: dict[str, _SheetFacts] = {}
+    unchecked = []
+    left = MAX_CHECKED_BYTES
+    for name in names:
+        try:
+            cost = sum(_cost(file, alone) for file in alone.files(name))
+            if cost > left:
+                unchecked.append(name)
+                continue
+            left -= cost
+            sheets[name] = _SheetFacts(
+                len(alone.sheet(name)),
+                alone.period(name) > 0,
+                alone.normal_map(name) is not None,
+                alone.specular_map(name) is not None,
+            )
+        except PackError as error:
+            problems.append(str(error))
+    return sheets, tuple(unchecked)
+
+
+def _cost(file: PackFile, packs: Packs) -> int:
+    """Bytes of a PNG file and of its decoded texels."""
+    width, height = png_size(file.data, f"{packs.packs[file.level].label}: {file.name}")
+    return len(file.data) + 4 * width * height
 
 
 def _had(alone: Packs, names: Sequence[str], kind: Kind, problems: list[str]) -> tuple[str, ...]:
@@ -94,15 +141,6 @@ def _level(packs: Packs, name: str, kind: Kind, problems: list[str]) -> int | No
     except PackError as error:
         problems.append(str(error))
         return None
-
-
-def _works(packs: Packs, name: str, problems: list[str]) -> bool:
-    try:
-        packs.sheet(name), packs.normal_map(name), packs.specular_map(name)
-    except PackError as error:
-        problems.append(str(error))
-        return False
-    return True
 
 
 def _bases(alone: Packs, problems: list[str]) -> tuple[str, ...]:

@@ -13,16 +13,17 @@ from drapery.banner.names import shown
 from drapery.banner.packs.folders import OwnArt
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, open_pack
-from drapery.banner.packs.png import Texels, read_png
+from drapery.banner.packs.png import Texels, png_size, read_png
 from drapery.banner.packs.sources import PackSource
 from drapery.banner.packs.sprite_sources import SpriteFolder, SpriteSource, parse_atlas, textures_of
 from drapery.banner.packs.texture_cache import TextureCache
 from drapery.banner.packs.texture_ids import full_id, is_id, split_id, texture_file
 from drapery.banner.packs.textures import (
     Texture,
-    animated,
     check_sheet,
     checker,
+    cut_frames,
+    frame_layout,
     is_mask,
     looks_like_mask,
 )
@@ -134,6 +135,15 @@ class Packs:
         found = self._find_base(base)
         return None if found is None else found.level
 
+    def files(self, pattern: str, kind: Kind = "banner") -> tuple[PackFile, ...]:
+        """The files of a pattern's sheet and of its LabPBR maps, as they lie in the packs.
+
+        Raises PackError.
+        """
+        sheet = self._find_sheet(pattern, kind)
+        found = (sheet, self._find_map(sheet, "_n"), self._find_map(sheet, "_s"))
+        return tuple(file for file in found if file is not None)
+
     def warnings(self) -> tuple[str, ...]:
         """What a user should know of the textures asked for so far, one line each."""
         lines = list(self._notes)
@@ -159,10 +169,9 @@ class Packs:
     def _read_sheet(self, pattern: str, kind: Kind) -> Texture:
         found = self._find_sheet(pattern, kind)
         name = pattern if kind == "banner" else f"{pattern} (shield)"
-        sheet = self._read(found, name)
+        sheet = self._read(found, name, is_sheet=True)
         if found is None:
             return sheet
-        check_sheet(sheet, self._place(found))
         pack = self.packs[found.level]
         # Our own art is never of the old kind, whatever the format of the game.
         if found.level == 0 or not is_mask(sheet.frames[0], pack.format):
@@ -173,17 +182,16 @@ class Packs:
         return replace(sheet, base=base)
 
     def _read_base(self, base: Base) -> Texture:
-        found = self._find_base(base)
-        sheet = self._read(found, base)
-        if found is not None:
-            check_sheet(sheet, self._place(found))
-        return sheet
+        return self._read(self._find_base(base), base, is_sheet=True)
 
     def _any_texture(self, full: str) -> Texture:
         return self._read(self._find([texture_file(full)]), full)
 
-    def _read(self, found: PackFile | None, name: str) -> Texture:
-        """A texture as its file says, or the checker; noted for the warnings by name."""
+    def _read(self, found: PackFile | None, name: str, *, is_sheet: bool = False) -> Texture:
+        """A texture as its file says, or the checker. Notes the name for the warnings.
+
+        is_sheet: whether it must be square, which is checked before anything is decoded.
+        """
         if found is None:
             self._missing[name] = None
             return Texture((checker(),))
@@ -193,15 +201,21 @@ class Packs:
             self._ours[name] = None
         place = self._place(found)
         mcmeta = self.packs[found.level].read(f"{found.name}.mcmeta", MAX_JSON)
-        return animated(read_png(found.data, place), mcmeta, f"{place}.mcmeta")
+        layout = frame_layout(*png_size(found.data, place), mcmeta, f"{place}.mcmeta")
+        if is_sheet:
+            check_sheet(layout, place)
+        return cut_frames(read_png(found.data, place), layout)
 
     def _map(self, found: PackFile | None, ending: str) -> Texels | None:
         """The map beside a texture, from its pack or one above; those below mapped another."""
+        beside = self._find_map(found, ending)
+        return None if beside is None else read_png(beside.data, self._place(beside))
+
+    def _find_map(self, found: PackFile | None, ending: str) -> PackFile | None:
         if found is None:
             return None
         name = f"{found.name.removesuffix('.png')}{ending}.png"
-        beside = self._find([name], lowest=found.level)
-        return None if beside is None else read_png(beside.data, self._place(beside))
+        return self._find([name], lowest=found.level)
 
     def _find_sheet(self, pattern: str, kind: Kind) -> PackFile | None:
         """The file of a pattern's sheet, through its definition and the atlas."""

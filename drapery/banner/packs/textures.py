@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from drapery.banner.names import shown
 from drapery.banner.packs.meta import read_json
 from drapery.banner.packs.png import Texels
 from drapery.banner.packs.resampling import common_side, resize
@@ -71,35 +72,57 @@ class Texture:
         return sum(self.ticks) / TICKS_PER_SECOND if len(self.frames) > 1 else 0.0
 
 
-def animated(texels: Texels, mcmeta: bytes | None, name: str) -> Texture:
-    """A texture cut into the frames that its `.mcmeta` (None: it has none) tells of.
+@dataclass(frozen=True)
+class FrameLayout:
+    """How a picture is cut into frames.
 
-    Raises PackError, calling the `.mcmeta` by name.
+    width, height: of one frame [px]. order: index and ticks of each frame in the order shown;
+    frames are numbered row by row.
+    """
+
+    width: int
+    height: int
+    order: tuple[tuple[int, int], ...] = ((0, 1),)
+
+
+def frame_layout(width: int, height: int, mcmeta: bytes | None, name: str) -> FrameLayout:
+    """The frames of a picture of this size [px], by its `.mcmeta` (None: it has none).
+
+    name: what errors call the `.mcmeta`. Raises PackError.
     """
     root = read_json(mcmeta, name) if mcmeta is not None else {}
     animation = root.get("animation") if isinstance(root, dict) else None
     if animation is None:
-        return Texture((texels,))
+        return FrameLayout(width, height)
     if not isinstance(animation, dict):
         raise PackError(f"{name}: animation must be an object in braces")
-    width, height = _frame_size(animation, texels, name)
-    across, down = texels.shape[1] // width, texels.shape[0] // height
-    order = _order(animation, across * down, name)
+    size = _frame_size(animation, width, height, name)
+    count = (width // size[0]) * (height // size[1])
+    return FrameLayout(*size, _order(animation, count, name))
+
+
+def cut_frames(texels: Texels, layout: FrameLayout) -> Texture:
+    """The texture of a picture that is cut into frames."""
+    width, height = layout.width, layout.height
+    if texels.shape[:2] == (height, width):
+        return Texture((texels,))
+    across = texels.shape[1] // width
     # Copies, so that a frame in use does not hold the others in memory.
     cells = {
         n: texels[n // across * height :, n % across * width :][:height, :width].copy()
-        for n in {n for n, _ in order}
+        for n in {n for n, _ in layout.order}
     }
-    return Texture(tuple(cells[n] for n, _ in order), tuple(ticks for _, ticks in order))
+    ticks = tuple(ticks for _, ticks in layout.order)
+    return Texture(tuple(cells[n] for n, _ in layout.order), ticks)
 
 
-def check_sheet(texture: Texture, name: str) -> None:
-    """Raise PackError unless the texture is a square sheet of at most MAX_SHEET px."""
-    height, width = texture.frames[0].shape[:2]
+def check_sheet(layout: FrameLayout, name: str) -> None:
+    """Raise PackError unless the frames are square and have at most MAX_SHEET px a side."""
+    width, height = layout.width, layout.height
     if height != width:
         raise PackError(
-            f"{name} is {width} x {height} px; a sheet is square:"
-            " make it so, or add an .mcmeta with its animation"
+            f"{name} is {width} x {height} px, but a sheet is square:"
+            " change its size, or add an .mcmeta with its animation"
         )
     if height > MAX_SHEET:
         raise PackError(
@@ -155,8 +178,7 @@ def checker() -> Texels:
     return texels
 
 
-def _frame_size(animation: dict[str, Any], texels: Texels, name: str) -> tuple[int, int]:
-    height, width = texels.shape[:2]
+def _frame_size(animation: dict[str, Any], width: int, height: int, name: str) -> tuple[int, int]:
     least = min(width, height)
     given = "width" in animation or "height" in animation
     size = (
@@ -171,7 +193,7 @@ def _frame_size(animation: dict[str, Any], texels: Texels, name: str) -> tuple[i
     return size
 
 
-def _order(animation: dict[str, Any], count: int, name: str) -> list[tuple[int, int]]:
+def _order(animation: dict[str, Any], count: int, name: str) -> tuple[tuple[int, int], ...]:
     """Index and ticks of each frame in the order shown."""
     usual = _whole(animation, "frametime", 1, name)
     frames = animation.get("frames") or list(range(count))
@@ -182,13 +204,15 @@ def _order(animation: dict[str, Any], count: int, name: str) -> list[tuple[int, 
         entry = entry if isinstance(entry, dict) else {"index": entry}
         index = entry.get("index")
         if not isinstance(index, int) or isinstance(index, bool) or not 0 <= index < count:
-            raise PackError(f"{name}: frame {index!r} is none of 0 to {count - 1}")
+            raise PackError(
+                f"{name}: frame {shown(index)} does not exist: they are 0 to {count - 1}"
+            )
         order.append((index, _whole(entry, "time", usual, name)))
-    return order
+    return tuple(order)
 
 
 def _whole(entry: dict[str, Any], key: str, default: int, name: str) -> int:
     value = entry.get(key, default)
     if not isinstance(value, int) or isinstance(value, bool) or not 0 < value < 1 << 20:
-        raise PackError(f"{name}: {key} must be a whole number from 1, not {value!r}")
+        raise PackError(f"{name}: {key} must be a whole number from 1, not {shown(value)}")
     return value
