@@ -163,6 +163,109 @@ def test_nothing_tunnels_at_20_m_per_s(name, data):
         before = place
 
 
+def finned_cube(half=2.0, height=1.0, thickness=0.005):
+    """One closed surface: a cube with a thin fin along the middle of its top."""
+    e, top = thickness / 2, half + height
+    outline = [(-half, -half), (half, -half), (half, half), (e, half)]
+    outline += [(e, top), (-e, top), (-e, half), (-half, half)]
+    near = np.array([(x, y, half) for x, y in outline])
+    cap = np.array([[3, 4, 5], [3, 5, 6], [1, 2, 3], [0, 1, 3], [0, 3, 6], [0, 6, 7]])
+    i, j = np.arange(8), np.roll(np.arange(8), -1)
+    wall = np.concatenate([np.stack([i, i + 8, j + 8], 1), np.stack([i, j + 8, j], 1)])
+    return mesh_collider(
+        np.concatenate([near, near * (1, 1, -1)]), np.concatenate([cap, cap[:, ::-1] + 8, wall])
+    )
+
+
+def plates(*places, thickness=0.001):
+    """Square plates of 2 m across the x axis, centred at these x."""
+    boxes = [trimesh.creation.box(extents=(thickness, 2, 2)) for _ in places]
+    for box, place in zip(boxes, places, strict=True):
+        box.apply_translation([place, 0, 0])
+    both = trimesh.util.concatenate(boxes)
+    return mesh_collider(both.vertices, both.faces)
+
+
+def spiked_ball():
+    """A ball of 1 m with one vertex pulled out to 3 m: a needle about the y axis."""
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=1.0)
+    tip = int(np.argmax(ball.vertices[:, 1]))
+    vertices = (
+        np.array(ball.vertices)
+        @ trimesh.geometry.align_vectors(ball.vertices[tip], [0, 1, 0])[:3, :3].T
+    )
+    vertices[tip] = [0, 3, 0]
+    return mesh_collider(vertices, ball.faces)
+
+
+# Each shape with the places at which a point that moves along x must be stopped.
+THIN = {
+    "fin": (finned_cube(), [[0, 2.02, 0], [0, 2.5, 1.1], [0, 2.99, -1.9]]),
+    "plate": (plates(0.0), [[0, 0, 0], [0, 0.97, -0.8]]),
+    "two plates": (plates(-0.002, 0.002), [[0, 0, 0], [0, -0.6, 0.7]]),
+    "needle": (spiked_ball(), [[0, 2.99, 0], [0, 2.9, 0.001]]),
+}
+
+
+@pytest.mark.parametrize("radius", [1e-4, 1e-3, 0.02])
+@pytest.mark.parametrize("speed", [0.5, 5.0, 60.0])
+@pytest.mark.parametrize("name", THIN)
+def test_nothing_passes_a_thin_feature_of_a_large_shape(name, speed, radius):
+    shape, targets = THIN[name]
+    dt = 1 / 60
+    # Many starts, so that steps end before, in and behind the feature.
+    away = np.concatenate([np.linspace(0.001, 1.3, 13) * speed * dt, [0.031, 0.3]]) + radius + 0.01
+    sides = np.array([-1.0, 1.0])
+    starts = np.array(
+        [
+            (target[0] + side * distance, *target[1:])
+            for target in targets
+            for side in sides
+            for distance in away
+        ]
+    )
+    side = np.sign(starts[:, 0])
+    velocities = np.stack([-side * speed, 0 * side, 0 * side], axis=1)
+    flight = fall(
+        dust(len(starts)),
+        state(starts, velocities[None]),
+        [Collider(shape, friction=100.0)],
+        steps=4,
+        dt=dt,
+        force=0 * UP,
+        radius=radius,
+    )
+    for now in flight:
+        assert (now.positions[0, :, 0] * side > 0).all()
+
+
+@pytest.mark.parametrize("radius", [1e-3, 0.02])
+def test_what_is_between_two_plates_stays_between_them(radius):
+    shape = plates(-0.004, 0.004)
+    x = np.linspace(-0.003, 0.003, 7)
+    starts = np.stack([x, 0 * x, 0 * x], axis=1)
+    for speed in (0.0, 0.1, 5.0, -60.0):
+        flight = state(starts, np.array([speed, 0.3, 0]))
+        for now in fall(dust(7), flight, [Collider(shape)], 6, 1 / 60, force=0 * UP, radius=radius):
+            assert np.abs(now.positions[0, :, 0]).max() < 0.0035
+
+
+@pytest.mark.parametrize(
+    "shape", [Box(ORIGIN, np.full(3, 4.0)), Voxels(np.zeros((1, 3), int), 4.0)]
+)
+def test_a_way_through_a_corner_is_stopped(shape):
+    corner = np.array([2.0, 2.0, 0.0] if isinstance(shape, Box) else [4.0, 4.0, 2.0])
+    for depth in (0.002, 0.01, 0.05):
+        start = corner + np.array([-3 * depth, depth, 0])
+        velocity = np.array([4.0, -4.0, 0]) * depth * 60
+        step = fall(
+            dust(1), state(start, velocity), [Collider(shape, friction=100.0)], 1, 1 / 60,
+            force=0 * UP, radius=1e-3,
+        )  # fmt: skip
+        end = next(step).positions[0, 0]
+        assert end[0] < corner[0] and end[1] > corner[1]
+
+
 def test_a_cloth_falling_at_20_m_per_s_does_not_pass_a_thin_bar():
     cloth, positions = sheet(8, 8, 0.1, 0.5)
     bar = Capsule(np.array([-2, 0, 0.04]), np.array([2, 0, 0.04]), 0.02)

@@ -18,7 +18,8 @@ class Field(NamedTuple):
     """A shape as the kernels read it. Flat, as a parallel loop takes no tuple within a tuple.
 
     kind: one of the constants above; numbers: what its kernel documents; bounds: low and high
-    corner [m], shape [2, 3]; inner: half of the thinnest width [m], 0 where it is not known.
+    corner [m], shape [2, 3]; inradius: of the largest ball inside a convex shape [m], 0 for a shape
+    that is not convex.
     Blocks have filled: 1 where there is a cube, shape [I, J, K].
     Surfaces have, triangles in the tree's order, corners [m], shape [T, 3, 3]; normals:
     pseudonormals, shape [T, 7, 3]; boxes [M, 2, 3] and links [M, 3], see `bvh.Tree`; parts: first
@@ -28,7 +29,7 @@ class Field(NamedTuple):
     kind: int
     numbers: Array
     bounds: Array
-    inner: float
+    inradius: float
     filled: NDArray[np.uint8] = NO_FILLED
     corners: Array = NO_CORNERS
     normals: Array = NO_CORNERS

@@ -84,7 +84,7 @@ def _(shape: Voxels) -> Field:
     filled[tuple((cells - low).T)] = 1
     bounds = np.stack([low, high]) * float(shape.size)
     numbers = np.append(shape.size, bounds[0])
-    return Field(BLOCKS, numbers, bounds, shape.size / 2, filled=filled)
+    return Field(BLOCKS, numbers, bounds, 0.0, filled=filled)
 
 
 @pack.register

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth.colliders.bvh import build_tree
 from drapery.cloth.colliders.fields import SURFACE, Field
-from drapery.cloth.colliders.shapes import TriangleMesh, sixfold_volumes
+from drapery.cloth.colliders.shapes import TriangleMesh
 from drapery.cloth.colliders.vectors import Vector, along, dot, norm, row, scale, subtract
 from drapery.cloth.compiled import kernel
 from drapery.mesh import Array, Triangles, face_normals
@@ -30,23 +30,13 @@ def pack_surface(mesh: TriangleMesh) -> Field:
         SURFACE,
         np.zeros(0),
         np.stack([mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)]),
-        inner_width(mesh),
+        0.0,
         corners=np.ascontiguousarray(mesh.vertices[triangles], float),
         normals=pseudonormals(mesh.vertices, triangles),
         boxes=tree.boxes,
         links=tree.links,
         parts=parts.astype(np.int32),
     )
-
-
-def inner_width(mesh: TriangleMesh) -> float:
-    """Volume over area of the thinnest part [m]: half of a plate, a third of a sphere's radius."""
-    if not mesh.solid.all():
-        return 0.0
-    area = np.linalg.norm(face_normals(mesh.vertices, mesh.triangles), axis=-1) / 2
-    areas = np.zeros(len(mesh.solid))
-    np.add.at(areas, mesh.part, area)
-    return float((sixfold_volumes(mesh.vertices, mesh.triangles, mesh.part) / 6 / areas).min())
 
 
 def pseudonormals(vertices: Array, triangles: Triangles) -> Array:

@@ -6,7 +6,10 @@ motion of a collider counts as the motion of the point. (A collider that turns b
 error is of second order in the angle turned in a step.)
 
 The touch is found by conservative advancement (Mirtich 1996; on distance fields also known as
-sphere tracing, Hart 1996): the distance to the shape is a step that cannot meet it.
+sphere tracing, Hart 1996): the distance to the shape is an advance that cannot cross its surface.
+So no feature is too thin to be met. Between two samples the point comes no nearer to the surface
+than half the radius. A convex shape allows longer advances: along a line its distance is a convex
+function, and the slopes at both ends of an advance bound it from below.
 """
 
 from typing import NamedTuple
@@ -31,7 +34,10 @@ TOUCH = 1e-9
 """Distances [m] that count as none: far above rounding at 1000 m, far below a picture's pixel."""
 CLOSE = 1e-7
 """How near [m] to the surface the search for the moment of touch must come."""
-MAX_ADVANCES = 512
+FINEST = 1e-6
+"""The least advance [m] of a point that starts on the surface."""
+MAX_ADVANCES = 1 << 14
+"""Advances in one motion; a point that needs more waits where it is for the next step."""
 MAX_TOUCHES = 4
 """Touches in one step: floor, wall, second wall, and one more. After the last the point waits."""
 MAX_PUSHES = 8
@@ -97,18 +103,69 @@ def trace(field: Field, p: Vector, motion: Vector, radius: float) -> tuple[float
     limit = length + 2 * radius
     gap, normal = distance(field, p, limit)
     gap -= radius
-    # Along a surface the gap stays nil: the least advance is one that cannot pass through.
-    least = max(radius, field.inner / 8)
     part = 0.0
     for _ in range(MAX_ADVANCES):
-        ahead = min(part + max(gap, least) / length, 1.0)
+        ahead = min(part + advance(field, gap, radius) / length, 1.0)
         ahead_gap, ahead_normal = distance(field, along(p, ahead, motion), limit)
         ahead_gap -= radius
         if ahead_gap < min(gap, 0.0) - TOUCH:
             return approach(field, p, motion, radius, part, gap, normal, ahead, ahead_gap)
+        if field.inradius > 0.0:
+            fall, rise = dot(normal, motion), dot(ahead_normal, motion)
+            least = least_between(gap, fall, ahead_gap, rise, ahead - part)
+            if least < min(gap, 0.0) - radius / 2:
+                touch, there = descend(field, p, motion, radius, part, gap, normal, ahead)
+                if touch < ahead:
+                    return touch, there
         part, gap, normal = ahead, ahead_gap, ahead_normal
         if part == 1.0:
             return 2.0, normal
+    return part, normal
+
+
+@kernel
+def advance(field: Field, gap: float, radius: float) -> float:
+    """A length [m] that a point may move before the distance is asked again."""
+    if field.inradius > 0.0:
+        return max(gap, radius, field.inradius / 8)
+    if gap >= 0.0:
+        return max(gap, radius)
+    return max(abs(gap + radius), FINEST)
+
+
+@kernel
+def least_between(start: float, slope: float, end: float, end_slope: float, width: float) -> float:
+    """A lower bound of a convex function over an interval, from its values and slopes at the ends:
+    the value where the two tangents cross."""
+    if slope >= 0.0 or end_slope <= 0.0:
+        return min(start, end)
+    product = slope * end_slope * width
+    return (start * end_slope - end * slope + product) / (end_slope - slope)
+
+
+@kernel
+def descend(
+    field: Field,
+    p: Vector,
+    motion: Vector,
+    radius: float,
+    part: float,
+    gap: float,
+    normal: Vector,
+    end: float,
+) -> tuple[float, Vector]:
+    """The first moment from `part` to `end` at which a convex shape is as near as the radius, by
+    Newton's method, which cannot pass it; 2 if there is none."""
+    limit = norm(motion) + 2 * radius
+    for _ in range(64):
+        slope = dot(normal, motion)
+        if slope >= 0.0 or part >= end:
+            return 2.0, normal
+        if gap < CLOSE:
+            break
+        part -= gap / slope
+        gap, normal = distance(field, along(p, part, motion), limit)
+        gap -= radius
     return part, normal
 
 
@@ -212,7 +269,20 @@ def _pushed_out(
         d, normal = distance(field, p, 2 * skin.radius)
         if d >= skin.radius:
             break
-        p = along(p, skin.radius - d, normal)
+        p = along(p, clear_push(field, p, d, normal, skin.radius), normal)
         velocity, _bounce = _answer(frame, skin, p, normal, velocity, dt)
         pushed = pushed or d < skin.radius - TOUCH
     return pushed, p, velocity
+
+
+@kernel
+def clear_push(field: Field, p: Vector, d: float, normal: Vector, radius: float) -> float:
+    """How far [m] to push a point at distance d out along the normal: to the radius, or less far
+    where the push might cross a surface that lies opposite."""
+    push = radius - d
+    while push > max(abs(d), FINEST):
+        there, _normal = distance(field, along(p, push, normal), 2 * radius)
+        if push <= abs(d) + abs(there) + TOUCH:
+            break
+        push *= 0.5
+    return push
