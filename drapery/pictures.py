@@ -34,7 +34,7 @@ def draw(banner: Banner | None = None, **options: Unpack[Options]) -> Frame:
 
 def draw_with(banner: Banner | None, settings: Settings) -> Frame:
     """`draw` with options that have been checked before."""
-    from drapery.scenes.staging import still
+    from drapery.scenes.stager import still
 
     packs = open_packs(settings.packs, format=settings.format)
     (frame,) = _drawn([still(banner, packs, settings)], packs, settings)
@@ -47,7 +47,7 @@ def draw_rotations(banner: Banner | None, settings: Settings) -> list[Frame]:
     Raises OptionError, PackError or BackendError.
     """
     from drapery.render.views import frame_view
-    from drapery.scenes.staging import still
+    from drapery.scenes.stager import still
 
     packs = open_packs(settings.packs, format=settings.format)
     turned = [replace(settings, rotation=rotation) for rotation in range(ROTATIONS)]
@@ -78,7 +78,7 @@ def frames(
     banner: Banner | None, seconds: float, fps: float, settings: Settings
 ) -> Iterator[Frame]:
     """The frames of `animate`, one by one as they are drawn; see `frame_count`."""
-    from drapery.scenes.staging import loop
+    from drapery.scenes.stager import loop
 
     packs = open_packs(settings.packs, format=settings.format)
     count = frame_count(seconds, fps)

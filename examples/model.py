@@ -8,7 +8,7 @@ import trimesh
 from drapery import Banner
 from drapery.banner.packs import open_packs
 from drapery.render.export import save_model
-from drapery.scenes.staging import loop
+from drapery.scenes.stager import loop
 from drapery.settings import Settings
 
 

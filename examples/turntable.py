@@ -11,7 +11,7 @@ from drapery.banner.packs import open_packs
 from drapery.render.backends import backend
 from drapery.render.frame import Animation
 from drapery.render.views import VIEWS, turntable
-from drapery.scenes.staging import still
+from drapery.scenes.stager import still
 from drapery.settings import Settings
 
 FRAMES = 24

@@ -9,7 +9,7 @@ from drapery import Banner, DraperyError, draw
 from drapery.banner.packs import open_packs
 from drapery.mesh import Array
 from drapery.render.frame import Pixels
-from drapery.scenes.staging import still
+from drapery.scenes.stager import still
 from drapery.settings import Settings
 
 BANNER = Banner.parse("white creeper:lime border:black")

@@ -18,10 +18,10 @@ from drapery.errors import OptionError
 from drapery.render.drawlist import draw_list
 from drapery.render.light import GAME_LIGHT
 from drapery.render.soft import draw_scene
-from drapery.scenes.staging import STEP, still
+from drapery.scenes.stager import STEP, ClothSpec, still
 from drapery.settings import Settings
 from drapery.studio.live import Live, Ray
-from drapery.studio.live_cloth import ClothSpec, grabbed, hang, pulled, rewoven, within_reach
+from drapery.studio.live_cloth import live_cloth
 from drapery.studio.messages import Told, pack, unpack
 from drapery.studio.player import Player
 from drapery.studio.session import find_session, open_session
@@ -82,8 +82,8 @@ def stirred() -> Live:
     live.grab(straight_at(np.array([0.5, 0.6, 0.5])))
     live.pull(straight_at(np.array([0.9, 1.2, 0.5])))
     live.step(15)
-    live.wear(DESIGN, open_packs(()), replace(SETTINGS, solver="xpbd"))
-    live.let_go()
+    live.update(DESIGN, open_packs(()), replace(SETTINGS, solver="xpbd"))
+    live.release()
     live.step(15)
     return live
 
@@ -91,13 +91,15 @@ def stirred() -> Live:
 def test_same_inputs_same_bits() -> None:
     one, other = stirred(), stirred()
     assert np.array_equal(one.particles()[0], other.particles()[0])
-    assert one.breeze == other.breeze and one.time == other.time
+    assert one.wind_controls == other.wind_controls and one.time == other.time
 
 
 def test_another_design_leaves_the_motion() -> None:
     changed, left = a_live(), a_live()
     changed.step(30)
-    changed.wear(Banner.parse("red skull:black"), open_packs(()), replace(SETTINGS, thickness=3.0))
+    changed.update(
+        Banner.parse("red skull:black"), open_packs(()), replace(SETTINGS, thickness=3.0)
+    )
     changed.step(30)
     left.step(60)
     assert np.array_equal(changed.particles()[0], left.particles()[0])
@@ -105,7 +107,7 @@ def test_another_design_leaves_the_motion() -> None:
 
 def test_packs_side_by_side_wear_one_motion() -> None:
     live = a_live()
-    live.wear(DESIGN, open_packs(()), SETTINGS, open_packs(()))
+    live.update(DESIGN, open_packs(()), SETTINGS, open_packs(()))
     live.step(10)
     left, right = (pane.scene.models for pane in live.shown().panes)
     assert all(a.mesh is b.mesh for a, b in zip(left, right, strict=True))
@@ -115,7 +117,7 @@ def test_a_fault_changes_nothing() -> None:
     live = a_live()
     live.step(5)
     with pytest.raises(OptionError):
-        live.wear(DESIGN, open_packs(()), replace(SETTINGS, kind="cape"))
+        live.update(DESIGN, open_packs(()), replace(SETTINGS, kind="cape"))
     live.step(5)
     whole = a_live()
     whole.step(10)
@@ -125,7 +127,7 @@ def test_a_fault_changes_nothing() -> None:
 def test_reset_begins_again() -> None:
     live = stirred()
     fresh = a_live(solver="xpbd")
-    fresh.blow(live.breeze)
+    fresh.set_wind(live.wind_controls)
     live.reset()
     fresh.reset()
     live.step(20)
@@ -133,7 +135,7 @@ def test_reset_begins_again() -> None:
     assert np.array_equal(live.particles()[0], fresh.particles()[0])
 
 
-WEAVE = ClothSpec((5, 9), (0.8, 1.6), "top", "desbrun")
+SPEC = ClothSpec((5, 9), (0.8, 1.6), "top", "desbrun")
 
 
 @pytest.mark.parametrize("solver", ["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"])
@@ -148,7 +150,7 @@ def test_a_hand_takes_a_particle_where_it_wants(solver: str) -> None:
     live.pull(straight_at(goal + origin))
     live.step(60)
     assert np.allclose(live.particles()[0][corner], goal, atol=1e-3)
-    live.let_go()
+    live.release()
     live.step(8)
     assert live.particles()[0][corner][1] < goal[1] - 0.02
 
@@ -173,15 +175,15 @@ def still_origin(live: Live) -> np.ndarray:
 
 
 def test_a_hand_does_not_tear_the_cloth() -> None:
-    held = grabbed(hang(WEAVE), 44)
-    far = within_reach(held, np.array([9.0, 3.0, 2.0]))
+    held = live_cloth(SPEC).grabbed(44)
+    far = held.reachable(np.array([9.0, 3.0, 2.0]))
     rest = held.whole.rest_positions
     for pin in range(5):
         flat = np.linalg.norm(rest[44] - rest[pin])
         assert np.linalg.norm(far - rest[pin]) <= flat * 0.99 + 2e-3
     near = rest[44] + np.array([-0.1, 0.2, 0.1])
-    assert np.array_equal(within_reach(held, near), near)
-    assert pulled(hang(WEAVE), far).hand is None
+    assert np.array_equal(held.reachable(near), near)
+    assert live_cloth(SPEC).pulled(far).grab is None
 
 
 def test_what_is_held_moves_no_faster_than_a_hand() -> None:
@@ -199,7 +201,7 @@ def test_pins_that_come_back_are_gone_to_gently() -> None:
     live = a_live(wind=8.0, pins="corners")
 
     def hold(pins: Any) -> None:
-        live.wear(DESIGN, open_packs(()), replace(SETTINGS, wind=8.0, pins=pins))
+        live.update(DESIGN, open_packs(()), replace(SETTINGS, wind=8.0, pins=pins))
 
     live.step(40)
     sagged = live.particles()[0][2].copy()
@@ -214,13 +216,13 @@ def test_pins_that_come_back_are_gone_to_gently() -> None:
 
 
 def test_another_grid_goes_on_from_the_same_shape() -> None:
-    hanging = hang(WEAVE)
-    finer = rewoven(hanging, replace(WEAVE, shape=(9, 17)))
-    assert np.allclose(finer.positions, hang(finer.weave).positions, atol=1e-6)
+    cloth = live_cloth(SPEC)
+    finer = cloth.remade(replace(SPEC, shape=(9, 17)))
+    assert np.allclose(finer.positions, live_cloth(finer.spec).positions, atol=1e-6)
     live = a_live()
     live.step(40)
     coarse = live.particles()[0].copy()
-    live.wear(DESIGN, open_packs(()), replace(SETTINGS, grid=(9, 17)))
+    live.update(DESIGN, open_packs(()), replace(SETTINGS, grid=(9, 17)))
     fine = live.particles()[0].reshape(17, 9, 3)
     assert np.allclose(fine[::2, ::2].reshape(-1, 3), coarse, atol=1e-6)
 
@@ -230,18 +232,18 @@ def test_another_grid_goes_on_from_the_same_shape() -> None:
     [("w", 0, 180), ("s", 0, 0), ("d", 0, 90), ("a", 0, -90), ("w", 90, -90), ("d", 180, -90)],
 )
 def test_keys_send_the_wind_as_the_viewer_sees_it(key: str, azimuth: float, heading: float) -> None:
-    breeze = WindControls()
+    controls = WindControls()
     for _ in range(180):
-        breeze = steered(breeze, (key,), azimuth, STEP)
-    assert abs(around(breeze.heading - heading)) < 1e-6
+        controls = steered(controls, (key,), azimuth, STEP)
+    assert abs(around(controls.heading - heading)) < 1e-6
 
 
 def test_keys_make_the_wind_weaker_and_stronger_within_bounds() -> None:
-    breeze = WindControls(4.0)
-    assert steered(breeze, "e", 0, 0.5).speed == 6.5
-    assert steered(breeze, "q", 0, 5.0).speed == 0.0
-    assert steered(breeze, "e", 0, 50.0).speed == 40.0
-    assert steered(breeze, "", 0, 1.0) == breeze
+    controls = WindControls(4.0)
+    assert steered(controls, "e", 0, 0.5).speed == 6.5
+    assert steered(controls, "q", 0, 5.0).speed == 0.0
+    assert steered(controls, "e", 0, 50.0).speed == 40.0
+    assert steered(controls, "", 0, 1.0) == controls
 
 
 def test_a_changed_wind_goes_on_where_it_was() -> None:
@@ -289,10 +291,10 @@ def test_messages_tell_what_is_drawn() -> None:
         assert np.array_equal(seen["light"], drawing.brightness(GAME_LIGHT))
         assert np.array_equal(seen["triangles"].reshape(-1, 3), drawing.topology.triangles)
         live.step(3)
-    live.wear(Banner.parse("red"), open_packs(()), replace(SETTINGS, daylight=0.0))
+    live.update(Banner.parse("red"), open_packs(()), replace(SETTINGS, daylight=0.0))
     assert told_positions(told, live, seen) == ["scene", "moment"]
     # Night falls on the wood too, which does not move.
-    live.wear(Banner.parse("red"), open_packs(()), replace(SETTINGS, block_light=9))
+    live.update(Banner.parse("red"), open_packs(()), replace(SETTINGS, block_light=9))
     assert told_positions(told, live, seen) == ["moment"]
     live.step()
     assert told_positions(told, live, seen) == ["moment"]
@@ -328,7 +330,7 @@ def test_a_camera_is_told_once_a_cut() -> None:
     live.step()
     (again,) = told.messages(live.shown())
     assert "cameras" not in unpack(again)[0]
-    live.look_anew()
+    live.reframe()
     (anew,) = told.messages(live.shown())
     assert unpack(anew)[0]["cameras"]["cut"] is True
 
@@ -336,7 +338,7 @@ def test_a_camera_is_told_once_a_cut() -> None:
 @pytest.mark.parametrize("shape", [(300, 200), (200, 300)])
 def test_upright_viewers_stack_scenes_but_not_banners(shape: tuple[int, int]) -> None:
     live = a_live()
-    live.wear(DESIGN, open_packs(()), SETTINGS, open_packs(()), ("one", "other"))
+    live.update(DESIGN, open_packs(()), SETTINGS, open_packs(()), ("one", "other"))
     banners, _ = unpack(Told("all", shape).messages(live.shown())[0])
     assert banners["columns"] == 2
     assert [pane["label"] for pane in banners["panes"]] == ["one", "other"]
@@ -576,9 +578,9 @@ def test_cloth_that_blows_up_is_told_and_hangs_anew(client: Any) -> None:
     stage = stage_of(session)
 
     def tear(live: Live) -> None:
-        (sheet,) = live._sheets
-        state = replace(sheet.hanging.state, velocities=sheet.hanging.state.velocities * np.nan)
-        live._sheets[0] = replace(sheet, hanging=replace(sheet.hanging, state=state))
+        (cloth,) = live._cloths
+        state = replace(cloth.state, velocities=cloth.state.velocities * np.nan)
+        live._stager.cloths[0] = replace(cloth, state=state)
 
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)

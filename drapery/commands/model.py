@@ -33,7 +33,7 @@ def run(
     """Write a banner, shield, cape or elytra as a 3-D file: a waving GLB, or one pose."""
     from drapery.banner.packs import open_packs
     from drapery.render.export import check_model_target, save_model
-    from drapery.scenes.staging import loop, still
+    from drapery.scenes.stager import loop, still
     from drapery.settings import Settings, frame_count
 
     settings = Settings(**o.options_of(words))

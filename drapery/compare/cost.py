@@ -9,7 +9,7 @@ from drapery.compare.variants import Variant
 from drapery.errors import OptionError
 from drapery.render.backends import backend
 from drapery.render.scene import Scene
-from drapery.scenes.staging import still
+from drapery.scenes.stager import still
 
 REPEATS = 9
 

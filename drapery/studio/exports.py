@@ -103,7 +103,7 @@ def _loop(order: Order, path: Path, tell: Progress) -> None:
 def _model(order: Order, path: Path, tell: Progress) -> None:
     from drapery.banner.packs import open_packs
     from drapery.render.export import check_model_target, save_model
-    from drapery.scenes.staging import loop
+    from drapery.scenes.stager import loop
 
     total, settings = count_frames(order), options_for(order)
     tell(0, total)

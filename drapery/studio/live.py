@@ -1,38 +1,27 @@
-"""The banner that waves: a body whose cloth moves on tick by tick, and whatever may disturb it.
+"""The live banner: the pictures' own stager, advanced step by step, with a wind that can change
+and cloth that can be grabbed.
 
-Everything that happens comes from calls between ticks, so the same calls in the same order give
-the same motion to the bit. Left alone it is the motion of pictures: after three seconds it hangs
-as in a picture of `time` 3.
+Everything that happens comes from calls between time steps, so the same calls in the same order
+give the same motion to the bit. Left alone, its motion is that of pictures: after three seconds it
+hangs as in a picture of `time` 3.
 """
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
-from drapery.cloth import Gravity, Wind
 from drapery.errors import OptionError
-from drapery.mesh import Array, Mesh, vertex_normals
+from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
-from drapery.render.light import UNLIT, Light, lit_at
-from drapery.render.scene import Material, Model, Scene
+from drapery.render.scene import Model
 from drapery.render.shadow import contact_shadow
-from drapery.render.views import frame_view
-from drapery.scenes.staging import STEP
-from drapery.settings import Settings, background_colour
-from drapery.studio.live_cloth import (
-    ClothSpec,
-    LiveCloth,
-    free,
-    grabbed,
-    hang,
-    moved,
-    pulled,
-    released,
-    rewoven,
-)
+from drapery.scenes.stager import STEP, Stager, cloth_spec, floor_under
+from drapery.settings import Settings
+from drapery.studio.live_cloth import LiveCloth, live_cloth
 from drapery.studio.panes import Pane, Shown
 from drapery.studio.wind_controls import (
     WindControls,
@@ -42,14 +31,15 @@ from drapery.studio.wind_controls import (
     wind_of,
 )
 from drapery.style.block import turn
-from drapery.style.body import Body, Panel
-from drapery.style.extrusion import Shell, make_shell
+from drapery.style.body import Body
 from drapery.style.kinds import body_of
 
-SHADOW_TICKS = 6
-"""A contact shadow is drawn anew after so many ticks."""
-SWINGS = ((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7))
-"""How far cloth in a breeze goes from where it hangs: to both sides, and out to the front [m]."""
+SHADOW_STEPS = 6
+"""A contact shadow is drawn anew after so many time steps."""
+SWINGS = np.array(((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7)))
+"""How far cloth in a breeze moves from its rest: to both sides, and to the front [m]."""
+UNFRAMED = Camera((0, 0, 3), (0, 0, 0))
+"""The camera of a scene that each viewer frames for its own shape."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,49 +51,39 @@ class Ray:
     facing: Array
 
 
-@dataclass(frozen=True, eq=False)
-class Sheet:
-    """A panel of the body, its cloth and the shell that is drawn of it."""
-
-    panel: Panel
-    hanging: LiveCloth
-    shell: Shell
-
-
 class Live:
     """A body in the wind.
 
-    breeze: what blows. roomy: whether its views leave room for what it may do next; else they are
-    those of pictures.
+    wind_controls: the wind that blows. leaves_room: whether its views leave room for the motion to
+    come; otherwise they are those of pictures. Raises OptionError or PackError.
     """
 
     def __init__(self, design: Banner | None, packs: Packs, settings: Settings) -> None:
-        self.breeze = wind_controls_of(settings)
-        self.ticks = 0
-        self.roomy = False
-        self._settings = settings
+        self.wind_controls = wind_controls_of(settings)
+        self.leaves_room = False
         self._cuts = 0
         self._disturbed = False
         self._keys: tuple[str, ...] = ()
         self._azimuth = 0.0
-        self._sheets: list[Sheet] = []
+        self._other: Body | None = None
         self._captions: tuple[str, ...] = ("",)
         self._held: int | None = None
         self._shadow: tuple[int, Model] | None = None
-        self._wind: Wind | None = None
-        self.wear(design, packs, settings)
+        self._stager = Stager(body_of(design, packs, settings), settings, ())
+        self._stager.cloths = self._cloths_for(self._stager.body, settings)
 
     @property
     def time(self) -> float:
         """How long it has moved [s]."""
-        return self.ticks * STEP
+        return self._stager.time
 
     @property
     def is_picture(self) -> bool:
-        """Whether it hangs as in a picture of this `time`: nothing but its own wind moved it."""
-        return not self._disturbed and self.breeze == wind_controls_of(self._settings)
+        """Whether it hangs as in a picture of this `time`: only the settings' wind moved it."""
+        own = wind_controls_of(self._stager.settings)
+        return not self._disturbed and self.wind_controls == own
 
-    def wear(
+    def update(
         self,
         design: Banner | None,
         packs: Packs,
@@ -111,58 +91,59 @@ class Live:
         beside: Packs | None = None,
         captions: tuple[str, str] = ("", ""),
     ) -> None:
-        """Show this from now on; cloth that is made as before moves on undisturbed.
+        """Show this from now on; the motion of cloth of an equal spec goes on undisturbed.
 
         beside: other packs, to show the same design side by side in both, under captions. Raises
         OptionError or PackError; nothing has changed then.
         """
-        before = self._settings
+        before = self._stager
         body = body_of(design, packs, settings)
         other = None if beside is None else body_of(design, beside, settings)
-        sheets = self._rehung(body, settings)
-        self._body, self._other, self._settings, self._sheets = body, other, settings, sheets
-        self._parts = [_turned(part.mesh, settings) for part in body.parts]
+        stager = Stager(body, settings, self._cloths_for(body, settings))
+        stager.wind, stager.steps = before.wind, before.steps
+        self._stager, self._other = stager, other
         self._captions = captions if other is not None else ("",)
         self._shadow = None
-        # What keys have made of the wind stays, unless the settings ask for another.
-        if wind_controls_of(settings) != wind_controls_of(before):
-            self.blow(wind_controls_of(settings, self.breeze.on))
+        # A wind that keys have changed stays, unless the settings ask for another.
+        if wind_controls_of(settings) != wind_controls_of(before.settings):
+            self.set_wind(wind_controls_of(settings, self.wind_controls.on))
 
-    def blow(self, breeze: WindControls) -> None:
+    def set_wind(self, controls: WindControls) -> None:
         """Another wind from now on."""
-        self._disturbed |= self.ticks > 0
-        self.breeze = breeze
-        wind = wind_of(breeze)
-        self._wind = wind if self._wind is None else carried_on(self._wind, wind, self.time)
+        stager = self._stager
+        self._disturbed |= stager.steps > 0
+        self.wind_controls = controls
+        wind = wind_of(controls)
+        stager.wind = carried_on(stager.wind, wind, self.time) if stager.steps else wind
 
     def press(self, keys: Iterable[str], azimuth: float) -> None:
-        """Hold these keys of the wind until others are; see `steered`.
+        """Hold these keys of the wind until others are held; see `steered`.
 
         azimuth: of the viewer about the banner's block [degrees].
         """
         self._keys = tuple(sorted(set(keys)))
         self._azimuth = azimuth
 
-    def look_anew(self) -> None:
+    def reframe(self) -> None:
         """Frame what is seen as the named view does."""
         self._cuts += 1
 
     def reset(self) -> None:
         """Back to the start: the cloth at rest, in the same wind."""
-        self.ticks = 0
         self._disturbed = False
         self._held = None
-        self._wind = wind_of(self.breeze)
         self._shadow = None
-        self._sheets = [replace(s, hanging=hang(s.hanging.weave)) for s in self._sheets]
+        self._stager.steps = 0
+        self._stager.wind = wind_of(self.wind_controls)
+        self._stager.cloths = [live_cloth(cloth.spec) for cloth in self._stager.cloths]
 
     def grab(self, ray: Ray) -> bool:
-        """Take hold of the free particle nearest to a line of sight; false where there is none."""
-        self.let_go()
+        """Grab the free particle nearest to a line of sight; False if there is none."""
+        self.release()
         found = [
             (miss, number, particle)
-            for number, sheet in enumerate(self._sheets)
-            for miss, particle in [self._nearest(sheet, ray)]
+            for number, cloth in enumerate(self._cloths)
+            for miss, particle in [self._nearest(number, cloth, ray)]
             if particle is not None
         ]
         if not found:
@@ -170,204 +151,121 @@ class Live:
         _, number, particle = min(found)
         self._disturbed = True
         self._held = number
-        self._change(number, grabbed(self._sheets[number].hanging, particle))
+        self._replace(number, self._cloths[number].grabbed(particle))
         return True
 
     def pull(self, ray: Ray) -> None:
-        """Pull what is held to a line of sight, no nearer to the camera and no further off."""
-        if self._held is None:
-            return
-        sheet = self._sheets[self._held]
-        if sheet.hanging.hand is None:
-            return
-        at = self._placed(sheet, sheet.hanging.hand.target)
+        """Pull the grabbed particle to a line of sight, at its distance from the camera."""
+        grab = None if self._held is None else self._cloths[self._held].grab
         depth = float(np.sum(ray.along * ray.facing))
-        if abs(depth) < 1e-6:
+        if self._held is None or grab is None or abs(depth) < 1e-6:
             return
+        at = self._to_world(self._held, grab.target)
         share = float(np.sum((at - ray.origin) * ray.facing)) / depth
-        target = self._unplaced(sheet, ray.origin + share * ray.along)
-        self._change(self._held, pulled(sheet.hanging, target))
+        target = self._from_world(self._held, ray.origin + share * ray.along)
+        self._replace(self._held, self._cloths[self._held].pulled(target))
 
-    def let_go(self) -> None:
-        """Let go of what is held."""
+    def release(self) -> None:
+        """Let go of the grabbed particle."""
         if self._held is not None:
-            self._change(self._held, released(self._sheets[self._held].hanging))
+            self._replace(self._held, self._cloths[self._held].released())
         self._held = None
 
-    def step(self, ticks: int = 1) -> None:
-        """Move on by so many ticks. Raises OptionError for cloth that blew up; it hangs anew."""
-        for _ in range(ticks):
+    def step(self, steps: int = 1) -> None:
+        """Make time steps. Raises OptionError if the cloth blew up; it then starts at rest."""
+        for _ in range(steps):
             if self._keys:
-                self.blow(steered(self.breeze, self._keys, self._azimuth_of_cloth(), STEP))
-            if self._settings.pose == "cloth":
-                self._move()
-            self.ticks += 1
+                azimuth = self._azimuth + self._stager.settings.turned
+                self.set_wind(steered(self.wind_controls, self._keys, azimuth, STEP))
+            try:
+                self._stager.advance()
+            except OptionError as error:
+                self.reset()
+                raise OptionError(
+                    f"the cloth blew up with the solver {self._stager.settings.solver} and starts"
+                    " again at rest; use another solver, a coarser grid or less wind"
+                ) from error
 
     def particles(self) -> list[Array]:
-        """Where the particles of each cloth are, in its own frame [m], shape [N, 3]."""
-        return [sheet.hanging.positions for sheet in self._sheets]
+        """The particles of each cloth in its own frame [m], shape [N, 3]."""
+        return [cloth.positions for cloth in self._stager.cloths]
 
     def shown(self) -> Shown:
         """What is seen at this moment."""
-        meshes = [*self._parts, *map(self._drawn, self._sheets)]
-        first = len(self._parts)
-        worn = [self._materials(self._body)]
-        if self._other is not None:
-            worn.append(self._materials(self._other))
-        panes = tuple(
-            Pane(self._scene(meshes, materials), self._framing(meshes), caption)
-            for materials, caption in zip(worn, self._captions, strict=True)
-        )
-        under = int(self._settings.shadow)
-        soft = self._settings.pose == "cloth"
-        grip = frozenset(range(first + under, len(meshes) + under) if soft else ())
-        wind = self._heading() if grip else None
-        return Shown(panes, len(panes), grip, True, wind, self._cut(), self.time)
+        stager, settings = self._stager, self._stager.settings
+        meshes = stager.meshes()
+        bodies = (stager.body, *([] if self._other is None else [self._other]))
+        framing = partial(stager.camera, self._framed_points(meshes))
+        panes = []
+        for body, caption in zip(bodies, self._captions, strict=True):
+            models = stager.models(meshes, self.time, body)
+            shadow = self._shadow_of(models) if settings.shadow else None
+            scene = stager.scene(models, stager.body.camera or UNFRAMED, shadow)
+            panes.append(Pane(scene, framing, caption))
+        first = len(stager.parts) + int(settings.shadow)
+        soft = settings.pose == "cloth"
+        grip = frozenset(range(first, len(meshes) + int(settings.shadow)) if soft else ())
+        controls = self.wind_controls
+        wind = (controls.speed, controls.heading - settings.turned, controls.on) if grip else None
+        cut = (settings.view, settings.kind, settings.placement, len(stager.parts), self._cuts)
+        return Shown(tuple(panes), len(panes), grip, True, wind, cut, self.time)
 
-    def _cut(self) -> object:
-        asked = self._settings
-        return asked.view, asked.kind, asked.placement, len(self._parts), self._cuts
+    @property
+    def _cloths(self) -> list[LiveCloth]:
+        return [cloth for cloth in self._stager.cloths if isinstance(cloth, LiveCloth)]
 
-    def _scene(self, meshes: list[Mesh], materials: list[Material]) -> Scene:
-        settings = self._settings
-        models = [Model(mesh, (look,)) for mesh, look in zip(meshes, materials, strict=True)]
-        if settings.shadow:
-            models.insert(0, self._shadow_of(models))
-        return Scene(
-            tuple(models),
-            self._body.camera or Camera((0, 0, 3), (0, 0, 0)),
-            settings.drawn_size,
-            _light(self._body, settings),
-            background_colour(settings.background),
-            settings.samples,
-        )
+    def _cloths_for(self, body: Body, settings: Settings) -> list[LiveCloth]:
+        """A cloth for each panel: the present one, made anew if its spec has changed."""
+        old = dict(enumerate(self._cloths))
+        cloths = []
+        for number, panel in enumerate(body.panels):
+            spec, cloth = cloth_spec(panel, settings), old.get(number)
+            if cloth is None or cloth.spec != spec:
+                self._disturbed |= self._stager.steps > 0
+                cloth = live_cloth(spec) if cloth is None else cloth.remade(spec)
+            cloths.append(cloth)
+        return cloths
 
-    def _framing(self, meshes: list[Mesh]) -> "_Framing":
+    def _replace(self, number: int, cloth: LiveCloth) -> None:
+        self._stager.cloths[number] = cloth
+
+    def _framed_points(self, meshes: Sequence[Mesh]) -> list[Array]:
         points = [mesh.positions for mesh in meshes]
-        if self.roomy and self._settings.pose == "cloth":
+        if self.leaves_room and self._stager.settings.pose == "cloth":
             points += [
-                self._placed(sheet, sheet.hanging.whole.rest_positions + swing)
-                for sheet in self._sheets
-                for swing in np.array(SWINGS)
+                self._to_world(number, cloth.whole.rest_positions + swing)
+                for number, cloth in enumerate(self._cloths)
+                for swing in SWINGS
             ]
-        return _Framing(self._settings.view, tuple(points), self._body.camera)
+        return points
 
-    def _shadow_of(self, models: list[Model]) -> Model:
-        if self._shadow is None or abs(self.ticks - self._shadow[0]) >= SHADOW_TICKS:
-            floor = min(0.0, *(float(model.mesh.positions[:, 1].min()) for model in models))
-            self._shadow = self.ticks, contact_shadow(models, floor)
+    def _shadow_of(self, models: Sequence[Model]) -> Model:
+        steps = self._stager.steps
+        if self._shadow is None or abs(steps - self._shadow[0]) >= SHADOW_STEPS:
+            floor = floor_under([model.mesh for model in models])
+            self._shadow = steps, contact_shadow(models, floor)
         return self._shadow[1]
 
-    def _materials(self, body: Body) -> list[Material]:
-        material_getters = [part.material_at for part in body.parts] + [
-            panel.material_at for panel in body.panels
-        ]
-        return [material_at(self.time) for material_at in material_getters]
-
-    def _drawn(self, sheet: Sheet) -> Mesh:
-        """The sheet as it is drawn: thick, in its place; the game's own where no cloth is asked."""
-        settings, panel = self._settings, sheet.panel
-        if settings.pose == "vanilla":
-            phase = self.time / panel.sway if panel.sway else 0.0
-            return _turned(panel.board(phase, settings.thickness), settings)
-        hung = sheet.hanging.positions + panel.origin
-        normals = vertex_normals(hung, sheet.shell.sheet)
-        thick = sheet.shell.cover(hung, normals, settings.thickness * panel.texel)
-        return _turned(thick, settings)
-
-    def _rehung(self, body: Body, settings: Settings) -> list[Sheet]:
-        old = dict(enumerate(self._sheets))
-        return [
-            self._rehung_panel(panel, settings, old.get(number))
-            for number, panel in enumerate(body.panels)
-        ]
-
-    def _rehung_panel(self, panel: Panel, settings: Settings, old: Sheet | None) -> Sheet:
-        weave = ClothSpec(settings.grid, panel.size, settings.pins or panel.pins, settings.solver)
-        if old is not None and old.hanging.weave == weave:
-            hanging = old.hanging
-        else:
-            self._disturbed |= self.ticks > 0
-            hanging = hang(weave) if old is None else rewoven(old.hanging, weave)
-        cloth = hanging.whole
-        same = (
-            old is not None
-            and old.panel.uv_mapping == panel.uv_mapping
-            and old.hanging.whole is cloth
-        )
-        shell = (
-            old.shell if old and same else make_shell(cloth.triangles, cloth.uvs, panel.uv_mapping)
-        )
-        return Sheet(panel, hanging, shell)
-
-    def _move(self) -> None:
-        if self._wind is None:
-            self._wind = wind_of(self.breeze)
-        forces = (Gravity(), self._wind)
-        try:
-            for number, sheet in enumerate(self._sheets):
-                self._change(number, moved(sheet.hanging, forces))
-        except OptionError as error:
-            self.reset()
-            name = self._settings.solver
-            raise OptionError(
-                f"the cloth blew up with the solver {name} and hangs anew; use another solver,"
-                " a coarser grid or less wind"
-            ) from error
-
-    def _change(self, number: int, hanging: LiveCloth) -> None:
-        self._sheets[number] = replace(self._sheets[number], hanging=hanging)
-
-    def _nearest(self, sheet: Sheet, ray: Ray) -> tuple[float, int | None]:
-        """How far a line of sight misses the nearest free particle [m], and which that is."""
-        among = free(sheet.hanging)
-        if self._settings.pose != "cloth" or not len(among):
+    def _nearest(self, number: int, cloth: LiveCloth, ray: Ray) -> tuple[float, int | None]:
+        """The free particle nearest to a line of sight, and its distance from it, squared [m²]."""
+        among = cloth.free
+        if self._stager.settings.pose != "cloth" or not len(among):
             return np.inf, None
-        places = self._placed(sheet, sheet.hanging.positions[among])
+        places = self._to_world(number, cloth.positions[among])
         along = ray.along / np.sqrt(np.sum(ray.along * ray.along))
         off = np.cross(places - ray.origin, along)
         misses = np.sum(off * off, axis=1)
         best = int(np.argmin(misses))
         return float(misses[best]), int(among[best])
 
-    def _placed(self, sheet: Sheet, points: Array) -> Array:
+    def _to_world(self, number: int, points: Array) -> Array:
         """Points of a cloth's frame in the world [m], shape [..., 3]."""
-        return _turned_points(points + sheet.panel.origin, self._settings.turned)
+        origin = self._stager.body.panels[number].origin
+        return _turned_points(points + origin, self._stager.settings.turned)
 
-    def _unplaced(self, sheet: Sheet, points: Array) -> Array:
-        return _turned_points(points, -self._settings.turned) - sheet.panel.origin
-
-    def _azimuth_of_cloth(self) -> float:
-        return self._azimuth + self._settings.turned
-
-    def _heading(self) -> tuple[float, float, bool]:
-        """Speed [m/s] and where the wind blows to in the world [degrees], and whether it does."""
-        x, _, z = wind_of(replace(self.breeze, speed=1.0, on=True)).velocity
-        heading = float(np.degrees(np.arctan2(x, z))) - self._settings.turned
-        return self.breeze.speed, heading, self.breeze.on
-
-
-@dataclass(frozen=True, eq=False)
-class _Framing:
-    """A camera for pictures of any shape."""
-
-    view: str
-    points: tuple[Array, ...]
-    own: Camera | None
-
-    def __call__(self, aspect: float) -> Camera:
-        if self.own is not None:
-            return self.own
-        return frame_view(self.view, np.concatenate(self.points), aspect)
-
-
-def _light(body: Body, settings: Settings) -> Light:
-    light = UNLIT if settings.light == "flat" else body.light
-    return lit_at(light, settings.block_light, settings.sky_light, settings.daylight)
-
-
-def _turned(mesh: Mesh, settings: Settings) -> Mesh:
-    return turn(mesh, settings.turned) if settings.turned else mesh
+    def _from_world(self, number: int, points: Array) -> Array:
+        origin = self._stager.body.panels[number].origin
+        return _turned_points(points, -self._stager.settings.turned) - origin
 
 
 def _turned_points(points: Array, degrees: float) -> Array:

@@ -1,46 +1,36 @@
-"""One sheet of cloth that moves on tick by tick, held at its pins and by a hand."""
+"""One sheet of live cloth: held at its pins, and pulled by the viewer's pointer."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import Cloth, Force, PinPath, Solver, State, grid, rest_state, solver
-from drapery.cloth.pins import PinName
+from drapery.cloth import Cloth, Force, PinPath, State
 from drapery.mesh import Array
-from drapery.scenes.staging import STEP
+from drapery.scenes.stager import STEP, ClothSpec, PanelCloth, cloth_at_rest
 
 EASE = 0.35
-"""Part of the way to its goal that what is held goes in a tick."""
-FASTEST = 0.2
-"""The most that it goes in a tick [m]."""
+"""The share of the way to its target that a held particle goes in a time step."""
+MAX_SPEED = 0.2
+"""The longest way that a held particle goes in a time step [m]."""
 NEAR = 1e-4
-"""Closer than this it is there [m]."""
-FINGER = 0.045
-"""How far from it along the cloth a hand takes hold [m]."""
-REACH = 0.99
-"""A hand pulls no further from a pin than this part of the cloth between them."""
-ROUNDS = 48
-
-
-@dataclass(frozen=True)
-class ClothSpec:
-    """What a cloth is made of: particles across and down, size [m], pins, solver."""
-
-    shape: tuple[int, int]
-    size: tuple[float, float]
-    pins: PinName
-    solver: str
+"""Closer to its target than this, a held particle is put onto it [m]."""
+GRAB_RADIUS = 0.045
+"""A grab takes all particles within this distance along the cloth [m]."""
+MAX_STRETCH = 0.99
+"""A grab goes no further from a pin than this share of the cloth between them."""
+PROJECTIONS = 48
 
 
 @dataclass(frozen=True, eq=False)
 class Grab:
-    """What pulls at a particle, and at those so near that a finger would take them too.
+    """A pull at a particle and its neighbours.
 
-    around: all that are taken, shape [K]; offsets: where they are from the particle [m], [K, 3].
-    target: where to it pulls the particle [m], in the cloth's frame, shape [3].
+    particle: the one that is pulled. around: all that are held, shape [K]; offsets: their places
+    relative to the particle [m], shape [K, 3].
+    target: where the particle is pulled to [m], in the cloth's frame, shape [3].
     """
 
     particle: int
@@ -50,51 +40,110 @@ class Grab:
 
 
 @dataclass(frozen=True, eq=False)
-class LiveCloth:
-    """A cloth as it hangs.
+class LiveCloth(PanelCloth):
+    """A panel's cloth that can be grabbed. whole: the cloth without the grab's pins."""
 
-    whole: the cloth without a hand; cloth: with the held particle pinned. memory: the solver's.
-    """
-
-    weave: ClothSpec
     whole: Cloth
-    cloth: Cloth
-    method: Solver
-    memory: Any
-    state: State
-    hand: Grab | None = None
+    grab: Grab | None = None
 
     @property
-    def positions(self) -> Array:
-        """[m], shape [N, 3]."""
-        found: Array = self.state.positions[0]
-        return found
+    def free(self) -> NDArray[np.intp]:
+        """The particles that can be grabbed: those that no pin holds."""
+        return np.flatnonzero(self.whole.inv_mass > 0)
+
+    def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
+        """The cloth some time steps later; held particles move towards their targets.
+
+        Raises OptionError where the cloth has blown up.
+        """
+        moved = super().advance(forces, steps, pins or self._path())
+        # A picture makes all its steps in one call, which rounds the time only once.
+        time = round(moved.state.time / STEP) * STEP
+        return replace(moved, state=replace(moved.state, time=time))
+
+    def grabbed(self, particle: int) -> Self:
+        """The cloth held at a particle, which stays where it is."""
+        inv_mass, rest = self.whole.inv_mass.copy(), self.whole.rest_positions
+        near = _lengths(rest - rest[particle]) <= GRAB_RADIUS
+        around = np.flatnonzero(near & (inv_mass > 0))
+        inv_mass[around] = 0.0
+        place = self.positions[particle].astype(np.float64)
+        grab = Grab(particle, around, self.positions[around] - place, place)
+        return self._with_cloth(replace(self.whole, inv_mass=inv_mass), grab)
+
+    def pulled(self, target: Array) -> Self:
+        """The grab's target at a place [m], shape [3], or as near to it as the cloth allows."""
+        if self.grab is None:
+            return self
+        return replace(self, grab=replace(self.grab, target=self.reachable(target)))
+
+    def released(self) -> Self:
+        """The cloth without a grab."""
+        return self if self.grab is None else self._with_cloth(self.whole, None)
+
+    def reachable(self, target: Array) -> Array:
+        """The place near a target [m] that the grabbed particle can reach, shape [3].
+
+        No pin is further away than the flat cloth between them: the target is projected onto the
+        ball about the pin that it violates most, again and again.
+        """
+        if self.grab is None:
+            return target
+        rest = self.whole.rest_positions
+        pins = rest[self.whole.inv_mass == 0]
+        longest = MAX_STRETCH * _lengths(pins - rest[self.grab.particle])
+        place = np.asarray(target, np.float64)
+        for _ in range(PROJECTIONS if len(pins) else 0):
+            distances = _lengths(place - pins)
+            worst = int(np.argmax(distances - longest))
+            if distances[worst] <= longest[worst]:
+                break
+            place = pins[worst] + (place - pins[worst]) * (longest[worst] / distances[worst])
+        return place
+
+    def remade(self, spec: ClothSpec) -> "LiveCloth":
+        """The cloth of another spec; its motion goes on if its size is the same.
+
+        Raises OptionError.
+        """
+        new = live_cloth(spec)
+        if self.spec.size != spec.size:
+            return new
+        return replace(new, state=_resampled(self, new))
+
+    def _with_cloth(self, cloth: Cloth, grab: Grab | None) -> Self:
+        solver_state = self.solver.init(cloth, STEP)
+        return replace(self, cloth=cloth, solver_state=solver_state, grab=grab)
+
+    def _path(self) -> PinPath | None:
+        """The path of the held particles in a time step; None if all are at their targets."""
+        held = np.flatnonzero(self.cloth.inv_mass == 0)
+        start, began = self.positions[held], self.state.time
+        goal = self.cloth.rest_positions[held].astype(start.dtype)
+        if self.grab is not None:
+            places = np.searchsorted(held, self.grab.around)
+            goal[places] = self.grab.target + self.grab.offsets
+        if (start == goal).all():
+            return None
+        end = _nearer(start, goal)
+        return lambda time: start + (end - start) * min(max((time - began) / STEP, 0.0), 1.0)
 
 
-def hang(weave: ClothSpec) -> LiveCloth:
+def live_cloth(spec: ClothSpec) -> LiveCloth:
     """A cloth at rest. Raises OptionError."""
-    whole = grid(*weave.shape, *weave.size, pins=weave.pins)
-    method = solver(weave.solver)
-    return LiveCloth(weave, whole, whole, method, method.init(whole, STEP), rest_state(whole))
+    rest = cloth_at_rest(spec)
+    return LiveCloth(**vars(rest), whole=rest.cloth)
 
 
-def rewoven(old: LiveCloth, weave: ClothSpec) -> LiveCloth:
-    """The cloth made otherwise, as it hangs: its motion goes on. Raises OptionError."""
-    new = hang(weave)
-    if old.weave.size != weave.size:
-        return new
-    return replace(new, state=_resampled(old, new))
-
-
-def _resampled(old: LiveCloth, new: LiveCloth) -> State:
-    """The state on another grid, between its particles in a straight line."""
-    if old.weave.shape == new.weave.shape:
+def _resampled(old: PanelCloth, new: PanelCloth) -> State:
+    """The state on another grid, linear between the particles of the old one."""
+    if old.spec.shape == new.spec.shape:
         return old.state
-    found = [
-        _bilinear(values[0], old.weave.shape, new.whole.uvs)[None].astype(values.dtype)
+    positions, velocities = (
+        _bilinear(values[0], old.spec.shape, new.cloth.uvs)[None].astype(values.dtype)
         for values in (old.state.positions, old.state.velocities)
-    ]
-    return State(found[0], found[1], old.state.time)
+    )
+    return State(positions, velocities, old.state.time)
 
 
 def _bilinear(values: Array, shape: tuple[int, int], uvs: Array) -> Array:
@@ -110,88 +159,11 @@ def _bilinear(values: Array, shape: tuple[int, int], uvs: Array) -> Array:
     return mixed
 
 
-def moved(hanging: LiveCloth, forces: Sequence[Force]) -> LiveCloth:
-    """The cloth one tick later. Raises OptionError where it has blown up."""
-    state, memory = hanging.method.step(
-        hanging.cloth, hanging.state, hanging.memory, forces, STEP, pins=_path(hanging)
-    )
-    # Rounded as in a picture, whose steps are made in one call.
-    ticks = round(state.time / STEP)
-    return replace(hanging, state=replace(state, time=ticks * STEP), memory=memory)
-
-
-def _path(hanging: LiveCloth) -> PinPath | None:
-    """Where what is held goes during a tick; None where all is at home."""
-    held = np.flatnonzero(hanging.cloth.inv_mass == 0)
-    start, began = hanging.positions[held], hanging.state.time
-    goal = hanging.cloth.rest_positions[held].astype(start.dtype)
-    if hanging.hand is not None:
-        places = np.searchsorted(held, hanging.hand.around)
-        goal[places] = hanging.hand.target + hanging.hand.offsets
-    if (start == goal).all():
-        return None
-    end = _nearer(start, goal)
-    return lambda time: start + (end - start) * min(max((time - began) / STEP, 0.0), 1.0)
-
-
 def _nearer(start: Array, goal: Array) -> Array:
     way = goal - start
     length = np.sqrt((way * way).sum(axis=1, keepdims=True))
-    share = np.minimum(EASE, FASTEST / np.maximum(length, FASTEST))
+    share = np.minimum(EASE, MAX_SPEED / np.maximum(length, MAX_SPEED))
     return np.where(length < NEAR, goal, start + share * way).astype(start.dtype)
-
-
-def grabbed(hanging: LiveCloth, particle: int) -> LiveCloth:
-    """The cloth with a hand at a particle, which stays where it is."""
-    inv_mass, rest = hanging.whole.inv_mass.copy(), hanging.whole.rest_positions
-    around = np.flatnonzero((_lengths(rest - rest[particle]) <= FINGER) & (inv_mass > 0))
-    inv_mass[around] = 0.0
-    cloth = replace(hanging.whole, inv_mass=inv_mass)
-    memory = hanging.method.init(cloth, STEP)
-    place = hanging.positions[particle].astype(np.float64)
-    hand = Grab(particle, around, hanging.positions[around] - place, place)
-    return replace(hanging, cloth=cloth, memory=memory, hand=hand)
-
-
-def pulled(hanging: LiveCloth, target: Array) -> LiveCloth:
-    """The hand pulls to a place [m], shape [3], or as near as the cloth lets it."""
-    if hanging.hand is None:
-        return hanging
-    return replace(hanging, hand=replace(hanging.hand, target=within_reach(hanging, target)))
-
-
-def released(hanging: LiveCloth) -> LiveCloth:
-    """The cloth without a hand."""
-    if hanging.hand is None:
-        return hanging
-    memory = hanging.method.init(hanging.whole, STEP)
-    return replace(hanging, cloth=hanging.whole, memory=memory, hand=None)
-
-
-def free(hanging: LiveCloth) -> NDArray[np.intp]:
-    """The particles that a hand can take."""
-    return np.flatnonzero(hanging.whole.inv_mass > 0)
-
-
-def within_reach(hanging: LiveCloth, target: Array) -> Array:
-    """The place near a target to which the hand's particle can go without tearing the cloth.
-
-    From each pin it is no further than the flat cloth between them: the target is put back onto
-    the most distant pin's ball, again and again.
-    """
-    if hanging.hand is None:
-        return target
-    rest = hanging.whole.rest_positions
-    pins = rest[hanging.whole.inv_mass == 0]
-    reach = REACH * _lengths(pins - rest[hanging.hand.particle])
-    place = np.asarray(target, np.float64)
-    for _ in range(ROUNDS if len(pins) else 0):
-        away = _lengths(place - pins)
-        worst = int(np.argmax(away - reach))
-        if away[worst] <= reach[worst]:
-            break
-        place = pins[worst] + (place - pins[worst]) * (reach[worst] / away[worst])
-    return place
 
 
 def _lengths(vectors: Array) -> Array:

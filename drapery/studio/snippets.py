@@ -195,7 +195,7 @@ def _model(order: Order, banner: list[str], named: list[str], out: str) -> _Code
         "drapery.banner.packs.open_packs",
         "drapery.pictures.frame_count",
         "drapery.render.export.save_model",
-        "drapery.scenes.staging.loop",
+        "drapery.scenes.stager.loop",
         "drapery.settings.Settings",
     ]
     seconds, fps = repr(order.seconds), repr(order.fps)

@@ -132,7 +132,7 @@ class Viewer:
         self.stage.do(lambda live: live.pull(ray))
 
     def _drop(self, value: Any) -> None:
-        self.stage.do(lambda live: live.let_go())
+        self.stage.do(lambda live: live.release())
 
 
 _HEARD: dict[str, Callable[[Viewer, Any], None]] = {
@@ -176,7 +176,7 @@ async def live_socket(socket: WebSocket, token: str, which: str = "all") -> None
     finally:
         # Without a pause in between: whoever cancels this task may not stop its end.
         talking.cancel()
-        stage.do(lambda live: live.let_go())
+        stage.do(lambda live: live.release())
         stage.press((), 0.0)
         stage.viewers -= 1
         viewer.leave()

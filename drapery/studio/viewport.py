@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
 from drapery.errors import DraperyError
-from drapery.scenes.staging import STEP
+from drapery.scenes.stager import STEP
 from drapery.studio.live import Live
 from drapery.studio.pack_store import shelf_of
 from drapery.studio.panes import Shown
@@ -140,7 +140,7 @@ class Viewport:
 
     def look_anew(self) -> None:
         """Frame what is seen as the named view does."""
-        self.do(lambda live: live.look_anew())
+        self.do(lambda live: live.reframe())
 
     def enter(self) -> None:
         """Somebody looks: it begins to move."""
@@ -284,7 +284,7 @@ class Viewport:
 
     def _has_steered(self) -> bool:
         """Whether keys have made another wind; it is then what is wished for."""
-        breeze = self._live.breeze if self._live is not None else None
+        breeze = self._live.wind_controls if self._live is not None else None
         if breeze is None or self._stale or self._inputs:
             return False
         wished = wind_controls_of(self._session.settings)
@@ -319,7 +319,7 @@ class Viewport:
 
     def _move(self, ticks: int) -> bool:
         if self._live is not None:
-            self._live.roomy = not self.wishes.paused
+            self._live.leaves_room = not self.wishes.paused
         if self.wishes.paused or ticks <= 0:
             return False
         if self._player is None:
@@ -348,10 +348,10 @@ class Viewport:
         design = _design(session)
         if self._live is None:
             self._live = Live(design, packs, settings)
-        self._live.wear(design, packs, settings, beside, self._captions())
-        breeze = replace(self._live.breeze, on=wishes.on)
-        if breeze != self._live.breeze and not self._keys:
-            self._live.blow(breeze)
+        self._live.update(design, packs, settings, beside, self._captions())
+        breeze = replace(self._live.wind_controls, on=wishes.on)
+        if breeze != self._live.wind_controls and not self._keys:
+            self._live.set_wind(breeze)
 
 
 def _design(session: Session) -> Banner | None:

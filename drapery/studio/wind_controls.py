@@ -6,19 +6,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drapery.cloth import Wind
-from drapery.scenes.staging import BREEZE, flow
+from drapery.scenes.stager import WIND_AXIS, flow
 from drapery.settings import MAX_WIND, Settings
 
-OWN_HEADING = float(np.degrees(np.arctan2(BREEZE[0], BREEZE[2])))
+DEFAULT_HEADING = float(np.degrees(np.arctan2(WIND_AXIS[0], WIND_AXIS[2])))
 """Where a picture's wind blows to [degrees]: 0 is straight out of its front."""
-TURNING = 150.0
+TURN_RATE = 150.0
 """How fast the keys turn the wind [degrees/s]."""
-RISING = 5.0
+SPEED_RATE = 5.0
 """How fast the keys change its strength [m/s²]."""
-AHEAD = {"w": 180.0, "s": 0.0, "a": -90.0, "d": 90.0}
+KEY_DIRECTIONS = {"w": 180.0, "s": 0.0, "a": -90.0, "d": 90.0}
 """Where each key sends the wind, from where the viewer stands: away, near, left, right."""
-KEYS = (*AHEAD, "q", "e")
-TRIES = 1 << 16
+KEYS = (*KEY_DIRECTIONS, "q", "e")
+PHASES = 1 << 16
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class WindControls:
     @property
     def heading(self) -> float:
         """Where it blows to [degrees], -180..180; 0 is straight out of the banner's front."""
-        return OWN_HEADING if self.direction is None else around(self.direction)
+        return DEFAULT_HEADING if self.direction is None else around(self.direction)
 
 
 def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
@@ -45,30 +45,32 @@ def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
     return WindControls(settings.wind, settings.direction, settings.gusts, settings.seed, on)
 
 
-def wind_of(breeze: WindControls) -> Wind:
+def wind_of(controls: WindControls) -> Wind:
     """The wind on a cloth in its own frame: that of pictures, to the bit."""
-    speed = breeze.speed if breeze.on else 0.0
-    return Wind(flow(speed, breeze.direction), gusts=breeze.gusts, seed=breeze.seed)
+    speed = controls.speed if controls.on else 0.0
+    return Wind(flow(speed, controls.direction), gusts=controls.gusts, seed=controls.seed)
 
 
 def steered(
-    breeze: WindControls, keys: Iterable[str], azimuth: float, seconds: float
+    controls: WindControls, keys: Iterable[str], azimuth: float, seconds: float
 ) -> WindControls:
-    """The breeze after keys have been held for so long.
+    """The controls after keys have been held for so long.
 
     w, a, s, d: turn it away from the viewer, to the left, near, to the right; q, e: weaker and
     stronger. azimuth: where the viewer stands about the banner [degrees].
     """
-    held = set(keys)
-    towards = [np.radians(azimuth + AHEAD[key]) for key in AHEAD if key in held]
+    pressed = set(keys)
+    towards = [
+        np.radians(azimuth + KEY_DIRECTIONS[key]) for key in KEY_DIRECTIONS if key in pressed
+    ]
     x, z = sum(map(np.sin, towards)), sum(map(np.cos, towards))
     if x * x + z * z > 1e-6:
-        rest = around(float(np.degrees(np.arctan2(x, z))) - breeze.heading)
-        most = TURNING * seconds
-        heading = around(breeze.heading + min(max(rest, -most), most))
-        breeze = replace(breeze, direction=heading)
-    rise = RISING * seconds * (("e" in held) - ("q" in held))
-    return replace(breeze, speed=min(max(breeze.speed + rise, 0.0), MAX_WIND))
+        rest = around(float(np.degrees(np.arctan2(x, z))) - controls.heading)
+        limit = TURN_RATE * seconds
+        heading = around(controls.heading + min(max(rest, -limit), limit))
+        controls = replace(controls, direction=heading)
+    rise = SPEED_RATE * seconds * (("e" in pressed) - ("q" in pressed))
+    return replace(controls, speed=min(max(controls.speed + rise, 0.0), MAX_WIND))
 
 
 def around(degrees: float) -> float:
@@ -86,7 +88,7 @@ def carried_on(before: Wind, after: Wind, time: float) -> Wind:
     old, new = (_speed(wind) / wind.gust_size for wind in (before, after))
     if new in (0.0, old) or old == 0.0:
         return replace(after, phases=phase)
-    later = phase + after.sine_period * np.arange(TRIES)
+    later = phase + after.sine_period * np.arange(PHASES)
     # Only the part within a cell shows: elsewhere in a cell the gusts are others, no wilder.
     apart = (time + later) * new - (time + phase) * old
     apart -= 4096.0 * np.round(apart / 4096.0)

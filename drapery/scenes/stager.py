@@ -1,0 +1,396 @@
+"""The stager: it hangs a body's cloth, steps it in time, thickens it and lights it: a `Scene`.
+
+Still pictures, loops, 3-D files and the studio's live cloth all use it, so they agree to the bit.
+A panel of cloth is simulated in its own frame, its top edge along x through the origin, and moved
+to its place when it is drawn.
+"""
+
+import math
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import chain
+from numbers import Real
+from typing import Any, Self
+
+import numpy as np
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.cloth import Cloth, Force, Gravity, PinPath, Solver, State, Wind, grid, rest_state
+from drapery.cloth.pins import PinName
+from drapery.cloth.solvers.registry import solver
+from drapery.mesh import Array, Mesh, vertex_normals
+from drapery.render.camera import Camera
+from drapery.render.light import UNLIT, lit_at
+from drapery.render.scene import Model, Scene
+from drapery.render.shadow import contact_shadow
+from drapery.render.views import VIEWS, frame_view, turntable
+from drapery.settings import Settings, background_colour
+from drapery.style.block import turn
+from drapery.style.body import Body, Panel
+from drapery.style.extrusion import Shell, make_shell
+from drapery.style.kinds import body_of
+from drapery.style.uv_mapping import UVMapping
+
+STEP = 1.0 / 60.0
+"""The longest time step of a picture, and the time step of live cloth [s]."""
+SETTLING = 8.0
+"""The cloth of a loop moves at least this long before it is recorded [s]."""
+WIND_AXIS = (0.35, 0.0, 1.0)
+"""Where the wind blows to unless a direction is given: to the front and a little to the right."""
+MAX_CACHED = 16 << 20
+"""A recorded motion is cached up to this size [bytes]."""
+
+
+@dataclass(frozen=True)
+class ClothSpec:
+    """What the cloth of a panel is made of. Equal specs make equal cloths.
+
+    shape: particles across and down. size: width and height [m]. pins: which particles are held.
+    solver: its name, or a Solver. fabric: a Fabric; None is the default of `grid`.
+    """
+
+    shape: tuple[int, int]
+    size: tuple[float, float]
+    pins: PinName
+    solver: str | Solver
+    fabric: Any = None
+
+    def make_cloth(self) -> Cloth:
+        """The cloth at rest. Raises OptionError."""
+        fabric = {} if self.fabric is None else {"fabric": self.fabric}
+        return grid(*self.shape, *self.size, pins=self.pins, **fabric)
+
+    def make_solver(self) -> Solver:
+        """The solver. Raises OptionError for a name that is not known."""
+        return solver(self.solver) if isinstance(self.solver, str) else self.solver
+
+
+@dataclass(frozen=True, eq=False)
+class PanelCloth:
+    """The cloth of one panel at one moment.
+
+    solver_state: what the solver keeps between steps. dt: the time step [s].
+    """
+
+    spec: ClothSpec
+    cloth: Cloth
+    solver: Solver
+    solver_state: Any
+    state: State
+    dt: float
+
+    @property
+    def positions(self) -> Array:
+        """Positions in the panel's own frame [m], shape [N, 3]."""
+        positions: Array = self.state.positions[0]
+        return positions
+
+    def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
+        """The cloth some time steps later. Raises OptionError where it has blown up."""
+        state, solver_state = self.solver.step(
+            self.cloth, self.state, self.solver_state, forces, self.dt, steps=steps, pins=pins
+        )
+        return replace(self, state=state, solver_state=solver_state)
+
+
+def cloth_at_rest(spec: ClothSpec, dt: float = STEP) -> PanelCloth:
+    """The cloth at rest at time 0. Raises OptionError."""
+    cloth, method = spec.make_cloth(), spec.make_solver()
+    return PanelCloth(spec, cloth, method, method.init(cloth, dt), rest_state(cloth), dt)
+
+
+def cloth_spec(panel: Panel, settings: Settings) -> ClothSpec:
+    """What the settings make a panel's cloth of."""
+    pins = settings.pins or panel.pins
+    fabric = getattr(settings, "fabric", None)
+    return ClothSpec(settings.grid, panel.size, pins, settings.solver, fabric)
+
+
+class Stager:
+    """A body before the camera at one moment; `advance` moves its cloth on.
+
+    cloths: one for each panel; at rest unless given, none for the game's own stiff pose.
+    wind: what blows from now on. steps: how many time steps have been made.
+    Raises OptionError.
+    """
+
+    def __init__(
+        self, body: Body, settings: Settings, cloths: Sequence[PanelCloth] | None = None
+    ) -> None:
+        self.body = body
+        self.settings = settings
+        self.wind = wind_of(settings)
+        self.steps = 0
+        self.parts = [self._turned(part.mesh) for part in body.parts]
+        if cloths is None:
+            moves = settings.pose == "cloth"
+            cloths = [cloth_at_rest(cloth_spec(p, settings)) for p in body.panels if moves]
+        self.cloths = list(cloths)
+
+    @property
+    def time(self) -> float:
+        """How long the cloth has moved [s]."""
+        return self.steps * STEP
+
+    def advance(self, steps: int = 1) -> None:
+        """Make some time steps of STEP in the wind.
+
+        Raises OptionError where the cloth has blown up; nothing has changed then.
+        """
+        if self.settings.pose == "cloth":
+            forces = forces_of(self.settings, self.wind)
+            self.cloths = [cloth.advance(forces, steps) for cloth in self.cloths]
+        self.steps += steps
+
+    def meshes(self, time: float | None = None) -> list[Mesh]:
+        """The stiff parts, then each panel as it is drawn: thick and in its place.
+
+        time: of the game's sway [s]; that of the stager unless given.
+        """
+        if self.settings.pose == "cloth":
+            sheets = [self.thick(n, cloth.positions) for n, cloth in enumerate(self.cloths)]
+        else:
+            time = self.time if time is None else time
+            sheets = [self.stiff(panel, _phase(panel, time)) for panel in self.body.panels]
+        return [*self.parts, *sheets]
+
+    def thick(self, number: int, positions: Array) -> Mesh:
+        """A panel's cloth with its thickness, in its place.
+
+        positions: in the panel's own frame [m], shape [..., N, 3].
+        """
+        panel = self.body.panels[number]
+        shell = _grid_shell(self.settings.grid, panel.uv_mapping)
+        placed = positions + panel.origin
+        normals = vertex_normals(placed, shell.sheet)
+        return self._turned(shell.cover(placed, normals, self.settings.thickness * panel.texel))
+
+    def stiff(self, panel: Panel, phase: float) -> Mesh:
+        """A panel as the game draws it, at a phase 0..1 of its sway."""
+        return self._turned(panel.board(phase, self.settings.thickness))
+
+    def camera(self, points: Sequence[Array], aspect: float) -> Camera:
+        """The body's own camera, or one that frames points [m], each [..., 3], in the view."""
+        if self.body.camera is not None:
+            return self.body.camera
+        every = np.concatenate([part.reshape(-1, 3) for part in points])
+        return frame_view(self.settings.view, every, aspect)
+
+    def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
+        """The meshes in what they show at a time [s]; body: another whose materials they show."""
+        shown = body or self.body
+        getters = [piece.material_at for piece in (*shown.parts, *shown.panels)]
+        return [Model(mesh, (at(time),)) for mesh, at in zip(meshes, getters, strict=True)]
+
+    def scene(self, models: Sequence[Model], camera: Camera, shadow: Model | None = None) -> Scene:
+        """The models in the body's light; shadow: of the settings, made anew unless given."""
+        settings = self.settings
+        if settings.shadow:
+            under = shadow or contact_shadow(models, floor_under([m.mesh for m in models]))
+            models = [under, *models]
+        light = UNLIT if settings.light == "flat" else self.body.light
+        return Scene(
+            tuple(models),
+            camera,
+            settings.drawn_size,
+            lit_at(light, settings.block_light, settings.sky_light, settings.daylight),
+            background_colour(settings.background),
+            settings.samples,
+        )
+
+    def _turned(self, mesh: Mesh) -> Mesh:
+        return turn(mesh, self.settings.turned) if self.settings.turned else mesh
+
+
+def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
+    """The scene after the cloth has hung in the wind for `settings.time` seconds.
+
+    design: None for a cape or elytra. Raises OptionError or PackError.
+    """
+    body, steps = body_of(design, packs, settings), math.ceil(settings.time / STEP)
+    dt = settings.time / steps if steps else STEP
+    at = Moments(dt, steps or 1, min(steps, 1), 1)
+    cloths = [_recorded(spec, settings, at)[0] for spec in _specs(body, settings)]
+    stager = Stager(body, settings, cloths)
+    return next(_scenes(stager, [stager.meshes(settings.time)], [settings.time]))
+
+
+def loop(
+    design: Banner | None, packs: Packs, settings: Settings, count: int, fps: float
+) -> Iterator[Scene]:
+    """`count` scenes of a seamless loop: the last is followed by the first.
+
+    The wind repeats after the loop's length, and the cloth has settled into that period. A body
+    that does not move is shown from all around. Raises OptionError or PackError.
+    """
+    body = body_of(design, packs, settings)
+    stager, frames = Stager(body, settings, ()), range(count)
+    if settings.pose == "cloth":
+        motions = [_periodic(spec, settings, count, fps) for spec in _specs(body, settings)]
+        sheets = [[stager.thick(n, motion[f]) for n, motion in enumerate(motions)] for f in frames]
+    else:
+        # A whole number of the game's sways fills the loop.
+        sways = [max(1, round(_phase(panel, count / fps))) for panel in body.panels]
+        panels = [*zip(body.panels, sways, strict=True)]
+        sheets = [[stager.stiff(panel, n * f / count) for panel, n in panels] for f in frames]
+    meshes = [[*stager.parts, *moment] for moment in sheets]
+    return _scenes(stager, meshes, texture_times(body.period, count, fps))
+
+
+def texture_times(period: float, count: int, fps: float) -> list[float]:
+    """The time at which each frame of a loop shows its textures [s], shape [count].
+
+    A whole number of the textures' periods fills the loop. A period over one and a half loops
+    is not changed; the loop then has a visible seam, and a UserWarning says so.
+    """
+    length = count / fps
+    periods = round(length / period) if period else 0
+    if period and not periods:
+        warnings.warn(
+            f"the textures repeat after {period:g} s, the loop after {length:g} s, so its seam"
+            f" shows; use seconds {period:g}",
+            UserWarning,
+            stacklevel=2,
+        )
+    pace = periods * period / length if periods else 1.0
+    return [pace * frame / fps for frame in range(count)]
+
+
+def _scenes(
+    stager: Stager, moments: Sequence[Sequence[Mesh]], times: Sequence[float]
+) -> Iterator[Scene]:
+    """A scene of the meshes of each moment. The same camera frames all of them, or a turntable
+    what does not move."""
+    settings, body, meshes = stager.settings, stager.body, [*chain(*moments)]
+    points = np.concatenate([mesh.positions for mesh in meshes])
+    aspect, floor = settings.size[0] / settings.size[1], floor_under(meshes)
+    cameras = [stager.camera([points], aspect)] * len(moments)
+    moves = any(settings.pose == "cloth" or panel.sway for panel in body.panels)
+    if len(moments) > 1 and not moves and body.camera is None:
+        cameras = turntable(VIEWS[settings.view], points, aspect, len(moments))
+    for moment, time, camera in zip(moments, times, cameras, strict=True):
+        models = stager.models(moment, time)
+        shadow = contact_shadow(models, floor) if settings.shadow else None
+        yield stager.scene(models, camera, shadow)
+
+
+def floor_under(meshes: Sequence[Mesh]) -> float:
+    """The height of the floor [m]: 0, or the lowest vertex if that is lower."""
+    return min(0.0, *(float(mesh.positions[..., 1].min()) for mesh in meshes))
+
+
+def _phase(panel: Panel, time: float) -> float:
+    return time / panel.sway if panel.sway else 0.0
+
+
+def _specs(body: Body, settings: Settings) -> list[ClothSpec]:
+    moves = settings.pose == "cloth"
+    return [cloth_spec(panel, settings) for panel in body.panels if moves]
+
+
+@lru_cache(maxsize=16)
+def _grid_shell(shape: tuple[int, int], uv_mapping: UVMapping) -> Shell:
+    """The shell of a grid of this shape: one object, so that renderers know it again."""
+    cloth = grid(*shape, 1.0, 1.0, pins="none")
+    return make_shell(cloth.triangles, cloth.uvs, uv_mapping)
+
+
+def flow(speed: float, direction: float | None) -> tuple[float, float, float]:
+    """The mean wind on a body that is not turned [m/s]; direction [degrees]: see `Settings`."""
+    along = np.array(WIND_AXIS) / np.linalg.norm(WIND_AXIS)
+    if direction is not None:
+        heading = math.radians(direction)
+        along = np.array([math.sin(heading), 0.0, math.cos(heading)])
+    x, y, z = speed * along
+    return float(x), float(y), float(z)
+
+
+def wind_of(settings: Settings, period: float | None = None) -> Wind:
+    """The wind of the settings, in the frame of the panels.
+
+    period: it repeats after this time [s]; a Wind that is given keeps all else.
+    """
+    given: object = settings.wind
+    if isinstance(given, Wind):
+        return given if period is None else replace(given, period=period)
+    velocity = flow(settings.wind, settings.direction)
+    return Wind(velocity, gusts=settings.gusts, seed=settings.seed, period=period)
+
+
+def forces_of(settings: Settings, wind: Wind) -> tuple[Force, ...]:
+    """All forces on the cloth: gravity, the wind, and those that the settings add."""
+    return (Gravity(), wind, *getattr(settings, "forces", ()))
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Which moments of a motion from rest are recorded: `count` from number `first` on.
+
+    dt: the time step [s]. every: time steps between two moments. period: of the wind [s].
+    """
+
+    dt: float
+    every: int
+    first: int
+    count: int
+    period: float | None = None
+
+
+def _record(spec: ClothSpec, forces: Sequence[Force], at: Moments) -> tuple[PanelCloth, ...]:
+    """The cloth at each moment of the at."""
+    cloth, moments = cloth_at_rest(spec, at.dt), []
+    for number in range(at.first + at.count):
+        if number:
+            cloth = cloth.advance(forces, at.every)
+        if number >= at.first:
+            moments.append(cloth)
+    return tuple(moments)
+
+
+def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[PanelCloth, ...]:
+    """The same, from the cache where the settings hold only names and numbers."""
+    size = at.count * math.prod(spec.shape) * 3 * np.dtype(float).itemsize
+    named = isinstance(spec.solver, str) and spec.fabric is None
+    named = named and isinstance(settings.wind, Real) and not getattr(settings, "forces", ())
+    if named and size <= MAX_CACHED:
+        wind = (settings.wind, settings.direction, settings.gusts, settings.seed)
+        return _cached(spec, wind, at)
+    return _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
+
+
+@lru_cache(maxsize=16)
+def _cached(
+    spec: ClothSpec, wind: tuple[float, float | None, float, int], at: Moments
+) -> tuple[PanelCloth, ...]:
+    # Many banners in a row often move alike, since a design does not change the cloth.
+    speed, direction, gusts, seed = wind
+    settings = Settings(wind=speed, direction=direction, gusts=gusts, seed=seed)
+    moments = _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
+    for moment in moments:
+        moment.state.positions.flags.writeable = False
+    return moments
+
+
+def _periodic(spec: ClothSpec, settings: Settings, count: int, fps: float) -> Array:
+    """One period of the cloth's motion in a periodic wind [m], shape [count, N, 3]."""
+    period = count / fps
+    steps = math.ceil(1 / (fps * STEP))
+    first = math.ceil(SETTLING / period) * count
+    at = Moments(1 / (fps * steps), steps, first, count + 1, period)
+    moments = _recorded(spec, settings, at)
+    return close_loop(np.stack([moment.positions for moment in moments]))
+
+
+def close_loop(motion: Array) -> Array:
+    """Make a recorded motion [F + 1, ...] end where it began; returns its first F moments.
+
+    The difference between the last moment and the first is removed evenly over the loop, so each
+    step between two moments changes by 1/F of it.
+    """
+    count = len(motion) - 1
+    share = np.arange(count).reshape(-1, *[1] * (motion.ndim - 1)) / count
+    closed: Array = motion[:-1] + share * (motion[0] - motion[-1])
+    return closed
