@@ -5,6 +5,7 @@ import signal
 import warnings
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from test_batch_keys import make_pack
@@ -31,7 +32,7 @@ def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -
     executors: list[cluster.DaskExecutor] = []
 
     def spawn(_: int) -> cluster.DaskExecutor:
-        executors.append(cluster.local(2, torn, JobLimits()))
+        executors.append(cluster.local_cluster(2, torn, JobLimits()))
         return executors[-1]
 
     def on_event(progress) -> None:
@@ -46,7 +47,7 @@ def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -
         )
         assert (progress.drawn, progress.failed) == (16, [])
         again = execute(planned, torn, results, spawn, resume=True)
-    assert (again.kept, again.drawn, len(executors)) == (16, 0, 1)
+    assert (again.existing, again.drawn, len(executors)) == (16, 0, 1)
     assert pictures(tmp_path / "torn") == pictures(tmp_path / "calm")
 
 
@@ -61,8 +62,10 @@ def test_short_jobs_travel_several_in_a_task() -> None:
 
 
 def test_the_address_of_no_scheduler_is_an_error() -> None:
-    with pytest.raises(BackendError, match="no scheduler at"):
-        cluster.join("tcp:/nowhere", RemoteStore("memory://x"), JobLimits())
+    for address in ("tcp:/nowhere", "tls://127.0.0.1:1", "tcp://", "nothing://x", ""):
+        with pytest.raises(BackendError, match="no scheduler at") as caught:
+            cluster.connect(address, RemoteStore("memory://x"), JobLimits())
+        assert "\n" not in str(caught.value)
 
 
 def test_a_worker_of_another_version_refuses() -> None:
@@ -73,7 +76,9 @@ def test_a_worker_of_another_version_refuses() -> None:
 
 
 def test_packs_travel_as_the_same_bytes(tmp_path: Path, monkeypatch) -> None:
-    monkeypatch.setattr(artifacts.tempfile, "gettempdir", lambda: str(tmp_path / "worker"))
+    folder = SimpleNamespace(name=str(tmp_path / "worker"))
+    (tmp_path / "worker").mkdir()
+    monkeypatch.setattr(artifacts, "_temporary_folder", lambda: folder)
     pack = make_pack(tmp_path / "pack")
     (job,) = jobs.plan(read_manifest(manifest(tmp_path / "m.jsonl", 1, packs="pack")))
     artifact = artifacts.bundle(pack, DigestCache())
@@ -99,6 +104,6 @@ def test_outputs_go_to_any_target_of_fsspec(tmp_path: Path) -> None:
         for job, size in zip(planned, near.sizes(outs), strict=True):
             results.record(jobs.JobResult(job, size=size), 1)
         progress = execute(planned, far, results, partial(pytest.fail, "nothing is to be drawn"))
-    assert progress.kept == 3
+    assert progress.existing == 3
     with pytest.raises(OutputError, match="cannot read"):
         far.read("none.png")

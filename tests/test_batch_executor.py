@@ -1,20 +1,26 @@
 """Jobs that die, hang or eat memory fail with their reason; every other job is done, once."""
 
+import math
 import os
 import signal
+import time
 from collections import Counter
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
+import pytest
 from batch_works import job, work
 from hypothesis import given
 from hypothesis import strategies as st
 
+from drapery.batch import worker
 from drapery.batch.executor import RetryPolicy, run_jobs
 from drapery.batch.jobs import Job, JobResult
 from drapery.batch.pool import JobLimits, ProcessPool
+from drapery.errors import BackendError
 
-SOON = RetryPolicy(most=2, pause=0.01)
+SOON = RetryPolicy(limit=2, pause=0.01)
 
 
 class Scripted:
@@ -27,6 +33,9 @@ class Scripted:
 
     def free(self) -> int:
         return self.room - len(self.running)
+
+    def ready(self) -> bool:
+        return True
 
     def start(self, one: Job) -> None:
         assert self.free() > 0
@@ -105,6 +114,79 @@ def test_a_job_for_very_many_files_does_not_choke_the_pipes() -> None:
     finally:
         pool.close()
     assert [result.error for result, _ in ended] == [None] * 6
+
+
+def test_workers_that_die_as_they_start_are_started_again_after_growing_pauses() -> None:
+    pool = ProcessPool(work, 1, restarts=RetryPolicy(limit=math.inf, pause=0.05, longest=0.4))
+    starts: list[float] = []
+    pids: set[int] = set()
+    try:
+        while len(starts) < 6:
+            for pid in set(pool.pids()) - pids:
+                pids.add(pid)
+                starts.append(time.monotonic())
+                os.kill(pid, signal.SIGKILL)
+            pool.poll(0.01)
+            assert not pool.ready()
+        pauses = [later - before for before, later in pairwise(starts)]
+        assert all(p >= least for p, least in zip(pauses, (0.05, 0.1, 0.2, 0.4, 0.4), strict=True))
+        (result,) = _until_results(pool, job("fine"))
+        assert (result.error, pool.ready()) == (None, True)
+    finally:
+        pool.close()
+
+
+def test_a_pool_whose_workers_never_start_gives_up_with_the_reason() -> None:
+    pool = ProcessPool(work, 1, restarts=RetryPolicy(limit=2, pause=0.01))
+    try:
+        with pytest.raises(BackendError, match=r"3 workers in a row .*killed by signal 9"):
+            while True:
+                for pid in pool.pids():
+                    os.kill(pid, signal.SIGKILL)
+                pool.poll(0.05)
+    finally:
+        pool.close()
+
+
+def test_a_system_that_refuses_processes_is_asked_again(monkeypatch) -> None:
+    refusals = iter([OSError(11, "Resource temporarily unavailable")] * 2)
+    spawn = ProcessPool._spawn
+
+    def refuse(self: ProcessPool):
+        for error in refusals:
+            raise error
+        return spawn(self)
+
+    monkeypatch.setattr(ProcessPool, "_spawn", refuse)
+    pool = ProcessPool(work, 1, restarts=RetryPolicy(limit=9, pause=0.01))
+    try:
+        (result,) = _until_results(pool, job("fine"))
+        assert result.error is None
+    finally:
+        pool.close()
+
+
+def test_the_pauses_of_a_policy_double_up_to_the_longest() -> None:
+    policy = RetryPolicy(limit=math.inf, pause=1.0, longest=60.0)
+    assert [policy.delay(tries) for tries in (1, 2, 3, 7, 10_000)] == [1.0, 2.0, 4.0, 60.0, 60.0]
+
+
+def test_a_worker_runs_where_the_system_has_no_limits(monkeypatch) -> None:
+    monkeypatch.setattr(worker.sys, "platform", "win32")
+    monkeypatch.delattr(os, "sysconf")
+    monkeypatch.setitem(worker.sys.modules, "resource", None)  # an import of it fails
+    worker._limit(1 << 20)
+    assert worker.memory_of("self", worker.RESIDENT) == 0
+
+
+def _until_results(pool: ProcessPool, one: Job) -> list[JobResult]:
+    while pool.free() < 1:
+        pool.poll(0.1)
+    pool.start(one)
+    while True:
+        results = pool.poll(0.1)
+        if results:
+            return results
 
 
 def _ended(pool: ProcessPool, names: list[str], retries: RetryPolicy):

@@ -1,6 +1,7 @@
 """A manifest is read whole before anything is drawn: all jobs, or all faults with their lines."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,8 +14,9 @@ from world_maker import LIME, RED, SHIELD
 
 from drapery.banner.design import Banner, Layer
 from drapery.batch.jobs import plan
-from drapery.batch.manifest import ManifestError, PictureRequest, read_manifest
-from drapery.errors import DraperyError
+from drapery.batch.manifest import ManifestError, PictureRequest, _numbered, read_manifest
+from drapery.errors import DraperyError, OptionError
+from drapery.render.encode.output import replacing
 from drapery.settings import Settings
 
 JOBS = [
@@ -93,7 +95,7 @@ def test_all_faults_are_told_with_their_lines(tmp_path: Path, drapery: Run) -> N
     path = write(tmp_path / "m.csv", BAD)
     with pytest.raises(ManifestError) as caught:
         read_manifest(path)
-    faults = [(fault.place, fault.line.split(":")[0][:22]) for fault in caught.value.faults]
+    faults = [(fault.place, fault.message.split(":")[0][:22]) for fault in caught.value.faults]
     assert sorted(faults) == sorted(
         [
             ("line 2", "wind 99 is out of rang"),
@@ -102,7 +104,7 @@ def test_all_faults_are_told_with_their_lines(tmp_path: Path, drapery: Run) -> N
             ("line 3", "design"),
             ("line 4", "'colour' is no option;"),
             ("line 6", "A.png is written by li"),
-            ("line 7", "'../up.png' is no file"),
+            ("line 7", "'../up.png' is not a f"),
             ("line 8", "design"),
             ("line 10", "no design is given; wr"),
             ("line 11", "7 cells for 5 columns;"),
@@ -120,7 +122,6 @@ def test_all_faults_are_told_with_their_lines(tmp_path: Path, drapery: Run) -> N
         ("m.jsonl", '{"design": "red"}\n{"design": \n', "line 2"),
         ("m.jsonl", '{"design": "red"}\n\n[1]\n', "line 3"),
         ("m.yaml", "- design: red\n- 3\n", "line 2"),
-        ("m.yaml", "- design: red\n- design: [\n", "line 3"),
         ("m.yaml", "- design: red\n\n- design: red\n  sise: 3x3\n", "line 3"),
         ("m.csv", 'design\nred\n"red\n', "line 3"),
     ],
@@ -129,6 +130,115 @@ def test_broken_text_is_placed(name: str, text: str, place: str, tmp_path: Path)
     with pytest.raises(ManifestError) as caught:
         read_manifest(write(tmp_path / name, text))
     assert [fault.place for fault in caught.value.faults] == [place]
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("- design: red\n- design: [\n", "line 3"),
+        ("[" * 30_000, "deep"),
+        ("? [a, b]\n: 1\n", "unhashable key"),
+        ("- ? [a, b]\n  : 1\n", "unhashable key"),
+        ("- design: red\n  design: blue\n", "twice"),
+        ("defaults: 0\njobs: [{design: red}]\n", "write defaults as names"),
+        ("jobs: [{design: red}]\nother: 1\n", "a list of jobs"),
+    ],
+)
+def test_yaml_that_is_no_manifest_is_one_line(text: str, reason: str, tmp_path: Path) -> None:
+    with pytest.raises(OptionError, match=reason) as caught:
+        read_manifest(write(tmp_path / "m.yaml", text))
+    assert len(str(caught.value)) < 1000
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("name", "bad"), [("fps", 0), ("seconds", 0), ("fps", -1), ("fps", 1e9)])
+def test_a_time_out_of_range_is_a_fault_with_its_row_and_column(
+    name: str, bad: float, tmp_path: Path
+) -> None:
+    path = write(tmp_path / "m.csv", f"out,design,{name}\na.gif,red,20\nb.gif,red,{bad}\n")
+    with pytest.raises(ManifestError) as caught:
+        read_manifest(path)
+    (fault,) = caught.value.faults
+    assert fault.place == "line 3"
+    assert fault.message.startswith(f"{name} {bad:g} is out of range")
+
+
+@pytest.mark.parametrize("mark", ["\u2028", "\u2029", "\x0b", "\x0c", "\x1c", "\x85"])
+def test_only_line_ends_end_the_lines_of_defaults(mark: str, tmp_path: Path) -> None:
+    path = write(tmp_path / "m.csv", f"# by{mark}me\n# size = 8x8\nname,design\na,red\nb,wite\n")
+    with pytest.raises(ManifestError) as caught:
+        read_manifest(path)
+    assert [fault.place for fault in caught.value.faults] == ["line 5"]
+
+
+@pytest.mark.parametrize("end", ["\r\n", "\r"])
+def test_lines_may_end_as_on_other_systems(end: str, tmp_path: Path) -> None:
+    path = tmp_path / "m.csv"
+    path.write_bytes(end.join(["# size = 8x8", "name,design", "a,red", ""]).encode())
+    (request,) = read_manifest(path)
+    assert (request.out, request.settings.size) == ("a.png", (8, 8))
+
+
+@pytest.mark.parametrize(
+    ("out", "reason"),
+    [
+        *((f"{name}.png", "device") for name in ("CON", "nul", "Com1", "lpt9", "nul.tar", "com²")),
+        ("nul/a.png", "device"),
+        ("a./b.png", "ends with a dot"),
+        ("a /b.png", "ends with a dot or space"),
+        ("é" * 116 + ".png", "over 230 bytes"),
+        ("a" * 120 + "/" + "é" * 116 + ".png", "over 230 bytes"),
+        ("a\\b.png", "not a file name"),
+        ("a:b.png", "not a file name"),
+        ("/a.png", "not a file name"),
+    ],
+)
+def test_names_that_some_system_refuses_are_faults(out: str, reason: str) -> None:
+    with pytest.raises(ManifestError, match=reason) as caught:
+        read_manifest([{"design": "red", "out": out}])
+    assert len(str(caught.value)) < 300
+
+
+def test_the_longest_name_that_is_allowed_can_be_written(tmp_path: Path) -> None:
+    names = ["é" * 110 + ".png", "console.png", "com.png", "a..png"]
+    for request in read_manifest([{"design": "red", "out": name} for name in names]):
+        with replacing(tmp_path / request.out) as partial:
+            partial.write_bytes(b"x")
+    assert {path.name for path in tmp_path.iterdir()} == set(names)
+
+
+@pytest.mark.parametrize(
+    "outs",
+    [
+        ("a.png", "a.png/b.png"),
+        ("x/y.png/z/b.png", "x/Y.png"),
+        ("a.png", "A.PNG"),
+        ("\u212b.png", "\u00c5.png"),
+    ],
+)
+def test_outputs_that_get_in_the_way_of_each_other_are_faults(outs: tuple[str, str]) -> None:
+    with pytest.raises(ManifestError, match=r"job [12] writes|is written by job 1") as caught:
+        read_manifest([{"design": "red", "out": out} for out in outs])
+    assert len(caught.value.faults) == 1
+
+
+def test_rows_may_be_given_in_memory(tmp_path: Path) -> None:
+    banner = Banner("red", (Layer("border", "black"),))
+    rows = [{"design": banner, "size": (8, 8)}, {"name": "b", "design": "blue", "wind": 2}]
+    first, second = read_manifest(rows, {"grid": (3, 5)}, "webp")
+    assert (first.place, first.out, first.banner) == ("job 1", "00001.webp", banner)
+    assert (second.out, second.settings.wind, second.settings.grid) == ("b.webp", 2.0, (3, 5))
+    with pytest.raises(ManifestError) as caught:
+        read_manifest([{"design": "red", "wnd": 1}, ["red"], {"design": 3.5, "size": "8x8"}])
+    assert [fault.place for fault in caught.value.faults] == ["job 1", "job 2", "job 3"]
+
+
+def test_banners_of_a_world_with_alike_places_get_free_numbers() -> None:
+    used: dict[str, int] = {}
+    requests = read_manifest([{"design": "red", "out": f"{n}.png"} for n in range(5)])
+    outs = ("a.png", "A.png", "a-2.png", "a.png", "a-2.png")
+    named = [_numbered(replace(r, out=out), used) for r, out in zip(requests, outs, strict=True)]
+    assert [r.out for r in named] == ["a.png", "A-2.png", "a-2-2.png", "a-3.png", "a-2-3.png"]
 
 
 def test_each_banner_of_a_file_of_banners_is_a_job(tmp_path: Path) -> None:

@@ -3,9 +3,12 @@
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import sqlite3
+import subprocess
+import sys
 import time
 from contextlib import suppress
 from multiprocessing import get_context
@@ -21,12 +24,13 @@ from PIL import Image
 from test_batch_keys import make_pack
 
 from drapery import Banner, draw
+from drapery.batch import run_batch
 from drapery.batch.jobs import plan, run_job
 from drapery.batch.keys import code_version
 from drapery.batch.manifest import read_manifest
 from drapery.batch.results import FILE, ResultsDB
 from drapery.batch.stores import open_store
-from drapery.errors import OutputError
+from drapery.errors import OptionError, OutputError
 
 DYES = ("white", "red", "blue", "lime", "black", "pink")
 
@@ -183,11 +187,11 @@ def test_a_full_disk_leaves_no_half_file(tmp_path: Path, monkeypatch) -> None:
     assert list(out.iterdir()) == []
 
 
-def test_a_ledger_is_of_one_run_at_a_time(tmp_path: Path) -> None:
+def test_a_results_file_is_of_one_run_at_a_time(tmp_path: Path) -> None:
     with ResultsDB(tmp_path / FILE), pytest.raises(OutputError, match="another run"):
         ResultsDB(tmp_path / FILE)
     with ResultsDB(tmp_path / FILE) as again:
-        assert again.known() == {}
+        assert again.records() == {}
 
 
 def test_a_target_that_is_no_folder_is_refused(drapery: Run, tmp_path: Path) -> None:
@@ -203,3 +207,106 @@ def test_resume_needs_a_run_to_go_on_with(drapery: Run, tmp_path: Path) -> None:
     code, _, err = drapery("batch", path, "-o", tmp_path / "out", "--resume")
     assert code == 2
     assert "nothing to resume" in err
+
+
+PROGRAM = """
+from drapery.batch import run_batch
+
+if __name__ == "__main__":
+    rows = [{"name": dye, "design": f"{dye} border:black"} for dye in ("red", "blue", "red")]
+    rows[2]["name"] = "again"
+    few = {"size": "16x24", "grid": "2x3", "time": 0.1}
+    seen = []
+    first = run_batch(rows, "out", workers=1, defaults=few, on_event=lambda p: seen.append(p.done))
+    print(first.drawn, seen, run_batch(rows, "out", defaults=few).existing)
+"""
+
+
+def test_a_program_runs_a_batch_with_one_call(tmp_path: Path) -> None:
+    (tmp_path / "program.py").write_text(PROGRAM)
+    command = [sys.executable, "program.py"]
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert ran.stdout == "2 [0, 2, 3] 3\n"
+    out = tmp_path / "out"
+    assert (out / "red.png").read_bytes() == (out / "again.png").read_bytes()
+
+
+def test_arguments_of_a_batch_are_checked_before_anything_is_drawn(tmp_path: Path) -> None:
+    rows = [{"design": "red"}]
+    for wrong in (
+        {"workers": 0},
+        {"retries": -1},
+        {"timeout": 0},
+        {"memory": 1},
+        {"format": "jpg"},
+        {"resume": True},
+    ):
+        with pytest.raises(OptionError, match=str(next(iter(wrong)))):
+            run_batch(rows, tmp_path, **wrong)
+    assert list(tmp_path.iterdir()) == []
+
+
+FULL_DISK = """
+mount -t tmpfs -o size=256k tmpfs out
+{python} -m drapery batch m.jsonl -o out --workers 1 --retries 0
+code=$?
+cp out/*.png .
+[ $code = 1 ] || exit 99
+mount -o remount,size=64m out
+{python} -m drapery batch m.jsonl -o out --workers 1
+"""
+
+
+def test_a_disk_that_fills_fails_jobs_with_reasons_and_the_next_run_makes_them(
+    tmp_path: Path,
+) -> None:
+    manifest(tmp_path / "m.jsonl", 12, size="512x640", samples=16)
+    out = tmp_path / "out"
+    out.mkdir()
+    command = ["unshare", "--user", "--map-root-user", "--mount", "bash", "-c"]
+    if shutil.which("unshare") is None or subprocess.run([*command, "true"]).returncode:
+        pytest.skip("this system lets no test mount a small disk")
+    script = FULL_DISK.format(python=sys.executable)
+    ran = subprocess.run([*command, script], cwd=tmp_path, capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr
+    reasons = [line for line in ran.stderr.splitlines() if "No space left" in line]
+    assert any(re.search(r"j\d+\.png \(line \d+\): cannot write", line) for line in reasons)
+    assert any("report.html" in line for line in reasons)
+    assert "Traceback" not in ran.stderr
+    written = len(list(tmp_path.glob("*.png")))
+    assert 0 < written < 12
+    assert f"drawn               {written}" in ran.stdout
+    assert f"drawn               {12 - written}" in ran.stdout
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
+def test_a_stopped_run_leaves_no_partial_file(number: int, tmp_path: Path) -> None:
+    manifest(tmp_path / "m.jsonl", 200, size="256x320", samples=16)
+    words = ["batch", "m.jsonl", "-o", "out", "--workers", "2"]
+    run = subprocess.Popen([sys.executable, "-m", "drapery", *words], cwd=tmp_path)
+    out = tmp_path / "out"
+    end = time.monotonic() + 60
+    while len(list(out.glob("*.png"))) < 4:
+        assert time.monotonic() < end and run.poll() is None
+        time.sleep(0.01)
+    run.send_signal(number)
+    assert run.wait(10) == 130
+    assert not list(out.glob(".*.part"))
+
+
+def test_damaged_results_are_an_error_with_the_remedy(drapery: Run, tmp_path: Path) -> None:
+    path, out = manifest(tmp_path / "m.jsonl", 1), tmp_path / "out"
+    out.mkdir()
+    with ResultsDB(out / FILE) as results:
+        same = ("key", "line 1", "done", None, 1, 0.1, 10)
+        results._write((f"{number:0200d}", *same) for number in range(500))
+    data = bytearray((out / FILE).read_bytes())
+    data[8192:20480] = os.urandom(12288)
+    (out / FILE).write_bytes(bytes(data))
+    code, _, err = drapery("batch", path, "-o", out)
+    assert code == 2
+    assert "is damaged" in err and "--results" in err
+    (out / FILE).write_bytes(b"nothing that SQLite wrote" * 100)
+    code, _, err = drapery("batch", path, "-o", out)
+    assert code == 2
+    assert "is damaged" in err

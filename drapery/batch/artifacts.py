@@ -1,10 +1,11 @@
 """Packs and textures sent to other machines: as bytes, once to each worker."""
 
 import io
-import os
 import tempfile
+import threading
 import zipfile
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 from drapery.batch.jobs import Job
@@ -31,7 +32,7 @@ def paths_of(job: Job) -> tuple[Path, ...]:
 
 
 def bundle(path: Path, digests: DigestCache) -> Artifact:
-    """A pack or texture as a artifact. Raises PackError."""
+    """A pack or texture as an artifact. Raises PackError."""
     try:
         data = path.read_bytes() if path.is_file() else _zipped(path)
     except OSError as error:
@@ -45,8 +46,8 @@ def bundle(path: Path, digests: DigestCache) -> Artifact:
 def unbundle(artifact: Artifact) -> Path:
     """The artifact as a file of this machine, written once. Raises OutputError."""
     try:
-        folder = Path(tempfile.gettempdir(), f"drapery-{os.getuid()}", artifact.digest)
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        folder = _folder() / artifact.digest
+        folder.mkdir(exist_ok=True)
         path = folder / artifact.name
         if not path.exists() or path.stat().st_size != len(artifact.data):
             with tempfile.NamedTemporaryFile(dir=folder, delete=False) as file:
@@ -54,7 +55,8 @@ def unbundle(artifact: Artifact) -> Path:
             Path(file.name).replace(path)
     except OSError as error:
         raise OutputError(
-            f"cannot keep pack {artifact.name}: {error.strerror}; free a disk"
+            f"cannot store pack {artifact.name}: {error.strerror}; free space in the folder for"
+            " temporary files"
         ) from None
     return path
 
@@ -71,12 +73,26 @@ def resolved(job: Job, artifacts: tuple[Artifact, ...]) -> Job:
     return replace(job, settings=settings)
 
 
+def _folder() -> Path:
+    """This process's folder of artifacts, which nobody else can have prepared."""
+    with _lock:
+        return Path(_temporary_folder().name)
+
+
+_lock = threading.Lock()
+
+
+@cache
+def _temporary_folder() -> tempfile.TemporaryDirectory[str]:
+    return tempfile.TemporaryDirectory(prefix="drapery-packs-", ignore_cleanup_errors=True)
+
+
 def _zipped(folder: Path) -> bytes:
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
         for path in sorted(folder.rglob("*")):
             if path.is_file() and ".git" not in path.relative_to(folder).parts:
-                # Times stay out, so that the same pack is the same artifact.
+                # Times stay out, so that the same pack gives the same artifact.
                 info = zipfile.ZipInfo(path.relative_to(folder).as_posix())
                 file.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
     return buffer.getvalue()

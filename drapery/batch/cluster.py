@@ -19,20 +19,20 @@ from drapery.batch.stores import Store
 from drapery.errors import BackendError, DraperyError
 
 AHEAD = 2
-"""Tasks sent for each of the cluster's threads: one that runs and one that waits there. So few are
-in flight that a killed run has little to do again, and the scheduler's memory stays flat."""
-TASK = 0.25
-"""How long a task shall take [s]. A scheduler handles some thousand tasks a second, so short jobs
-travel several in a task; see benchmarks/batch.py."""
+"""Tasks sent for each of the cluster's threads: one that runs and one that waits there. With so few
+in flight a killed run has little to repeat, and the scheduler's memory does not grow."""
+TASK_SECONDS = 0.25
+"""How long a task should take [s]. A scheduler handles about a thousand tasks a second, so several
+short jobs go into one task; see benchmarks/batch.py."""
 MAX_IN_TASK = 32
-COUNT_AGAIN = 3.0
+COUNT_INTERVAL = 3.0
 """How often the cluster's threads are counted, since workers come and go [s]."""
 LOST_AFTER = 15.0
 """How long the scheduler may be silent [s]."""
 
 
 class LostError(BackendError):
-    """The scheduler went while jobs were in work."""
+    """The cluster's scheduler ended while jobs were running."""
 
 
 @dataclass
@@ -50,16 +50,20 @@ class DaskExecutor:
     _gathered: list[Job] = field(default_factory=list)
     _number: int = 0
     _threads: int = 0
-    _counted: float = -COUNT_AGAIN
+    _counted: float = -COUNT_INTERVAL
     _heard: float = 0.0
-    _pace: float = TASK
+    _pace: float = TASK_SECONDS
 
     def free(self) -> int:
         """See `Executor`."""
-        if time.monotonic() - self._counted > COUNT_AGAIN:
+        if time.monotonic() - self._counted > COUNT_INTERVAL:
             self._count()
         busy = sum(len(jobs) for _, jobs in self._running.values()) + len(self._gathered)
         return AHEAD * max(1, self._threads) * self._in_task() - busy
+
+    def ready(self) -> bool:
+        """See `Executor`."""
+        return self._threads > 0
 
     def start(self, job: Job) -> None:
         """See `Executor`. It is sent with others, at the latest when results are waited for."""
@@ -68,9 +72,9 @@ class DaskExecutor:
             self._submit()
 
     def poll(self, timeout: float) -> list[JobResult]:
-        """See `Executor`. Raises LostError where the scheduler is gone."""
+        """See `Executor`. Raises LostError where the scheduler has ended."""
         self._submit()
-        self._look_for_scheduler()
+        self._check_scheduler()
         try:
             keys = [self._ended.get(timeout=timeout)]
             while not self._ended.empty():
@@ -79,21 +83,21 @@ class DaskExecutor:
             return []
         results = []
         for future, jobs in map(self._running.pop, keys):
-            answered = _answer(future)
-            if answered is None:
-                # A worker that went may have held the only copy of what was sent.
+            received = _results_of(future)
+            if received is None:
+                # A worker that ended may have held the only copy of what was sent.
                 self._sent.clear()
-            results += answered or _lost(future, jobs)
+            results += received or _lost(future, jobs)
         for result in results:
             self._pace += 0.1 * (result.seconds - self._pace)
         return results
 
     def _in_task(self) -> int:
         """How many jobs make a task, by how long the last ones took."""
-        return max(1, min(MAX_IN_TASK, round(TASK / max(self._pace, 1e-3))))
+        return max(1, min(MAX_IN_TASK, round(TASK_SECONDS / max(self._pace, 1e-3))))
 
     def _submit(self) -> None:
-        """Send what is gathered as one task."""
+        """Send the gathered jobs as one task."""
         jobs, self._gathered = self._gathered, []
         if not jobs:
             return
@@ -118,7 +122,7 @@ class DaskExecutor:
                 try:
                     end.close(timeout=5)
                 except Exception as error:
-                    # It has been killed, or is going: the outcomes are in the results database.
+                    # It was killed, or is ending: the results are recorded.
                     logging.getLogger(__name__).debug("closing: %s", error)
 
     def _count(self) -> None:
@@ -126,16 +130,16 @@ class DaskExecutor:
         try:
             self._threads = sum(self.client.nthreads().values())
         except Exception:
-            # Asked again soon; `poll` tells when the scheduler is gone for good.
+            # Asked again soon; `poll` reports when the scheduler has ended.
             self._threads = 0
 
-    def _look_for_scheduler(self) -> None:
+    def _check_scheduler(self) -> None:
         now = time.monotonic()
         if self.client.status == "running" or not self._heard:
             self._heard = now
         if self.client.status == "closed" or now - self._heard > LOST_AFTER:
             raise LostError(
-                "the cluster's scheduler is gone; start it again and go on with --resume"
+                "the cluster's scheduler has ended; start it again and go on with --resume"
             )
 
     def _send(self, path: Path) -> Any:
@@ -156,15 +160,15 @@ def task(
 
 def _one(job: Job, store: Store, limits: JobLimits, artifacts: Mapping[str, Artifact]) -> JobResult:
     if job.version != code_version():
-        fault = (
+        error = (
             f"the worker runs drapery {code_version()}, the job is of {job.version};"
             " install the same everywhere"
         )
-        return JobResult(job, fault)
+        return JobResult(job, error)
     try:
         here = resolved(job, tuple(artifacts[str(path)] for path in paths_of(job)))
-    except DraperyError as error:
-        return JobResult(job, str(error), True)
+    except DraperyError as reason:
+        return JobResult(job, str(reason), True)
     try:
         result = run_job(here, store) if _must_stay(store) else _guarded(here, store, limits)
     except MemoryError:
@@ -172,7 +176,7 @@ def _one(job: Job, store: Store, limits: JobLimits, artifacts: Mapping[str, Arti
     return replace(result, job=job)
 
 
-def local(workers: int, store: Store, limits: JobLimits) -> DaskExecutor:
+def local_cluster(workers: int, store: Store, limits: JobLimits) -> DaskExecutor:
     """A cluster of processes on this machine. Raises BackendError where Dask is missing."""
     distributed = _distributed()
     import dask
@@ -189,12 +193,13 @@ def local(workers: int, store: Store, limits: JobLimits) -> DaskExecutor:
     return DaskExecutor(distributed.Client(cluster), store, limits, cluster)
 
 
-def join(address: str, store: Store, limits: JobLimits) -> DaskExecutor:
+def connect(address: str, store: Store, limits: JobLimits) -> DaskExecutor:
     """The cluster of a scheduler. Raises BackendError where there is none."""
     distributed = _distributed()
     try:
         return DaskExecutor(distributed.Client(address, timeout=15), store, limits)
-    except (OSError, ValueError) as error:
+    except Exception as error:
+        # Each of Dask's protocols raises its own: TypeError for tls:// without certificates.
         reason = " ".join(str(error).split())[:200]
         raise BackendError(f"no scheduler at {address}: {reason}; check the address") from None
 
@@ -207,16 +212,16 @@ def _distributed() -> Any:
     return distributed
 
 
-def _answer(future: Any) -> list[JobResult] | None:
-    """The results of a task; None where it failed, or its answer went with a worker."""
+def _results_of(future: Any) -> list[JobResult] | None:
+    """The results of a task; None where it failed, or they were lost with a worker."""
     if isinstance(future, list):
         return future
     if future.status != "finished":
         return None
     try:
         results: list[JobResult] = future.result()
-    except Exception as error:  # Dask tells of what it lost in several ways
-        logging.getLogger(__name__).debug("an answer is lost: %s", error)
+    except Exception as error:  # Dask reports what it lost in several ways
+        logging.getLogger(__name__).debug("results are lost: %s", error)
         return None
     return results
 
@@ -228,26 +233,26 @@ def _lost(future: Any, jobs: Sequence[Job]) -> list[JobResult]:
 
 
 def _must_stay(store: Store) -> bool:
-    """Whether jobs run in the worker itself, under its nanny's limits alone.
+    """Whether jobs run in the worker itself, under the limits of its nanny only.
 
-    A daemonic worker may have no processes, and `memory://` is of one process.
+    A daemonic worker may not start processes, and `memory://` exists in one process.
     """
     return current_process().daemon or store.label.startswith("memory://")
 
 
-_own = threading.local()
+_thread = threading.local()
 
 
 def _guarded(job: Job, store: Store, limits: JobLimits) -> JobResult:
-    """Do a job in this thread's own process, which may be killed."""
-    if getattr(_own, "limits", None) != (store, limits):
-        if hasattr(_own, "pool"):
-            _own.pool.close()
-        _own.pool, _own.limits = (
+    """Do a job in a process of this thread, which may be killed."""
+    if getattr(_thread, "limits", None) != (store, limits):
+        if hasattr(_thread, "pool"):
+            _thread.pool.close()
+        _thread.pool, _thread.limits = (
             ProcessPool(partial(run_job, store=store), 1, limits, threads=1),
             (store, limits),
         )
-    pool: ProcessPool = _own.pool
+    pool: ProcessPool = _thread.pool
     while pool.free() < 1:
         pool.poll(1.0)
     pool.start(job)

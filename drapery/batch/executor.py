@@ -1,4 +1,4 @@
-"""The loop that hands jobs to an executor, tries failed ones again, and loses none."""
+"""The loop that gives jobs to an executor and tries failed ones again; no job is lost."""
 
 import heapq
 import time
@@ -9,21 +9,24 @@ from typing import Protocol
 
 from drapery.batch.jobs import Job, JobResult
 
-PATIENCE = 0.5
-"""The longest wait for a result before the executor is looked after [s]."""
+POLL_TIMEOUT = 0.5
+"""The longest wait for a result before the executor's workers are checked [s]."""
 
 
 class Executor(Protocol):
-    """Workers: processes here, or a cluster's."""
+    """Workers that do jobs: processes of this machine, or a cluster's."""
 
     def free(self) -> int:
-        """How many more jobs it takes now."""
+        """How many more jobs it accepts now."""
+
+    def ready(self) -> bool:
+        """Whether at least one worker is running and can do jobs."""
 
     def start(self, job: Job) -> None:
-        """Begin a job."""
+        """Begin a job. Call it only while `free` is above 0."""
 
     def poll(self, timeout: float) -> list[JobResult]:
-        """What ended, waiting for the first up to so many seconds."""
+        """The results that are there, waiting for the first up to `timeout` [s]."""
 
     def close(self) -> None:
         """End all workers."""
@@ -31,44 +34,48 @@ class Executor(Protocol):
 
 @dataclass(frozen=True)
 class RetryPolicy:
-    """How failed jobs are tried again: so many times, after a pause [s] that doubles each time."""
+    """How often something is tried again, after a pause that doubles each time.
 
-    most: int = 2
+    limit: how often; math.inf for ever. pause: the first [s]. longest: the longest [s].
+    """
+
+    limit: float = 2
     pause: float = 1.0
+    longest: float = 60.0
 
     def delay(self, tries: int) -> float:
         """The pause after so many tries [s]."""
-        return min(60.0, self.pause * 2.0 ** (tries - 1))
+        return min(self.longest, self.pause * 2.0 ** min(tries - 1, 64))
 
 
 def run_jobs(
     jobs: Iterable[Job], executor: Executor, retries: RetryPolicy
 ) -> Iterator[tuple[JobResult, int]]:
-    """The final result of every job, with how often it was tried, as they come."""
+    """The final result of every job, with how often it was tried, in the order they end."""
     fresh, order = iter(jobs), count()
-    later: list[tuple[float, int, Job]] = []
+    delayed: list[tuple[float, int, Job]] = []
     tries: dict[str, int] = {}
-    ahead = next(fresh, None)
-    while ahead is not None or tries:
+    upcoming = next(fresh, None)
+    while upcoming is not None or tries:
         while executor.free() > 0:
-            if later and later[0][0] <= time.monotonic():
-                job = heapq.heappop(later)[2]
-            elif ahead is not None:
-                job, ahead = ahead, next(fresh, None)
+            if delayed and delayed[0][0] <= time.monotonic():
+                job = heapq.heappop(delayed)[2]
+            elif upcoming is not None:
+                job, upcoming = upcoming, next(fresh, None)
             else:
                 break
             tries[job.key] = tries.get(job.key, 0) + 1
             executor.start(job)
-        for result in executor.poll(_patience(later)):
+        for result in executor.poll(_timeout(delayed)):
             key = result.job.key
-            if result.error is not None and result.retryable and tries[key] <= retries.most:
+            if result.error is not None and result.retryable and tries[key] <= retries.limit:
                 due = time.monotonic() + retries.delay(tries[key])
-                heapq.heappush(later, (due, next(order), result.job))
+                heapq.heappush(delayed, (due, next(order), result.job))
             else:
                 yield result, tries.pop(key)
 
 
-def _patience(later: list[tuple[float, int, Job]]) -> float:
-    if not later:
-        return PATIENCE
-    return min(PATIENCE, max(0.01, later[0][0] - time.monotonic()))
+def _timeout(delayed: list[tuple[float, int, Job]]) -> float:
+    if not delayed:
+        return POLL_TIMEOUT
+    return min(POLL_TIMEOUT, max(0.01, delayed[0][0] - time.monotonic()))

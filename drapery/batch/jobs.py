@@ -1,4 +1,4 @@
-"""One job, and doing it: a picture drawn and stored under all the names that want it."""
+"""A job is one picture, drawn once and stored under every file name that asks for it."""
 
 import time
 import warnings
@@ -17,7 +17,11 @@ from drapery.settings import Settings
 
 @dataclass(frozen=True)
 class Job:
-    """A picture to be made. outs: the files that want it. places: where they were asked for."""
+    """A picture to be drawn.
+
+    key: the hash of what it is made of. outs: the files that are to hold it. places: where the
+    manifest asks for each. seconds, fps: of an animation; None for a still. version: of the code.
+    """
 
     key: str
     outs: tuple[str, ...]
@@ -30,7 +34,7 @@ class Job:
 
     @property
     def motion(self) -> tuple[object, ...]:
-        """Jobs that agree in this move alike, so their cloth is simulated once."""
+        """Equal for jobs whose cloth moves alike; a worker simulates it once."""
         s = self.settings
         kind = s.kind if self.banner is None or s.kind != "auto" else self.banner.kind
         when = s.time if self.seconds is None else 0.0
@@ -42,9 +46,10 @@ class Job:
 
 @dataclass(frozen=True)
 class JobResult:
-    """What came of a job. error: why it failed, one line. retryable: whether another try may help.
+    """What came of a job.
 
-    seconds: that it took [s]. size: of its file [bytes].
+    error: why it failed, one line. retryable: whether another try may help. seconds: that it took
+    [s]. size: of its file [bytes]. timed_out: whether it was ended because it took too long.
     """
 
     job: Job
@@ -52,11 +57,12 @@ class JobResult:
     retryable: bool = False
     seconds: float = 0.0
     size: int = 0
-    notes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    timed_out: bool = False
 
 
 def plan(requests: Iterable[PictureRequest]) -> list[Job]:
-    """Jobs for what is asked, those of one motion next to each other, equal ones made one.
+    """Jobs for requests: equal ones are merged, those of one motion stand next to each other.
 
     Raises PackError where packs cannot be read.
     """
@@ -92,30 +98,30 @@ def make_job(request: PictureRequest, digests: DigestCache) -> Job:
 
 
 def run_job(job: Job, store: Store) -> JobResult:
-    """Draw a job's picture and store it whole. Raises MemoryError; other faults are results."""
+    """Draw a job's picture and store it whole. Raises MemoryError; other errors are results."""
     start = time.perf_counter()
     try:
-        size, notes = _draw_and_store(job, store)
+        size, caught = _draw_and_store(job, store)
     except DraperyError as error:
-        hopeless = isinstance(error, (OptionError, DesignError, BackendError))
-        return JobResult(job, str(error), not hopeless, time.perf_counter() - start)
+        retryable = not isinstance(error, (OptionError, DesignError, BackendError))
+        return JobResult(job, str(error), retryable, time.perf_counter() - start)
     except MemoryError:
         raise
     except Exception as error:
-        # A fault of ours, or of an installed backend; the others shall not suffer by it.
+        # A defect of this package or of an installed backend; the other jobs go on.
         line = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}; please report it"
         return JobResult(job, line, True, time.perf_counter() - start)
-    return JobResult(job, None, False, time.perf_counter() - start, size, notes)
+    return JobResult(job, None, False, time.perf_counter() - start, size, caught)
 
 
-OUT_OF_MEMORY = "it wants more memory than --memory allows; make it smaller or raise the limit"
+OUT_OF_MEMORY = "it needs more memory than --memory allows; make it smaller or raise the limit"
 
 
 def _draw_and_store(job: Job, store: Store) -> tuple[int, tuple[str, ...]]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", UserWarning)
         if isinstance(store, LocalStore):
-            first = store.ready(job.outs[0])
+            first = store.prepare(job.outs[0])
             _save(job, first)
             data = None
             size = first.stat().st_size

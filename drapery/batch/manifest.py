@@ -1,6 +1,7 @@
-"""A manifest read and checked whole: all of its jobs, or all of its faults."""
+"""A manifest is read and checked whole: the result is all of its jobs, or all of its faults."""
 
 import re
+import unicodedata
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from drapery.banner.design import Banner
-from drapery.batch.rows import ManifestFault, ManifestRow, read_rows
+from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
 from drapery.options import NAMES, check_options, one_line, unknown
 from drapery.settings import Settings
@@ -19,17 +20,23 @@ STILLS = ("png",)
 EITHER = ("webp",)
 ANIMATIONS = ("gif", "apng", "mp4", "webm")
 ENDINGS = (*STILLS, *EITHER, *ANIMATIONS)
+SECONDS, FPS = 4.0, 20.0
+"""The length [s] and rate [frames/s] of an animation that names none."""
 
-_STEP = re.compile(r"[\w(][\w .,+@()'-]{0,119}")
+MAX_NAME = 230
+"""Bytes of a file or folder name. File systems allow 255, of which partial files need some."""
+_NAME = re.compile(r"[\w(][\w .,+@()'-]{0,119}")
+_RESERVED = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³]) *(\..*)?", re.IGNORECASE)
+"""Names that Windows gives to devices, with any ending."""
 
 
 class ManifestError(OptionError):
     """A manifest with faults. faults: all of them, in the manifest's order."""
 
-    def __init__(self, path: Path, faults: list[ManifestFault]) -> None:
+    def __init__(self, name: object, faults: list[ManifestFault]) -> None:
         self.faults = faults
-        many = f"; {len(faults)} faults in all" if len(faults) > 1 else ""
-        super().__init__(f"{path}: {faults[0]}{many}")
+        count = f"; {len(faults)} faults in all" if len(faults) > 1 else ""
+        super().__init__(f"{name}: {faults[0]}{count}")
 
 
 class RowFields(BaseModel):
@@ -46,9 +53,9 @@ class RowFields(BaseModel):
 
 @dataclass(frozen=True)
 class PictureRequest:
-    """One picture that is asked for, checked.
+    """One checked picture of a manifest.
 
-    place: where in the manifest. out: its file, relative to where outputs go.
+    place: where in the manifest. out: its file, relative to the output folder.
     seconds, fps: of an animation; None for a still.
     """
 
@@ -61,47 +68,66 @@ class PictureRequest:
 
 
 def read_manifest(
-    path: str | Path, defaults: Mapping[str, Any] | None = None, ending: str = "png"
+    manifest: str | Path | Iterable[Mapping[str, Any]],
+    defaults: Mapping[str, Any] | None = None,
+    format: str = "png",
 ) -> list[PictureRequest]:
-    """All jobs of a manifest.
+    """All pictures of a manifest.
 
-    defaults: options under all those that the manifest gives; their paths start here, the
-    manifest's own in its folder. ending: the format of rows that name no file.
+    manifest: a file or world, or rows in memory: mappings of option names to values, where
+        `design` is a text or a `Banner`; their paths are relative to the current folder.
+    defaults: options of all rows that do not set them. Their paths are relative to the current
+        folder; those of a manifest file are relative to its folder.
+    format: the ending of rows that name no file.
 
     Raises ManifestError with every fault, OptionError or DesignError if it cannot be read at all.
     """
-    path = Path(path)
-    if ending not in ENDINGS:
-        raise OptionError(f"format {ending!r} is not known; use one of: {', '.join(ENDINGS)}")
+    if format not in ENDINGS:
+        raise OptionError(f"format {format!r} is not known; use one of: {', '.join(ENDINGS)}")
+    if isinstance(manifest, str | Path):
+        name, rows, folder = str(manifest), read_rows(Path(manifest)), Path(manifest).parent
+    else:
+        name, rows, folder = "the manifest", _rows_in_memory(manifest), Path()
     faults: list[ManifestFault] = []
     requests: list[PictureRequest] = []
-    for number, row in enumerate(read_rows(path), 1):
+    used: dict[str, int] = {}
+    for number, row in enumerate(rows, 1):
         if number > MAX_JOBS:
-            raise OptionError(f"{path} has over {MAX_JOBS} jobs; split it")
+            raise OptionError(f"{name} has over {MAX_JOBS} jobs; split it")
         if isinstance(row, ManifestFault):
             faults.append(row)
             continue
-        read = _request(_under(row, defaults or {}), number, ending, path.parent)
-        if isinstance(read, PictureRequest):
-            requests.append(read)
+        request = _request(_with_defaults(row, defaults or {}), number, format, folder)
+        if isinstance(request, PictureRequest):
+            requests.append(_numbered(request, used) if row.where else request)
         else:
-            faults += [ManifestFault(row.place, line) for line in read]
-    requests = list(_apart(requests))
-    faults += [*_same_targets(requests), *_unusable(requests)]
+            faults += [ManifestFault(row.place, line) for line in request]
+    faults += [*_clashing_files(requests), *_unusable(requests)]
     if faults:
-        raise ManifestError(path, faults)
+        raise ManifestError(name, faults)
     if not requests:
-        raise OptionError(f"{path} holds no jobs; write a row for each picture")
+        raise OptionError(f"{name} holds no jobs; write a row for each picture")
     return requests
 
 
-def _under(row: ManifestRow, defaults: Mapping[str, Any]) -> ManifestRow:
-    here = {k: _from_here(k, v) for k, v in defaults.items() if k not in row.words}
-    return replace(row, words={**here, **row.words}) if here else row
+def _rows_in_memory(rows: Iterable[Mapping[str, Any]]) -> Rows:
+    for number, row in enumerate(rows, 1):
+        place = f"job {number}"
+        if not isinstance(row, Mapping) or not all(isinstance(name, str) for name in row):
+            yield ManifestFault(place, "not a mapping; write {'design': 'red', ...}")
+            continue
+        values = dict(row)
+        banner = values.pop("design") if isinstance(values.get("design"), Banner) else None
+        yield ManifestRow(place, values, banner)
 
 
-def _from_here(name: str, value: Any) -> Any:
-    """Paths given at the command line start where it runs."""
+def _with_defaults(row: ManifestRow, defaults: Mapping[str, Any]) -> ManifestRow:
+    unset = {k: _from_current_folder(k, v) for k, v in defaults.items() if k not in row.values}
+    return replace(row, values={**unset, **row.values}) if unset else row
+
+
+def _from_current_folder(name: str, value: Any) -> Any:
+    """Defaults' paths are relative to the current folder, so they are made absolute."""
     if name == "texture":
         return Path(value).absolute()
     if name in ("pack", "packs"):
@@ -113,28 +139,28 @@ def _from_here(name: str, value: Any) -> Any:
 def _request(
     row: ManifestRow, number: int, ending: str, folder: Path
 ) -> PictureRequest | list[str]:
-    words = dict(row.words)
-    if "pack" in words:
-        words["packs"] = words.pop("pack")
-    options = {name: words.pop(name) for name in list(words) if name in NAMES}
+    values = dict(row.values)
+    if "pack" in values:
+        values["packs"] = values.pop("pack")
+    options = {name: values.pop(name) for name in list(values) if name in NAMES}
     known = frozenset(RowFields.model_fields) | NAMES
-    unknown_names = [unknown(name, known) for name in words if name not in RowFields.model_fields]
-    said, faults = _said({k: v for k, v in words.items() if k in RowFields.model_fields})
+    faults = [unknown(name, known) for name in values if name not in RowFields.model_fields]
+    fields, wrong = _fields({k: v for k, v in values.items() if k in RowFields.model_fields})
     settings = check_options(options, folder)
-    faults = [*unknown_names, *faults, *(settings if isinstance(settings, list) else [])]
-    if said is None:
+    faults += [*wrong, *(settings if isinstance(settings, list) else [])]
+    if fields is None:
         return faults
-    banner = row.banner or _design(said.design, folder, faults)
-    out = _out(said, row, number, ending, faults)
-    times = _times(out, said, faults)
+    banner = row.banner or _design(fields.design, folder, faults)
+    out = _out(fields, row, number, ending, faults)
+    times = _times(out, fields, faults)
     if faults or isinstance(settings, list):
         return faults
     return PictureRequest(row.place, out, banner, settings, *times)
 
 
-def _said(words: dict[str, Any]) -> tuple[RowFields | None, list[str]]:
+def _fields(values: dict[str, Any]) -> tuple[RowFields | None, list[str]]:
     try:
-        return RowFields.model_validate(words), []
+        return RowFields.model_validate(values), []
     except ValidationError as error:
         faults = error.errors(include_url=False, include_input=False)
         return None, [f"{'.'.join(map(str, f['loc']))}: {one_line(f['msg'])}" for f in faults]
@@ -155,24 +181,37 @@ def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
         return None
 
 
-def _out(said: RowFields, row: ManifestRow, number: int, ending: str, faults: list[str]) -> str:
-    """The job's file: as it says, or after its name, its place in a world, or its number."""
-    if said.out is not None:
-        out = said.out
-    elif said.name is not None:
-        out = f"{said.name}.{ending}"
+def _out(fields: RowFields, row: ManifestRow, number: int, ending: str, faults: list[str]) -> str:
+    """The job's file: as the row says, or after its name, its place in a world, or its number."""
+    if fields.out is not None:
+        out = fields.out
+    elif fields.name is not None:
+        out = f"{fields.name}.{ending}"
     elif row.where:
         out = f"{_slug(row.where)}.{ending}"
     else:
         out = f"{number:05d}.{ending}"
-    steps = out.split("/")
-    if not all(_STEP.fullmatch(step) for step in steps) or len(out) > 300:
-        faults.append(
-            f"{out[:80]!r} is no file name here; use max_length, digits, '-', '.' and '/'"
-        )
-    elif _ending(out) not in ENDINGS or out.endswith(".sheet.png"):
-        faults.append(f"{out}: the ending is one of {', '.join(f'.{e}' for e in ENDINGS)}")
+    fault = _name_fault(out)
+    if fault is None and (_ending(out) not in ENDINGS or out.endswith(".sheet.png")):
+        fault = f"{out}: the ending is one of {', '.join(f'.{e}' for e in ENDINGS)}"
+    if fault is not None:
+        faults.append(fault)
     return out
+
+
+def _name_fault(out: str) -> str | None:
+    """Why this cannot be the name of a file on every system that may run or read the batch."""
+    names = out.split("/")
+    if len(out) > 300 or not all(_NAME.fullmatch(name) for name in names):
+        return f"{out[:80]!r} is not a file name; use letters, digits, '-', '.' and '/'"
+    for name in names:
+        if len(name.encode()) > MAX_NAME:
+            return f"{name[:20]!r}... has over {MAX_NAME} bytes; use a shorter name"
+        if name[-1] in ". ":
+            return f"{name!r} ends with a dot or space, which Windows removes; rename it"
+        if _RESERVED.fullmatch(name):
+            return f"{name!r} is the name of a device on Windows; rename it"
+    return None
 
 
 def _ending(out: str) -> str:
@@ -183,14 +222,15 @@ def _slug(where: str) -> str:
     return re.sub(r"[^\w.-]+", "_", where).strip("._-")[:100] or "banner"
 
 
-def _times(out: str, said: RowFields, faults: list[str]) -> tuple[float | None, float | None]:
+def _times(out: str, fields: RowFields, faults: list[str]) -> tuple[float | None, float | None]:
     """Length and rate; a WebP is a still unless one of them is given."""
     from drapery.pictures import frame_count
 
-    given = said.seconds is not None or said.fps is not None
+    given = fields.seconds is not None or fields.fps is not None
     if _ending(out) in STILLS or (_ending(out) in EITHER and not given):
         return None, None
-    seconds, fps = (4.0 if said.seconds is None else said.seconds), (said.fps or 20.0)
+    seconds = SECONDS if fields.seconds is None else fields.seconds
+    fps = FPS if fields.fps is None else fields.fps
     try:
         frame_count(seconds, fps)
     except OptionError as error:
@@ -198,27 +238,50 @@ def _times(out: str, said: RowFields, faults: list[str]) -> tuple[float | None, 
     return seconds, fps
 
 
-def _apart(requests: list[PictureRequest]) -> Iterator[PictureRequest]:
-    """Places of a world that read alike as file names get numbers."""
-    seen: dict[str, int] = {}
-    for request in requests:
-        stem, _, ending = request.out.rpartition(".")
-        if request.place.startswith("line "):
-            yield request
-            continue
-        count = seen[request.out.lower()] = seen.get(request.out.lower(), 0) + 1
-        yield request if count == 1 else replace(request, out=f"{stem}-{count}.{ending}")
+def _numbered(request: PictureRequest, used: dict[str, int]) -> PictureRequest:
+    """Banners of a world whose places give the same file name get numbers.
+
+    used: the names that are taken, each with the last number that was added to it.
+    """
+    key = _same_file(request.out)
+    if key not in used:
+        used[key] = 1
+        return request
+    stem, _, ending = request.out.rpartition(".")
+    number = used[key] + 1
+    while _same_file(f"{stem}-{number}.{ending}") in used:
+        number += 1
+    used[key] = number
+    out = f"{stem}-{number}.{ending}"
+    used[_same_file(out)] = 1
+    return replace(request, out=out)
 
 
-def _same_targets(requests: list[PictureRequest]) -> Iterator[ManifestFault]:
-    first: dict[str, str] = {}
+def _same_file(out: str) -> str:
+    """Equal for names that some file system holds to be one: it may ignore case, or compose
+    letters and accents."""
+    return unicodedata.normalize("NFC", out).casefold()
+
+
+def _clashing_files(requests: list[PictureRequest]) -> Iterator[ManifestFault]:
+    """Outputs that are written twice, or that are a file here and a folder there."""
+    first: dict[str, PictureRequest] = {}
     for request in requests:
-        # Some file systems do not tell case apart.
-        other = first.setdefault(request.out.lower(), request.place)
-        if other != request.place:
+        other = first.setdefault(_same_file(request.out), request)
+        if other is not request:
             yield ManifestFault(
-                request.place, f"{request.out} is written by {other} too; name it apart"
+                request.place, f"{request.out} is written by {other.place} too; rename one"
             )
+    for request in requests:
+        folders = _same_file(request.out).split("/")[:-1]
+        for depth in range(1, len(folders) + 1):
+            file = first.get("/".join(folders[:depth]))
+            if file is not None:
+                yield ManifestFault(
+                    request.place,
+                    f"{request.out} needs a folder where {file.place} writes {file.out};"
+                    " rename one",
+                )
 
 
 def _unusable(requests: Iterable[PictureRequest]) -> Iterator[ManifestFault]:

@@ -1,4 +1,4 @@
-"""Processes on this machine that may be killed, hang or eat memory without harm to the others."""
+"""Worker processes on this machine. One that dies, hangs or uses too much memory harms no other."""
 
 import contextlib
 import os
@@ -7,21 +7,24 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from multiprocessing import get_context
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
-from pathlib import Path
+from typing import Any, TypeAlias
 
 from drapery.batch import worker as worker_process
+from drapery.batch.executor import RetryPolicy
 from drapery.batch.jobs import OUT_OF_MEMORY, Job, JobResult
 from drapery.errors import BackendError
 
-LOOK = 0.1
-"""How often the workers' time and memory are looked at [s]."""
-MAX_FAILED_STARTS = 10
-"""Workers in a row that die before they report. Something outside may kill a few."""
+CHECK_INTERVAL = 0.1
+"""How often the workers' time and memory are checked [s]."""
+RESTARTS = RetryPolicy(limit=9, pause=0.1, longest=1.0)
+"""A worker that ends before it is ready is started again. Something outside may kill a few."""
 MAX_AHEAD = 100
-"""Outputs of a job that is sent while its worker is at another."""
-PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
+"""The most outputs of a job that is sent while its worker is at another."""
+
+Pipe: TypeAlias = Any
+"""multiprocessing's Connection, or its PipeConnection on Windows."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,7 @@ class JobLimits:
     memory: int = 2 << 30
 
 
-@dataclass
+@dataclass(eq=False)
 class _Worker:
     """One worker process. ready: it has reported. resting: its memory without a job [bytes].
 
@@ -40,7 +43,7 @@ class _Worker:
     """
 
     process: BaseProcess
-    pipe: Connection
+    pipe: Pipe
     ready: bool = False
     resting: int = 0
     jobs: deque[Job] = field(default_factory=deque)
@@ -49,11 +52,13 @@ class _Worker:
 
 @dataclass
 class ProcessPool:
-    """An executor of processes on this machine; see `executor.Executor`.
+    """Worker processes on this machine; see `executor.Executor`.
 
-    work: what does a job, a function of a module. workers: how many processes.
-    threads: of each; by default its share of the cores.
+    work: does a job; a function of a module. workers: how many processes.
+    threads: of each worker; None is its share of the cores.
     ahead: jobs sent to a worker; with 2, the next is there when one ends.
+    restarts: how often, and after which pause, workers that end before they are ready are started
+        again; the count starts anew when a worker gets ready.
     """
 
     work: Callable[[Job], JobResult]
@@ -61,61 +66,68 @@ class ProcessPool:
     limits: JobLimits = JobLimits()
     threads: int | None = None
     ahead: int = 1
+    restarts: RetryPolicy = RESTARTS
     _backlog: deque[Job] = field(default_factory=deque)
     _workers: list[_Worker] = field(default_factory=list)
+    _due: list[float] = field(default_factory=list)
     _failed_starts: int = 0
-    _looked: float = 0.0
+    _checked: float = 0.0
 
     def __post_init__(self) -> None:
-        self._workers = [self._spawn() for _ in range(self.workers)]
+        self._due = [0.0] * self.workers
+        self._spawn_due()
 
     def free(self) -> int:
         """See `Executor`."""
         taken = len(self._backlog) + sum(len(worker.jobs) for worker in self._workers)
         return self.ahead * sum(worker.ready for worker in self._workers) - taken
 
+    def ready(self) -> bool:
+        """See `Executor`."""
+        return any(worker.ready for worker in self._workers)
+
     def start(self, job: Job) -> None:
         """See `Executor`."""
         self._backlog.append(job)
-        self._deal()
+        self._assign()
 
-    def _deal(self) -> None:
-        """Send what waits to the workers that have least."""
+    def _assign(self) -> None:
+        """Send waiting jobs to the workers that have the fewest."""
         while self._backlog:
-            worker = min(
-                (
-                    worker
-                    for worker in self._workers
-                    if worker.ready and len(worker.jobs) < self.ahead
-                ),
-                key=lambda worker: len(worker.jobs),
-                default=None,
-            )
-            # A pipe holds little, so a long job must not be sent to one who is not reading.
+            able = (w for w in self._workers if w.ready and len(w.jobs) < self.ahead)
+            worker = min(able, key=lambda worker: len(worker.jobs), default=None)
+            # A pipe holds little, so a long job must not be sent to a worker that does not read.
             if worker is None or (worker.jobs and len(self._backlog[0].outs) > MAX_AHEAD):
                 return
             if not worker.jobs:
                 worker.began = time.monotonic()
             worker.jobs.append(self._backlog.popleft())
-            # A dead worker shows at its pipe's end, in `poll`.
+            # `poll` finds a dead worker by the end of its pipe.
             with contextlib.suppress(OSError):
                 worker.pipe.send(worker.jobs[-1])
 
     def poll(self, timeout: float) -> list[JobResult]:
-        """See `Executor`. Raises BackendError where no worker starts."""
+        """See `Executor`. Raises BackendError where workers cannot start."""
         end = time.monotonic() + timeout
         while True:
-            left = max(0.0, min(LOOK, end - time.monotonic()))
-            heard = wait([worker.pipe for worker in self._workers], left)
-            listened = [worker for worker in self._workers if worker.pipe in heard]
-            woke = any(not worker.ready for worker in listened)
-            results = [o for worker in listened for o in self._hear(worker)]
-            if time.monotonic() - self._looked >= LOOK:
-                self._looked = time.monotonic()
-                results += [o for worker in list(self._workers) for o in self._check(worker)]
-            self._deal()
-            if results or woke or time.monotonic() >= end:
+            self._spawn_due()
+            left = max(0.0, min(CHECK_INTERVAL, end - time.monotonic()))
+            readable = self._readable(left)
+            starting = any(not worker.ready for worker in readable)
+            results = [result for worker in readable for result in self._receive(worker)]
+            if time.monotonic() - self._checked >= CHECK_INTERVAL:
+                self._checked = time.monotonic()
+                results += [r for worker in list(self._workers) for r in self._check(worker)]
+            self._assign()
+            if results or starting or time.monotonic() >= end:
                 return results
+
+    def _readable(self, timeout: float) -> list[_Worker]:
+        """The workers that have sent something, or have ended."""
+        if not self._workers:
+            time.sleep(timeout)
+        pipes = wait([worker.pipe for worker in self._workers], timeout)
+        return [worker for worker in self._workers if worker.pipe in pipes]
 
     def pids(self) -> list[int]:
         """The workers' process ids."""
@@ -125,10 +137,20 @@ class ProcessPool:
         """See `Executor`."""
         for worker in self._workers:
             worker.process.kill()
-        for worker in self._workers:
-            worker.process.join()
-            worker.pipe.close()
-        self._workers = []
+        for worker in list(self._workers):
+            self._remove(worker)
+        self._due = []
+
+    def _spawn_due(self) -> None:
+        """Start the workers that are missing and whose pause is over."""
+        now = time.monotonic()
+        due = [moment for moment in self._due if moment <= now]
+        for moment in due:
+            self._due.remove(moment)
+            try:
+                self._workers.append(self._spawn())
+            except OSError as error:
+                self._start_failed(error.strerror or str(error))
 
     def _spawn(self) -> _Worker:
         # A fresh interpreter: forking one that has threads is not safe.
@@ -136,64 +158,83 @@ class ProcessPool:
         ours, theirs = context.Pipe()
         threads = self.threads or max(1, (os.cpu_count() or 1) // self.workers)
         process = context.Process(
-            target=worker_process.live,
+            target=worker_process.run,
             args=(theirs, self.work, self.limits.memory, threads),
             name="drapery-worker",
             daemon=True,
         )
-        process.start()
-        theirs.close()
+        try:
+            process.start()
+        except OSError:
+            ours.close()
+            raise
+        finally:
+            theirs.close()
         return _Worker(process, ours)
 
-    def _hear(self, worker: _Worker) -> list[JobResult]:
+    def _receive(self, worker: _Worker) -> list[JobResult]:
         try:
-            said = worker.pipe.recv()
+            message = worker.pipe.recv()
         except (EOFError, OSError):
             return self._lost(worker, "its worker died")
         if not worker.ready:
-            worker.ready, worker.resting, self._failed_starts = True, said, 0
+            worker.ready, worker.resting, self._failed_starts = True, message, 0
             return []
-        if said is None:
-            # What is left of a heap that was full is not trusted.
+        if message is None:
+            # A heap that was full is not used again.
             return self._lost(worker, OUT_OF_MEMORY)
         worker.jobs.popleft()
         worker.began = time.monotonic()
-        return [said]
+        return [message]
 
     def _check(self, worker: _Worker) -> list[JobResult]:
-        """End a worker whose job is over its limits."""
-        if not worker.jobs or worker not in self._workers:
+        """End a worker whose job exceeds its limits."""
+        if not worker.jobs:
             return []
         if time.monotonic() - worker.began > self.limits.seconds:
-            return self._lost(worker, f"it took over {self.limits.seconds:g} s; raise --timeout")
+            reason = f"it took over {self.limits.seconds:g} s; raise --timeout"
+            return self._lost(worker, reason, timed_out=True)
         if _resident(worker.process.pid) > worker.resting + self.limits.memory:
             return self._lost(worker, OUT_OF_MEMORY)
         return []
 
-    def _lost(self, worker: _Worker, why: str) -> list[JobResult]:
-        if not worker.ready:
-            self._failed_starts += 1
-            if self._failed_starts >= MAX_FAILED_STARTS:
-                raise BackendError("workers die as they start; run the jobs with `drapery render`")
-        took, pid = time.monotonic() - worker.began, worker.process.pid
-        self._replace(worker)
+    def _lost(self, worker: _Worker, reason: str, timed_out: bool = False) -> list[JobResult]:
+        """Replace a worker that has ended, or must; its job fails."""
+        pid = worker.process.pid
+        self._remove(worker)
+        if worker.ready:
+            self._due.append(0.0)
+        else:
+            self._start_failed(_ending(worker.process.exitcode))
         if not worker.jobs:
             return []
         first, *others = worker.jobs
         # It had not begun these.
         self._backlog.extendleft(reversed(others))
-        return [JobResult(first, f"{why} (process {pid})", True, took)]
+        seconds = time.monotonic() - worker.began
+        line = f"{reason} (process {pid})"
+        return [JobResult(first, line, True, seconds, timed_out=timed_out)]
 
-    def _replace(self, worker: _Worker) -> None:
+    def _start_failed(self, reason: str) -> None:
+        self._failed_starts += 1
+        if self._failed_starts > self.restarts.limit:
+            raise BackendError(
+                f"{self._failed_starts} workers in a row ended as they started ({reason}); a script"
+                ' must start a batch below `if __name__ == "__main__":`; else see `drapery doctor`'
+            )
+        self._due.append(time.monotonic() + self.restarts.delay(self._failed_starts))
+
+    def _remove(self, worker: _Worker) -> None:
         worker.process.kill()
         worker.process.join()
         worker.pipe.close()
-        self._workers[self._workers.index(worker)] = self._spawn()
+        self._workers.remove(worker)
+
+
+def _ending(code: int | None) -> str:
+    return f"killed by signal {-code}" if code is not None and code < 0 else f"exit code {code}"
 
 
 def _resident(pid: int | None) -> int:
     """A process's memory [bytes]; 0 where the system does not say."""
-    try:
-        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * PAGE
-    except (OSError, IndexError, ValueError):
-        return 0
+    return worker_process.memory_of(pid, worker_process.RESIDENT)

@@ -1,8 +1,9 @@
-"""The page at the end of a run: its numbers, what failed and why, and small pictures."""
+"""The report of a run: its numbers, what failed and why, and small pictures."""
 
 import io
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Protocol
 
 from drapery.batch.results import OutputRecord
 from drapery.batch.run import Progress
@@ -11,10 +12,9 @@ from drapery.errors import DraperyError
 
 FILE = "report.html"
 MAX_PICTURES = 240
-"""Of a million pictures a page can show a few."""
+"""A page cannot show a million pictures."""
 MAX_FAILURES = 2000
 SIDE = 96
-MAX_BYTES = 64 << 20
 
 _PAGE = """<!doctype html>
 <html lang="en">
@@ -36,9 +36,9 @@ _PAGE = """<!doctype html>
 <table>{% for name, value in numbers.items() %}
 <tr><th>{{ name }}</th><td>{{ value }}</td></tr>{% endfor %}</table>
 {% if failed %}<h2 class="failed">Failed</h2>
-<table><tr><th>file</th><th>place</th><th>tries</th><th>why</th></tr>{% for entry in failed %}
-<tr><td>{{ entry.out }}</td><td>{{ entry.place }}</td><td>{{ entry.tries }}</td>
-<td>{{ entry.why }}</td></tr>{% endfor %}</table>{% endif %}
+<table><tr><th>file</th><th>place</th><th>tries</th><th>why</th></tr>{% for record in failed %}
+<tr><td>{{ record.out }}</td><td>{{ record.place }}</td><td>{{ record.tries }}</td>
+<td>{{ record.error }}</td></tr>{% endfor %}</table>{% endif %}
 {% if notes %}<h2>Warnings</h2><ul>{% for note in notes %}<li>{{ note }}</li>{% endfor %}</ul>
 {% endif %}
 <h2>Pictures{% if shown < total %}, {{ shown }} of {{ total }}{% endif %}</h2>
@@ -49,39 +49,54 @@ _PAGE = """<!doctype html>
 """
 
 
-def numbers(progress: Progress, seconds: float) -> dict[str, str]:
-    """The summary of a run, as names and values. seconds: that it took."""
-    rate = f"{progress.drawn / seconds:.1f} pictures/s" if seconds > 0 else ""
-    said = {
-        "outputs": str(progress.total),
-        "drawn": str(progress.drawn),
-        "copied from equals": str(progress.copied),
-        "there before": str(progress.kept),
-        "failed": str(len(progress.failed)),
+class RunCounts(Protocol):
+    """The counts of a run, as `Progress` and `BatchResult` have them."""
+
+    @property
+    def total(self) -> int: ...
+    @property
+    def drawn(self) -> int: ...
+    @property
+    def copied(self) -> int: ...
+    @property
+    def existing(self) -> int: ...
+    @property
+    def failed(self) -> Sequence[OutputRecord]: ...
+
+
+def summary(counts: RunCounts, seconds: float) -> dict[str, str]:
+    """The numbers of a run by their names. seconds: that it took [s]."""
+    lines = {
+        "outputs": str(counts.total),
+        "drawn": str(counts.drawn),
+        "copied from equals": str(counts.copied),
+        "there before": str(counts.existing),
+        "failed": str(len(counts.failed)),
         "time": f"{seconds:.1f} s",
-        "rate": rate,
     }
-    return {name: value for name, value in said.items() if value}
+    if seconds > 0:
+        lines["rate"] = f"{counts.drawn / seconds:.1f} pictures/s"
+    return lines
 
 
-def write_page(
+def write_report(
     title: str,
     progress: Progress,
     seconds: float,
-    entries: Mapping[str, OutputRecord],
+    records: Mapping[str, OutputRecord],
     store: Store,
 ) -> None:
-    """Write the page beside the outputs. Raises OutputError."""
+    """Write the report beside the outputs. Raises OutputError."""
     from jinja2 import Environment
 
-    done = [entry.out for entry in entries.values() if entry.state == "done"]
+    done = [record.out for record in records.values() if record.state == "done"]
     pictures = list(_pictures(done, store))
     page = Environment(autoescape=True).from_string(_PAGE)
     text = page.render(
         title=title,
-        numbers=numbers(progress, seconds),
+        numbers=summary(progress, seconds),
         failed=progress.failed[:MAX_FAILURES],
-        notes=list(progress.notes),
+        notes=[*progress.errors, *progress.warnings],
         pictures=pictures,
         shown=len(pictures),
         total=len(done),
@@ -97,7 +112,7 @@ def _pictures(outs: list[str], store: Store) -> Iterable[tuple[str, str]]:
             try:
                 yield out, _thumbnail(store.read(out))
             except (DraperyError, OSError, ValueError):
-                # A picture that has gone since is only missing on the page.
+                # A picture that was deleted since is only missing from the page.
                 continue
 
 

@@ -1,7 +1,8 @@
-"""What has been done: a file of SQLite that a kill at any moment leaves sound."""
+"""What has been done: an SQLite file that stays consistent whenever the process is killed."""
 
 import sqlite3
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,25 +23,34 @@ CREATE INDEX IF NOT EXISTS by_key ON outputs (key, state);
 
 @dataclass(frozen=True)
 class OutputRecord:
-    """What the results says of an output. state: done or failed, with why."""
+    """What is recorded of one output file.
+
+    out: the file, relative to the output folder. key: the hash of what it is made of. place: where
+    the manifest asks for it. state: `done` or `failed`. error: why it failed, one line. tries: how
+    often it was tried. seconds: that the last try took [s]. size: of the file [bytes].
+    """
 
     out: str
     key: str
     place: str
     state: str
-    why: str | None
+    error: str | None
     tries: int
     seconds: float
     size: int
 
 
 class ResultsDB:
-    """One run's worker on the file; another run is refused while it is held."""
+    """The results of a folder, opened by one run at a time.
+
+    It is one table and four statements, so it needs no more than the standard library; what
+    `drapery batch` depends on must come with a plain installation.
+    """
 
     def __init__(self, path: Path) -> None:
-        """Open or make the file. Raises OutputError where that fails, or another run holds it."""
+        """Open or make the file. Raises OutputError if that fails or another run has it open."""
         self.path = path
-        try:
+        with self._explained():
             self._db = sqlite3.connect(path, isolation_level=None, timeout=1.0)
             # The lock ends with its process, however that ends.
             self._db.execute("PRAGMA locking_mode = EXCLUSIVE")
@@ -48,53 +58,68 @@ class ResultsDB:
             # A written page outlives a killed process; only a power cut may take the last ones.
             self._db.execute("PRAGMA synchronous = NORMAL")
             self._db.executescript(_SCHEMA)
-        except sqlite3.Error as error:
-            raise OutputError(f"results {path}: {_reason(error)}") from None
 
     def __enter__(self) -> "ResultsDB":
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._db.close()
+        with suppress(sqlite3.Error):
+            self._db.close()
 
-    def known(self) -> dict[str, OutputRecord]:
-        """All entries, by output."""
-        rows = self._db.execute("SELECT * FROM outputs")
-        return {row[0]: OutputRecord(*row) for row in rows}
+    def records(self) -> dict[str, OutputRecord]:
+        """All records, by output. Raises OutputError where the file is damaged."""
+        with self._explained():
+            rows = self._db.execute("SELECT * FROM outputs")
+            return {row[0]: OutputRecord(*row) for row in rows}
 
-    def done_with(self, key: str) -> Iterator[OutputRecord]:
-        """The outputs that hold the picture of this key."""
+    def done_with(self, key: str) -> list[OutputRecord]:
+        """The outputs that hold the picture of this key. Raises OutputError."""
         query = "SELECT * FROM outputs WHERE key = ? AND state = 'done'"
-        return (OutputRecord(*row) for row in self._db.execute(query, (key,)).fetchall())
+        with self._explained():
+            return [OutputRecord(*row) for row in self._db.execute(query, (key,))]
 
     def record(self, result: JobResult, tries: int) -> None:
-        """Write down what came of a job. Raises OutputError, as on a full disk."""
+        """Record the result of a job. Raises OutputError, as on a full disk."""
         state = "done" if result.error is None else "failed"
         self._write(
-            (o, result.job.key, p, state, result.error, tries, result.seconds, result.size)
-            for o, p in zip(result.job.outs, result.job.places, strict=True)
+            (out, result.job.key, place, state, result.error, tries, result.seconds, result.size)
+            for out, place in zip(result.job.outs, result.job.places, strict=True)
         )
 
-    def copied(self, job: Job, entry: OutputRecord) -> None:
-        """Write down that outputs were copied from another of the same key."""
+    def record_copy(self, job: Job, source: OutputRecord) -> None:
+        """Record that a job's outputs were copied from another of the same key."""
         self._write(
-            (out, job.key, place, "done", None, 0, 0.0, entry.size)
+            (out, job.key, place, "done", None, 0, 0.0, source.size)
             for out, place in zip(job.outs, job.places, strict=True)
         )
 
     def _write(self, rows: Iterable[tuple[object, ...]]) -> None:
+        with self._explained():
+            try:
+                self._db.execute("BEGIN")
+                self._db.executemany(
+                    "INSERT OR REPLACE INTO outputs VALUES (?,?,?,?,?,?,?,?)", rows
+                )
+                self._db.execute("COMMIT")
+            except sqlite3.Error:
+                if self._db.in_transaction:
+                    with suppress(sqlite3.Error):
+                        self._db.execute("ROLLBACK")
+                raise
+
+    @contextmanager
+    def _explained(self) -> Iterator[None]:
+        """Turn SQLite's errors into one line that says what to do."""
         try:
-            self._db.execute("BEGIN")
-            self._db.executemany("INSERT OR REPLACE INTO outputs VALUES (?,?,?,?,?,?,?,?)", rows)
-            self._db.execute("COMMIT")
+            yield
         except sqlite3.Error as error:
-            if self._db.in_transaction:
-                self._db.execute("ROLLBACK")
-            raise OutputError(f"results {self.path}: {_reason(error)}") from None
+            raise OutputError(f"results {self.path}: {_remedy(error)}") from None
 
 
-def _reason(error: sqlite3.Error) -> str:
+def _remedy(error: sqlite3.Error) -> str:
     text = str(error)
     if "locked" in text:
         return "another run is using it; wait for it, or choose another folder"
-    return f"{text}; mend that, or name another with --results"
+    if any(word in text for word in ("malformed", "not a database", "decode", "corrupt")):
+        return f"the file is damaged ({text[:120]}); delete it, or name another with --results"
+    return f"{text[:200]}; mend that, or name another with --results"

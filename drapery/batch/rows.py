@@ -1,4 +1,4 @@
-"""Manifests as rows: each file's form, read with the place of every row kept."""
+"""A manifest file becomes rows, each with its place in the file."""
 
 import csv
 import io
@@ -14,16 +14,20 @@ from drapery.options import one_line
 
 MAX_TEXT = 512 << 20
 MAX_YAML = 16 << 20
-"""YAML is read as a tree, which takes some fifty times its length."""
+"""The tree of a YAML text takes about fifty times the memory of the text."""
 MAX_CELL = 1 << 20
 
 
 @dataclass(frozen=True)
 class ManifestRow:
-    """One job as it is written. words: by the names of options. banner: found in a world."""
+    """One job as it is written.
+
+    place: where, for messages. values: by the names of options. banner: as found in a world, or
+    given as an object. where: its place in a world; empty elsewhere.
+    """
 
     place: str
-    words: dict[str, Any] = field(default_factory=dict)
+    values: dict[str, Any] = field(default_factory=dict)
     banner: Banner | None = None
     where: str = ""
 
@@ -33,17 +37,17 @@ class ManifestFault:
     """What is wrong at a place of the manifest, in one line with the remedy."""
 
     place: str
-    line: str
+    message: str
 
     def __str__(self) -> str:
-        return f"{self.place}: {self.line}"
+        return f"{self.place}: {self.message}"
 
 
 Rows: TypeAlias = Iterator[ManifestRow | ManifestFault]
 
 
 def read_rows(path: Path) -> Rows:
-    """The rows of a manifest, and the faults of what is no row.
+    """The rows of a manifest, and a fault for each part that is not a row.
 
     A CSV file has a row of names; lines `# name = value` before it are defaults. In JSON lines,
     an object with the one key `defaults` holds for the lines after it. YAML is a list of jobs, or
@@ -72,13 +76,10 @@ def _text(path: Path, limit: int) -> str:
 
 
 def _csv(path: Path) -> Rows:
-    text = _text(path, MAX_TEXT)
+    text = io.StringIO(_text(path, MAX_TEXT), newline="")
     defaults, skipped = _csv_defaults(text)
-    body = io.StringIO(text, newline="")
-    for _ in range(skipped):
-        body.readline()
     csv.field_size_limit(MAX_CELL)
-    reader = csv.reader(body, strict=True)
+    reader = csv.reader(text, strict=True)
     names: list[str] = []
     line = skipped + 1
     try:
@@ -87,27 +88,32 @@ def _csv(path: Path) -> Rows:
             if not names:
                 names = [cell.strip() for cell in cells]
             elif len(cells) > len(names):
-                yield ManifestFault(
-                    place, f"{len(cells)} cells for {len(names)} columns; quote commas"
-                )
+                message = f"{len(cells)} cells for {len(names)} columns; quote commas"
+                yield ManifestFault(place, message)
             elif any(cell.strip() for cell in cells):
                 filled = {n: c.strip() for n, c in zip(names, cells, strict=False) if c.strip()}
                 yield ManifestRow(place, {**defaults, **filled})
     except csv.Error as error:
-        yield ManifestFault(f"line {line}", f"{error}; mend the quotes there")
+        yield ManifestFault(f"line {line}", f"{error}; correct the quotes there")
 
 
-def _csv_defaults(text: str) -> tuple[dict[str, str], int]:
-    """Defaults in the lines before the names, and how many lines those are."""
-    defaults, skipped = {}, 0
-    for line in text.splitlines():
-        if line.strip() and not line.startswith("#"):
-            break
+def _csv_defaults(text: io.StringIO) -> tuple[dict[str, str], int]:
+    """The defaults in the lines before the names, and how many lines those are.
+
+    The text is left at the line of names. Lines end as csv ends them, not at U+2028 or form feed.
+    """
+    defaults: dict[str, str] = {}
+    skipped = 0
+    while True:
+        start = text.tell()
+        line = text.readline()
+        if not line or (line.strip() and not line.startswith("#")):
+            text.seek(start)
+            return defaults, skipped
         skipped += 1
         name, equals, value = line.lstrip("#").partition("=")
         if equals:
             defaults[name.strip()] = value.strip()
-    return defaults, skipped
 
 
 def _json_lines(path: Path) -> Rows:
@@ -117,63 +123,45 @@ def _json_lines(path: Path) -> Rows:
         if not line.strip():
             continue
         try:
-            words = json.loads(line)
+            values = json.loads(line)
         except (ValueError, RecursionError) as error:
-            yield ManifestFault(
-                place, f"no JSON ({one_line(str(error))}); write one object on a line"
-            )
+            message = f"not JSON ({one_line(str(error))}); write one object on a line"
+            yield ManifestFault(place, message)
             continue
-        if not isinstance(words, dict):
-            yield ManifestFault(place, "no object; write {...} with the job's options")
-        elif set(words) == {"defaults"} and isinstance(words["defaults"], dict):
-            defaults = words["defaults"]
+        if not isinstance(values, dict):
+            yield ManifestFault(place, "not an object; write {...} with the job's options")
+        elif set(values) == {"defaults"} and isinstance(values["defaults"], dict):
+            defaults = values["defaults"]
         else:
-            yield ManifestRow(place, {**defaults, **words})
+            yield ManifestRow(place, {**defaults, **values})
 
 
 def _yaml(path: Path) -> Rows:
-    import yaml
+    from drapery.yaml_text import LocatedList, load_yaml
 
-    text = _text(path, MAX_YAML)
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)(text)
-    try:
-        root = loader.get_single_node()
-        nodes, defaults = _yaml_jobs(path, loader, root)
-        for node in nodes:
-            place = f"line {node.start_mark.line + 1}"
-            words = loader.construct_object(node, deep=True)
-            if isinstance(words, dict) and all(isinstance(key, str) for key in words):
-                yield ManifestRow(place, {**defaults, **words})
-            else:
-                yield ManifestFault(place, "no job; write names of options, each with a value")
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
-        mark = getattr(error, "problem_mark", None)
-        place = f"line {mark.line + 1}" if mark is not None else str(path)
-        reason = getattr(error, "problem", None) or str(error)
-        yield ManifestFault(place, f"no YAML ({one_line(reason)}); mend it there")
-    finally:
-        loader.dispose()
-
-
-def _yaml_jobs(path: Path, loader: Any, root: Any) -> tuple[list[Any], dict[str, Any]]:
-    """The nodes of the jobs, and the defaults."""
-    import yaml
-
-    if isinstance(root, yaml.SequenceNode):
-        return root.value, {}
-    parts = {k.value: v for k, v in root.value} if isinstance(root, yaml.MappingNode) else {}
-    jobs = parts.pop("jobs", None)
-    defaults = parts.pop("defaults", None)
-    if not isinstance(jobs, yaml.SequenceNode) or parts:
+    root = load_yaml(_text(path, MAX_YAML), path)
+    parts = root if isinstance(root, dict) else {"jobs": root}
+    jobs, defaults = parts.get("jobs"), parts.get("defaults")
+    defaults = {} if defaults is None else defaults
+    if not isinstance(jobs, LocatedList) or not set(parts) <= {"jobs", "defaults"}:
         raise OptionError(f"{path}: write a list of jobs, or `jobs` and `defaults`")
-    read = {} if defaults is None else loader.construct_object(defaults, deep=True)
-    if not isinstance(read, dict):
-        raise OptionError(f"{path}: defaults are names of options, each with a value")
-    return jobs.value, read
+    if not _has_names(defaults):
+        raise OptionError(f"{path}: write defaults as names of options, each with a value")
+    for job, line in zip(jobs, jobs.lines, strict=True):
+        place = f"line {line}"
+        if _has_names(job):
+            yield ManifestRow(place, {**defaults, **job})
+        else:
+            message = "not a job; write names of options, each with a value"
+            yield ManifestFault(place, message)
+
+
+def _has_names(value: object) -> bool:
+    return isinstance(value, dict) and all(isinstance(key, str) for key in value)
 
 
 def _banners(path: Path) -> Rows:
-    """One row for each banner; what is broken in a world is warned of by the reader."""
+    """One row for each banner; the reader warns of the broken parts of a world."""
     from drapery.banner.formats import read_designs
 
     try:

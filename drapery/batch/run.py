@@ -1,4 +1,4 @@
-"""A whole run: what is known is not done again, the rest is worked off, all is written down."""
+"""One run over planned jobs: known outputs are skipped, the others are drawn, all is recorded."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -12,24 +12,29 @@ from drapery.errors import DraperyError, OutputError
 
 @dataclass
 class Progress:
-    """How far a run is. Counts of outputs, not of jobs.
+    """How far a run is. It changes while the run goes on. Counts are of outputs, not of jobs.
 
-    total: of all. drawn: made by this run. copied: of the same key as another. kept: there before.
-    failed: each with its reason. notes: warnings, each once. busy: time that jobs took [s].
+    total: all outputs. drawn: made by this run. copied: from an output of the same key. existing:
+    there before. failed: each with its error. warnings: each once. errors: what else could not be
+    written, such as the results. busy: the time that jobs took, all workers together [s].
     """
 
     total: int
     drawn: int = 0
     copied: int = 0
-    kept: int = 0
+    existing: int = 0
     failed: list[OutputRecord] = field(default_factory=list)
-    notes: dict[str, None] = field(default_factory=dict)
+    warnings: dict[str, None] = field(default_factory=dict)
+    errors: dict[str, None] = field(default_factory=dict)
     busy: float = 0.0
 
     @property
     def done(self) -> int:
         """Outputs that are there."""
-        return self.drawn + self.copied + self.kept
+        return self.drawn + self.copied + self.existing
+
+
+OnEvent = Callable[[Progress], None]
 
 
 def execute(
@@ -40,103 +45,104 @@ def execute(
     *,
     resume: bool = False,
     retries: RetryPolicy = RetryPolicy(),  # noqa: B008 - it is frozen
-    on_event: Callable[[Progress], None] = lambda progress: None,
+    on_event: OnEvent = lambda progress: None,
 ) -> Progress:
-    """Do what is not done yet.
+    """Make the outputs that are missing.
 
-    spawn: makes the executor, once it is known that there is work for it, given the number of jobs.
-    resume: what failed before stays failed; otherwise it is tried anew.
-    on_event: is called after each result.
+    spawn: makes the executor, given the number of jobs; it is not called when there are none.
+    resume: what failed before stays failed; otherwise it is tried again.
+    on_event: is called before the first job and after each.
     """
     progress = Progress(sum(len(job.outs) for job in jobs))
-    todo = _sift(jobs, store, results, progress, resume)
+    pending = _pending(jobs, store, results, progress, resume)
     on_event(progress)
-    # A worker that outlived its killed run may leave something beside what is done, too.
+    # A worker that outlived its killed run may leave a partial file beside a finished one.
     outs = [out for job in jobs for out in job.outs]
-    _sweep(store, outs)
-    if todo:
-        executor = spawn(len(todo))
+    _remove_partial_files(store, outs)
+    if pending:
+        executor = spawn(len(pending))
         try:
-            for result, tries in run_jobs(todo, executor, retries):
+            for result, tries in run_jobs(pending, executor, retries):
                 _count(progress, result, tries)
                 _record(results, result, tries, progress)
                 on_event(progress)
         finally:
             executor.close()
-            _sweep(store, outs)
+            _remove_partial_files(store, outs)
     return progress
 
 
-def _sift(
+def _pending(
     jobs: Sequence[Job], store: Store, results: ResultsDB, progress: Progress, resume: bool
 ) -> list[Job]:
-    """The jobs that are to be drawn; the others are counted, copied where that is all."""
-    known = results.known()
-    there = _intact(known, store)
-    todo = []
+    """The jobs that are to be drawn; the others are counted, and copied where that is enough."""
+    records = results.records()
+    present = _intact(records, store)
+    pending = []
     for job in jobs:
-        missing = [out for out in job.outs if there.get(out) != job.key]
-        failed = [known[out] for out in job.outs if out in known]
+        missing = [out for out in job.outs if present.get(out) != job.key]
+        before = [records[out] for out in job.outs if out in records]
         if not missing:
-            progress.kept += len(job.outs)
-        elif _copied(job, missing, store, results, there):
-            progress.kept += len(job.outs) - len(missing)
+            progress.existing += len(job.outs)
+        elif _copied(job, missing, store, results, present):
+            progress.existing += len(job.outs) - len(missing)
             progress.copied += len(missing)
-        elif resume and failed and all(e.state == "failed" and e.key == job.key for e in failed):
-            progress.failed += failed
+        elif resume and before and all(r.state == "failed" and r.key == job.key for r in before):
+            progress.failed += before
         else:
-            todo.append(job)
-    return todo
+            pending.append(job)
+    return pending
 
 
-def _intact(known: dict[str, OutputRecord], store: Store) -> dict[str, str]:
+def _intact(records: dict[str, OutputRecord], store: Store) -> dict[str, str]:
     """The keys of outputs that are done and still there in full length."""
-    done = [entry for entry in known.values() if entry.state == "done"]
-    sizes = store.sizes([entry.out for entry in done])
-    return {e.out: e.key for e, size in zip(done, sizes, strict=True) if size == e.size}
+    done = [record for record in records.values() if record.state == "done"]
+    sizes = store.sizes([record.out for record in done])
+    return {r.out: r.key for r, size in zip(done, sizes, strict=True) if size == r.size}
 
 
 def _copied(
-    job: Job, missing: list[str], store: Store, results: ResultsDB, there: dict[str, str]
+    job: Job, missing: list[str], store: Store, results: ResultsDB, present: dict[str, str]
 ) -> bool:
     """Whether another output has the same picture; then it is copied to those missing."""
-    source = next((e for e in results.done_with(job.key) if there.get(e.out) == job.key), None)
+    same = (r for r in results.done_with(job.key) if present.get(r.out) == job.key)
+    source = next(same, None)
     if source is None:
         return False
     try:
         data = store.read(source.out)
         for out in missing:
             store.write(out, data)
+        results.record_copy(job, source)
     except DraperyError:
+        # Drawing it again says what is wrong.
         return False
-    results.copied(job, source)
     return True
 
 
 def _count(progress: Progress, result: JobResult, tries: int) -> None:
     job = result.job
     progress.busy += result.seconds
-    progress.notes.update(dict.fromkeys(result.notes))
+    progress.warnings.update(dict.fromkeys(result.warnings))
     if result.error is None:
         progress.drawn += 1
         progress.copied += len(job.outs) - 1
         return
-    why = (result.error, tries, result.seconds, 0)
     progress.failed += [
-        OutputRecord(out, job.key, place, "failed", *why)
+        OutputRecord(out, job.key, place, "failed", result.error, tries, result.seconds, 0)
         for out, place in zip(job.outs, job.places, strict=True)
     ]
 
 
 def _record(results: ResultsDB, result: JobResult, tries: int, progress: Progress) -> None:
-    """Write a result down. A full disk must not end the run: what is not written down is made
-    again by the next."""
+    """Record a result. A full disk does not end the run: what is not recorded is drawn again by
+    the next run."""
     try:
         results.record(result, tries)
     except OutputError as error:
-        progress.notes[str(error)] = None
+        progress.errors[str(error)] = None
 
 
-def _sweep(store: Store, outs: list[str]) -> None:
+def _remove_partial_files(store: Store, outs: list[str]) -> None:
     if isinstance(store, LocalStore):
-        store.sweep(outs)
+        store.remove_partial_files(outs)

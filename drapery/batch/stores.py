@@ -1,4 +1,4 @@
-"""Where outputs go: a folder, or any target that fsspec knows. Every file is written whole."""
+"""Where outputs go: a folder, or any target that fsspec knows. Each file is written whole."""
 
 import contextlib
 import os
@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from drapery.errors import OutputError
 
 WHOLE_AT_ONCE = frozenset({"s3", "s3a", "gs", "gcs", "az", "abfs", "memory"})
-"""Targets where a file appears only when all of it is there."""
+"""Targets where a file appears only when it is complete."""
 
 _PART = re.compile(r"\.(.+)\.\d+\.part")
 
@@ -22,7 +22,7 @@ class Store(Protocol):
 
     @property
     def label(self) -> str:
-        """What the user calls it."""
+        """The name that messages give it."""
 
     def write(self, name: str, data: bytes) -> None:
         """Store a file whole or not at all. Raises OutputError."""
@@ -48,8 +48,8 @@ class LocalStore:
         """Where the file lies."""
         return self.folder / name
 
-    def ready(self, name: str) -> Path:
-        """Where the file shall lie, its folder made. Raises OutputError."""
+    def prepare(self, name: str) -> Path:
+        """The path of a file that is to be written, its folder made. Raises OutputError."""
         path = self.path(name)
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -61,7 +61,7 @@ class LocalStore:
         """See `Store`."""
         from drapery.render.encode.output import replacing
 
-        with replacing(self.ready(name)) as beside:
+        with replacing(self.prepare(name)) as beside:
             beside.write_bytes(data)
 
     def read(self, name: str) -> bytes:
@@ -75,8 +75,8 @@ class LocalStore:
         """See `Store`."""
         return [_size(self.path(name)) for name in names]
 
-    def sweep(self, names: Iterable[str]) -> None:
-        """Remove what killed workers left half-written of these files."""
+    def remove_partial_files(self, names: Iterable[str]) -> None:
+        """Remove what killed workers have left of these files, half-written."""
         ours = {self.path(name) for name in names}
         for folder in {path.parent for path in ours}:
             with contextlib.suppress(OSError), os.scandir(folder) as entries:

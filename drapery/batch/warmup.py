@@ -1,8 +1,8 @@
-"""Kernels compiled once, before the workers that share them are there."""
+"""Kernels are compiled once, before workers start that all need them."""
 
 
 def warm_up(*, stills: bool = True, loops: bool = True) -> None:
-    """Draw tiny pictures of the sorts that will be drawn, so that numba's cache is filled."""
+    """Fill numba's cache: draw tiny pictures of the sorts that will be drawn."""
     from drapery.banner.design import Banner
     from drapery.pictures import animate, draw
 

@@ -1,20 +1,23 @@
-"""A worker process: it takes jobs from its pipe until that ends."""
+"""A worker process: it takes jobs from its pipe until that closes."""
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable
 from contextlib import suppress
 from multiprocessing import parent_process
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+ADDRESS_SPACE, RESIDENT = 0, 1
+"""Columns of /proc/PID/statm."""
 
-def live(pipe: Connection, work: Callable[[Any], Any], memory: int, threads: int) -> None:
-    """Do jobs until the other end hangs up; None says that one wanted too much memory.
 
-    Nobody is left to be on_result when the other end is killed, so the worker ends without a word.
+def run(pipe: Any, work: Callable[[Any], Any], memory: int, threads: int) -> None:
+    """Do jobs until the other end closes; None is sent where one needs too much memory.
+
+    When the parent is killed there is nobody to report to, so the worker ends without a message.
 
     memory: what a job may take beyond what the process has [bytes]. threads: for the kernels.
     """
@@ -26,12 +29,12 @@ def live(pipe: Connection, work: Callable[[Any], Any], memory: int, threads: int
 
     _limit(memory)
     with suppress(EOFError, ConnectionError):
-        pipe.send(_pages(1))
+        pipe.send(memory_of("self", RESIDENT))
         while True:
-            pipe.send(_outcome(work, pipe.recv()))
+            pipe.send(_result(work, pipe.recv()))
 
 
-def _outcome(work: Callable[[Any], Any], job: Any) -> Any:
+def _result(work: Callable[[Any], Any], job: Any) -> Any:
     try:
         return work(job)
     except MemoryError:
@@ -47,21 +50,25 @@ def _die_with_parent() -> None:
 
 def _limit(memory: int) -> None:
     """Refuse allocations beyond the limit, where the system can."""
-    try:
-        import resource
-    except ImportError:
+    if sys.platform == "win32":
         return
+    import resource
+
     # Threads' stacks and mapped libraries are address space that a job does not fill.
-    room = _pages(0) + memory + (1 << 30)
+    limit = memory_of("self", ADDRESS_SPACE) + memory + (1 << 30)
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    if hard == resource.RLIM_INFINITY or room < hard:
-        resource.setrlimit(resource.RLIMIT_AS, (room, hard))
+    if hard == resource.RLIM_INFINITY or limit < hard:
+        # macOS has the call and refuses some limits.
+        with suppress(OSError, ValueError):
+            resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
 
 
-def _pages(column: int) -> int:
-    """Address space (0) or resident memory (1) of this process [bytes]; 0 where unknown."""
+def memory_of(pid: int | str | None, column: int) -> int:
+    """ADDRESS_SPACE or RESIDENT memory of a process [bytes]; 0 where the system does not say."""
+    if sys.platform == "win32":
+        return 0
     try:
-        pages = Path("/proc/self/statm").read_text().split()[column]
+        pages = Path(f"/proc/{pid}/statm").read_text(encoding="ascii").split()[column]
         return int(pages) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, IndexError, ValueError):
         return 0
