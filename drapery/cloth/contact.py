@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.compiled import door, kernel
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
 from drapery.errors import OptionError
+from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 PASSES = 4
@@ -74,7 +74,7 @@ def separate(contact: Contacts, state: State, *, threads: int | None = None) -> 
     return replace(state, positions=positions.astype(dtype), velocities=velocities.astype(dtype))
 
 
-@door
+@entry_point
 def separate_all(
     positions: Array,
     velocities: Array,

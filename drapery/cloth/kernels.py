@@ -13,11 +13,11 @@ import numpy as np
 from numba.extending import overload
 
 from drapery.cloth import exact
-from drapery.cloth.compiled import kernel
 from drapery.cloth.filters import BandFilter
 from drapery.cloth.simd import fill, flushed, larger, load, root, span, store
 from drapery.cloth.spin import NoSpin
 from drapery.cloth.wind import CROSSWIND
+from drapery.jit import kernel
 
 TINY = 1e-6
 """Springs count as at least this share of their rest length, so that coincident ends divide."""

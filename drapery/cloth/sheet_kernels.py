@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from drapery.cloth import kernels
-from drapery.cloth.compiled import kernel
 from drapery.cloth.kernels import STILL, TINY
 from drapery.cloth.simd import fill, flushed, larger, root, span
 from drapery.cloth.simd import load as get
 from drapery.cloth.simd import store as put
 from drapery.cloth.wind import Gusts
+from drapery.jit import kernel
 
 LIMIT, SOLVE = 0, 1
 """Forms of `pull`: a longest length, XPBD's constraint."""

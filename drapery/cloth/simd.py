@@ -16,7 +16,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
 
-from drapery.cloth.compiled import kernel
+from drapery.jit import kernel
 
 BYTES = 64
 """Of a register and of a cache line."""

@@ -2,6 +2,10 @@
 
 import platform
 from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 
 def run() -> None:
@@ -15,8 +19,22 @@ def run() -> None:
     console.print(f"drapery {version('drapery')}, Python {platform.python_version()}")
     for name in ("numpy", "numba", "pillow", "trimesh"):
         console.print(f"  {name} {version(name)}")
+    _say_where_kernels_are(console)
     for backend in backend_report():
         mark = "[green]works[/]" if backend.works else "[yellow]does not work[/]"
         console.print(f"backend {backend.name}: {mark} ({escape(backend.detail)})", soft_wrap=True)
         if backend.remedy:
             console.print(f"  to mend it: {escape(backend.remedy)}", soft_wrap=True)
+
+
+def _say_where_kernels_are(console: "Console") -> None:
+    from rich.markup import escape
+
+    from drapery.jit_cache import REMEDY, kernel_cache_status
+
+    status = kernel_cache_status()
+    if status.folder is not None:
+        line = f"[green]kept[/] in {escape(str(status.folder))}"
+    else:
+        line = f"[yellow]not kept[/] ({escape(status.reason)})\n  to mend it: {escape(REMEDY)}"
+    console.print(f"compiled kernels: {line}", soft_wrap=True)

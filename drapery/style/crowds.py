@@ -7,9 +7,9 @@ and the numbers are the same.
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from drapery.jit import entry_point, kernel
 from drapery.mesh import Array, Mesh
 from drapery.render.workers import run_parts, worker_count
 from drapery.style.extrusion import Shell
@@ -54,12 +54,12 @@ def _faces_around(shell: Shell) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     return starts, order % max(1, len(shell.sheet))
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@kernel
 def _cross(ux: Any, uy: Any, uz: Any, vx: Any, vy: Any, vz: Any) -> Any:
     return uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@entry_point
 def _cover(
     first: Any,
     last: Any,

@@ -8,7 +8,7 @@ for the memory at every triangle.
 
 from typing import Any
 
-from numba import njit
+from drapery.jit import entry_point
 
 TILE_BITS = 6
 TILE = 1 << TILE_BITS
@@ -20,7 +20,7 @@ RECORD = 10
 """Numbers of a record: x, y of three corners, three depths, alpha mode above triangle number."""
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@entry_point
 def sort_into_tiles(
     first: Any,
     last: Any,

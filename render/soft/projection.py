@@ -6,7 +6,8 @@ Corners are snapped to 1/256 pixel, as llvmpipe and most graphics cards do.
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from drapery.jit import entry_point
 
 BEHIND, BEYOND, ASIDE, BROKEN = 1, 2, 4, 8
 """Flags of a vertex: before the near plane, past the far plane, too far aside, not finite."""
@@ -35,7 +36,7 @@ VERTEX = np.dtype(
 what is drawn is gathered from all over."""
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@entry_point
 def project(
     first: Any,
     last: Any,

@@ -15,8 +15,8 @@ Perspective: with edge functions E_i, u = sum(E_i u_i / w_i) / sum(E_i / w_i); t
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from drapery.jit import entry_point, kernel
 from drapery.render.soft.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
 from drapery.render.soft.projection import NEAREST
 
@@ -37,13 +37,8 @@ LIGHT_BITS = 24
 FULL_LIGHT = 1 << LIGHT_BITS
 """Light is multiplied in whole numbers, which is faster than turning colours to floats and back."""
 
-# Called by kernels only: without a door from Python each compiles in half the time.
-_inner = njit(  # type: ignore[call-overload]
-    cache=True, error_model="numpy", nogil=True, no_cpython_wrapper=True, no_cfunc_wrapper=True
-)
 
-
-@_inner
+@kernel
 def _edge(ax: Any, ay: Any, bx: Any, by: Any) -> Any:
     """The edge function from a to b: its steps to the right and down by one sample, and its value
     at the tile's first sample; less one where the edge belongs to the triangle beyond it."""
@@ -54,7 +49,7 @@ def _edge(ax: Any, ay: Any, bx: Any, by: Any) -> Any:
     return right, down, value - (not owned)
 
 
-@_inner
+@kernel
 def _depth_plane(
     ax: Any, ay: Any, za: Any, bx: Any, by: Any, zb: Any, cx: Any, cy: Any, zc: Any, area: Any
 ) -> Any:
@@ -72,7 +67,7 @@ def _depth_plane(
     return za * KEY_SCALE - ax * step_right - ay * step_down, step_right << 8, step_down << 8
 
 
-@_inner
+@kernel
 def _lay_over(top: Any, below: Any) -> Any:
     """Straight-alpha colours, one over the other, in 8 bits as the game blends."""
     a, d = top >> 24, below >> 24
@@ -93,7 +88,7 @@ def _lay_over(top: Any, below: Any) -> Any:
     return ((total + 127) // 255) << 24 | blue << 16 | green << 8 | red
 
 
-@_inner
+@kernel
 def _tinted(texel: Any, red: Any, green: Any, blue: Any) -> Any:
     """round(texel * tint / 255) for each channel; the alpha is kept."""
     r = ((texel & 255) * red + 127) // 255
@@ -102,7 +97,7 @@ def _tinted(texel: Any, red: Any, green: Any, blue: Any) -> Any:
     return (texel & OPAQUE_BITS) | b << 16 | g << 8 | r
 
 
-@_inner
+@kernel
 def _lit(colour: Any, light: Any, tint: Any) -> Any:
     """round(colour * light * tint) for each channel; light and tint in units of 1 / FULL_LIGHT."""
     half = FULL_LIGHT >> 1
@@ -112,7 +107,7 @@ def _lit(colour: Any, light: Any, tint: Any) -> Any:
     return (colour & OPAQUE_BITS) | b << 16 | g << 8 | r
 
 
-@_inner
+@kernel
 def _reach(low: Any, high: Any, count: Any) -> Any:
     """The first and last of `count` texels that a triangle with these bounds of u or v reaches.
 
@@ -123,7 +118,7 @@ def _reach(low: Any, high: Any, count: Any) -> Any:
     return first, last
 
 
-@_inner
+@kernel
 def _cover_tile(
     first: Any,
     last: Any,
@@ -198,7 +193,7 @@ def _cover_tile(
     return edge_left, edge_right, edge_top, edge_bottom
 
 
-@_inner
+@kernel
 def _weights(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     """Edge functions over w of triangle t's corners at a sample, and their steps to the right."""
     a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]
@@ -215,7 +210,7 @@ def _weights(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     )
 
 
-@_inner
+@kernel
 def _uv_at(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     """Texture coordinates of triangle t at one sample."""
     a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]
@@ -224,7 +219,7 @@ def _uv_at(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     return (wa * a.u + wb * b.u + wc * c.u) * w, (wa * a.v + wb * b.v + wc * c.v) * w
 
 
-@_inner
+@kernel
 def _shade_tile(
     layer: Any,
     bounds: Any,
@@ -327,7 +322,7 @@ def _shade_tile(
                 colours[np.uint64(at + k)] = shown[np.uint64(k)]
 
 
-@_inner
+@kernel
 def _resolve(
     colours: Any, x0: Any, y0: Any, width: Any, height: Any, across: Any, grid: Any, picture: Any
 ) -> Any:
@@ -360,7 +355,7 @@ def _resolve(
             picture[start + column] = alpha << 24 | blue << 16 | green << 8 | red
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@entry_point
 def draw_tiles(
     part: Any,
     parts: Any,

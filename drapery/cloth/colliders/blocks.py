@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth.colliders.primitives import cuboid_distance
 from drapery.cloth.colliders.vectors import Vector, norm, subtract, unit
-from drapery.cloth.compiled import kernel
+from drapery.jit import kernel
 
 Grid = NDArray[np.uint8]
 HALF = (0.5, 0.5, 0.5)

@@ -22,10 +22,10 @@ from drapery.cloth.colliders.pose import Path, Pose, still
 from drapery.cloth.colliders.shapes import Shape
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, Frame, Skin, meet
 from drapery.cloth.colliders.vectors import Vector, along, norm, row, scale, subtract
-from drapery.cloth.compiled import door, kernel
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
 from drapery.errors import OptionError
+from drapery.jit import entry_point, kernel
 from drapery.mesh import Array, Triangles
 
 THINNEST = 1e-4
@@ -169,7 +169,7 @@ def frame_between(start: Pose, end: Pose) -> Frame:
     )
 
 
-@door
+@entry_point
 def collide_all(
     first: int,
     last: int,
@@ -218,7 +218,7 @@ def collide_one(
                 now.bounced[particles[corner]] = True
 
 
-@door
+@entry_point
 def shorten_all(
     first: int, last: int, x: Array, links: Attachments, busy: NDArray[np.bool_]
 ) -> None:
@@ -245,7 +245,7 @@ def shorten_one(x: Array, links: Attachments) -> bool:
     return found
 
 
-@door
+@entry_point
 def settle_all(first: int, last: int, now: Moved, solved: Array, speeds: Array, dt: float) -> None:
     """Particles that were moved here and did not bounce are as fast as they are seen to be. Or a
     cloth that its solver pulls into a surface at every step would keep the speed of that pull. No

@@ -15,11 +15,11 @@ from drapery.cloth.colliders.primitives import (
 from drapery.cloth.colliders.shapes import Box, Capsule, Plane, Shape, Sphere, TriangleMesh, Voxels
 from drapery.cloth.colliders.surfaces import pack_surface, surface_distance
 from drapery.cloth.colliders.vectors import Vector, scale, subtract
-from drapery.cloth.compiled import door
 from drapery.errors import OptionError
+from drapery.jit import entry_point
 
 
-@door
+@entry_point
 def distance(field: Field, p: Vector, limit: float) -> tuple[float, Vector]:
     """Signed distance [m] and outward unit direction at p, in the shape's frame.
 

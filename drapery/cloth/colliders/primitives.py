@@ -14,7 +14,7 @@ from drapery.cloth.colliders.vectors import (
     turned_back,
     unit,
 )
-from drapery.cloth.compiled import kernel
+from drapery.jit import kernel
 from drapery.mesh import Array
 
 

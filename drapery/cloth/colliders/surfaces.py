@@ -13,7 +13,7 @@ from drapery.cloth.colliders.bvh import build_tree
 from drapery.cloth.colliders.fields import SURFACE, Field
 from drapery.cloth.colliders.shapes import TriangleMesh
 from drapery.cloth.colliders.vectors import Vector, along, dot, norm, row, scale, subtract
-from drapery.cloth.compiled import kernel
+from drapery.jit import kernel
 from drapery.mesh import Array, Triangles, face_normals
 
 FACE, EDGE_AB, EDGE_BC, EDGE_CA, AT_A, AT_B, AT_C = range(7)

@@ -27,7 +27,7 @@ from drapery.cloth.colliders.vectors import (
     turned,
     turned_back,
 )
-from drapery.cloth.compiled import kernel
+from drapery.jit import kernel
 from drapery.mesh import Array
 
 TOUCH = 1e-9

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drapery.cloth.compiled import kernel
+from drapery.jit import kernel
 from drapery.mesh import Array
 
 Vector = tuple[float, float, float]

@@ -19,7 +19,6 @@ import numpy as np
 from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.attachments import Attachments, limited_links
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.compiled import door
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.filters import (
     BandFilter,
@@ -50,6 +49,7 @@ from drapery.cloth.solvers.driver import (
 )
 from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
 from drapery.errors import OptionError
+from drapery.jit import entry_point
 
 CELLS = 60
 """A step is halved on grids with more cells than this one way, and so on: a gust must not carry a
@@ -121,7 +121,7 @@ def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:
     )
 
 
-@door
+@entry_point
 def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps: int) -> None:
     """Steps of lanes first..last, a block at a time."""
     body, dtype = plan.body, batch.x.dtype
@@ -158,7 +158,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         kernels.give_lanes(batch.new_v, u, start)
 
 
-@door
+@entry_point
 def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, substeps: int) -> None:
     """Steps of cloths first..last, one after another."""
     sheet, dtype = plan.sheet, batch.x.dtype

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from drapery.cloth import kernels, lanes, simd
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.compiled import door, kernel
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
 from drapery.cloth.pins import PinPath
@@ -20,6 +19,7 @@ from drapery.cloth.solvers.base import all_finite, check_state, check_step
 from drapery.cloth.state import State
 from drapery.cloth.wind import Gusts
 from drapery.errors import OptionError
+from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 MAX_SUBSTEPS = 1000
@@ -241,7 +241,7 @@ def check_limit(limit: float) -> None:
         raise OptionError(f"limit {limit!r} is out of range; use 1 or more")
 
 
-@door
+@entry_point
 def blow_all(wind: Any, y: Any, body: Any, batch: Any, start: Any, time: Any, work: Any) -> None:
     """All winds W at the control particles C, into wind [3CW, L]."""
     rows = 3 * body.controls.size
@@ -250,7 +250,7 @@ def blow_all(wind: Any, y: Any, body: Any, batch: Any, start: Any, time: Any, wo
         kernels.blow(out, y, body.controls, batch.gusts, number, start, time, work)
 
 
-@door
+@entry_point
 def add_loads(
     g: Any, y: Any, u: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any, work: Any
 ) -> None:

@@ -21,7 +21,6 @@ import numpy as np
 from drapery.cloth import kernels, simd
 from drapery.cloth.attachments import Attachments, limited_links
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.compiled import door, kernel
 from drapery.cloth.kernels import way
 from drapery.cloth.simd import fill, larger, load, root, span, store
 from drapery.cloth.solvers.base import check_step
@@ -39,6 +38,7 @@ from drapery.cloth.solvers.driver import (
     take_block,
 )
 from drapery.errors import OptionError
+from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 MAX_ITERATIONS = 10_000
@@ -285,7 +285,7 @@ def lead_pins(
             dv[at, lane] = (goal - y[at, lane]) / h - u[at, lane]
 
 
-@door
+@entry_point
 def _advance(
     first: Any,
     last: Any,

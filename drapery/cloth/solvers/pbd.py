@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments, limited_links
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.compiled import door, kernel
 from drapery.cloth.kernels import add, way
 from drapery.cloth.order import outwards, pin_distances, sweep_order
 from drapery.cloth.simd import fill, larger, load, root, smaller, span
@@ -41,6 +40,7 @@ from drapery.cloth.solvers.driver import (
     take_block,
 )
 from drapery.errors import OptionError
+from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 LET_BE = 1.005
@@ -260,7 +260,7 @@ def damp(u: Any, keep: Any) -> None:
             u[row, lane] *= keep
 
 
-@door
+@entry_point
 def _advance(
     first: Any,
     last: Any,

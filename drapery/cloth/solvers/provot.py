@@ -15,7 +15,6 @@ from typing import Any, NamedTuple
 from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import FLEXION, Cloth
-from drapery.cloth.compiled import door
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
@@ -33,6 +32,7 @@ from drapery.cloth.solvers.driver import (
     movable,
     take_block,
 )
+from drapery.jit import entry_point
 
 
 class Plan(NamedTuple):
@@ -74,7 +74,7 @@ def listed_links(cloth: Cloth, limit: float) -> Attachments:
     return Attachments(pairs, cloth.spring_length[chosen] * limit, part_i, part_j)
 
 
-@door
+@entry_point
 def _advance(
     first: Any, last: Any, plan: Any, batch: Any, steps: Any, substeps: Any, sweeps: Any
 ) -> None:

@@ -19,7 +19,6 @@ import numpy as np
 from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.compiled import door, kernel
 from drapery.cloth.kernels import add, way
 from drapery.cloth.simd import fill, larger, root, span
 from drapery.cloth.solvers.base import check_step
@@ -40,6 +39,7 @@ from drapery.cloth.solvers.driver import (
     movable,
     take_block,
 )
+from drapery.jit import entry_point, kernel
 
 
 class Plan(NamedTuple):
@@ -113,7 +113,7 @@ def shorten_together(y: Any, attachments: Any, sums: Any) -> None:
             y[row, lane] += sums[row, lane]
 
 
-@door
+@entry_point
 def _advance(
     first: Any, last: Any, plan: Any, batch: Any, steps: Any, substeps: Any, sweeps: Any
 ) -> None:

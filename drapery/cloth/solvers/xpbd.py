@@ -27,7 +27,6 @@ from numpy.typing import NDArray
 from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.attachments import Attachments, attachments
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.compiled import door, kernel
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.kernels import add, way
 from drapery.cloth.order import across_then_outwards, pin_distances
@@ -47,6 +46,7 @@ from drapery.cloth.simd import fill, larger, load, span, store
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import Body, SolverState, Stepped, body_of, check_count
 from drapery.errors import OptionError
+from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 MAX_SUBSTEPS = 1000
@@ -300,7 +300,7 @@ def add_pushes(u: Any, inv_mass: Any, numbers: Any, push: Any, dt: Any, start: A
             store(u, row, lane, (speed + fall) * slow - fall)
 
 
-@door
+@entry_point
 def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps: int) -> None:
     """Steps of lanes first..last, a block at a time."""
     body, dtype = plan.body, batch.x.dtype
@@ -336,7 +336,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         kernels.give_lanes(batch.new_v, u, start)
 
 
-@door
+@entry_point
 def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, substeps: int) -> None:
     """Steps of cloths first..last, one after another."""
     sheet, dtype = plan.sheet, batch.x.dtype

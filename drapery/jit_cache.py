@@ -1,0 +1,198 @@
+"""Compiled kernels on disk.
+
+numba's own cache looks at the file of a cached function alone, so an edit of a function that it
+calls from another file gives stale results. Here the key holds a hash of every source file of the
+function's top-level package (all of `drapery.cloth`, say): kernels call nothing outside it but
+`drapery.jit`, and a test holds them to that. A damaged file is compiled again. Where no folder can
+be written, kernels are compiled in every process, and a warning says so once.
+"""
+
+import hashlib
+import os
+import pickle
+import stat
+import sys
+import tempfile
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, ClassVar
+
+from numba import config
+from numba.core import caching
+from numba.misc.appdirs import AppDirs
+
+REMEDY = "set NUMBA_CACHE_DIR to a folder that can be written"
+
+_caching: Any = caching
+_config: Any = config
+_AppDirs: Any = AppDirs
+
+
+@dataclass(frozen=True)
+class KernelCacheStatus:
+    """Where compiled kernels are kept. folder: None if nowhere; reason: why not, else empty."""
+
+    folder: Path | None
+    reason: str = ""
+
+
+@cache
+def kernel_cache_status() -> KernelCacheStatus:
+    """The first folder of `cache_folders` that can be written; it is made and tried, once."""
+    reasons = []
+    for folder, private in cache_folders():
+        try:
+            _try_folder(folder, private)
+        except OSError as fault:
+            reasons.append(f"{folder}: {fault.strerror or fault}")
+        else:
+            return KernelCacheStatus(folder)
+    return KernelCacheStatus(None, "; ".join(reasons))
+
+
+def cache_folders() -> Iterator[tuple[Path, bool]]:
+    """Folders for compiled kernels, the best first, and whether nobody else may write there.
+
+    They are in NUMBA_CACHE_DIR if it is set, else beside the sources and in the user's cache
+    folder; the last one is private, among the temporary files.
+    """
+    package = Path(__file__).parent
+    own = f"drapery-{hashlib.sha256(os.fsencode(package)).hexdigest()[:16]}"
+    if _config.CACHE_DIR:
+        yield Path(_config.CACHE_DIR) / own, False
+    else:
+        yield package / "__pycache__" / "kernels", False
+        yield Path(_AppDirs(appname="numba", appauthor=False).user_cache_dir) / own, False
+    user = os.getuid() if hasattr(os, "getuid") else "user"
+    with suppress(OSError):  # there may be no folder for temporary files
+        yield Path(tempfile.gettempdir()) / f"{own}-{user}", True
+
+
+def _try_folder(folder: Path, private: bool) -> None:
+    """Make the folder if it is missing and write a file there. Raises OSError."""
+    if private:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        _check_private(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    tempfile.TemporaryFile(dir=folder).close()
+
+
+def _check_private(folder: Path) -> None:
+    """Raises OSError unless the folder is this user's: loading a cached kernel runs its code."""
+    if not hasattr(os, "getuid"):
+        return  # on Windows each user has a folder of temporary files
+    found = folder.lstat()
+    if not stat.S_ISDIR(found.st_mode) or found.st_uid != os.getuid() or found.st_mode & 0o077:
+        raise PermissionError(f"{folder} is not private to this user")
+
+
+def cache_on_disk(dispatcher: Any) -> Any:
+    """A function that numba will compile, with a cache if there is a folder for one."""
+    if kernel_cache_status().folder is None:
+        _warn_once(f"kernels are compiled in every process ({kernel_cache_status().reason})")
+    elif source_files(dispatcher.py_func):
+        dispatcher._cache = _KernelCache(dispatcher.py_func)
+    return dispatcher
+
+
+@cache
+def _warn_once(message: str) -> None:
+    warnings.warn(f"{message}; {REMEDY}", stacklevel=2)
+
+
+def source_files(function: Callable[..., object]) -> list[Path]:
+    """The sources that a kernel may reach: those of its top-level package, else its own file."""
+    package = ".".join(function.__module__.split(".")[:2])
+    if not package.startswith("drapery."):
+        return [Path(function.__code__.co_filename)]
+    return _sources_of(package)
+
+
+@cache
+def _sources_of(package: str) -> list[Path]:
+    folders = [Path(folder) for folder in getattr(sys.modules[package], "__path__", [])]
+    found = sorted(path for folder in folders for path in folder.rglob("*.py"))
+    return [*found, Path(__file__).with_name("jit.py")] if found else []
+
+
+def source_hash(function: Callable[..., object]) -> str:
+    """A hash of the contents of `source_files`."""
+    return _hash_of(tuple(source_files(function)))
+
+
+@cache
+def _hash_of(files: tuple[Path, ...]) -> str:
+    total = hashlib.sha256()
+    for path in files:
+        total.update(hashlib.sha256(path.read_bytes()).digest())
+    return total.hexdigest()
+
+
+class _Locator(_caching._CacheLocator):  # type: ignore[misc]
+    """Where numba keeps one function, and the stamp that its files must bear."""
+
+    def __init__(self, function: Callable[..., object]) -> None:
+        self._function = function
+        self._py_file = function.__code__.co_filename  # numba's warnings name it
+
+    def get_cache_path(self) -> str:
+        return str(kernel_cache_status().folder)
+
+    def get_source_stamp(self) -> str:
+        return source_hash(self._function)
+
+    def get_disambiguator(self) -> str:
+        return f"{self._function.__module__}-{self._function.__code__.co_firstlineno}"
+
+    @classmethod
+    def from_function(cls, py_func: Any, py_file: str) -> "_Locator":
+        return cls(py_func)
+
+
+class _CacheFormat(_caching.CompileResultCacheImpl):  # type: ignore[misc]
+    _locator_classes: ClassVar[Any] = [_Locator]
+
+
+class _CheckedFiles(_caching.IndexDataCacheFile):  # type: ignore[misc]
+    """numba's files, with a hash before the machine code: loading damaged code ends the process."""
+
+    def _save_data(self, name: str, data: object) -> None:
+        content = self._dump(data)
+        with self._open_for_write(self._data_path(name)) as file:
+            file.write(hashlib.sha256(content).digest() + content)
+
+    def _load_data(self, name: str) -> Any:
+        content = Path(self._data_path(name)).read_bytes()
+        if hashlib.sha256(content[32:]).digest() != content[:32]:
+            raise pickle.UnpicklingError(f"{name} is damaged")
+        return pickle.loads(content[32:])
+
+
+class _KernelCache(_caching.FunctionCache):  # type: ignore[misc]
+    """The cache of one function."""
+
+    _impl_class = _CacheFormat
+
+    def __init__(self, function: Callable[..., object]) -> None:
+        super().__init__(function)
+        self._cache_file = _CheckedFiles(
+            self._cache_path, self._impl.filename_base, source_hash(function)
+        )
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:  # whatever unpickling of damaged bytes raises
+            with suppress(OSError):
+                self.flush()
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        try:
+            super().save_overload(sig, data)
+        except OSError as fault:
+            _warn_once(f"compiled kernels cannot be kept in {self.cache_path} ({fault.strerror})")

@@ -1,0 +1,162 @@
+"""Compiled kernels follow their sources, survive damage, and need no folder to write to."""
+
+import ast
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+from test_import_contract import imports_of, modules
+
+from drapery.jit_cache import source_files
+
+CALLEE = "from drapery.jit import kernel\n\n@kernel\ndef part(x):\n    return x + {number}\n"
+CALLER = """
+from drapery.jit import entry_point
+from drapery.scratch_kernels.parts import part
+
+@entry_point
+def total(x):
+    return 2 * part(x)
+"""
+USE = """
+import sys, warnings
+import drapery
+drapery.__path__.append({root!r})
+from drapery.scratch_kernels.whole import total
+print(total(1.0), dict(total.stats.cache_hits) != {{}})
+"""
+NO_FOLDER = """
+import warnings
+from pathlib import Path
+warnings.simplefilter("always")
+from drapery import jit_cache
+jit_cache._try_folder = lambda folder, private: Path("/dev/null/kernels").mkdir()
+from drapery.jit import entry_point, kernel
+
+@entry_point
+def first(x):
+    return x + 1.0
+
+@entry_point
+def second(x):
+    return x + 2.0
+
+print(first(1.0) + second(1.0), jit_cache.kernel_cache_status().folder)
+"""
+
+
+@pytest.fixture
+def package(tmp_path):
+    """A package of two modules with kernels; a function that runs it in a new process."""
+    folder = tmp_path / "scratch_kernels"
+    folder.mkdir()
+    (folder / "__init__.py").write_text("")
+    (folder / "parts.py").write_text(CALLEE.format(number=1))
+    (folder / "whole.py").write_text(CALLER)
+
+    def run():
+        return run_program(USE.format(root=str(tmp_path)), tmp_path / "cache").stdout.split()
+
+    run.callee, run.cache = folder / "parts.py", tmp_path / "cache"
+    return run
+
+
+def run_program(program, cache):
+    env = os.environ | {"NUMBA_CACHE_DIR": str(cache), "PYTHONDONTWRITEBYTECODE": "1"}
+    command = [sys.executable, "-c", program]
+    return subprocess.run(command, env=env, capture_output=True, text=True, check=True, timeout=120)
+
+
+def test_an_edited_callee_in_another_file_is_compiled_again(package):
+    assert package() == ["4.0", "False"]
+    assert package() == ["4.0", "True"]
+    package.callee.write_text(CALLEE.format(number=5))
+    assert package() == ["12.0", "False"]
+    assert package() == ["12.0", "True"]
+
+
+@pytest.mark.parametrize("kind", ["*.nbi", "*.nbc"])
+@pytest.mark.parametrize("damage", ["empty", "half", "noise"])
+def test_a_damaged_cache_file_is_rebuilt(package, kind, damage):
+    assert package() == ["4.0", "False"]
+    (path,) = package.cache.rglob(kind)
+    content = path.read_bytes()
+    broken = bytearray(content[: {"empty": 0, "half": len(content) // 2}.get(damage)])
+    if damage == "noise":
+        broken[len(broken) // 2] ^= 0xFF
+    path.write_bytes(broken)
+    assert package()[0] == "4.0"
+    assert package() == ["4.0", "True"]
+
+
+def test_without_a_folder_kernels_are_compiled_and_one_warning_says_so(tmp_path):
+    run = run_program(NO_FOLDER, tmp_path)
+    assert run.stdout.split() == ["5.0", "None"]
+    assert run.stderr.count("UserWarning: kernels are compiled in every process") == 1
+    assert "NUMBA_CACHE_DIR" in run.stderr
+
+
+def test_where_nothing_else_can_be_written_kernels_are_kept_among_the_temporary_files():
+    program = "from drapery.jit_cache import *; print(kernel_cache_status().folder)"
+    run = run_program(program, Path("/dev/null/kernels"))
+    assert Path(run.stdout.strip()).parent == Path(tempfile.gettempdir())
+    assert not run.stderr
+
+
+def test_a_shared_folder_of_temporary_files_is_not_trusted(tmp_path, monkeypatch):
+    from drapery import jit_cache
+
+    open_to_all = tmp_path / "kernels"
+    open_to_all.mkdir()
+    open_to_all.chmod(0o777)
+    if hasattr(os, "getuid"):
+        with pytest.raises(PermissionError):
+            jit_cache._try_folder(open_to_all, private=True)
+    jit_cache._try_folder(tmp_path / "own", private=True)
+
+
+def kernel_modules():
+    return {
+        name: path
+        for name, path in modules().items()
+        if "drapery.jit" in imports_of(path) and name != "drapery.jit"
+    }
+
+
+def decorators(function):
+    return {part.id for part in function.decorator_list if isinstance(part, ast.Name)}
+
+
+@pytest.mark.parametrize("name", sorted(kernel_modules()))
+def test_kernels_reach_only_sources_that_are_hashed(name):
+    """A name that a kernel uses comes from its own top-level package, `drapery.jit` or numpy."""
+    package = ".".join(name.split(".")[:2])
+    tree = ast.parse(kernel_modules()[name].read_text())
+    foreign = {
+        alias.asname or alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("drapery")
+        if not f"{node.module}.".startswith(f"{package}.") and node.module != "drapery.jit"
+        for alias in node.names
+    }
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef) and decorators(node) & {"kernel", "entry_point"}:
+            used = {part.id for part in ast.walk(node) if isinstance(part, ast.Name)}
+            annotations = {
+                part.id
+                for argument in [*node.args.args, *node.args.kwonlyargs]
+                if argument.annotation is not None
+                for part in ast.walk(argument.annotation)
+                if isinstance(part, ast.Name)
+            }
+            assert not (used - annotations) & foreign, f"{name}.{node.name}"
+
+
+def test_the_hash_covers_the_whole_package():
+    from drapery.cloth.solvers.xpbd import _advance
+
+    names = {Path(path).name for path in source_files(_advance.py_func)}
+    assert {"xpbd.py", "kernels.py", "simd.py", "wind.py", "sweep.py", "jit.py"} <= names
