@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -370,6 +371,24 @@ def test_implicit_stands_any_stiffness_and_step():
     solver = SolverImplicit(sweeps=0, iterations=2000)
     end = run(cloth, solver, [Gravity(), Wind((0.0, 0.0, 30.0))], 0.1, 50, start_of(cloth))
     assert np.isfinite(end.positions).all() and np.abs(end.positions).max() < 2
+
+
+def test_implicit_warns_once_a_call_that_it_has_not_converged():
+    cloth, dt = grid(5, 5, 1.0, 1.0, fabric=Fabric(0.3, 1e6, 1e5, 1e4)), 0.1
+    solver = SolverImplicit(iterations=2, threads=2)
+    start = rest_state(cloth, 600)
+    message = r"after 2 iterations with a residual of .*; use"
+    with pytest.warns(UserWarning, match=message) as warned:
+        solver.step(cloth, start, solver.init(cloth, dt), [Gravity()], dt, steps=3)
+    assert len(warned) == 1 and warned[0].filename == __file__
+
+
+def test_implicit_does_not_warn_where_it_converges():
+    cloth = grid(5, 9, 0.8, 1.6)
+    forces = [Gravity(), Wind((1.0, 0.0, 5.0))]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run(cloth, SolverImplicit(), forces, 1 / 60, 60, rest_state(cloth))
 
 
 @pytest.mark.parametrize("name", DEFAULT)

@@ -3,7 +3,7 @@
 from drapery.cloth.builders import grid, max_stretch, strip
 from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
 from drapery.cloth.fabric import Fabric
-from drapery.cloth.forces import Drag, Force, Gravity, PushBack
+from drapery.cloth.forces import Drag, Force, Gravity
 from drapery.cloth.meshes import disc, from_mesh, from_triangles
 from drapery.cloth.pins import PinPath, carried
 from drapery.cloth.sewing import Seam, sew
@@ -28,7 +28,6 @@ __all__ = [
     "Force",
     "Gravity",
     "PinPath",
-    "PushBack",
     "Seam",
     "Solver",
     "SolverDesbrun",

@@ -35,6 +35,14 @@ def check_choice(name: str, value: object, known: tuple[str, ...]) -> None:
         raise OptionError(f"{name} {shown(value)} is not known; use one of: {', '.join(known)}")
 
 
+def check_three(name: str, value: object) -> None:
+    """Raises OptionError unless the value is a tuple or list of three."""
+    if not (isinstance(value, tuple | list) and len(value) == 3):
+        raise OptionError(
+            f"{name} {shown(value)} must be three numbers: structural, shear and flexion springs"
+        )
+
+
 def check_flag(name: str, value: object) -> None:
     """Raises OptionError unless the value is True or False."""
     if not isinstance(value, bool | np.bool_):

@@ -10,10 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.cloth.attachments import limited_links
+from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders import Collider, collide, probes
 from drapery.cloth.contact import contacts, separate
-from drapery.cloth.solvers.driver import check_count, check_limit
+from drapery.cloth.solvers.driver import check_limit
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 

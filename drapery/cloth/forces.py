@@ -10,15 +10,16 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from drapery.cloth.checks import check_number, shown, vector3
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.pins import PosePath
+from drapery.cloth.fabric import MAX_DRAG
 from drapery.cloth.state import State
 from drapery.cloth.wind import Gusts, Wind, lower_winds
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
-INSTANT = 1e-3
-"""Half the time over which a carrier's velocity is taken [s]."""
+MAX_GRAVITY = 1e6
+"""The largest component of a uniform acceleration [m/s²]."""
 
 
 @dataclass(frozen=True)
@@ -36,24 +37,6 @@ class Drag:
     """
 
     rate: float = 0.1
-
-
-@dataclass(frozen=True)
-class PushBack:
-    """A push opposite to a carrier's motion, such as capes get from their wearers: -rate · v.
-
-    path: the carrier's pose over time; its translation's velocity v [m/s] counts. rate: [1/s].
-    """
-
-    path: PosePath
-    rate: float = 1.0
-
-    def acceleration(self, cloth: Cloth, state: State) -> Array:
-        """[B, N, 3], the same for every particle. Raises OptionError."""
-        ahead, behind = (self.path(state.time + offset)[1] for offset in (INSTANT, -INSTANT))
-        velocity = (np.asarray(ahead) - np.asarray(behind)) / (2 * INSTANT)
-        push = finite_vector("push back", tuple(-_rate(self.rate) * velocity))
-        return np.broadcast_to(push, state.positions.shape)
 
 
 @runtime_checkable
@@ -86,17 +69,21 @@ def lower_forces(forces: Sequence[Force], cloth: Cloth, count: int) -> Loads:
     drag = cloth.drag
     winds: list[Wind] = []
     custom: list[ForceField] = []
+    if not isinstance(forces, list | tuple):
+        raise OptionError(f"forces {shown(forces)} are not a list; use [Gravity()] or the like")
     for force in forces:
         if isinstance(force, Gravity):
-            gravity += finite_vector("gravity", force.acceleration)
+            gravity += vector3("gravity", force.acceleration, MAX_GRAVITY, "m/s²")
         elif isinstance(force, Drag):
-            drag += _rate(force.rate)
+            drag += check_number("drag rate", force.rate, 0, MAX_DRAG, "1/s")
         elif isinstance(force, Wind):
             winds.append(force)
         elif isinstance(force, ForceField):
             custom.append(force)
         else:
-            raise OptionError(f"force {force!r} has no method acceleration(cloth, state); add one")
+            raise OptionError(
+                f"force {shown(force)} has no method acceleration(cloth, state); add one"
+            )
     return Loads(gravity, drag, lower_winds(winds, count), tuple(custom))
 
 
@@ -106,25 +93,14 @@ def custom_accelerations(loads: Loads, cloth: Cloth, state: State) -> Array:
         return np.zeros((1, 0, 3), state.positions.dtype)
     total = np.zeros_like(state.positions)
     for force in loads.custom:
+        given = force.acceleration(cloth, state)
         try:
-            total += force.acceleration(cloth, state)
-        except ValueError:
-            expected = state.positions.shape
-            raise OptionError(f"force {force!r} must give accelerations {expected}") from None
+            total += np.asarray(given, total.dtype)
+        except (TypeError, ValueError):
+            raise OptionError(
+                f"force {shown(force)} gave {shown(given)}; "
+                f"give accelerations [m/s²] of shape {state.positions.shape}"
+            ) from None
     if not np.isfinite(total).all():
         raise OptionError("a custom force gave NaN or infinity; give finite accelerations [m/s²]")
     return total
-
-
-def finite_vector(name: str, value: tuple[float, float, float]) -> Array:
-    """Three finite numbers as an array. Raises OptionError."""
-    vector = np.asarray(value, float)
-    if vector.shape != (3,) or not np.isfinite(vector).all():
-        raise OptionError(f"{name} {value!r} is not a vector; give three finite numbers")
-    return vector
-
-
-def _rate(rate: float) -> float:
-    if not (np.isfinite(rate) and rate >= 0):
-        raise OptionError(f"drag rate {rate!r} is out of range; use a number from 0 up [1/s]")
-    return float(rate)

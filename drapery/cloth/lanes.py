@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from drapery.cloth.checks import shown
 from drapery.cloth.pins import PinPath
 from drapery.cloth.simd import lanes_of, whole
 from drapery.cloth.state import State
@@ -93,16 +94,12 @@ if hasattr(os, "register_at_fork"):  # a forked child has none of its parent's t
 
 
 def thread_count(wanted: int | None) -> int:
-    """`wanted`, or as many as this process may use. Raises OptionError."""
-    if wanted is None:
-        return (
-            len(os.sched_getaffinity(0))
-            if hasattr(os, "sched_getaffinity")
-            else os.cpu_count() or 1
-        )
-    if wanted < 1:
-        raise OptionError(f"threads {wanted} is too few; use at least 1")
-    return wanted
+    """`wanted`, or as many as this process may use."""
+    if wanted is not None:
+        return wanted
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def cast(plan: Any, dtype: Any) -> Any:
@@ -127,7 +124,11 @@ def pin_targets(path: PinPath | None, state: State, dt: float, steps: int, pinne
     count = len(state.positions)
     targets = []
     for step in range(steps):
-        place = np.asarray(path(state.time + (step + 1) * dt), dtype)
+        place = path(state.time + (step + 1) * dt)
+        try:
+            place = np.asarray(place, dtype)
+        except (TypeError, ValueError):
+            raise OptionError(f"pin path gave {shown(place)}; give positions [m]") from None
         if place.shape not in ((pinned, 3), (count, pinned, 3)):
             raise OptionError(
                 f"pin path gave positions of shape {place.shape}; "

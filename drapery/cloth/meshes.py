@@ -40,8 +40,12 @@ def from_triangles(
     of the rest shape, scaled to 0..1. Otherwise as `grid`. Raises OptionError.
     """
     check_fabric(fabric)
-    rest = np.array(positions, float)
-    faces = np.array(triangles)
+    try:
+        rest, faces = np.array(positions, float), np.array(triangles)
+    except (TypeError, ValueError):
+        raise OptionError(
+            "positions [N, 3] and triangles [T, 3] must be arrays of numbers"
+        ) from None
     _check_triangles(rest, faces)
     areas = np.linalg.norm(face_normals(rest, faces), axis=1) / 2
     masses = np.zeros(len(rest))

@@ -40,7 +40,11 @@ def pinned_particles(
             raise OptionError(f"pins predicate must return {len(rest)} booleans, one a particle")
         chosen: NDArray[np.int64] = np.flatnonzero(mask)
         return chosen
-    return _numbered(np.asarray(pins), len(rest))
+    try:
+        numbers = np.asarray(pins)
+    except ValueError:
+        numbers = np.empty(1)
+    return _numbered(numbers, len(rest))
 
 
 def _numbered(numbers: NDArray[np.integer], count: int) -> NDArray[np.int64]:

@@ -5,9 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import DTypeLike
 
+from drapery.cloth.checks import check_count, shown
 from drapery.cloth.cloth import Cloth
 from drapery.errors import OptionError
 from drapery.mesh import Array
+
+MAX_CLOTHS = 100_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,10 +32,13 @@ def rest_state(cloth: Cloth, count: int = 1, dtype: DTypeLike = np.float32) -> S
 
     Raises OptionError.
     """
-    if count < 1:
-        raise OptionError(f"count {count} is too few; use at least 1 cloth")
-    if np.dtype(dtype) not in (np.float32, np.float64):
-        raise OptionError(f"dtype {np.dtype(dtype)} is not supported; use float32 or float64")
+    check_count("count", count, 1, MAX_CLOTHS)
+    try:
+        known = np.dtype(dtype) in (np.float32, np.float64)
+    except TypeError:
+        known = False
+    if not known:
+        raise OptionError(f"dtype {shown(dtype)} is not supported; use float32 or float64")
     # The batch is the innermost axis in memory, where the kernels want it; see `lanes`.
     lanes = np.empty((*cloth.rest_positions.shape, count), dtype)
     lanes[:] = cloth.rest_positions[..., None]

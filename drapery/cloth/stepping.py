@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from drapery.cloth.checks import shown
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.forces import Force, Gravity
+from drapery.cloth.forces import Force, Gravity, lower_forces
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import Solver, check_state, check_step
 from drapery.cloth.solvers.desbrun import SolverDesbrun
 from drapery.cloth.state import State, rest_state
+from drapery.errors import OptionError
 
 if TYPE_CHECKING:
     from drapery.cloth.collisions import Collisions
@@ -30,19 +32,48 @@ def simulate(
 ) -> Iterator[State]:
     """States of a moving cloth without end: the start, then one after every `every` steps.
 
-    solver: SolverDesbrun() unless given. dt: one step [s]. start: the rest shape unless given,
-    `count` times. pins: a path for the pinned particles. collisions: what the cloth meets after
-    every step. Cut it with `itertools.islice`. Raises OptionError.
+    solver: SolverDesbrun() unless given. forces: gravity alone unless given. dt: one step [s].
+    start: the rest shape unless given, `count` times. pins: a path for the pinned particles.
+    collisions: what the cloth meets after every step. Cut it with `itertools.islice`.
+    The call raises OptionError for wrong arguments; the iterator does where a force or a path
+    gives what cannot be used, or the cloth is torn to infinity.
     """
-    solver = solver or SolverDesbrun()
+    solver = SolverDesbrun() if solver is None else solver
     check_step(dt, every)
-    state = start or rest_state(cloth, count)
+    check_arguments(cloth, solver, pins)
+    state = rest_state(cloth, count) if start is None else start
     check_state(cloth, state)
+    lower_forces(forces, cloth, len(state.positions))
     solver_state = solver.init(cloth, dt)
-    if collisions is not None:
-        yield from _colliding(
-            cloth, solver, forces, dt, state, solver_state, every, pins, collisions
-        )
+    if collisions is None:
+        return _states(cloth, solver, forces, dt, state, solver_state, every, pins)
+    # Imported here: a cloth that meets nothing starts without the colliders' kernels.
+    from drapery.cloth.collisions import collision_stage
+
+    stage = collision_stage(cloth, collisions)
+    return _colliding(cloth, solver, forces, dt, state, solver_state, every, pins, stage)
+
+
+def check_arguments(cloth: Cloth, solver: Solver, pins: PinPath | None) -> None:
+    """Raises OptionError for what is not a cloth, a solver or a path."""
+    if not isinstance(cloth, Cloth):
+        raise OptionError(f"cloth {shown(cloth)} is not a Cloth; use grid, disc or from_mesh")
+    if not (hasattr(solver, "init") and hasattr(solver, "step")) or isinstance(solver, type):
+        raise OptionError(f"solver {shown(solver)} is not a solver; use SolverXPBD() or the like")
+    if pins is not None and not callable(pins):
+        raise OptionError(f"pins {shown(pins)} is not a path; give a function of the time [s]")
+
+
+def _states(
+    cloth: Cloth,
+    solver: Solver,
+    forces: Sequence[Force],
+    dt: float,
+    state: State,
+    solver_state: Any,
+    every: int,
+    pins: PinPath | None,
+) -> Iterator[State]:
     while True:
         yield state
         state, solver_state = solver.step(
@@ -59,13 +90,9 @@ def _colliding(
     solver_state: Any,
     every: int,
     pins: PinPath | None,
-    collisions: Collisions,
+    stage: Callable[[State, State], State],
 ) -> Iterator[State]:
     """The same, step by step, with the collision stage after each."""
-    # Imported here: a cloth that meets nothing starts without the colliders' kernels.
-    from drapery.cloth.collisions import collision_stage
-
-    stage = collision_stage(cloth, collisions)
     while True:
         yield state
         for _ in range(every):

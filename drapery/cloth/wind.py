@@ -12,12 +12,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.checks import check_count, check_number, shown, vector3
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
 CROSSWIND = (1.0, 0.75, 0.5)
 """Rms of gusts along, across and up, over that along: Panofsky, Dutton, "Atmospheric
 Turbulence" (1984), near neutral air over flat ground."""
+MAX_SPEED, MAX_PLACE = 1e6, 1e9
+"""Bounds of a wind's velocity [m/s], and of its origins [m] and phases [s]."""
 UNBOUND_CELLS = 4096.0
 """Gusts of a wind without a period repeat after this many gust sizes."""
 
@@ -28,7 +31,7 @@ class Wind:
 
     Cloth edge-on to the wind feels none; cloth that moves with it feels none either.
 
-    velocity: mean wind [m/s].
+    velocity: mean wind [m/s], each part up to 1e6.
     gusts: turbulence intensity, the rms of the gusts along the wind over its mean speed.
     gust_size: the size of a gust [m]; they travel with the mean wind.
     sine: amplitude of a regular swell over the mean speed; sine_period: its period [s].
@@ -52,26 +55,26 @@ class Wind:
     origins: Array | tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        velocity = np.asarray(self.velocity, float)
-        if velocity.shape != (3,) or not np.isfinite(velocity).all():
-            raise OptionError(f"wind velocity {self.velocity!r} must be three finite numbers [m/s]")
-        for name in ("gusts", "sine", "pressure"):
-            _at_least_zero(name, getattr(self, name))
-        for name in ("gust_size", "sine_period", *(["period"] if self.period is not None else [])):
-            _positive(name, getattr(self, name))
+        vector3("wind velocity", self.velocity, MAX_SPEED, "m/s")
+        check_number("wind gusts", self.gusts, 0, 1e3)
+        check_number("wind gust_size", self.gust_size, 1e-3, 1e6, "m")
+        check_number("wind sine", self.sine, 0, 1e3)
+        check_number("wind sine_period", self.sine_period, 1e-3, 1e9, "s")
+        check_number("wind pressure", self.pressure, 0, 1e6, "N s/m³")
+        check_count("wind seed", self.seed, -(2**63), 2**64 - 1)
+        if self.period is not None:
+            check_number("wind period", self.period, 1e-3, 1e9, "s")
         for name in ("phases", "origins"):
-            if not np.isfinite(getattr(self, name)).all():
-                raise OptionError(f"wind {name} must be finite numbers")
+            _check_finite(f"wind {name}", getattr(self, name))
 
 
-def _at_least_zero(name: str, value: float) -> None:
-    if not (np.isfinite(value) and value >= 0):
-        raise OptionError(f"wind {name} {value!r} is out of range; use a number from 0 up")
-
-
-def _positive(name: str, value: float) -> None:
-    if not (np.isfinite(value) and value > 0):
-        raise OptionError(f"wind {name} {value!r} is out of range; use a number over 0")
+def _check_finite(name: str, values: object) -> None:
+    try:
+        wrong = not (np.abs(np.asarray(values, float)) <= MAX_PLACE).all()
+    except (TypeError, ValueError, OverflowError):
+        wrong = True
+    if wrong:
+        raise OptionError(f"{name} {shown(values)} must be numbers up to {MAX_PLACE:g} in size")
 
 
 class Gusts(NamedTuple):

@@ -5,12 +5,17 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from drapery.cloth.checks import check_count, check_number, shown
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.forces import Force
 from drapery.cloth.pins import PinPath
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array
+
+MIN_DT, MAX_DT = 1e-9, 1e3
+"""Bounds of a step [s]."""
+MAX_STEPS = 10**9
 
 
 class Solver(Protocol):
@@ -42,18 +47,20 @@ class Solver(Protocol):
 
 
 def check_step(dt: float, steps: int) -> None:
-    """Raises OptionError unless dt is a positive number and there is at least one step."""
-    if not (np.isfinite(dt) and dt > 0):
-        raise OptionError(f"dt {dt!r} is out of range; use a number of seconds over 0")
-    if steps < 1:
-        raise OptionError(f"steps {steps} is too few; use at least 1")
+    """Raises OptionError unless dt is from 1e-9 s to 1000 s and there is at least one step."""
+    check_number("dt", dt, MIN_DT, MAX_DT, "s")
+    check_count("steps", steps, 1, MAX_STEPS)
 
 
 def check_state(cloth: Cloth, state: State) -> None:
     """Raises OptionError unless the state is finite and fits the cloth."""
+    if not isinstance(state, State):
+        raise OptionError(f"state {shown(state)} is not a State; use rest_state(cloth)")
     expected = cloth.rest_positions.shape
     for name in ("positions", "velocities"):
         values = getattr(state, name)
+        if getattr(values, "dtype", None) not in (np.float32, np.float64):
+            raise OptionError(f"state {name} must be an array of float32 or float64")
         if values.ndim != 3 or values.shape[1:] != expected:
             raise OptionError(f"state {name} have shape {values.shape}; use [B, {expected[0]}, 3]")
         if not all_finite(values):

@@ -18,6 +18,7 @@ import numpy as np
 
 from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.attachments import Attachments, limited_links
+from drapery.cloth.checks import check_choice
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.filters import (
@@ -44,11 +45,9 @@ from drapery.cloth.solvers.driver import (
     SolverState,
     Stepped,
     body_of,
-    check_count,
-    check_limit,
+    check_common,
 )
 from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
-from drapery.errors import OptionError
 from drapery.jit import entry_point
 
 CELLS = 60
@@ -87,11 +86,8 @@ class SolverDesbrun(Stepped):
     threads: int | None = None
 
     def __post_init__(self) -> None:
-        if self.angular not in ("exact", "paper", "none"):
-            raise OptionError(f"angular {self.angular!r} is not known; use exact, paper or none")
-        check_limit(self.limit)
-        check_count("sweeps", self.sweeps, 0, 1000)
-        check_count("substeps", self.substeps, 1, 1000)
+        check_choice("angular", self.angular, ("exact", "paper", "none"))
+        check_common(self.limit, self.sweeps, self.substeps, self.threads)
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels, lanes, simd
+from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
@@ -22,7 +23,7 @@ from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
-MAX_SUBSTEPS = 1000
+MAX_SUBSTEPS = MAX_SWEEPS = MAX_THREADS = 1000
 REACH = 0.3
 """Radians that the fastest spring may swing in a substep. Symplectic methods are stable up to 2;
 this leaves room for the limit on stretch, which gets a sweep or two a substep."""
@@ -51,6 +52,8 @@ class Batch(NamedTuple):
 
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
     targets: where pins go, substep by substep; push: custom accelerations; width: of a block.
+    residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
+        0 where every solve reached the tolerance, [B].
     """
 
     x: Array
@@ -62,6 +65,7 @@ class Batch(NamedTuple):
     targets: Array
     push: Array
     width: int
+    residuals: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,9 +128,16 @@ class Stepped:
         loads = lower_forces(forces, cloth, len(state.positions))
         at_once = 1 if loads.custom else steps
         threads = lanes.thread_count(self.threads)
+        worst = 0.0
         for _ in range(steps // at_once):
-            state = _advance(cloth, state, solver_state, loads, at_once, pins, threads)
+            state, residual = _advance(cloth, state, solver_state, loads, at_once, pins, threads)
+            worst = max(worst, residual)
+        if worst > 0:
+            self.warn_unsolved(worst)
         return state, solver_state
+
+    def warn_unsolved(self, residual: float) -> None:
+        """For solvers that iterate: say that a residual stayed so many times over the tolerance."""
 
 
 def _advance(
@@ -137,7 +148,7 @@ def _advance(
     steps: int,
     pins: PinPath | None,
     threads: int,
-) -> State:
+) -> tuple[State, float]:
     plan = solver_state.of(state.positions.dtype)
     batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads)
 
@@ -154,7 +165,8 @@ def _advance(
             "use a smaller dt, weaker forces or another solver"
         )
     time = state.time + steps * solver_state.dt
-    return State(lanes.from_lanes(batch.new_x, count), lanes.from_lanes(batch.new_v, count), time)
+    moved = State(lanes.from_lanes(batch.new_x, count), lanes.from_lanes(batch.new_v, count), time)
+    return moved, float(batch.residuals.max(initial=0.0))
 
 
 def batch_of(
@@ -183,6 +195,7 @@ def batch_of(
         lanes.pin_targets(pins, state, h, steps * solver_state.substeps, count),
         lanes.to_lanes(custom_accelerations(loads, cloth, state)),
         lanes.block_width(len(cloth.inv_mass), x, threads),
+        np.zeros(x.shape[1]),
     )
 
 
@@ -222,23 +235,24 @@ def movable(cloth: Cloth) -> NDArray[np.bool_]:
     return np.asarray((cloth.inv_mass[cloth.spring_pairs] > 0).any(axis=1))
 
 
-def check_count(name: str, value: int | None, least: int, most: int) -> None:
-    """Raises OptionError unless value is None or a whole number from least to most."""
-    if value is None or (isinstance(value, int | np.integer) and least <= value <= most):
-        return
-    raise OptionError(f"{name} {value!r} is out of range; use a whole number {least} to {most}")
+def check_common(limit: float, sweeps: int, substeps: int | None, threads: int | None) -> None:
+    """The options that most solvers have. Raises OptionError."""
+    check_limit(limit)
+    check_count("sweeps", sweeps, 0, MAX_SWEEPS)
+    check_stepping(substeps, threads)
 
 
-def check_part(name: str, value: float) -> None:
-    """Raises OptionError unless value is from 0 to 1."""
-    if not 0 <= value <= 1:
-        raise OptionError(f"{name} {value!r} is out of range; use a number from 0 to 1")
+def check_stepping(substeps: int | None, threads: int | None) -> None:
+    """Raises OptionError unless each is None or a whole number in bounds."""
+    if substeps is not None:
+        check_count("substeps", substeps, 1, MAX_SUBSTEPS)
+    if threads is not None:
+        check_count("threads", threads, 1, MAX_THREADS)
 
 
 def check_limit(limit: float) -> None:
     """Raises OptionError unless a spring may be at least as long as it is at rest."""
-    if not 1 <= limit < np.inf:
-        raise OptionError(f"limit {limit!r} is out of range; use 1 or more")
+    check_number("limit", limit, 1, 1e6, "times the rest length")
 
 
 @entry_point

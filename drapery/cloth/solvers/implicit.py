@@ -13,6 +13,7 @@ A compressed spring's Jacobian is indefinite; as in Choi and Ko, "Stable but res
 (SIGGRAPH 2002), the part across the spring is then left out, so the matrix is positive definite.
 """
 
+import warnings
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -20,6 +21,7 @@ import numpy as np
 
 from drapery.cloth import kernels, simd
 from drapery.cloth.attachments import Attachments, limited_links
+from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.kernels import way
 from drapery.cloth.simd import fill, larger, load, root, span, store
@@ -32,12 +34,10 @@ from drapery.cloth.solvers.driver import (
     add_loads,
     blow_all,
     body_of,
-    check_count,
-    check_limit,
+    check_common,
     give_block,
     take_block,
 )
-from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
@@ -74,14 +74,11 @@ class SolverImplicit(Stepped):
     threads: int | None = None
 
     def __post_init__(self) -> None:
-        if not 0 <= self.damping < np.inf:
-            raise OptionError(f"damping {self.damping!r} is out of range; use seconds from 0 up")
-        if not 0 < self.tolerance < 1:
-            raise OptionError(f"tolerance {self.tolerance!r} is out of range; use 1e-12 to 0.1")
+        check_number("damping", self.damping, 0, 1e6, "s")
+        check_number("tolerance", self.tolerance, 1e-12, 0.1)
         check_count("iterations", self.iterations, 1, MAX_ITERATIONS)
-        check_limit(self.limit)
-        check_count("sweeps", self.sweeps, 0, 1000)
         check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
+        check_common(self.limit, self.sweeps, self.substeps, self.threads)
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
@@ -90,6 +87,14 @@ class SolverImplicit(Stepped):
         attachments = limited_links(cloth, self.limit, self.sweeps)
         plan = Plan(body_of(cloth), attachments, mass, np.array([self.damping]))
         return SolverState(plan, dt, self.substeps, _advance, (self.iterations, self.tolerance))
+
+    def warn_unsolved(self, residual: float) -> None:
+        warnings.warn(
+            f"SolverImplicit stopped after {self.iterations} iterations with a residual of "
+            f"{residual * self.tolerance:.2g} (tolerance {self.tolerance:g}); use a smaller dt, "
+            "more substeps, more iterations or softer springs",
+            stacklevel=3,
+        )
 
 
 @kernel
@@ -203,11 +208,14 @@ def solve(
     springs: Any,
     iterations: Any,
     tolerance: Any,
+    residuals: Any,
     room: Any,
 ) -> None:
     """A dv = b by modified preconditioned conjugate gradients (Baraff, Witkin 1998).
 
-    dv: the pins' prescribed changes on entry, 0 elsewhere. r: b on entry, spoilt. room: [4, 3N, L].
+    dv: the pins' prescribed changes on entry, 0 elsewhere. r: b on entry, overwritten.
+    residuals: of lanes that have not converged, the larger of the value and the residual over the
+    tolerance, [L]. room: [4, 3N, L].
     A lane that has converged moves no more, so lanes do not depend on each other.
     """
     F = dv.dtype.type
@@ -250,6 +258,9 @@ def solve(
         for row in range(dv.shape[0]):
             for lane in range(lanes):
                 c[row, lane] = inverse[row, lane] * r[row, lane] + F(old[lane]) * c[row, lane]
+    for lane in range(lanes):
+        if rho[lane] > goal[lane]:
+            residuals[lane] = max(residuals[lane], np.sqrt(rho[lane] / goal[lane]))
 
 
 @kernel
@@ -303,6 +314,7 @@ def _advance(
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = take_block(batch, body, start, last)
         lanes = y.shape[1]
+        residuals = batch.residuals[start : start + lanes]
         b, dv = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
         room = simd.room(4 * rows, lanes, batch.x).reshape((4, rows, lanes))
         blocks = simd.room(5 * springs.rest.size, lanes, batch.x)
@@ -317,7 +329,7 @@ def _advance(
                     b[row, lane] = plan.mass[row // 3] * (g[row, lane] - u[row, lane])
             linearise(blocks, b, y, u, springs, damping, h)
             lead_pins(dv, y, u, body.pins, batch.targets, step, start, h)
-            solve(dv, b, plan.mass, blocks, springs, iterations, tolerance, room)
+            solve(dv, b, plan.mass, blocks, springs, iterations, tolerance, residuals, room)
             if body.pins.size == 0:
                 keep_momentum(dv, b, plan.mass)
             for row in range(rows):

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments, limited_links
+from drapery.cloth.checks import check_choice, check_count, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.kernels import add, way
 from drapery.cloth.order import outwards, pin_distances, sweep_order
@@ -32,14 +33,11 @@ from drapery.cloth.solvers.driver import (
     add_loads,
     blow_all,
     body_of,
-    check_count,
-    check_limit,
-    check_part,
+    check_common,
     give_block,
     movable,
     take_block,
 )
-from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
@@ -97,17 +95,14 @@ class SolverPBD(Stepped):
     def __post_init__(self) -> None:
         check_count("passes", self.passes, 0, 1000)
         check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
-        _check_name("constraint", self.constraint, ("equal", "at-most"))
-        _check_name("order", self.order, ("pins", "given"))
-        _check_name("shares", self.shares, ("mass", "half"))
-        if len(self.stiffness) != 3:
-            raise OptionError(f"stiffness {self.stiffness!r}: give three numbers from 0 to 1")
+        check_choice("constraint", self.constraint, ("equal", "at-most"))
+        check_choice("order", self.order, ("pins", "given"))
+        check_choice("shares", self.shares, ("mass", "half"))
+        check_three("stiffness", self.stiffness)
         for part in self.stiffness:
-            check_part("stiffness", part)
-        check_limit(self.limit)
-        check_count("sweeps", self.sweeps, 0, 1000)
-        if not 0 <= self.damping < np.inf:
-            raise OptionError(f"damping {self.damping!r} is out of range; use a number from 0 up")
+            check_number("stiffness", part, 0, 1)
+        check_common(self.limit, self.sweeps, self.substeps, self.threads)
+        check_number("damping", self.damping, 0, 1e6, "1/s")
 
     @classmethod
     def plain(cls, passes: int = 6) -> "SolverPBD":
@@ -182,11 +177,6 @@ def mass_shares(cloth: Cloth, pairs: NDArray[np.integer]) -> Array:
     inv_mass = cloth.inv_mass[pairs]
     shares: Array = inv_mass / inv_mass.sum(axis=1, keepdims=True)
     return shares
-
-
-def _check_name(option: str, value: str, known: tuple[str, ...]) -> None:
-    if value not in known:
-        raise OptionError(f"{option} {value!r} is not known; use one of: {', '.join(known)}")
 
 
 @kernel

@@ -17,14 +17,12 @@ from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import FLEXION, Cloth
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
-    MAX_SUBSTEPS,
     Body,
     SolverState,
     Stepped,
     blow_all,
     body_of,
-    check_count,
-    check_limit,
+    check_common,
     chosen_substeps,
     give_block,
     half_shares,
@@ -55,9 +53,7 @@ class SolverProvot(Stepped):
     threads: int | None = None
 
     def __post_init__(self) -> None:
-        check_limit(self.limit)
-        check_count("sweeps", self.sweeps, 0, 1000)
-        check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
+        check_common(self.limit, self.sweeps, self.substeps, self.threads)
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)

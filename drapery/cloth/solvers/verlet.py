@@ -18,20 +18,18 @@ import numpy as np
 
 from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments
+from drapery.cloth.checks import check_number
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.kernels import add, way
 from drapery.cloth.simd import fill, larger, root, span
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
-    MAX_SUBSTEPS,
     Body,
     SolverState,
     Stepped,
     blow_all,
     body_of,
-    check_count,
-    check_limit,
-    check_part,
+    check_common,
     chosen_substeps,
     give_block,
     half_shares,
@@ -67,10 +65,8 @@ class SolverVerlet(Stepped):
     threads: int | None = None
 
     def __post_init__(self) -> None:
-        check_limit(self.limit)
-        check_count("sweeps", self.sweeps, 0, 1000)
-        check_part("relaxation", self.relaxation)
-        check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
+        check_common(self.limit, self.sweeps, self.substeps, self.threads)
+        check_number("relaxation", self.relaxation, 0, 1)
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.attachments import Attachments, attachments
+from drapery.cloth.checks import check_flag, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.kernels import add, way
@@ -44,12 +45,17 @@ from drapery.cloth.sheets import (
 )
 from drapery.cloth.simd import fill, larger, load, span, store
 from drapery.cloth.solvers.base import check_step
-from drapery.cloth.solvers.driver import Body, SolverState, Stepped, body_of, check_count
-from drapery.errors import OptionError
+from drapery.cloth.solvers.driver import (
+    MAX_SUBSTEPS,
+    Body,
+    SolverState,
+    Stepped,
+    body_of,
+    check_stepping,
+)
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
-MAX_SUBSTEPS = 1000
 SLACK = 1.02
 """Attachments reach this much farther than the cloth at rest, so they catch only what is over."""
 NEAR = 2
@@ -113,10 +119,12 @@ class SolverXPBD(Stepped):
     threads: int | None = None
 
     def __post_init__(self) -> None:
-        check_count("substeps", self.substeps, 1, MAX_SUBSTEPS)
+        check_stepping(self.substeps, self.threads)
+        check_three("compliance", self.compliance)
         for value in self.compliance:
-            if value is not None and not 0 <= value < np.inf:
-                raise OptionError(f"compliance {value!r} is out of range; use 0 or more [m/N]")
+            if value is not None:
+                check_number("compliance", value, 0, 1e12, "m/N")
+        check_flag("attach", self.attach)
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
