@@ -3,8 +3,8 @@
 import sys
 from pathlib import Path
 
-from drapery.compare.comparison import build_up_sheet, compare_variants
-from drapery.compare.variants import draw_variants
+from drapery.comparison.pairs import build_up_sheet, compare_variants
+from drapery.comparison.variants import draw_variants
 from drapery.settings import Settings
 
 

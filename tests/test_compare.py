@@ -11,8 +11,8 @@ from PIL import Image
 from drapery import Banner
 from drapery.banner.loom import fits_loom, simplified, steps
 from drapery.banner.packs import open_packs
-from drapery.compare.metrics import measure
-from drapery.compare.panels import difference_panel
+from drapery.comparison.metrics import measure
+from drapery.comparison.panels import difference_panel
 from drapery.errors import OptionError
 from drapery.render.contact import enlarge, on_checker, stack, strip
 from drapery.render.frame import Frame

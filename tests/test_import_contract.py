@@ -31,22 +31,31 @@ LAW: dict[str, set[str]] = {
     "drapery.style": {"errors", "jit", "mesh", "settings", "banner", "render"},
     "drapery.scenes": {"errors", "mesh", "settings", "cloth", "banner", "style", "render"},
     "drapery.pictures": {"errors", "mesh", "settings", "banner", "render", "scenes"},
-    "drapery.compare": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
-    "drapery.sheets": {"errors", "settings", "banner", "render", "pictures", "compare"},
+    "drapery.comparison": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
+    "drapery.sheets": {"errors", "settings", "banner", "render", "pictures", "comparison"},
     "drapery.beet": {"errors", "settings", "banner", "testing"},
     "drapery.testing": {
-        *("errors", "options", "settings", "yaml_text", "banner", "render", "pictures", "compare"),
+        *(
+            "errors",
+            "options",
+            "settings",
+            "yaml_text",
+            "banner",
+            "render",
+            "pictures",
+            "comparison",
+        ),
     },
     "drapery.batch": {
         *("errors", "options", "settings", "yaml_text"),
-        *("banner", "style", "render", "pictures", "compare"),
+        *("banner", "style", "render", "pictures", "comparison"),
     },
     "drapery.serve": {
         *("errors", "options", "settings", "banner", "style", "render", "pictures", "batch"),
     },
     "drapery.studio": {
         *("errors", "mesh", "settings", "cloth", "banner", "render", "style", "scenes"),
-        *("options", "pictures", "compare", "sheets"),
+        *("options", "pictures", "comparison", "sheets"),
     },
 }
 NOT_INSTALLED = ROOT / "assets" / "drawing"

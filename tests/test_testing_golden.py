@@ -8,7 +8,7 @@ from PIL import Image
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
-from drapery.compare.metrics import measure
+from drapery.comparison.metrics import measure
 from drapery.errors import OptionError
 from drapery.render.frame import Frame
 from drapery.testing.explain import explain_change, layer_notes

@@ -120,7 +120,7 @@ def _thumbnail(data: bytes) -> str:
     """The first frame, no larger than SIDE, as a `data:` address."""
     from PIL import Image
 
-    from drapery.compare.report import data_of
+    from drapery.comparison.report import data_of
 
     with Image.open(io.BytesIO(data)) as image:
         small = image.convert("RGBA")

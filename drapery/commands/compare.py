@@ -10,8 +10,8 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice
 
 if TYPE_CHECKING:
-    from drapery.compare.comparison import Pair
-    from drapery.compare.variants import Variant
+    from drapery.comparison.pairs import Pair
+    from drapery.comparison.variants import Variant
     from drapery.render.frame import Frame
 
 ENDINGS = (".png", ".gif", ".html", ".json")
@@ -53,8 +53,8 @@ def run(
     **words: Any,
 ) -> None:
     """Hold pictures against the first; exit code 0 same, 1 different, 2 bad input."""
-    from drapery.compare.comparison import compare_variants
-    from drapery.compare.variants import draw_variants
+    from drapery.comparison.pairs import compare_variants
+    from drapery.comparison.variants import draw_variants
     from drapery.option import within
     from drapery.settings import Settings
 
@@ -80,14 +80,14 @@ def run(
 
 
 def _cost(variant: "Variant") -> dict[str, float]:
-    from drapery.compare.cost import cost_of
+    from drapery.comparison.cost import cost_of
 
     measured = cost_of(variant)
     return {"quads": measured.quads, "ms_per_frame": measured.milliseconds}
 
 
 def _close(pair: "Pair", tolerance: int, pixels: int) -> bool:
-    from drapery.compare.metrics import measure
+    from drapery.comparison.metrics import measure
 
     frames = pair.first.frame.pixels, pair.other.frame.pixels
     return measure(*frames, slack=tolerance).changed <= pixels
@@ -104,8 +104,8 @@ def _check_target(target: Path) -> None:
 
 
 def _write(target: Path, pairs: "list[Pair]", costs: dict[str, dict[str, float]]) -> None:
-    from drapery.compare.comparison import pair_entry, pair_sheet
-    from drapery.compare.report import html_report, write_text
+    from drapery.comparison.pairs import pair_entry, pair_sheet
+    from drapery.comparison.report import html_report, write_text
     from drapery.render.contact import stack
     from drapery.render.frame import Animation
 

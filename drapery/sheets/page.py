@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from drapery.compare.report import data_address
+from drapery.comparison.report import data_address
 from drapery.render.frame import Frame, Pixels
 
 _PAGE = """<!doctype html>

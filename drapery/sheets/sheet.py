@@ -41,7 +41,7 @@ class Sheet:
         """Write it as .png, or as .html that needs no other file. Raises OutputError."""
         target = Path(path)
         if target.suffix.lower() == ".html":
-            from drapery.compare.report import write_text
+            from drapery.comparison.report import write_text
             from drapery.sheets.page import html_page
 
             cells = self._pictures()

@@ -10,7 +10,7 @@ from PIL import Image
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import FRONT, flag_layers
-from drapery.compare.metrics import measure
+from drapery.comparison.metrics import measure
 from drapery.render.encode.png import png_bytes
 from drapery.render.frame import Frame, Pixels
 

@@ -9,8 +9,8 @@ import json
 import re
 from pathlib import Path
 
-from drapery.compare.panels import side_by_side
-from drapery.compare.report import Entry, data_of, html_report, write_text
+from drapery.comparison.panels import side_by_side
+from drapery.comparison.report import Entry, data_of, html_report, write_text
 from drapery.errors import OutputError
 from drapery.render.encode.output import make_folder
 from drapery.render.frame import Frame

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drapery.compare.metrics import errors
+from drapery.comparison.metrics import errors
 from drapery.render.contact import enlarge, on_checker, strip
 from drapery.render.frame import Frame, Pixels
 

@@ -5,7 +5,7 @@ from statistics import median
 from time import perf_counter
 
 from drapery.banner.packs import open_packs
-from drapery.compare.variants import Variant
+from drapery.comparison.variants import Variant
 from drapery.errors import OptionError
 from drapery.render.backends import backend
 from drapery.render.scene import Scene

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from drapery.compare.metrics import Difference, measure
-from drapery.compare.panels import side_by_side
-from drapery.compare.report import Entry, data_address
-from drapery.compare.variants import Variant
+from drapery.comparison.metrics import Difference, measure
+from drapery.comparison.panels import side_by_side
+from drapery.comparison.report import Entry, data_address
+from drapery.comparison.variants import Variant
 from drapery.errors import OptionError
 from drapery.render.contact import strip
 from drapery.render.frame import Frame
