@@ -1,31 +1,97 @@
-"""Minecraft banners as pictures of real cloth."""
+"""Minecraft banners as pictures of real cloth.
 
+    from drapery import Banner, draw
+
+    draw(Banner.parse("white creeper:lime border:black"), view="hero").save("banner.png")
+
+`drapery.cloth` simulates cloth, `drapery.render` draws meshes, `drapery.style` gives a simulated
+cloth its thickness and textures, `drapery.packs` opens resource packs and makes them in memory,
+`drapery.testing` checks pictures against golden ones. Names are loaded when they are first used.
+"""
+
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
-
-from drapery.errors import DraperyError
 
 if TYPE_CHECKING:
     from drapery.banner.design import Banner, Layer
+    from drapery.banner.formats import FoundBanner, parse_banners, read_designs
+    from drapery.banner.packs import Packs
     from drapery.cloth import simulate
-    from drapery.pictures import animate, draw
+    from drapery.comparison.pairs import Comparison, compare
+    from drapery.errors import (
+        BackendError,
+        DesignError,
+        DraperyError,
+        OptionError,
+        OutputError,
+        PackError,
+    )
+    from drapery.pictures import animate, draw, draw_face, iter_frames, save_model
+    from drapery.render.frame import Animation, Frame
+    from drapery.settings import Settings
     from drapery.style.extrusion import extrude
 
-__all__ = ["Banner", "DraperyError", "Layer", "animate", "draw", "extrude", "simulate"]
+    __version__: str
 
-_HOMES = {
-    "Banner": "drapery.banner.design",
-    "Layer": "drapery.banner.design",
-    "animate": "drapery.pictures",
-    "draw": "drapery.pictures",
-    "extrude": "drapery.style.extrusion",
-    "simulate": "drapery.cloth",
+__all__ = [
+    "Animation",
+    "BackendError",
+    "Banner",
+    "Comparison",
+    "DesignError",
+    "DraperyError",
+    "FoundBanner",
+    "Frame",
+    "Layer",
+    "OptionError",
+    "OutputError",
+    "PackError",
+    "Packs",
+    "Settings",
+    "__version__",
+    "animate",
+    "compare",
+    "draw",
+    "draw_face",
+    "extrude",
+    "iter_frames",
+    "parse_banners",
+    "read_designs",
+    "save_model",
+    "simulate",
+]
+
+_NAMES = {
+    "drapery.banner.design": ("Banner", "Layer"),
+    "drapery.banner.formats": ("FoundBanner", "parse_banners", "read_designs"),
+    "drapery.banner.packs": ("Packs",),
+    "drapery.cloth": ("simulate",),
+    "drapery.comparison.pairs": ("Comparison", "compare"),
+    "drapery.errors": (
+        *("BackendError", "DesignError", "DraperyError"),
+        *("OptionError", "OutputError", "PackError"),
+    ),
+    "drapery.pictures": ("animate", "draw", "draw_face", "iter_frames", "save_model"),
+    "drapery.render.frame": ("Animation", "Frame"),
+    "drapery.settings": ("Settings",),
+    "drapery.style.extrusion": ("extrude",),
 }
+_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    # A name is fetched when it is first used, so that `drapery --help` does not wait for numba.
-    if name not in _HOMES:
-        raise AttributeError(f"module 'drapery' has no attribute {name!r}")
-    from importlib import import_module
+    # `drapery --help` must not wait for numba.
+    if name == "__version__":
+        from importlib.metadata import version
 
-    return getattr(import_module(_HOMES[name]), name)
+        value: Any = version("drapery")
+    elif name in _MODULE_OF:
+        value = getattr(import_module(_MODULE_OF[name]), name)
+    else:
+        raise AttributeError(f"module 'drapery' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -1,131 +1,122 @@
-"""The door: a banner becomes a frame or an animation."""
+"""A banner becomes a picture, an animation, its plain face or a 3-D file."""
 
 import warnings
-from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from typing import Any, Literal, Unpack
 
 import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
-from drapery.errors import DesignError
+from drapery.errors import DesignError, OptionError
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
-from drapery.settings import OPTIONS as TABLE
-from drapery.settings import ROTATIONS, Options, Settings, check_format
+from drapery.settings import Options, Settings, check_format
 from drapery.settings import frame_count as frame_count
 
-if TYPE_CHECKING:
-    from drapery.scenes.catalogue import Entry, Shot
 
-
-def draw(banner: Banner | None = None, **options: Unpack[Options]) -> Frame:
-    """Draw a banner as cloth; the options are those of `Settings`.
+def draw(
+    banner: Banner | None = None, settings: Settings | None = None, **options: Unpack[Options]
+) -> Frame:
+    """Draw a banner as cloth.
 
     banner: also a shield; None for a cape or elytra, whose texture is an option.
-    Raises DesignError for what is no banner, OptionError, PackError or BackendError.
+    settings, options: options of the picture, see `Settings`; those by name come first.
+    Raises DesignError if `banner` is not a Banner, OptionError, PackError or BackendError.
     """
-    return draw_with(_design(banner), Settings(**options))
-
-
-def draw_with(banner: Banner | None, settings: Settings) -> Frame:
-    """`draw` with options that have been checked before."""
     from drapery.scenes.stager import still
 
-    packs = open_packs(settings.packs, format=settings.format)
-    (frame,) = _drawn([still(banner, packs, settings)], packs, settings)
+    design, chosen = _checked(banner, settings, options)
+    packs = open_packs(chosen.packs, format=chosen.format)
+    (frame,) = draw_scenes([still(design, packs, chosen)], packs, chosen)
     return frame
-
-
-def draw_rotations(banner: Banner | None, settings: Settings) -> list[Frame]:
-    """All sixteen rotations, as one camera sees them.
-
-    Raises OptionError, PackError or BackendError.
-    """
-    from drapery.render.views import frame_view
-    from drapery.scenes.stager import still
-
-    packs = open_packs(settings.packs, format=settings.format)
-    turned = [replace(settings, rotation=rotation) for rotation in range(ROTATIONS)]
-    scenes = [still(banner, packs, each) for each in turned]
-    meshes = [model.mesh for scene in scenes for model in scene.models]
-    points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])
-    camera = frame_view(settings.view, points, settings.size[0] / settings.size[1])
-    return list(_drawn([replace(scene, camera=camera) for scene in scenes], packs, settings))
 
 
 def animate(
     banner: Banner | None = None,
+    settings: Settings | None = None,
     *,
     seconds: float = 4.0,
     fps: float = 20.0,
     **options: Unpack[Options],
 ) -> Animation:
-    """Draw a banner waving, as a seamless loop; the options are those of `Settings`.
+    """Draw a banner waving in the wind, as a seamless loop.
 
-    banner: see `draw`. What does not wave is shown from all around.
+    banner, settings, options: see `draw`. What does not wave is shown from all around.
     seconds, fps: length of the loop [s] and its frames per second.
-    Raises DesignError for what is no banner, OptionError, PackError or BackendError.
+    Raises DesignError if `banner` is not a Banner, OptionError, PackError or BackendError.
     """
-    return Animation(tuple(frames(_design(banner), seconds, fps, Settings(**options))), fps)
+    frames = iter_frames(banner, settings, seconds=seconds, fps=fps, **options)
+    return Animation(tuple(frames), fps)
 
 
-def frames(
-    banner: Banner | None, seconds: float, fps: float, settings: Settings
+def iter_frames(
+    banner: Banner | None = None,
+    settings: Settings | None = None,
+    *,
+    seconds: float = 4.0,
+    fps: float = 20.0,
+    **options: Unpack[Options],
 ) -> Iterator[Frame]:
-    """The frames of `animate`, one by one as they are drawn; see `frame_count`."""
-    from drapery.scenes.stager import loop
+    """The frames of `animate`, each drawn when it is asked for.
 
-    packs = open_packs(settings.packs, format=settings.format)
-    count = frame_count(seconds, fps)
-    return _drawn(loop(banner, packs, settings, count, fps), packs, settings)
-
-
-def _design(given: object) -> Banner | None:
-    if given is None or isinstance(given, Banner):
-        return given
-    raise DesignError(f"{str(given)[:40]!r} is no Banner; read a text with Banner.parse(text)")
-
-
-def scene_frames(
-    scene: "Entry", parameters: Any, shot: "Shot", backend: str = "auto", *, last: bool = False
-) -> Iterator[Frame]:
-    """The frames of a ready-made scene, or only its last, drawn one by one.
-
-    Raises OptionError or BackendError.
+    All arguments are checked, and all packs opened, before this returns.
+    Raises what `animate` raises.
     """
-    from drapery.render.backends import backend as backend_named
-    from drapery.scenes.panels import drawn
+    design, chosen = _checked(banner, settings, options)
+    packs = open_packs(chosen.packs, format=chosen.format)
+    return draw_scenes(_loop(design, packs, chosen, seconds, fps), packs, chosen)
 
-    TABLE["size"].check(shot.size)
-    draw_scene = backend_named(backend)
-    pictures = scene.play(parameters, shot)
-    if last:
-        pictures = iter([*deque(pictures, maxlen=1)])
-    return (drawn(picture, draw_scene) for picture in pictures)
+
+def save_model(
+    banner: Banner | None,
+    path: str | Path,
+    settings: Settings | None = None,
+    *,
+    seconds: float = 4.0,
+    fps: float = 20.0,
+    **options: Unpack[Options],
+) -> None:
+    """Write a banner as a 3-D file: .glb (waves), or one pose as .obj, .ply, .bbmodel, .geo.json.
+
+    banner, settings, options: see `draw`.
+    seconds: length of the loop [s]; 0 for one pose. fps: its frames per second.
+    Raises DesignError if `banner` is not a Banner, OptionError, PackError or OutputError.
+    """
+    from drapery.render.export import check_model_target
+    from drapery.render.export import save_model as save_scenes
+    from drapery.scenes.stager import still
+
+    design, chosen = _checked(banner, settings, options)
+    moves = check_model_target(path) == ".glb" and seconds != 0
+    packs = open_packs(chosen.packs, format=chosen.format)
+    if moves:
+        save_scenes(_loop(design, packs, chosen, seconds, fps), path, fps=fps)
+    else:
+        save_scenes(still(design, packs, chosen), path)
+    _warn_of(packs)
 
 
 def draw_face(
     banner: Banner,
     *,
-    packs: Sequence[str | Path] = (),
+    packs: Sequence[str | Path] | Packs = (),
     format: int | None = None,
     scale: int = 8,
     side: Literal["front", "back"] = "front",
 ) -> Frame:
     """The plain face of a banner, 20 x 40 texels, each `scale` pixels wide in a 64 x 64 pack.
 
-    format: the pack format of the game to be, as in `Settings`.
+    packs, format: as in `Settings`.
     Raises OptionError or PackError.
     """
     check_format(format)
     opened = open_packs(packs, format=format)
     pixels = face_pixels(banner, opened, scale, side)
-    tell(opened)
+    _warn_of(opened)
     return Frame(pixels)
 
 
@@ -145,26 +136,46 @@ def face_pixels(
     return np.ascontiguousarray(texels[down][:, across])
 
 
-def _drawn(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterator[Frame]:
+def draw_scenes(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterator[Frame]:
+    """Draw scenes one by one by the settings' backend and size of pixels.
+
+    It warns of what the packs lack after the first. Raises BackendError.
+    """
     from drapery.render.backends import backend
 
-    draw_scene = backend(settings.backend)
+    return _drawn(scenes, packs, settings, backend(settings.backend))
+
+
+def _drawn(
+    scenes: Iterable[Scene], packs: Packs, settings: Settings, draw_scene: Any
+) -> Iterator[Frame]:
     for number, scene in enumerate(scenes):
         frame = draw_scene(scene)
         yield frame if settings.pixel == 1 else enlarge(frame, settings.pixel)
         if number == 0:
-            tell(packs)
+            _warn_of(packs)
 
 
-def tell(packs: Packs) -> None:
-    """Warn of what a pack lacks, once it has been asked for."""
+def _loop(
+    design: Banner | None, packs: Packs, settings: Settings, seconds: float, fps: float
+) -> Iterator[Scene]:
+    from drapery.scenes.stager import loop
+
+    return loop(design, packs, settings, frame_count(seconds, fps), fps)
+
+
+def _checked(banner: object, settings: object, options: Options) -> tuple[Banner | None, Settings]:
+    if not (banner is None or isinstance(banner, Banner)):
+        raise DesignError(
+            f"{str(banner)[:40]!r} is not a Banner; read a text with Banner.parse(text)"
+        )
+    if settings is None:
+        return banner, Settings(**options)
+    if not isinstance(settings, Settings):
+        raise OptionError(f"settings {str(settings)[:40]!r} are not Settings; give options by name")
+    return banner, replace(settings, **options) if options else settings
+
+
+def _warn_of(packs: Packs) -> None:
     for line in packs.warnings():
         warnings.warn(line, UserWarning, stacklevel=4)
-
-
-def draw_exploded(banner: Banner, packs: Packs, settings: Settings) -> Frame:
-    """The banner's layers drawn apart along the normal. Raises PackError or BackendError."""
-    from drapery.scenes.exploded import apart
-
-    (frame,) = _drawn([apart(banner, packs, settings)], packs, settings)
-    return frame

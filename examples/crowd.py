@@ -3,8 +3,8 @@
 import sys
 from pathlib import Path
 
-from drapery.pictures import scene_frames
 from drapery.scenes.catalogue import Shot, find
+from drapery.scenes.drawing import scene_frames
 
 
 def main(folder: Path, side: int = 17) -> None:

@@ -7,9 +7,9 @@ import numpy as np
 from drapery.cloth import Cloth, State
 from drapery.cloth.colliders import Collider, probes
 from drapery.cloth.colliders.packing import distance
-from drapery.pictures import scene_frames
 from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Shot, find
+from drapery.scenes.drawing import scene_frames
 
 
 def still(name: str, frames: int = 1, fps: float = 20.0, **words: str) -> Frame:

@@ -32,7 +32,9 @@ LAW: dict[str, set[str]] = {
     "drapery.scenes": {"errors", "mesh", "settings", "cloth", "banner", "style", "render"},
     "drapery.pictures": {"errors", "mesh", "settings", "banner", "render", "scenes"},
     "drapery.comparison": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
-    "drapery.sheets": {"errors", "settings", "banner", "render", "pictures", "comparison"},
+    "drapery.sheets": {
+        *("errors", "settings", "banner", "render", "pictures", "comparison", "scenes"),
+    },
     "drapery.beet": {"errors", "settings", "banner", "testing"},
     "drapery.testing": {
         *(

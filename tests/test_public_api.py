@@ -3,12 +3,12 @@
 from public_api import ROOT, announced, changed, load, public_objects, read_record, signatures
 
 
-
-
 def test_every_change_of_a_public_signature_is_in_the_changelog() -> None:
     names = announced((ROOT / "CHANGELOG.md").read_text(encoding="utf-8"))
     silent = [
-        name for name in changed(read_record(), signatures()) if not names & set(name.split(".")[1:])
+        name
+        for name in changed(read_record(), signatures())
+        if not names & set(name.split(".")[1:])
     ]
     assert not silent, f"write in CHANGELOG.md, in backquotes, what changed of: {', '.join(silent)}"
 

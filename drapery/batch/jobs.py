@@ -138,11 +138,12 @@ def _draw_and_store(job: Job, store: Store) -> tuple[int, tuple[str, ...]]:
 
 
 def _save(job: Job, path: Path) -> None:
-    from drapery.pictures import draw_with, frame_count, frames
+    from drapery.pictures import draw, iter_frames
     from drapery.render.encode import save_animation
+    from drapery.settings import frame_count
 
     if job.seconds is None or job.fps is None:
-        draw_with(job.banner, job.settings).save(path)
+        draw(job.banner, job.settings).save(path)
         return
-    drawn = frames(job.banner, job.seconds, job.fps, job.settings)
+    drawn = iter_frames(job.banner, job.settings, seconds=job.seconds, fps=job.fps)
     save_animation(drawn, job.fps, path, total=frame_count(job.seconds, job.fps))

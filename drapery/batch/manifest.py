@@ -224,7 +224,7 @@ def _slug(where: str) -> str:
 
 def _times(out: str, fields: RowFields, faults: list[str]) -> tuple[float | None, float | None]:
     """Length and rate; a WebP is a still unless one of them is given."""
-    from drapery.pictures import frame_count
+    from drapery.settings import frame_count
 
     given = fields.seconds is not None or fields.fps is not None
     if _ending(out) in STILLS or (_ending(out) in EITHER and not given):

@@ -30,7 +30,7 @@ def run(
     **words: Any,
 ) -> None:
     """Draw a banner waving in the wind, as a seamless loop."""
-    from drapery.pictures import frames
+    from drapery.pictures import iter_frames
     from drapery.render.encode import check_animation_target, save_animation
     from drapery.settings import Settings, background_colour, frame_count
 
@@ -38,7 +38,7 @@ def run(
     behind = None if matte is None else background_colour(matte)[:3]
     check_animation_target(out)
     with compile_notice():
-        drawn = frames(o.design_of(words), seconds, fps, settings)
+        drawn = iter_frames(o.design_of(words), settings, seconds=seconds, fps=fps)
         total = frame_count(seconds, fps)
         with progress("frames", total) as tick:
             save_animation(drawn, fps, out, matte=behind, total=total, progress=tick)

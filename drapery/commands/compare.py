@@ -10,7 +10,7 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice
 
 if TYPE_CHECKING:
-    from drapery.comparison.pairs import Pair
+    from drapery.comparison.pairs import Comparison
     from drapery.comparison.variants import Variant
     from drapery.render.frame import Frame
 
@@ -86,7 +86,7 @@ def _cost(variant: "Variant") -> dict[str, float]:
     return {"quads": measured.quads, "ms_per_frame": measured.milliseconds}
 
 
-def _close(pair: "Pair", tolerance: int, pixels: int) -> bool:
+def _close(pair: "Comparison", tolerance: int, pixels: int) -> bool:
     from drapery.comparison.metrics import measure
 
     frames = pair.first.frame.pixels, pair.other.frame.pixels
@@ -103,7 +103,7 @@ def _check_target(target: Path) -> None:
     check_writable(target)
 
 
-def _write(target: Path, pairs: "list[Pair]", costs: dict[str, dict[str, float]]) -> None:
+def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, float]]) -> None:
     from drapery.comparison.pairs import pair_entry, pair_sheet
     from drapery.comparison.report import html_report, write_text
     from drapery.render.contact import stack
@@ -129,5 +129,5 @@ def _write(target: Path, pairs: "list[Pair]", costs: dict[str, dict[str, float]]
         write_text(target, json.dumps({"pairs": facts, "cost": costs}, indent=2) + "\n")
 
 
-def _flicker(pairs: "list[Pair]") -> "tuple[Frame, ...]":
+def _flicker(pairs: "list[Comparison]") -> "tuple[Frame, ...]":
     return pairs[0].first.frame, *(pair.other.frame for pair in pairs)

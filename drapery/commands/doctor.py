@@ -13,10 +13,11 @@ def run() -> None:
     from rich.console import Console
     from rich.markup import escape
 
+    import drapery
     from drapery.render.doctor import backend_report
 
     console = Console(highlight=False)
-    console.print(f"drapery {version('drapery')}, Python {platform.python_version()}")
+    console.print(f"drapery {drapery.__version__}, Python {platform.python_version()}")
     for name in ("numpy", "numba", "pillow", "trimesh"):
         console.print(f"  {name} {version(name)}")
     _say_where_kernels_are(console)

@@ -17,7 +17,7 @@ def run(
     form: o.FromOption = None,
     number: o.NumberOption = None,
     back: Annotated[bool, typer.Option("--back", help="The other side.")] = False,
-    pack: o.PackOption = None,
+    packs: o.PackOption = None,
     format: o.FormatOption = None,
 ) -> None:
     """Write the plain 20 x 40 face of a banner, enlarged."""
@@ -29,7 +29,6 @@ def run(
     within("scale", scale, 1, MAX_SCALE, "pixels")
     check_still_target(out)
     side: Literal["front", "back"] = "back" if back else "front"
-    packs = tuple(pack or ())
     banner = read_design(design, form=form, number=number)
-    face = draw_face(banner, packs=packs, format=format, scale=scale, side=side)
+    face = draw_face(banner, packs=packs or (), format=format, scale=scale, side=side)
     face.save(out)

@@ -82,8 +82,8 @@ def _play(
 ) -> None:
     from dataclasses import replace
 
-    from drapery.pictures import scene_frames
     from drapery.render.encode import check_animation_target, save_animation
+    from drapery.scenes.drawing import scene_frames
     from drapery.settings import frame_count
 
     check_animation_target(target)

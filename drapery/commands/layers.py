@@ -25,7 +25,7 @@ def run(
     ] = None,
     form: o.FromOption = None,
     number: o.NumberOption = None,
-    pack: o.PackOption = None,
+    packs: o.PackOption = None,
     format: o.FormatOption = None,
     view: o.ViewOption = "iso",
     size: o.SizeOption = "768x512",
@@ -35,13 +35,14 @@ def run(
     """Take a banner apart: its loom steps, hidden layers, and an exploded view."""
     from drapery.banner.formats import read_design
     from drapery.banner.packs import open_packs
-    from drapery.pictures import draw_exploded
+    from drapery.pictures import draw_scenes
+    from drapery.scenes.exploded import apart
     from drapery.settings import OPTIONS, Settings
     from drapery.sheets.faces import steps_sheet
     from drapery.sheets.sheet import check_sheet_target
 
     settings = Settings(
-        packs=tuple(pack or ()),
+        packs=tuple(packs or ()),
         format=format,
         view=view,
         size=OPTIONS["size"].parse(size),
@@ -51,14 +52,15 @@ def run(
     if steps is not None:
         check_sheet_target(steps)
     banner = read_design(design, form=form, number=number)
-    packs = open_packs(settings.packs, format=format)
+    opened = open_packs(settings.packs, format=format)
     _tell_steps(banner)
-    _tell_hidden(banner, packs)
+    _tell_hidden(banner, opened)
     with compile_notice():
         if out is not None:
-            draw_exploded(banner, packs, settings).save(out)
+            (frame,) = draw_scenes([apart(banner, opened, settings)], opened, settings)
+            frame.save(out)
         if steps is not None:
-            steps_sheet(banner, packs).save(steps)
+            steps_sheet(banner, opened).save(steps)
 
 
 def _tell_steps(banner: "Banner") -> None:

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.notices import compile_notice, say
+from drapery.commands.notices import compile_notice
 
 OutOption = Annotated[
     str,
@@ -31,20 +31,9 @@ def run(
     **words: Any,
 ) -> None:
     """Write a banner, shield, cape or elytra as a 3-D file: a waving GLB, or one pose."""
-    from drapery.banner.packs import open_packs
-    from drapery.render.export import check_model_target, save_model
-    from drapery.scenes.stager import loop, still
-    from drapery.settings import Settings, frame_count
+    from drapery.pictures import save_model
+    from drapery.settings import Settings
 
     settings = Settings(**o.options_of(words))
-    moves = check_model_target(out) == ".glb" and seconds != 0
-    packs = open_packs(settings.packs, format=settings.format)
-    banner = o.design_of(words)
     with compile_notice():
-        if moves:
-            scenes = loop(banner, packs, settings, frame_count(seconds, fps), fps)
-            save_model(scenes, out, fps=fps)
-        else:
-            save_model(still(banner, packs, settings), out)
-    for line in packs.warnings():
-        say(line)
+        save_model(o.design_of(words), out, settings, seconds=seconds, fps=fps)

@@ -60,9 +60,9 @@ def _play(
     size: str,
     backend: str,
 ) -> None:
-    from drapery.pictures import scene_frames
     from drapery.render.encode import check_animation_target, check_still_target, save_animation
     from drapery.scenes.catalogue import Shot, find
+    from drapery.scenes.drawing import scene_frames
     from drapery.settings import OPTIONS, frame_count
 
     scene, words = find(name), _words(parameters)

@@ -11,7 +11,7 @@ from drapery.commands.notices import compile_notice, say
 def run(
     host: Annotated[str, typer.Option(help="The address to listen at.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(help="The port; 0 chooses one.")] = 8000,
-    pack: o.PackOption = None,
+    packs: o.PackOption = None,
     format: o.FormatOption = None,
     workers: Annotated[
         int | None, typer.Option(help="Processes that draw.", show_default="one a core")
@@ -47,7 +47,7 @@ def run(
     within("memory", memory, 16, 1 << 20, "MiB")
     within("cache", cache, 1, 1 << 20, "MiB")
     within("side", side, 16, MAX_SIDE, "pixels")
-    base = Settings(packs=tuple(pack or ()), format=format, size=(min(256, side), min(320, side)))
+    base = Settings(packs=tuple(packs or ()), format=format, size=(min(256, side), min(320, side)))
     open_packs(base.packs, format=format)
     with compile_notice():
         warm_up()

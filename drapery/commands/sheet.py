@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.notices import compile_notice
+from drapery.commands.notices import compile_notice, say
 
 app = typer.Typer(
     help="Write a sheet of many labelled pictures, as .png or .html.", no_args_is_help=True
@@ -27,13 +27,12 @@ def write_patterns(
     ] = "all",
     back: Annotated[bool, typer.Option("--back", help="The other side.")] = False,
     scale: Annotated[int, typer.Option(help="Pixels per texel of a 64 x 64 pack.")] = 3,
-    pack: o.PackOption = None,
+    packs: o.PackOption = None,
     format: o.FormatOption = None,
 ) -> None:
     """All patterns in all dyes."""
     from drapery.banner.names import dye_name
     from drapery.banner.packs import open_packs
-    from drapery.pictures import tell
     from drapery.settings import check_format
     from drapery.sheets.faces import patterns_sheet
     from drapery.sheets.sheet import check_sheet_target
@@ -41,10 +40,11 @@ def write_patterns(
     _check_scale(scale)
     check_sheet_target(out)
     check_format(format)
-    packs = open_packs(tuple(pack or ()), format=format)
+    opened = open_packs(tuple(packs or ()), format=format)
     side: Literal["front", "back"] = "back" if back else "front"
-    sheet = patterns_sheet(packs, dye_name(base), _dyes(dyes), side=side, scale=scale)
-    tell(packs)
+    sheet = patterns_sheet(opened, dye_name(base), _dyes(dyes), side=side, scale=scale)
+    for line in opened.warnings():
+        say(line)
     sheet.save(out)
 
 

@@ -19,7 +19,7 @@ def run(
     token: Annotated[
         str | None, typer.Option(help="What visitors must bring; at least 8 characters.")
     ] = None,
-    pack: o.PackOption = None,
+    packs: o.PackOption = None,
     format: o.FormatOption = None,
     library: Annotated[
         Path | None,
@@ -36,7 +36,7 @@ def run(
 
     _check(host, token)
     within("port", port, 0, 65535)
-    settings = Settings(packs=tuple(pack or ()), format=format)
+    settings = Settings(packs=tuple(packs or ()), format=format)
     try:
         from drapery.studio import app
     except ImportError as error:

@@ -1,20 +1,23 @@
-"""A comparison: every variant against the first, and which layer makes the difference."""
+"""Two pictures compared, and the layer from which on they differ."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Unpack
 
+from drapery.banner.design import Banner
 from drapery.comparison.metrics import Difference, measure
 from drapery.comparison.panels import side_by_side
 from drapery.comparison.report import Entry, data_address
-from drapery.comparison.variants import Variant
+from drapery.comparison.variants import Variant, variant_of
 from drapery.errors import OptionError
 from drapery.render.contact import strip
 from drapery.render.frame import Frame
+from drapery.settings import Options, Settings
 
 
 @dataclass(frozen=True)
-class Pair:
-    """One variant held against the first.
+class Comparison:
+    """Two pictures and how they differ.
 
     build_up: for each number of layers drawn (0 is the base alone) both pictures and how they
         differ; empty for finished pictures.
@@ -27,14 +30,14 @@ class Pair:
 
     @property
     def culprit(self) -> str | None:
-        """The step of the build-up from which the two differ."""
+        """The first step of the build-up at which the two differ; None where no step does."""
         for count, (_, _, difference) in enumerate(self.build_up):
             if not difference.same:
                 return _step_name(self.other, count)
         return None
 
     def line(self) -> str:
-        """What came of it, in one line."""
+        """The result in one line."""
         both = f"{self.first.label} and {self.other.label}"
         if self.difference.same:
             return f"{both} are the same to the last bit"
@@ -45,32 +48,56 @@ class Pair:
         cause = f"; from {self.culprit} on" if self.culprit else ""
         return f"{both}: {figures}{cause}"
 
+    def sheet(self) -> Frame:
+        """Both pictures and their difference side by side."""
+        return pair_sheet(self)
 
-def compare_variants(variants: Sequence[Variant], perceptual: bool = False) -> list[Pair]:
-    """Hold every variant against the first. Raises OptionError where sizes differ."""
+
+def compare(
+    first: Banner | Frame,
+    other: Banner | Frame,
+    settings: Settings | None = None,
+    *,
+    perceptual: bool = False,
+    **options: Unpack[Options],
+) -> Comparison:
+    """Compare two designs, both drawn with the same options, or two finished pictures.
+
+    settings, options: as for `draw`. perceptual: measures SSIM and FLIP too (extra: compare).
+    Raises OptionError where the sizes differ, and what `draw` raises.
+    """
+    variants = [
+        variant_of(label, subject, settings, options)
+        for label, subject in (("the first", first), ("the second", other))
+    ]
+    return compare_variants(variants, perceptual)[0]
+
+
+def compare_variants(variants: Sequence[Variant], perceptual: bool = False) -> list[Comparison]:
+    """Compare every variant with the first. Raises OptionError where sizes differ."""
     if len(variants) < 2:
         raise OptionError("one picture cannot be compared; name at least two")
     first, *others = variants
     return [_pair(first, other, perceptual) for other in others]
 
 
-def _pair(first: Variant, other: Variant, perceptual: bool) -> Pair:
+def _pair(first: Variant, other: Variant, perceptual: bool) -> Comparison:
     difference = measure(first.frame.pixels, other.frame.pixels, perceptual=perceptual)
     steps = []
     if first.banner is not None and not difference.same:
         for count in range(max(first.layer_count, other.layer_count) + 1):
             a, b = first.with_layers(count), other.with_layers(count)
             steps.append((a, b, measure(a.pixels, b.pixels)))
-    return Pair(first, other, difference, tuple(steps))
+    return Comparison(first, other, difference, tuple(steps))
 
 
-def pair_sheet(pair: Pair) -> Frame:
+def pair_sheet(pair: Comparison) -> Frame:
     """Both pictures and their difference side by side."""
     labels = (pair.first.label[:40], pair.other.label[:40])
     return side_by_side(pair.first.frame.pixels, pair.other.frame.pixels, labels)
 
 
-def build_up_sheet(pair: Pair) -> Frame | None:
+def build_up_sheet(pair: Comparison) -> Frame | None:
     """The build-up of both, one column a step; None for finished pictures."""
     if not pair.build_up:
         return None
@@ -89,7 +116,7 @@ def _step_name(variant: Variant, count: int) -> str:
     return f"layer {count} ({layer.pattern}, {layer.dye})"
 
 
-def pair_entry(pair: Pair) -> Entry:
+def pair_entry(pair: Comparison) -> Entry:
     """The pair as a part of a report."""
     pictures = [("side by side", data_address(pair_sheet(pair)))]
     sheet = build_up_sheet(pair)

@@ -12,9 +12,9 @@ from drapery.banner.design import Banner
 from drapery.banner.formats import read_designs
 from drapery.banner.formats.registry import pick
 from drapery.errors import OptionError
-from drapery.pictures import draw_with
+from drapery.pictures import draw
 from drapery.render.frame import Frame
-from drapery.settings import Settings
+from drapery.settings import Options, Settings
 
 PICTURE_ENDINGS = (".png", ".gif", ".webp", ".apng")
 MAX_PICTURE_SIDE = 16384
@@ -37,11 +37,22 @@ class Variant:
         """The picture with the first `count` layers; the whole one for a finished picture."""
         if self.banner is None or self.settings is None:
             return self.frame
-        return draw_with(replace(self.banner, layers=self.banner.layers[:count]), self.settings)
+        return draw(replace(self.banner, layers=self.banner.layers[:count]), self.settings)
 
     @property
     def layer_count(self) -> int:
         return 0 if self.banner is None else len(self.banner.layers)
+
+
+def variant_of(
+    label: str, subject: Banner | Frame, settings: Settings | None, options: Options
+) -> Variant:
+    """A design drawn with these options, or a finished picture. Raises what `draw` raises."""
+    if isinstance(subject, Frame):
+        return Variant(label, subject)
+    chosen = settings or Settings()
+    chosen = replace(chosen, **options)
+    return Variant(label, draw(subject, chosen), subject, chosen)
 
 
 def draw_variants(
@@ -110,7 +121,7 @@ def _drawn(
     for number, (label, changes) in enumerate(values):
         banner = banners[number if axis == "designs" else 0][1]
         changed = replace(base, **changes)
-        made.append(Variant(label, draw_with(banner, changed), banner, changed))
+        made.append(Variant(label, draw(banner, changed), banner, changed))
     return made
 
 

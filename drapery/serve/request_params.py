@@ -124,7 +124,7 @@ def _request(
 
 
 def _times(words: dict[str, str], limits: PictureLimits) -> tuple[float, float]:
-    from drapery.pictures import frame_count
+    from drapery.settings import frame_count
 
     seconds, fps = _number("seconds", words, 4.0), _number("fps", words, 20.0)
     within("fps", fps, 1, limits.fps, "frames/s")

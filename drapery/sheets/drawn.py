@@ -4,9 +4,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from drapery.banner.design import Banner
-from drapery.pictures import draw_face, draw_rotations, draw_with
-from drapery.settings import Settings
+from drapery.banner.packs import open_packs
+from drapery.pictures import draw, draw_face, draw_scenes
+from drapery.render.frame import Frame
+from drapery.render.views import frame_view
+from drapery.scenes.stager import still
+from drapery.settings import ROTATIONS, Settings
 from drapery.sheets.sheet import Cell, Sheet
 
 COMPASS = {0: "south", 4: "west", 8: "north", 12: "east"}
@@ -16,9 +22,19 @@ def rotations_sheet(design: Banner | None, settings: Settings) -> Sheet:
     """All sixteen rotations, by one camera. Raises OptionError, PackError or BackendError."""
     cells = tuple(
         Cell(f"{number} {COMPASS.get(number, '')}".rstrip(), frame.pixels)
-        for number, frame in enumerate(draw_rotations(design, settings))
+        for number, frame in enumerate(_rotations(design, settings))
     )
     return Sheet("Sixteen rotations", cells, 8)
+
+
+def _rotations(design: Banner | None, settings: Settings) -> list[Frame]:
+    packs = open_packs(settings.packs, format=settings.format)
+    turned = [replace(settings, rotation=rotation) for rotation in range(ROTATIONS)]
+    scenes = [still(design, packs, each) for each in turned]
+    meshes = [model.mesh for scene in scenes for model in scene.models]
+    points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])
+    camera = frame_view(settings.view, points, settings.size[0] / settings.size[1])
+    return list(draw_scenes([replace(scene, camera=camera) for scene in scenes], packs, settings))
 
 
 def packs_sheet(
@@ -34,7 +50,7 @@ def packs_sheet(
     cells = []
     for name, packs in stacks:
         if scale is None:
-            frame = draw_with(banner, replace(settings, packs=packs))
+            frame = draw(banner, replace(settings, packs=packs))
         else:
             frame = draw_face(banner, packs=packs, format=settings.format, scale=scale)
         cells.append(Cell(name, frame.pixels))

@@ -47,7 +47,7 @@ def make(order: Order, path: Path, progress: Progress | None = None) -> None:
 
 def count_frames(order: Order) -> int:
     """How many frames the file has; 1 for what does not move. Raises OptionError."""
-    from drapery.pictures import frame_count
+    from drapery.settings import frame_count
 
     return frame_count(order.seconds, order.fps) if order.kind in (*LOOPS, "glb") else 1
 
@@ -70,10 +70,10 @@ def check(order: Order) -> None:
 
 
 def _still(order: Order, path: Path, tell: Progress) -> None:
-    from drapery.pictures import draw_with
+    from drapery.pictures import draw
 
     tell(0, 1)
-    frame = draw_with(order.banner, options_for(order))
+    frame = draw(order.banner, options_for(order))
     tell(1, 1)
     frame.save(path)
 
@@ -90,13 +90,13 @@ def _face(order: Order, path: Path, tell: Progress) -> None:
 
 
 def _loop(order: Order, path: Path, tell: Progress) -> None:
-    from drapery.pictures import frames
+    from drapery.pictures import iter_frames
     from drapery.render.encode import check_animation_target, save_animation
 
     total = count_frames(order)
     tell(0, total)
     check_animation_target(path)
-    drawn = frames(order.banner, order.seconds, order.fps, options_for(order))
+    drawn = iter_frames(order.banner, options_for(order), seconds=order.seconds, fps=order.fps)
     save_animation(_told(drawn, total, tell), order.fps, path, total=total)
 
 

@@ -182,7 +182,7 @@ def _loop(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
 
 def _face(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
     drawn = _call("draw_face", banner, _times(order) + named)
-    return ["drapery.pictures.draw_face"], [f"{drawn}.save({out})"]
+    return ["drapery.draw_face"], [f"{drawn}.save({out})"]
 
 
 def _design(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
@@ -193,7 +193,7 @@ def _design(order: Order, banner: list[str], named: list[str], out: str) -> _Cod
 def _model(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
     names = [
         "drapery.banner.packs.open_packs",
-        "drapery.pictures.frame_count",
+        "drapery.settings.frame_count",
         "drapery.render.export.save_model",
         "drapery.scenes.stager.loop",
         "drapery.settings.Settings",

@@ -8,7 +8,7 @@ from drapery.banner.design import Banner
 from drapery.banner.formats import read_design
 from drapery.banner.packs import open_packs
 from drapery.errors import DraperyError
-from drapery.pictures import draw_with
+from drapery.pictures import draw
 from drapery.render.encode.output import make_folder, replacing
 from drapery.render.frame import Frame
 from drapery.settings import Settings
@@ -72,7 +72,7 @@ def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
 def _draw(case: Case) -> tuple[Frame, list[LayerNote] | None]:
     try:
         banner = None if case.design is None else read_design(case.design)
-        frame = draw_with(banner, case.settings)
+        frame = draw(banner, case.settings)
         return frame, _notes(banner, case.settings)
     except DraperyError as error:
         raise type(error)(f"case {case.name!r}: {error}") from None
