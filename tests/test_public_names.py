@@ -91,7 +91,7 @@ def test_streaming_refuses_bad_arguments_at_the_call() -> None:
 
 
 def test_a_text_is_not_a_banner_and_a_mapping_not_settings() -> None:
-    with pytest.raises(DesignError, match=r"'white' is not a Banner; read a text with Banner.parse"):
+    with pytest.raises(DesignError, match="'white' is not a Banner; read a text"):
         draw("white")  # type: ignore[arg-type]
     with pytest.raises(OptionError, match="are not Settings; give options by name"):
         draw(DESIGN, {"size": (9, 9)})  # type: ignore[arg-type]
