@@ -1,7 +1,7 @@
 """What one option is: its type and bounds, its help, and how a text becomes its value."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from numbers import Integral, Real
 from pathlib import Path
@@ -23,7 +23,7 @@ class Option:
     """One option of a picture.
 
     help: its meaning, without a full stop at the end; `describe` adds the limits.
-    type: of one value in Python; None where only the objects of `attributes` are allowed.
+    type: of one value in Python; None where only the objects of `takes` are allowed.
     default: its value if nobody sets it. An option whose default is None may be set to None.
     default_text: the meaning of a default None.
     bounds: the lowest and the highest number that are allowed, both included.
@@ -31,7 +31,7 @@ class Option:
     choices: the values that are allowed, where they are few.
     parts: the names of the two whole numbers of a pair such as `512x512`.
     several: whether the value is a tuple of any number of values.
-    attributes: an object that has all of these is taken as it is, in place of a name or number.
+    takes: tells an object that a program may give as it is, in place of a name or a number.
     audience: who may set it.
     flag: its name on the command line.
     metavar: what help shows in place of the value.
@@ -47,7 +47,7 @@ class Option:
     choices: tuple[str | int, ...] = ()
     parts: tuple[str, ...] = ()
     several: bool = False
-    attributes: tuple[str, ...] = ()
+    takes: Callable[[object], bool] | None = None
     audience: Audience = "local"
     flag: str = ""
     metavar: str | None = None
@@ -78,10 +78,9 @@ class Option:
         """The value in its own type. Raises OptionError that names the option and its limits."""
         if value is None and self.default is None:
             return None
-        if self.attributes and all(hasattr(value, name) for name in self.attributes):
-            return value
         if self.several:
-            return tuple(self._check_one(self.name, each) for each in _sequence(self.name, value))
+            values = (value,) if self._taken(value) else _sequence(self.name, value)
+            return tuple(self._check_one(self.name, each) for each in values)
         if self.parts:
             return self._check_pair(value)
         return self._check_one(self.name, value)
@@ -122,9 +121,14 @@ class Option:
         )
         return first, second
 
+    def _taken(self, value: object) -> bool:
+        return self.takes is not None and self.takes(value)
+
     def _check_one(self, name: str, value: Any) -> Any:
+        if self._taken(value):
+            return value
         if self.type is None:
-            raise OptionError(f"{name} {shown(value)} is not what it takes; {self.help}")
+            raise OptionError(f"{name} {shown(value)} cannot be used; give {self.help}")
         if self.type is bool:
             if not isinstance(value, bool):
                 raise OptionError(f"{name} {shown(value)} is not yes or no; use one of them")

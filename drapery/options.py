@@ -7,24 +7,24 @@ from pathlib import Path
 from typing import Any
 
 from drapery.errors import OptionError
-from drapery.settings import OPTIONS, Settings
+from drapery.settings import NAMED_OPTIONS, Settings
 
-NAMES = frozenset(OPTIONS)
+NAMES = frozenset(NAMED_OPTIONS)
 
 
 def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str]:
     """Checked options, or all that is wrong with them, one line each.
 
-    given: values by the names of `OPTIONS`, as `Option.parse` reads them.
+    given: values by the names of `NAMED_OPTIONS`, as `Option.parse` reads them.
     folder: relative paths start here.
     """
     values: dict[str, Any] = {}
     faults: list[str] = []
     for name, value in given.items():
         try:
-            if name not in OPTIONS:
+            if name not in NAMED_OPTIONS:
                 raise OptionError(unknown(name, NAMES))
-            values[name] = OPTIONS[name].parse(value, folder)
+            values[name] = NAMED_OPTIONS[name].parse(value, folder)
         except OptionError as error:
             faults.append(one_line(str(error)))
     if faults:

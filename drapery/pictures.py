@@ -10,6 +10,7 @@ import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
+from drapery.banner.packs.stack import PackLike
 from drapery.errors import DesignError, OptionError
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
@@ -103,7 +104,7 @@ def save_model(
 def draw_face(
     banner: Banner,
     *,
-    packs: Sequence[str | Path] | Packs = (),
+    packs: PackLike | Sequence[PackLike] = (),
     format: int | None = None,
     scale: int = 8,
     side: Literal["front", "back"] = "front",

@@ -5,11 +5,13 @@ manifests, files of cases and the studio's fields are made from the table.
 """
 # ruff: noqa: RUF009 (`_option` returns a dataclass field)
 
-from collections.abc import Mapping
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Literal, TypedDict, get_args
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, get_args
 
 from drapery.errors import OptionError
 from drapery.option import Audience as Audience
@@ -18,6 +20,14 @@ from drapery.option import one_of as one_of
 from drapery.option import pair as pair
 from drapery.option import whole as whole
 from drapery.option import within as within
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from drapery.cloth import Fabric, Force, Solver, Wind
+    from drapery.packs import PackLike
+    from drapery.render import DrawScene, View
 
 Kind = Literal["auto", "banner", "shield", "cape", "elytra"]
 Pose = Literal["cloth", "vanilla"]
@@ -49,20 +59,22 @@ MAX_FORMAT = 9999
 class Options(TypedDict, total=False):
     """Keyword options of `draw` and `animate`; see `Settings` for what each means."""
 
-    packs: tuple[str | Path, ...] | list[str | Path]
+    packs: PackLike | Sequence[PackLike]
     format: int | None
     kind: Kind
-    texture: str | Path | None
+    texture: str | Path | NDArray[np.uint8] | None
     pose: Pose
     placement: Placement
     rotation: int
     facing: Facing | None
-    view: str
+    view: str | View
     size: tuple[int, int]
     grid: tuple[int, int]
-    solver: SolverName
+    solver: SolverName | Solver
+    fabric: Fabric | None
+    forces: Sequence[Force]
     pins: Pins | None
-    wind: float
+    wind: float | Wind
     direction: float | None
     gusts: float
     time: float
@@ -78,7 +90,22 @@ class Options(TypedDict, total=False):
     sky_light: int
     daylight: float
     shadow: bool
-    backend: str
+    backend: str | DrawScene
+
+
+def _has(*attributes: str) -> Callable[[object], bool]:
+    """A test for objects with all of these attributes, which needs no import of their class."""
+    return lambda value: (
+        not isinstance(value, type) and all(hasattr(value, name) for name in attributes)
+    )
+
+
+def _is_pack(value: object) -> bool:
+    return _has("sheet", "base")(value) or _has("read", "label")(value)
+
+
+def _is_force(value: object) -> bool:
+    return any(_has(name)(value) for name in ("acceleration", "rate", "velocity"))
 
 
 def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
@@ -90,11 +117,12 @@ def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
 class Settings:
     """Checked options of a picture. Raises OptionError that names the option and its limits."""
 
-    packs: tuple[str | Path, ...] | list[str | Path] = _option(
+    packs: Sequence[PackLike] = _option(
         (),
         Path,
         "Resource packs (folder, zip or jar) laid over our own art; later ones win",
         several=True,
+        takes=_is_pack,
         flag="--pack",
         metavar="PATH",
     )
@@ -113,10 +141,11 @@ class Settings:
         choices=get_args(Kind),
         audience="anyone",
     )
-    texture: str | Path | None = _option(
+    texture: str | Path | NDArray[np.uint8] | None = _option(
         None,
         Path,
         "Texture of a cape or elytra: a PNG file, 64 x 32 or a multiple",
+        takes=_has("shape", "dtype"),
         metavar="FILE",
     )
     pose: Pose = _option(
@@ -148,11 +177,12 @@ class Settings:
         default_text="south",
         audience="anyone",
     )
-    view: str = _option(
+    view: str | View = _option(
         "front",
         str,
         "Where the camera stands",
         choices=get_args(ViewName),
+        takes=_has("azimuth", "elevation", "fov"),
         audience="anyone",
     )
     size: tuple[int, int] = _option(
@@ -173,11 +203,27 @@ class Settings:
         parts=("columns", "rows"),
         audience="anyone",
     )
-    solver: SolverName = _option(
+    solver: SolverName | Solver = _option(
         "desbrun",
         str,
         "Method that moves the cloth",
         choices=get_args(SolverName),
+        takes=_has("init", "step"),
+    )
+    fabric: Fabric | None = _option(
+        None,
+        None,
+        "a Fabric, the material of the cloth",
+        takes=_has("density", "stretch", "bend"),
+        audience="python",
+    )
+    forces: Sequence[Force] = _option(
+        (),
+        None,
+        "forces on the cloth beside gravity and the wind",
+        takes=_is_force,
+        several=True,
+        audience="python",
     )
     pins: Pins | None = _option(
         None,
@@ -187,12 +233,13 @@ class Settings:
         default_text="as its kind hangs",
         audience="anyone",
     )
-    wind: float = _option(
+    wind: float | Wind = _option(
         4.0,
         float,
         "Mean wind speed",
         bounds=(0, MAX_WIND),
         unit="m/s",
+        takes=_has("velocity", "gusts"),
         audience="anyone",
     )
     direction: float | None = _option(
@@ -295,10 +342,11 @@ class Settings:
         bool,
         "Draw a soft shadow on the floor",
     )
-    backend: str = _option(
+    backend: str | DrawScene = _option(
         "auto",
         str,
         "Renderer: auto, soft, pyrender, or one of an installed package",
+        takes=callable,
     )
 
     def __post_init__(self) -> None:
@@ -329,6 +377,21 @@ class Settings:
         return self.size[0] // self.pixel, self.size[1] // self.pixel
 
     @property
+    def pack_paths(self) -> tuple[str | Path, ...]:
+        """The packs as paths. Raises OptionError for a pack in memory, which no file holds."""
+        paths = tuple(pack for pack in self.packs if isinstance(pack, str | Path))
+        if len(paths) < len(self.packs):
+            raise OptionError("packs: one is in memory; save it as a folder or zip, give its path")
+        return paths
+
+    @property
+    def texture_path(self) -> str | Path | None:
+        """The texture as a path. Raises OptionError for an array, which no file holds."""
+        if self.texture is None or isinstance(self.texture, str | Path):
+            return self.texture
+        raise OptionError("texture: it is an array; save it as a PNG file, give its path")
+
+    @property
     def turned(self) -> float:
         """The angle of rotation or facing [degrees]: 0 south, 90 west, 180 north, 270 east."""
         if self.facing is not None:
@@ -340,6 +403,11 @@ OPTIONS: Mapping[str, Option] = MappingProxyType(
     {f.name: Option(f.name, default=f.default, **f.metadata) for f in fields(Settings)}
 )
 """The options of a picture by name, in the order in which help lists them."""
+
+NAMED_OPTIONS: Mapping[str, Option] = MappingProxyType(
+    {name: option for name, option in OPTIONS.items() if option.audience != "python"}
+)
+"""The options that a text can set, so those of commands, manifests and pages."""
 
 LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
     {

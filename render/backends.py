@@ -24,8 +24,10 @@ DEFAULT = "soft"
 """What `auto` means: it needs no system package and gives the same bits everywhere."""
 
 
-def backend(name: str = "auto") -> DrawScene:
-    """The renderer of this name. Raises BackendError, with the remedy, if there is none."""
+def backend(name: str | DrawScene = "auto") -> DrawScene:
+    """The renderer of this name; a renderer is returned as it is. Raises BackendError."""
+    if not isinstance(name, str):
+        return name
     chosen = DEFAULT if name == "auto" else name
     if chosen in BUILT_IN:
         return _load(BUILT_IN[chosen])

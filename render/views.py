@@ -36,15 +36,22 @@ VIEWS: dict[str, View] = {
 }
 
 
-def frame_view(name: str, points: Array, aspect: float, margin: float = 0.05) -> Camera:
-    """The named view of points [..., 3]: all are seen, with `margin` of the picture around.
+def find_view(view: str | View) -> View:
+    """The view of this name; a View is returned as it is. Raises OptionError."""
+    if isinstance(view, View):
+        return view
+    if view not in VIEWS:
+        raise OptionError(f"view {view!r} is not known; use one of: {', '.join(VIEWS)}")
+    return VIEWS[view]
+
+
+def frame_view(view: str | View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
+    """The view of points [..., 3]: all are seen, with `margin` of the picture around.
 
     aspect: width / height of the picture. For moving cloth give the points of all its moments.
-    Raises OptionError for a name that is none.
+    view: a View or its name. Raises OptionError for a name that is not known.
     """
-    if name not in VIEWS:
-        raise OptionError(f"view {name!r} is not known; use one of: {', '.join(VIEWS)}")
-    return frame_points(VIEWS[name], points, aspect, margin)
+    return frame_points(find_view(view), points, aspect, margin)
 
 
 def turntable(view: View, points: Array, aspect: float, frames: int) -> list[Camera]:

@@ -2,17 +2,29 @@
 
 from dataclasses import fields
 from pathlib import Path
-from typing import Any, get_args, get_type_hints
+from typing import Any, Literal, get_args, get_origin
 
+import numpy as np
 import pytest
 import typer.main
 from conftest import Run
 
+from drapery import settings
 from drapery.cli import app
+from drapery.cloth import Drag, Fabric, Gravity, SolverXPBD, Wind
 from drapery.errors import OptionError
 from drapery.option import Option, limits, one_of, shown, whole, within
 from drapery.options import check_options
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Options, Settings, ViewName, frame_count
+from drapery.render.views import VIEWS, View
+from drapery.settings import (
+    LOOP_OPTIONS,
+    NAMED_OPTIONS,
+    OPTIONS,
+    Options,
+    Settings,
+    ViewName,
+    frame_count,
+)
 
 HUGE = 10**310 - 1
 """A whole number that is too large for a float."""
@@ -24,34 +36,35 @@ NUMBERS = [
 
 def test_the_table_the_settings_and_the_keywords_are_the_same() -> None:
     assert list(OPTIONS) == [field.name for field in fields(Settings)]
-    assert get_type_hints(Options) == get_type_hints(Settings)
+    wider = {"packs": "PackLike | Sequence[PackLike]"}
+    annotations = {field.name: field.type for field in fields(Settings)}
+    assert {name: kind.__forward_arg__ for name, kind in Options.__annotations__.items()} == (
+        annotations | wider
+    )
     assert {name: option.default for name, option in OPTIONS.items()} == {
         field.name: field.default for field in fields(Settings)
     }
 
 
 @pytest.mark.parametrize("name", OPTIONS)
-def test_the_type_and_choices_are_those_of_the_annotation(name: str) -> None:
-    option, annotation = OPTIONS[name], get_type_hints(Options)[name]
-    parts = [part for part in get_args(annotation) if part is not type(None)]
-    assert (type(None) in get_args(annotation)) is (option.default is None)
-    if option.choices and name != "view":
-        allowed = [value for part in parts for value in get_args(part) or (part,)]
-        assert tuple(allowed) == option.choices
-    if option.choices:
-        assert {type(choice) for choice in option.choices} == {option.type}
+def test_the_choices_are_those_of_the_annotation(name: str) -> None:
+    option, annotation = OPTIONS[name], str(Settings.__annotations__[name])
+    assert annotation.endswith("| None") is (option.default is None)
+    assert {type(choice) for choice in option.choices} <= {option.type}
+    named = [getattr(settings, part, None) for part in annotation.split(" | ")]
+    literals = [get_args(kind) for kind in named if get_origin(kind) is Literal]
+    if name != "view":
+        assert literals == ([option.choices] if option.choices else [])
 
 
 def test_the_views_are_those_of_the_renderer() -> None:
-    from drapery.render.views import VIEWS
-
     assert tuple(VIEWS) == get_args(ViewName)
 
 
 @pytest.mark.parametrize("option", ALL.values(), ids=lambda o: o.name)
 def test_a_default_is_allowed_and_reads_back_from_its_text(option: Option) -> None:
     assert option.check(option.default) == option.default
-    if option.default is not None:
+    if option.default is not None and option.audience != "python":
         assert option.parse(option.to_text(option.default)) == option.default
 
 
@@ -69,7 +82,7 @@ def commands() -> dict[str, Any]:
 @pytest.mark.parametrize("command", ["render", "animate"])
 def test_the_command_line_has_every_option_once(command: str) -> None:
     flags = [flag for each in commands()[command].params for flag in each.opts]
-    for option in OPTIONS.values():
+    for option in NAMED_OPTIONS.values():
         assert flags.count(option.command_flag) == 1, option.name
     helps = {each.opts[0]: each.help for each in commands()[command].params if each.opts}
     assert helps["--wind"] == "Mean wind speed (0 to 40 m/s)."
@@ -169,8 +182,6 @@ def test_options_that_fit_together_are_judged_together() -> None:
 
 
 def test_checks_take_numpy_numbers_and_no_truth_values() -> None:
-    import numpy as np
-
     within("wind", np.float32(3), 0, 40)
     whole("seed", np.int64(3), 0, 40)
     one_of("samples", np.int64(4), (1, 4, 16))
@@ -181,3 +192,56 @@ def test_checks_take_numpy_numbers_and_no_truth_values() -> None:
         with pytest.raises(OptionError):
             whole("seed", wrong, 0, 40)
     assert limits(0, 2**32 - 1) == "0 to 4294967295"
+
+
+class Anything:
+    """An object with whatever attributes a test needs."""
+
+    def __init__(self, **attributes: object) -> None:
+        self.__dict__.update(attributes)
+
+
+OBJECTS = {
+    "packs": Anything(sheet=1, base=1),
+    "texture": np.zeros((32, 64, 4), np.uint8),
+    "view": View(10, 20, None),
+    "solver": SolverXPBD(substeps=8),
+    "fabric": Fabric(),
+    "wind": Wind((0.0, 0.0, 3.0)),
+    "backend": lambda scene: None,
+}
+
+
+@pytest.mark.parametrize("name", OBJECTS)
+def test_an_object_goes_where_a_name_goes(name: str) -> None:
+    given = OBJECTS[name]
+    held = getattr(Settings(**{name: given}), name)  # type: ignore[arg-type]
+    assert (held[0] if name == "packs" else held) is given
+
+
+def test_forces_are_given_as_objects() -> None:
+    forces = [Gravity(), Drag(0.5)]
+    assert Settings(forces=forces).forces == tuple(forces)
+    with pytest.raises(OptionError, match="forces 'gravity' cannot be used; give forces on the"):
+        Settings(forces=["gravity"])  # type: ignore[list-item]
+
+
+@pytest.mark.parametrize("name", ["fabric", "forces"])
+def test_what_only_a_program_can_build_is_no_text_option(name: str) -> None:
+    assert name not in NAMED_OPTIONS
+    assert check_options({name: "wool"}, Path()) == [f"{name!r} is no option; leave it out"]
+
+
+@pytest.mark.parametrize("name", ["solver", "fabric", "wind", "view"])
+def test_an_unfit_object_is_refused(name: str) -> None:
+    for wrong in (object(), 3j, SolverXPBD, [1]):
+        with pytest.raises(OptionError, match=name):
+            Settings(**{name: wrong})  # type: ignore[arg-type]
+
+
+def test_paths_are_told_from_what_lies_in_memory() -> None:
+    assert Settings(packs=("a.zip", Path("b"))).pack_paths == ("a.zip", Path("b"))
+    with pytest.raises(OptionError, match="packs: one is in memory"):
+        Settings(packs=(Anything(read=1, label="x"),)).pack_paths  # type: ignore[arg-type] # noqa: B018
+    with pytest.raises(OptionError, match="texture: it is an array"):
+        Settings(texture=np.zeros((32, 64, 4), np.uint8)).texture_path  # noqa: B018

@@ -1,15 +1,21 @@
 """Samples, squares of pixels, light and shadow as they are asked of any picture."""
 
 import math
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
-from drapery import Banner, DraperyError, draw
+from drapery import Banner, DraperyError, OptionError, draw
 from drapery.banner.packs import open_packs
+from drapery.cloth import Drag, Fabric, SolverXPBD, Wind
 from drapery.mesh import Array
+from drapery.render.backends import backend
 from drapery.render.frame import Pixels
-from drapery.scenes.stager import still
+from drapery.render.views import VIEWS
+from drapery.scenes.stager import flow, still
 from drapery.settings import Settings
 
 BANNER = Banner.parse("white creeper:lime border:black")
@@ -127,3 +133,47 @@ def test_a_shadow_is_added_under_the_banner_and_nowhere_else() -> None:
 def test_what_cannot_be_is_refused(wrong: dict[str, object]) -> None:
     with pytest.raises(DraperyError, match=next(iter(wrong)).split("_")[0]):
         pixels(**wrong)
+
+
+@pytest.mark.parametrize(
+    ("name", "by_name", "by_object"),
+    [
+        ("view", "iso", VIEWS["iso"]),
+        ("backend", "soft", backend("soft")),
+        ("solver", "xpbd", SolverXPBD()),
+        ("wind", 4.0, Wind(flow(4.0, None))),
+        ("fabric", None, Fabric()),
+        ("packs", (), open_packs(())),
+        ("packs", (), [open_packs(())]),
+    ],
+    ids=["view", "backend", "solver", "wind", "fabric", "packs", "a list of packs"],
+)
+def test_an_object_draws_as_its_name_does(name: str, by_name: object, by_object: object) -> None:
+    assert np.array_equal(pixels(**{name: by_name}), pixels(**{name: by_object}))
+
+
+def test_a_texture_is_a_file_or_an_array(tmp_path: Path) -> None:
+    texels = np.random.default_rng(1).integers(0, 256, (32, 64, 4), np.uint8)
+    art = tmp_path / "cape.png"
+    Image.fromarray(texels).save(art)
+    options: dict[str, Any] = {"kind": "cape", "size": SIZE, "time": 0.1}
+    drawn = draw(texture=texels, **options)
+    assert np.array_equal(draw(texture=art, **options).pixels, drawn.pixels)
+    with pytest.raises(OptionError, match=r"texture: an array of float64 \[8, 8\]; use uint8"):
+        draw(texture=np.zeros((8, 8)), **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"solver": SolverXPBD(substeps=1)},
+        {"wind": Wind((0.0, 3.0, 3.0))},
+        {"fabric": Fabric(density=3.0)},
+        {"forces": [Drag(9.0)]},
+    ],
+    ids=lambda options: next(iter(options)),
+)
+def test_objects_say_what_no_name_can(other: dict[str, object]) -> None:
+    assert not np.array_equal(
+        cloth(**other), cloth(solver="xpbd" if "solver" in other else "desbrun")
+    )

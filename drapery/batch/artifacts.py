@@ -27,8 +27,8 @@ class Artifact:
 
 def paths_of(job: Job) -> tuple[Path, ...]:
     """The packs and the texture that a job needs."""
-    texture = job.settings.texture
-    return (*map(Path, job.settings.packs), *(() if texture is None else (Path(texture),)))
+    texture = job.settings.texture_path
+    return (*map(Path, job.settings.pack_paths), *(() if texture is None else (Path(texture),)))
 
 
 def bundle(path: Path, digests: DigestCache) -> Artifact:

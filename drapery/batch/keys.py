@@ -62,9 +62,9 @@ def picture_key(
     Of the design, its canonical form counts, not how it was written; of packs and textures, their
     bytes, not their names; of us, `code_version`.
     """
-    options = asdict(settings)
-    options["packs"] = [digests.of(pack) for pack in settings.packs]
-    options["texture"] = None if settings.texture is None else digests.of(settings.texture)
+    options, texture = asdict(settings), settings.texture_path
+    options["packs"] = [digests.of(pack) for pack in settings.pack_paths]
+    options["texture"] = None if texture is None else digests.of(texture)
     whole: dict[str, Any] = {
         "design": None if banner is None else asdict(banner),
         "options": options,

@@ -300,7 +300,6 @@ def _unusable(requests: Iterable[PictureRequest]) -> Iterator[ManifestFault]:
 def _verdict(request: PictureRequest) -> str | None:
     from drapery.banner.packs import open_packs
     from drapery.render.backends import backend
-    from drapery.render.views import VIEWS
     from drapery.style.kinds import check_kind
 
     settings = request.settings
@@ -310,10 +309,7 @@ def _verdict(request: PictureRequest) -> str | None:
         check_kind(request.banner, settings)
         if request.banner is None and settings.kind in ("auto", "banner"):
             return "no design is given; write one like 'white creeper:lime border:black'"
-        if settings.view not in VIEWS:
-            names = ", ".join(VIEWS)
-            return f"view {settings.view!r} is not known; use one of: {names}"
-        if settings.texture is not None and not Path(settings.texture).is_file():
+        if settings.texture_path is not None and not Path(settings.texture_path).is_file():
             return f"texture {settings.texture} does not exist: check the path"
     except (BackendError, OptionError, PackError) as error:
         return str(error)

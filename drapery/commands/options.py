@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 import typer
 
 from drapery.option import Option
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Options
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options
 
 if TYPE_CHECKING:
     from drapery.banner.design import Banner
@@ -44,7 +44,7 @@ NumberOption = Annotated[
 
 def from_table(name: str) -> Any:
     """What typer reads of an option of the table: its flag, help, limits and default."""
-    option = OPTIONS[name] if name in OPTIONS else LOOP_OPTIONS[name]
+    option = NAMED_OPTIONS.get(name) or LOOP_OPTIONS[name]
     return typer.Option(
         option.command_flag,
         metavar=option.metavar,
@@ -77,7 +77,7 @@ def pictured(*without: str) -> Callable[[Command], Command]:
         own = dict(inspect.signature(command).parameters)
         del own["words"]
         source = {name: _parameter(name, None, kind) for name, kind in _SOURCE.items()}
-        shared = source | {name: _from_option(option) for name, option in OPTIONS.items()}
+        shared = source | {name: _from_option(option) for name, option in NAMED_OPTIONS.items()}
         added = {n: p for n, p in shared.items() if n not in own and n not in without}
         every = [p.replace(kind=p.KEYWORD_ONLY) for p in (own | added).values()]
         command.__signature__ = inspect.Signature(every)  # type: ignore[attr-defined]
@@ -105,7 +105,7 @@ def _parameter(name: str, default: object, kind: object) -> inspect.Parameter:
 
 def options_of(words: Mapping[str, Any]) -> Options:
     """The picture options among a command's words, as `draw` takes them. Raises OptionError."""
-    chosen = {name: option for name, option in OPTIONS.items() if name in words}
+    chosen = {name: option for name, option in NAMED_OPTIONS.items() if name in words}
     # typer gives None for a list of nothing.
     values = {
         name: option.parse((words[name] or ()) if option.several else words[name])

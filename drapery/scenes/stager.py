@@ -11,14 +11,24 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain
-from numbers import Real
 from typing import Any, Self
 
 import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
-from drapery.cloth import Cloth, Force, Gravity, PinPath, Solver, State, Wind, grid, rest_state
+from drapery.cloth import (
+    Cloth,
+    Fabric,
+    Force,
+    Gravity,
+    PinPath,
+    Solver,
+    State,
+    Wind,
+    grid,
+    rest_state,
+)
 from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh, vertex_normals
@@ -26,7 +36,7 @@ from drapery.render.camera import Camera
 from drapery.render.light import UNLIT, lit_at
 from drapery.render.scene import Model, Scene
 from drapery.render.shadow import contact_shadow
-from drapery.render.views import VIEWS, frame_view, turntable
+from drapery.render.views import find_view, frame_view, turntable
 from drapery.settings import Settings, background_colour
 from drapery.style.block import turn
 from drapery.style.body import Body, Panel
@@ -56,7 +66,7 @@ class ClothSpec:
     size: tuple[float, float]
     pins: PinName
     solver: str | Solver
-    fabric: Any = None
+    fabric: Fabric | None = None
 
     def make_cloth(self) -> Cloth:
         """The cloth at rest. Raises OptionError."""
@@ -105,8 +115,7 @@ def cloth_at_rest(spec: ClothSpec, dt: float = STEP) -> PanelCloth:
 def cloth_spec(panel: Panel, settings: Settings) -> ClothSpec:
     """What the settings make a panel's cloth of."""
     pins = settings.pins or panel.pins
-    fabric = getattr(settings, "fabric", None)
-    return ClothSpec(settings.grid, panel.size, pins, settings.solver, fabric)
+    return ClothSpec(settings.grid, panel.size, pins, settings.solver, settings.fabric)
 
 
 class Stager:
@@ -270,7 +279,7 @@ def _scenes(
     cameras = [stager.camera([points], aspect)] * len(moments)
     moves = any(settings.pose == "cloth" or panel.sway for panel in body.panels)
     if len(moments) > 1 and not moves and body.camera is None:
-        cameras = turntable(VIEWS[settings.view], points, aspect, len(moments))
+        cameras = turntable(find_view(settings.view), points, aspect, len(moments))
     for moment, time, camera in zip(moments, times, cameras, strict=True):
         models = stager.models(moment, time)
         shadow = contact_shadow(models, floor) if settings.shadow else None
@@ -313,16 +322,16 @@ def wind_of(settings: Settings, period: float | None = None) -> Wind:
 
     period: it repeats after this time [s]; a Wind that is given keeps all else.
     """
-    given: object = settings.wind
+    given = settings.wind
     if isinstance(given, Wind):
         return given if period is None else replace(given, period=period)
-    velocity = flow(settings.wind, settings.direction)
+    velocity = flow(given, settings.direction)
     return Wind(velocity, gusts=settings.gusts, seed=settings.seed, period=period)
 
 
 def forces_of(settings: Settings, wind: Wind) -> tuple[Force, ...]:
     """All forces on the cloth: gravity, the wind, and those that the settings add."""
-    return (Gravity(), wind, *getattr(settings, "forces", ()))
+    return (Gravity(), wind, *settings.forces)
 
 
 @dataclass(frozen=True)
@@ -354,8 +363,7 @@ def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[PanelCl
     """The same, from the cache where the settings hold only names and numbers."""
     size = at.count * math.prod(spec.shape) * 3 * np.dtype(float).itemsize
     named = isinstance(spec.solver, str) and spec.fabric is None
-    named = named and isinstance(settings.wind, Real) and not getattr(settings, "forces", ())
-    if named and size <= MAX_CACHED:
+    if named and not isinstance(settings.wind, Wind) and not settings.forces and size <= MAX_CACHED:
         wind = (settings.wind, settings.direction, settings.gusts, settings.seed)
         return _cached(spec, wind, at)
     return _record(spec, forces_of(settings, wind_of(settings, at.period)), at)

@@ -39,7 +39,7 @@ class PackStore:
         self._session = session
         self._last = 0
         self.entries: tuple[Entry, ...] = ()
-        for pack in session.settings.packs:
+        for pack in session.settings.pack_paths:
             entry = Entry(self._next(), str(pack), Path(pack))
             self.entries += (replace(entry, summary=_summary(entry)),)
 

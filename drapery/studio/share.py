@@ -8,13 +8,13 @@ and textures stay behind.
 import json
 import zlib
 from base64 import urlsafe_b64decode, urlsafe_b64encode
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from drapery.banner.formats import own_json
 from drapery.errors import DesignError
-from drapery.settings import Settings
+from drapery.settings import NAMED_OPTIONS, Settings
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
 
 VERSION = "a"
@@ -25,7 +25,7 @@ MAX_JSON = 16 << 10
 
 OWN = frozenset({"packs", "texture", "kind", "backend"})
 """Options that name files, want one, or name what is installed: they stay on their machine."""
-SHARED = tuple(field.name for field in fields(Settings) if field.name not in OWN)
+SHARED = tuple(name for name in NAMED_OPTIONS if name not in OWN)
 
 _LETTERS = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_")
 _REMEDY = "copy the whole link again"

@@ -3,19 +3,19 @@
 import json
 import shlex
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import shorthand
-from drapery.settings import Settings
+from drapery.settings import NAMED_OPTIONS, Settings
 
 STILLS = ("png",)
 LOOPS = ("gif", "apng", "webp", "mp4")
 KINDS = (*STILLS, "face", *LOOPS, "glb", "json")
 """What can be made: `face` is the plain flat face, `json` the design itself."""
 
-PICTURE_OPTIONS = tuple(field.name for field in fields(Settings))
+PICTURE_OPTIONS = tuple(NAMED_OPTIONS)
 MODEL_OPTIONS = (
     *("packs", "format", "kind", "texture", "pose", "placement", "rotation", "facing"),
     *("view", "grid", "solver", "pins", "wind", "direction", "gusts", "time", "seed"),

@@ -20,7 +20,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 
 from drapery.errors import OptionError
 from drapery.options import NAMES, check_options, one_line, unknown
@@ -44,7 +44,7 @@ class Case(BaseModel):
     tolerance: int = Field(default=0, ge=0, le=255)
     pixels: int = Field(default=0, ge=0)
     hashed: bool = False
-    settings: Settings = DEFAULTS
+    settings: InstanceOf[Settings] = DEFAULTS
 
 
 class CaseFile(BaseModel):

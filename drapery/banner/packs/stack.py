@@ -307,6 +307,8 @@ def open_packs(packs: PackLike | Sequence[PackLike] = (), *, format: int | None 
         return _of_format(packs, format)
     if isinstance(packs, str | Path | Pack | PackSource):
         packs = [packs]
+    if isinstance(packs, Sequence) and len(packs) == 1 and isinstance(packs[0], Packs):
+        return _of_format(packs[0], format)  # with all that it has read before
     if not isinstance(packs, Iterable):
         raise PackError(f"packs is {shown(packs)}: give a path, a pack or a list of them")
     chosen = (pack for each in packs for pack in _opened(each, format))

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.banner.names import shown
 from drapery.banner.packs.checks import reason
@@ -29,9 +30,7 @@ def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
     """
     if settings.texture is None:
         raise OptionError(f"kind {settings.kind} needs a texture; give its PNG file by texture")
-    path = Path(settings.texture)
-    name = f"texture {shown(str(path), 200)}"
-    texels = read_png(_read(path, name), name)
+    name, texels = _texels(settings.texture)
     height, width = texels.shape[:2]
     for across, down in _SHAPES:
         times = width // across
@@ -42,6 +41,18 @@ def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
         f"{name} is {width} x {height} px and no sheet of a {settings.kind};"
         " use 64 x 32, or a multiple of it"
     )
+
+
+def _texels(texture: str | Path | NDArray[np.uint8]) -> tuple[str, Texels]:
+    """The texture and what messages call it. Raises OptionError or PackError."""
+    if isinstance(texture, str | Path):
+        name = f"texture {shown(str(texture), 200)}"
+        return name, read_png(_read(Path(texture), name), name)
+    if texture.dtype != np.uint8 or texture.ndim != 3 or texture.shape[2] != 4:
+        raise OptionError(
+            f"texture: an array of {texture.dtype} {list(texture.shape)}; use uint8 [H, W, 4]"
+        )
+    return "texture: the array", texture
 
 
 def _widened(texels: Texels, times: int) -> Texels:
