@@ -71,8 +71,50 @@ def test_removing_a_cloth_does_not_disturb_the_others() -> None:
     assert all(np.array_equal(both[0][i], both[1][i]) for i in (0, 2))
 
 
+def test_a_world_without_cloths_steps_on() -> None:
+    world = World()
+    world.step(EYE)
+    assert world.time == world.dt and not list(world.shown())
+    world.remove(world.add(CLOTH, row(2)))
+    world.step(EYE)
+    assert not world.ids().size
+
+
+def test_a_cloth_is_prepared_once() -> None:
+    class Counting(SolverXPBD):
+        def init(self, cloth, dt):
+            prepared.append(cloth)
+            return super().init(cloth, dt)
+
+    prepared: list[object] = []
+    world = World(solver=Counting())
+    world.add(CLOTH, row(2))
+    first = len(prepared)
+    world.add(CLOTH, row(3))
+    assert len(prepared) == first and len(world.ids()) == 5
+
+
+WRONG = {
+    "places two": lambda: World().add(CLOTH, np.zeros((4, 2))),
+    "places nan": lambda: World().add(CLOTH, np.full((1, 3), np.nan)),
+    "places text": lambda: World().add(CLOTH, "here"),
+    "eye": lambda: World().step(np.zeros(2)),
+    "dt": lambda: World(dt=-1),
+    "half before full": lambda: Detail(full=5, half=4),
+    "maximum": lambda: Detail(maximum=0.5),
+    "fade": lambda: Detail(fade=-1),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_cannot_be_is_refused_in_one_line(name: str) -> None:
+    with pytest.raises(OptionError) as refusal:
+        WRONG[name]()
+    assert "\n" not in str(refusal.value)
+
+
 def test_levels_follow_distance_and_the_cap_keeps_the_nearest() -> None:
-    detail = Detail(full=2.5, half=4.5, most=4)
+    detail = Detail(full=2.5, half=4.5, maximum=4)
     world = World(forces=breeze, detail=detail)
     world.add(CLOTH, row(8))
     world.step(EYE)

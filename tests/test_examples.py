@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
-SMALLER = {"crowd": {"side": 5}, "own_cloth": {"frames": 12}}
+SMALLER = {"crowd": {"side": 6, "seconds": 0.2}, "own_cloth": {"frames": 12}}
 """The same program on less, where the whole takes long."""
 
 

@@ -1,31 +1,33 @@
 """Many cloths of several topologies, each simulated as finely as its distance deserves.
 
 Cloths come and go while the world runs. Those near the eye are simulated on their own grid, those
-further off on every second row and column, and the rest follow a stiff motion or keep still; at
-most so many are simulated at once, the nearest first. When a cloth changes its level of detail,
-what it showed before fades into what it shows now, so nothing jumps.
+farther away on every second row and column; the rest follow a stiff motion or stand still. At
+most `Detail.maximum` are simulated at once, the nearest first. When a cloth changes its level of
+detail, what it showed before fades into what it shows now, so nothing jumps.
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.builders import grid
+from drapery.cloth.checks import check_count, check_number, shown
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.fabric import Fabric
 from drapery.cloth.forces import Force, Gravity
 from drapery.cloth.solvers.base import Solver, check_step
 from drapery.cloth.solvers.xpbd import SolverXPBD
-from drapery.cloth.state import State
+from drapery.cloth.state import MAX_CLOTHS, State
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
 FULL, HALF, STIFF = 0, 1, 2
 """Levels of detail: every particle, every second row and column, no simulation."""
 
+MAX_DISTANCE = 1e9
 HYSTERESIS = 1.1
 """A cloth goes back to a finer level only when it is nearer than the limit by this factor."""
 
@@ -40,48 +42,84 @@ StiffMotion = Callable[[Cloth, Array, float], Array]
 class Detail:
     """How finely cloths are simulated.
 
-    full, half: distances from the eye [m] up to which they are, on their own and on half a grid.
-    most: how many are simulated at once.
+    full, half: distances from the eye [m] up to which cloths are simulated, on their own grid and
+        on every second row and column.
+    maximum: how many cloths are simulated at once.
     fade: how long a change of level takes to show [s].
+    Raises OptionError.
     """
 
     full: float = 16.0
     half: float = 40.0
-    most: int = 5000
+    maximum: int = 5000
     fade: float = 0.5
 
     def __post_init__(self) -> None:
-        if not (0 <= self.full <= self.half and self.most >= 0 and self.fade >= 0):
-            raise OptionError(f"{self} is out of range; use 0 <= full <= half, most and fade >= 0")
+        check_number("detail full", self.full, 0, MAX_DISTANCE, "m")
+        check_number("detail half", self.half, self.full, MAX_DISTANCE, "m")
+        check_count("detail maximum", self.maximum, 0, MAX_CLOTHS)
+        check_number("detail fade", self.fade, 0, 1e6, "s")
+
+
+class WorldView(NamedTuple):
+    """What a world shows of all cloths of one topology.
+
+    cloth: their topology. ids: [B]. places: [m], [B, 3]. positions: of the particles in each
+    cloth's own frame [m], [B, N, 3]; add its place. levels: FULL, HALF or STIFF, [B].
+    """
+
+    cloth: Cloth
+    ids: NDArray[np.int64]
+    places: Array
+    positions: Array
+    levels: NDArray[np.int8]
 
 
 @dataclass
-class _Herd:
-    """All cloths of one topology: a row for each in every array."""
+class _ClothBatch:
+    """All cloths of one topology: a row for each in every array.
+
+    offsets: what is still to fade out [m], [B, N, 3]; remaining: for how long [s], [B].
+    """
 
     cloth: Cloth
     coarse: Cloth | None
-    memories: tuple[Any, Any]
+    solver_states: tuple[Any, Any]
     ids: NDArray[np.int64]
     places: Array
-    level: NDArray[np.int8]
+    levels: NDArray[np.int8]
     positions: Array
     velocities: Array
-    fading: Array
-    left: Array
+    offsets: Array
+    remaining: Array
 
-    def select(self, rows: NDArray[Any]) -> None:
-        for name in ("ids", "places", "level", "positions", "velocities", "fading", "left"):
-            setattr(self, name, getattr(self, name)[rows])
+    def rows(self) -> dict[str, NDArray[Any]]:
+        names = ("ids", "places", "levels", "positions", "velocities", "offsets", "remaining")
+        return {name: getattr(self, name) for name in names}
+
+    def select(self, chosen: NDArray[Any]) -> None:
+        for name, values in self.rows().items():
+            setattr(self, name, values[chosen])
+
+    def extend(self, ids: NDArray[np.int64], places: Array) -> None:
+        """Add cloths at rest, on their own grid."""
+        count = len(ids)
+        rest = np.broadcast_to(self.cloth.rest_positions, (count, *self.cloth.rest_positions.shape))
+        still = np.zeros_like(rest)
+        levels = np.full(count, FULL, np.int8)
+        new = (ids, places, levels, rest, still, still, np.zeros(count))
+        for (name, values), more in zip(self.rows().items(), new, strict=True):
+            setattr(self, name, np.concatenate([values, more]))
 
 
 @dataclass
 class World:
     """Cloths of several topologies in one place and time.
 
-    forces: at given places. stiff: the motion of cloths that are not simulated; None leaves them
-    as they were. solver: one whose memory holds nothing of single cloths (desbrun, xpbd).
-    Positions are in each cloth's own frame; add its place [m].
+    dt: one step [s]. solver: one whose state holds nothing of single cloths (SolverDesbrun,
+    SolverXPBD). forces: the forces on cloths at given places. stiff: the motion of cloths that
+    are not simulated; None leaves them as they were. detail: how finely cloths are simulated.
+    time: [s]. Raises OptionError.
     """
 
     dt: float = 1.0 / 60.0
@@ -90,36 +128,24 @@ class World:
     stiff: StiffMotion | None = None
     detail: Detail = field(default_factory=Detail)
     time: float = 0.0
-    _herds: dict[int, _Herd] = field(default_factory=dict, repr=False)
+    _batches: dict[int, _ClothBatch] = field(default_factory=dict, repr=False)
     _next: int = 0
 
     def __post_init__(self) -> None:
         check_step(self.dt, 1)
 
     def add(self, cloth: Cloth, places: Array) -> NDArray[np.int64]:
-        """Hang cloths of one topology at places [B, 3]; their ids, which stay theirs, shape [B].
+        """Hang cloths of one topology at places [m], [B, 3]; returns their ids, [B].
 
-        Give the same Cloth object for all cloths that are to step together.
+        An id never changes and is never used again. Give the same Cloth object for all cloths
+        that are to step together: it is prepared once. Raises OptionError.
         """
-        places = np.asarray(places, np.float64).reshape(-1, 3)
-        if not np.isfinite(places).all():
-            raise OptionError("places hold NaN or infinity; give finite numbers [m]")
-        herd = self._herds.setdefault(id(cloth), self._empty(cloth))
-        count = len(places)
-        ids = np.arange(self._next, self._next + count)
-        self._next += count
-        rest = np.broadcast_to(cloth.rest_positions, (count, *cloth.rest_positions.shape))
-        joined = {
-            "ids": ids,
-            "places": places,
-            "level": np.full(count, FULL, np.int8),
-            "positions": rest,
-            "velocities": np.zeros_like(rest),
-            "fading": np.zeros_like(rest),
-            "left": np.zeros(count),
-        }
-        for name, rows in joined.items():
-            setattr(herd, name, np.concatenate([getattr(herd, name), rows]))
+        places = _points("places", places).reshape(-1, 3)
+        if id(cloth) not in self._batches:
+            self._batches[id(cloth)] = self._empty(cloth)
+        ids = np.arange(self._next, self._next + len(places))
+        self._next += len(places)
+        self._batches[id(cloth)].extend(ids, places)
         return ids
 
     def remove(self, ids: Sequence[int] | NDArray[np.int64]) -> None:
@@ -128,122 +154,121 @@ class World:
         missing = np.setdiff1d(wanted, self.ids())
         if missing.size:
             raise OptionError(f"cloth {missing[0]} is not here; it may have been removed before")
-        for herd in self._herds.values():
-            herd.select(~np.isin(herd.ids, wanted))
+        for batch in self._batches.values():
+            batch.select(~np.isin(batch.ids, wanted))
 
     def ids(self) -> NDArray[np.int64]:
         """The ids of all cloths, in the order of `shown`."""
-        every = [herd.ids for herd in self._herds.values()]
-        return np.concatenate([np.empty(0, np.int64), *every])
+        return np.concatenate([np.empty(0, np.int64), *(b.ids for b in self._batches.values())])
 
-    def shown(self) -> Iterator[tuple[Cloth, NDArray[np.int64], Array, Array, NDArray[np.int8]]]:
-        """For each topology: the cloth, ids [B], places [B, 3], positions [B, N, 3], levels [B]."""
-        for herd in self._herds.values():
-            faded = herd.positions + _weight(herd.left, self.detail.fade) * herd.fading
-            yield herd.cloth, herd.ids, herd.places, faded, herd.level
+    def shown(self) -> Iterator[WorldView]:
+        """What there is to see, topology by topology in the order in which they were added."""
+        for batch in self._batches.values():
+            weight = _weight(batch.remaining, self.detail.fade)
+            faded = batch.positions + weight * batch.offsets
+            yield WorldView(batch.cloth, batch.ids, batch.places, faded, batch.levels)
 
     def step(self, eye: Array) -> None:
-        """Move all cloths on by dt, seen from a point [m], shape [3]."""
-        for herd, levels in zip(self._herds.values(), self._levels(np.asarray(eye)), strict=True):
-            self._change(herd, levels)
-            self._advance(herd)
-            herd.left = np.maximum(herd.left - self.dt, 0)
+        """Move all cloths on by dt, seen from a point [m], [3]. Raises OptionError."""
+        eye = _points("eye", eye).reshape(3)
+        batches = list(self._batches.values())
+        for batch, levels in zip(batches, self._wanted_levels(batches, eye), strict=True):
+            self._change(batch, levels)
+            self._advance(batch)
+            batch.remaining = np.maximum(batch.remaining - self.dt, 0)
         self.time += self.dt
 
-    def _empty(self, cloth: Cloth) -> _Herd:
+    def _empty(self, cloth: Cloth) -> _ClothBatch:
         coarse = coarsen(cloth)
-        memories = (
+        solver_states = (
             self.solver.init(cloth, self.dt),
             None if coarse is None else self.solver.init(coarse, self.dt),
         )
-        none = np.empty((0, *cloth.rest_positions.shape))
-        flat = np.empty(0)
-        ids, level = flat.astype(np.int64), flat.astype(np.int8)
-        return _Herd(cloth, coarse, memories, ids, np.empty((0, 3)), level, none, none, none, flat)
-
-    def _levels(self, eye: Array) -> Iterator[NDArray[np.int8]]:
-        """The level that each cloth ought to have, herd by herd."""
-        herds = list(self._herds.values())
-        away = [np.linalg.norm(herd.places - eye, axis=1) for herd in herds]
-        levels = [self._by_distance(h, d) for h, d in zip(herds, away, strict=True)]
-        every, level = (
-            np.concatenate([_nothing(), *away]),
-            np.concatenate([_nothing(), *levels]),
+        none, flat = np.empty((0, *cloth.rest_positions.shape)), np.empty(0)
+        ids, levels = flat.astype(np.int64), flat.astype(np.int8)
+        return _ClothBatch(
+            cloth, coarse, solver_states, ids, np.empty((0, 3)), levels, none, none, none, flat
         )
+
+    def _wanted_levels(self, batches: Sequence[_ClothBatch], eye: Array) -> list[NDArray[np.int8]]:
+        """The level that each cloth should have, batch by batch."""
+        if not batches:
+            return []
+        distances = [np.linalg.norm(batch.places - eye, axis=1) for batch in batches]
+        by_batch = [self._by_distance(*pair) for pair in zip(batches, distances, strict=True)]
+        distance, level = np.concatenate(distances), np.concatenate(by_batch)
         simulated = np.flatnonzero(level < STIFF)
         # The nearest first; of two at one distance the older.
-        order = simulated[np.argsort(every[simulated], kind="stable")]
-        level[order[self.detail.most :]] = STIFF
-        cuts = np.cumsum([len(herd.ids) for herd in herds])[:-1]
-        return iter([part.astype(np.int8) for part in np.split(level, cuts)])
+        order = simulated[np.argsort(distance[simulated], kind="stable")]
+        level[order[self.detail.maximum :]] = STIFF
+        return np.split(level, np.cumsum([len(batch.ids) for batch in batches])[:-1])
 
-    def _by_distance(self, herd: _Herd, away: Array) -> NDArray[np.int8]:
+    def _by_distance(self, batch: _ClothBatch, distance: Array) -> NDArray[np.int8]:
         limits = np.array([self.detail.full, self.detail.half])
-        # The limits of levels coarser than a cloth's own are those at which it would come back.
-        slack = np.where(herd.level[:, None] > np.arange(2), 1 / HYSTERESIS, 1.0)
-        level = (away[:, None] > limits * slack).sum(axis=1).astype(np.int8)
-        return np.where((level == HALF) & (herd.coarse is None), FULL, level).astype(np.int8)
+        # A cloth comes back to a finer level only where it is nearer than the limit by a factor.
+        slack = np.where(batch.levels[:, None] > np.arange(2), 1 / HYSTERESIS, 1.0)
+        level = (distance[:, None] > limits * slack).sum(axis=1).astype(np.int8)
+        return np.where((level == HALF) & (batch.coarse is None), FULL, level).astype(np.int8)
 
-    def _change(self, herd: _Herd, levels: NDArray[np.int8]) -> None:
+    def _change(self, batch: _ClothBatch, levels: NDArray[np.int8]) -> None:
         """Give cloths their new levels; what they showed fades into what they will show."""
-        rows = np.flatnonzero(levels != herd.level)
+        rows = np.flatnonzero(levels != batch.levels)
         if not rows.size:
             return
-        shown = herd.positions[rows] + (
-            _weight(herd.left[rows], self.detail.fade) * herd.fading[rows]
-        )
-        herd.level[rows] = levels[rows]
+        weight = _weight(batch.remaining[rows], self.detail.fade)
+        shown = batch.positions[rows] + weight * batch.offsets[rows]
+        batch.levels[rows] = levels[rows]
         finer = levels[rows] == FULL
-        # Back on its own grid a cloth goes on from what it shows; else it starts elsewhere.
-        herd.positions[rows[finer]] = shown[finer]
-        kept = self._target(herd, rows)
-        herd.fading[rows] = shown - kept
-        herd.positions[rows] = kept
-        herd.left[rows] = self.detail.fade
+        # A cloth that is back on its own grid continues from what it shows; others start elsewhere.
+        batch.positions[rows[finer]] = shown[finer]
+        target = self._target(batch, rows)
+        batch.offsets[rows] = shown - target
+        batch.positions[rows] = target
+        batch.remaining[rows] = self.detail.fade
 
-    def _target(self, herd: _Herd, rows: NDArray[np.intp]) -> Array:
+    def _target(self, batch: _ClothBatch, rows: NDArray[np.intp]) -> Array:
         """What cloths show at their present level, before any fading."""
-        target = herd.positions[rows]
-        half, stiff = herd.level[rows] == HALF, herd.level[rows] == STIFF
+        target = batch.positions[rows]
+        half, stiff = batch.levels[rows] == HALF, batch.levels[rows] == STIFF
         if half.any():
-            target[half] = refine(thin(target[half], herd.cloth), herd.cloth)
+            target[half] = refine(thin(target[half], batch.cloth), batch.cloth)
         if stiff.any() and self.stiff is not None:
-            target[stiff] = self.stiff(herd.cloth, herd.places[rows[stiff]], self.time)
+            target[stiff] = self.stiff(batch.cloth, batch.places[rows[stiff]], self.time)
         return target
 
-    def _advance(self, herd: _Herd) -> None:
-        full, half, stiff = (np.flatnonzero(herd.level == level) for level in (FULL, HALF, STIFF))
-        self._simulate(herd, full, herd.cloth, herd.memories[0])
-        if herd.coarse is not None:
-            self._simulate(herd, half, herd.coarse, herd.memories[1])
+    def _advance(self, batch: _ClothBatch) -> None:
+        full, half, stiff = (np.flatnonzero(batch.levels == level) for level in (FULL, HALF, STIFF))
+        self._simulate(batch, full, batch.cloth, batch.solver_states[0])
+        if batch.coarse is not None:
+            self._simulate(batch, half, batch.coarse, batch.solver_states[1])
         if stiff.size and self.stiff is not None:
-            now = self.stiff(herd.cloth, herd.places[stiff], self.time + self.dt)
-            herd.velocities[stiff] = (now - herd.positions[stiff]) / self.dt
-            herd.positions[stiff] = now
+            now = self.stiff(batch.cloth, batch.places[stiff], self.time + self.dt)
+            batch.velocities[stiff] = (now - batch.positions[stiff]) / self.dt
+            batch.positions[stiff] = now
         elif stiff.size:
-            herd.velocities[stiff] = 0
+            batch.velocities[stiff] = 0
 
     def _simulate(
-        self, herd: _Herd, rows: NDArray[np.intp], cloth: Cloth, solver_state: Any
+        self, batch: _ClothBatch, rows: NDArray[np.intp], cloth: Cloth, solver_state: Any
     ) -> None:
         if not rows.size:
             return
-        positions, velocities = herd.positions[rows], herd.velocities[rows]
-        if cloth is not herd.cloth:
-            positions, velocities = (thin(a, herd.cloth) for a in (positions, velocities))
+        positions, velocities = batch.positions[rows], batch.velocities[rows]
+        if cloth is not batch.cloth:
+            positions, velocities = (thin(a, batch.cloth) for a in (positions, velocities))
         state = State(positions, velocities, self.time)
-        forces = self.forces(herd.places[rows])
+        forces = self.forces(batch.places[rows])
         state, _ = self.solver.step(cloth, state, solver_state, forces, self.dt)
         moved = state.positions, state.velocities
-        if cloth is not herd.cloth:
-            moved = refine(moved[0], herd.cloth), refine(moved[1], herd.cloth)
-        herd.positions[rows], herd.velocities[rows] = moved
+        if cloth is not batch.cloth:
+            moved = refine(moved[0], batch.cloth), refine(moved[1], batch.cloth)
+        batch.positions[rows], batch.velocities[rows] = moved
 
 
 def coarsen(cloth: Cloth) -> Cloth | None:
-    """The same cloth on every second row and column of its grid, pinned where both have particles.
+    """The same cloth on every second row and column of its grid; it keeps the pins that remain.
 
-    None where there is no such grid: the counts must be odd and at least five.
+    None where there is no such grid: both counts must be odd and at least five.
     """
     if cloth.grid_shape is None or any(n < 5 or n % 2 == 0 for n in cloth.grid_shape):
         return None
@@ -284,9 +309,16 @@ def refine(values: Array, cloth: Cloth) -> Array:
     return whole.reshape(len(values), rows * columns, -1)
 
 
-def _nothing() -> Array:
-    """Nothing, as an array to join others to."""
-    return np.empty(0)
+def _points(name: str, values: Array) -> Array:
+    """Finite points [m] as an array. Raises OptionError."""
+    try:
+        points = np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        points = np.empty((1, 0))
+    wanted = (3,) if name == "eye" else (*points.shape[:-1], 3)
+    if points.shape != wanted or points.ndim > 2 or not np.isfinite(points).all():
+        raise OptionError(f"{name} {shown(values)} must be finite numbers [m], three a point")
+    return points
 
 
 def _shape(cloth: Cloth) -> tuple[int, int]:
@@ -294,8 +326,8 @@ def _shape(cloth: Cloth) -> tuple[int, int]:
     return cloth.grid_shape
 
 
-def _weight(left: Array, fade: float) -> Array:
+def _weight(remaining: Array, fade: float) -> Array:
     """How much of what was before still shows, shape [B, 1, 1]: smooth at both ends."""
-    s = left / fade if fade > 0 else np.zeros_like(left)
+    s = remaining / fade if fade > 0 else np.zeros_like(remaining)
     weight: Array = (s * s * (3 - 2 * s))[:, None, None]
     return weight

@@ -1,0 +1,69 @@
+"""What the layout for fine grids is worth: `python -m benchmarks.sheets`.
+
+Each grid is stepped alone, on one thread, in gusts of wind: laid out as a plane of lanes (see
+`drapery.cloth.sheets`) and on the general path, where one cloth fills one lane of a register.
+Prints steps of 1/60 s a second, the best of five stretches of time taken by turns, and the ratio.
+"""
+
+import argparse
+from time import perf_counter
+from typing import Any
+from unittest.mock import patch
+
+from drapery.cloth import Cloth, Gravity, SolverDesbrun, SolverXPBD, Wind, grid, rest_state
+from drapery.cloth.solvers.xpbd import enough_substeps
+
+GRIDS = (16, 31), (21, 41), (41, 81)
+FORCES = (Gravity(), Wind((1.0, 0.0, 5.0)))
+DT = 1 / 60
+ROUNDS = 5
+
+
+class Path:
+    """One solver on one grid."""
+
+    def __init__(self, name: str, cloth: Cloth, sheet: bool) -> None:
+        self.solver: Any = SolverDesbrun(threads=1)
+        if name == "xpbd":
+            self.solver = SolverXPBD(threads=1, substeps=enough_substeps(cloth))
+        self.cloth, self.best = cloth, 0.0
+        with patch(f"drapery.cloth.solvers.{name}.is_sheet", lambda cloth: sheet):
+            self.solver_state = self.solver.init(cloth, DT)
+        self.state = rest_state(cloth)
+        self.run(60)
+
+    def run(self, steps: int) -> float:
+        """Seconds for so many steps."""
+        begin = perf_counter()
+        self.state, self.solver_state = self.solver.step(
+            self.cloth, self.state, self.solver_state, FORCES, DT, steps=steps
+        )
+        return perf_counter() - begin
+
+    def time(self, seconds: float) -> None:
+        """Step for about so long; keep the best rate [steps/s]."""
+        steps = max(1, int(30 * seconds / self.run(30)))
+        self.best = max(self.best, steps / self.run(steps))
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=0.5, help="of each stretch")
+    seconds = parser.parse_args().seconds
+    print("| solver | grid | general path [steps/s] | plane of lanes [steps/s] | ratio |")
+    print("|---|---|---|---|---|")
+    for name in ("desbrun", "xpbd"):
+        for shape in GRIDS:
+            cloth = grid(*shape, 0.8333, 1.6667)
+            paths = [Path(name, cloth, sheet) for sheet in (False, True)]
+            for _ in range(ROUNDS):
+                for path in paths:
+                    path.time(seconds)
+            general, plane = (path.best for path in paths)
+            size = f"{shape[0]} x {shape[1]}"
+            print(f"| `{name}` | {size} | {general:.0f} | {plane:.0f} | {plane / general:.1f} |")
+
+
+if __name__ == "__main__":
+    main()
