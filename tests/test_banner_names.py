@@ -1,12 +1,13 @@
 """Names of patterns and dyes: every tongue of the game comes to the same ids."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYES
-from drapery.banner.names import bukkit_pattern, dye_name, is_custom, pattern_id
+from drapery.banner.names import bukkit_pattern, dye_name, is_custom, pattern_id, shown
 from drapery.banner.patterns import BY_CODE, PATTERN_NAMES, PATTERNS
 from drapery.errors import DesignError
 
@@ -128,3 +129,14 @@ def test_layers_and_banners_keep_ids_whatever_they_are_given(name: str, dye: str
 def test_a_banner_of_17_layers_is_refused():
     with pytest.raises(DesignError, match="17 layers"):
         Banner("white", (Layer("cross", "red"),) * 17)
+
+
+@pytest.mark.parametrize("value", [-(10**400), "x\n" * 999, [1] * 999, np.eye(99), {1}])
+def test_any_value_is_quoted_on_one_short_line(value: object):
+    assert len(shown(value)) < 90 and "\n" not in shown(value)
+    with pytest.raises(DesignError) as caught:
+        Banner("white", (value,))
+    assert len(str(caught.value)) < 150 and "\n" not in str(caught.value)
+    with pytest.raises(DesignError):
+        dye_name(value)
+    assert shown(10**5000) == "a number of 16610 bits"

@@ -102,7 +102,7 @@ def test_a_pack_may_hide_files_below_it(tmp_path: Path) -> None:
         ('{"pack": 3}', "'pack' must be an object"),
         ('{"pack": {"pack_format": "six"}}', "pack_format must be a number"),
         ('{"pack": {"pack_format": true}}', "pack_format must be a number"),
-        ('{"pack": {"supported_formats": [1, 2, 3]}}', r"must be a number or two"),
+        ('{"pack": {"supported_formats": [1, 2, 3]}}', r"must be a number or \[lowest, highest\]"),
         ('{"pack": {"min_format": [1, 2, 3]}}', r"must be a number or \[major, minor\]"),
         ('{"overlays": {"entries": {}}}', r"overlays\.entries must be a list"),
         ('{"overlays": {"entries": [{"directory": "a"}]}}', "overlay 0 must say its formats"),
@@ -122,3 +122,44 @@ def test_broken_pack_mcmeta_is_named(tmp_path: Path, meta: str | bytes, message:
     with pytest.raises(PackError, match=message) as caught:
         open_packs([path])
     assert "\n" not in str(caught.value) and "pack.mcmeta" in str(caught.value)
+
+
+LONG = "x" * 900_000
+MANY = [1] * 300_000
+
+
+@pytest.mark.parametrize(
+    "value", [LONG, MANY, {"min_inclusive": LONG}, [LONG, 1], 1e308, LONG[:99]]
+)
+@pytest.mark.parametrize("key", ["pack_format", "supported_formats", "min_format", "max_format"])
+def test_an_error_is_short_whatever_a_pack_says(tmp_path: Path, key: str, value: object) -> None:
+    path = folder_pack(tmp_path / "a", {META: json.dumps({"pack": {key: value}})})
+    with pytest.raises(PackError) as caught:
+        open_packs([path])
+    assert len(str(caught.value)) < 300 + len(str(path)) and "\n" not in str(caught.value)
+
+
+def test_errors_and_warnings_of_the_other_files_are_short(tmp_path: Path) -> None:
+    overlays = {"entries": [{"directory": LONG, "formats": 4}]}
+    animation = {"animation": {"frames": [LONG], "frametime": 1}}
+    source = {"type": LONG[:400_000]}
+    atlas = "assets/minecraft/atlases/banner_patterns.json"
+    for name, files in {
+        "overlay": {META: mcmeta(overlays=overlays)},
+        "frames": {CREEPER: plain(1, 1, 1, 1), CREEPER + ".mcmeta": json.dumps(animation)},
+        "asset": {"data/minecraft/banner_pattern/creeper.json": json.dumps({"asset_id": LONG})},
+        "width": {
+            CREEPER: plain(1, 1, 1, 1),
+            CREEPER + ".mcmeta": json.dumps({"animation": {"width": LONG}}),
+        },
+    }.items():
+        path = folder_pack(tmp_path / name, {"assets/x": "", **files})
+        with pytest.raises(PackError) as caught:
+            open_packs([path]).sheet("creeper")
+        assert len(str(caught.value)) < 400 + len(str(path)), name
+    kinds = [{"type": f"{number}{LONG[:100]}"} for number in range(4000)]
+    path = folder_pack(tmp_path / "atlas", {atlas: json.dumps({"sources": [source, *kinds]})})
+    packs = open_packs([path])
+    packs.sheet("creeper")
+    (line,) = (line for line in packs.warnings() if "not read" in line)
+    assert len(line) < 800 + len(str(path)) and "and 3996 more" in line

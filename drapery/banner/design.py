@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from drapery.banner.dyes import DYES
-from drapery.banner.names import dye_name, is_custom, pattern_id
+from drapery.banner.names import dye_name, is_custom, pattern_id, shown
 from drapery.banner.patterns import PATTERNS
 from drapery.errors import DesignError
 
@@ -82,4 +82,4 @@ _parsers: list[Callable[[str], Banner]] = []
 def _check_layers(layers: tuple[object, ...]) -> None:
     for number, layer in enumerate(layers, 1):
         if not isinstance(layer, Layer):
-            raise DesignError(f"layer {number} is {layer!r}; write Layer('creeper', 'lime')")
+            raise DesignError(f"layer {number} is {shown(layer)}; write Layer('creeper', 'lime')")

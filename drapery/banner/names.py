@@ -41,12 +41,14 @@ _LONGEST = 256
 
 
 def shown(value: object, longest: int = 40) -> str:
-    """The value as an error quotes it: on one line and short, whatever was given."""
+    """The value as an error quotes it, on one short line, whatever it is."""
     if isinstance(value, dict):
         return f"a compound of {len(value)}"
     if isinstance(value, (list, tuple)):
         return f"a list of {len(value)}"
-    text = str(value)
+    if isinstance(value, int) and value.bit_length() > 256:
+        return f"a number of {value.bit_length()} bits"
+    text = value if isinstance(value, str) else " ".join(str(value).split())
     if len(text) > longest:
         text = text[: longest - 1] + "…"
     return repr(text) if isinstance(value, str) else text

@@ -22,8 +22,12 @@ def within(data: bytes, limit: int, place: str) -> bytes:
 
 
 def listed(names: Iterable[str]) -> str:
-    """The first five names in one line, whatever is in them."""
-    return ", ".join(name if name.isprintable() else ascii(name) for name in sorted(names)[:5])
+    """The first five names, sorted, in one short line, whatever is in them."""
+    all_names = sorted(names)
+    short = [name[:80] for name in all_names[:5]]
+    words = [name if name.isprintable() else ascii(name) for name in short]
+    more = [f"and {len(all_names) - 5} more"] if len(all_names) > 5 else []
+    return ", ".join(words + more)
 
 
 def reason(error: BaseException) -> str:

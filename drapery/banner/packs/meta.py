@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+from drapery.banner.names import shown
 from drapery.banner.packs.filters import IdFilter, parse_filter
 from drapery.errors import PackError
 
@@ -95,7 +96,7 @@ def parse_meta(data: bytes, name: str) -> PackMeta:
     if isinstance(declared, list | float) and not isinstance(declared, bool):
         declared = int(_edge(declared, 0, f"{name}: pack_format")[0])
     if declared is not None and not _is_count(declared):
-        raise PackError(f"{name}: pack_format must be a number, not {declared!r}")
+        raise PackError(f"{name}: pack_format must be a number, not {shown(declared)}")
     if declared is None and formats is not None:
         declared = int(min(formats.lowest[0], NEWEST_FORMAT))
     description = pack.get("description", "")
@@ -137,7 +138,7 @@ def _overlay(entry: Any, name: str) -> Overlay:
         raise PackError(f"{name} must be an object with directory and formats")
     directory = entry.get("directory")
     if not isinstance(directory, str) or not re.fullmatch(r"[\w-][\w.-]{0,127}", directory, re.A):
-        raise PackError(f"{name}: directory {directory!r} must be a name of a-z, 0-9, _ and -")
+        raise PackError(f"{name}: directory {shown(directory)} must be a name of a-z, 0-9, _ and -")
     formats = _formats(entry, "formats", name)
     if formats is None:
         raise PackError(f"{name} must say its formats: give min_format and max_format")
@@ -164,7 +165,7 @@ def _formats(entry: dict[str, Any], old_key: str, name: str) -> FormatRange | No
         value = [value.get("min_inclusive"), value.get("max_inclusive")]
     ends = value if isinstance(value, list) else [value, value]
     if len(ends) != 2 or not all(_is_count(end) for end in ends):
-        raise PackError(f"{name} {old_key}: {value!r} must be a number or two: [lowest, highest]")
+        raise PackError(f"{name} {old_key}: {shown(value)} must be a number or [lowest, highest]")
     return FormatRange((ends[0], 0), (ends[1], _ANY_MINOR))
 
 
@@ -172,7 +173,7 @@ def _edge(value: Any, minor: float, name: str) -> Format:
     """A format as `75`, `[75]` or `[75, 1]`."""
     parts = value if isinstance(value, list) else [int(value) if _is_number(value) else value]
     if not 1 <= len(parts) <= 2 or not all(_is_count(part) for part in parts):
-        raise PackError(f"{name}: {value!r} must be a number or [major, minor]")
+        raise PackError(f"{name}: {shown(value)} must be a number or [major, minor]")
     return parts[0], parts[1] if len(parts) == 2 else minor
 
 

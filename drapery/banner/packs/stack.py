@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Literal
 
 from drapery.banner.names import shown
+from drapery.banner.packs.checks import listed
 from drapery.banner.packs.folders import OwnArt
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, open_pack
@@ -277,11 +278,9 @@ class Packs:
             if data is not None:
                 place = f"{pack.label}: {name}"
                 sources, unknown = parse_atlas(data, place)
-                self._note(f"{place}: sources of type {word!r} are not read" for word in unknown)
+                if unknown:
+                    self._notes[f"{place}: sources of type {listed(unknown)} are not read"] = None
                 yield from sources
-
-    def _note(self, lines: Iterable[str]) -> None:
-        self._notes.update(dict.fromkeys(lines))
 
     def _place(self, found: PackFile) -> str:
         return f"{self.packs[found.level].label}: {found.name}"
