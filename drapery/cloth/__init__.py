@@ -1,49 +1,210 @@
-"""The simulation core. Knows nothing of Minecraft, textures or pixels."""
+"""The simulation core: cloths, what moves them and what they meet. It knows nothing of Minecraft.
 
-from drapery.cloth.builders import grid, max_stretch, strip
-from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
-from drapery.cloth.fabric import Fabric
-from drapery.cloth.forces import Drag, Force, Gravity
-from drapery.cloth.meshes import disc, from_mesh, from_triangles
-from drapery.cloth.pins import PinPath, carried
-from drapery.cloth.sewing import Seam, sew
-from drapery.cloth.solvers.base import Solver
-from drapery.cloth.solvers.desbrun import SolverDesbrun
-from drapery.cloth.solvers.registry import SOLVERS, solver
-from drapery.cloth.solvers.xpbd import SolverXPBD
-from drapery.cloth.state import State, rest_state
-from drapery.cloth.stepping import simulate
-from drapery.cloth.wind import Wind
-from drapery.cloth.world import Detail, World
+```python
+from itertools import islice
+
+from drapery.cloth import Gravity, SolverXPBD, Wind, grid, simulate
+
+cloth = grid(11, 21, width=1.25, height=2.5)
+forces = [Gravity(), Wind((0.0, 0.0, 4.0))]
+for state in islice(simulate(cloth, SolverXPBD(), forces), 180):
+    print(state.time, state.positions.shape)
+```
+
+Units are SI; y is up. Arrays have the vector as their last axis: a `State` of B cloths of N
+particles has positions [B, N, 3]. The same input gives the same bits, for any number of threads.
+Names are imported when they are first used, so that this package costs nothing until it is.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from drapery.cloth.builders import grid, max_stretch, strip
+    from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
+    from drapery.cloth.colliders import (
+        Box,
+        Capsule,
+        Collider,
+        Path,
+        Plane,
+        Pose,
+        Sphere,
+        TriangleMesh,
+        Voxels,
+        height_collider,
+        load_mesh,
+        mesh_collider,
+        rotation_about,
+        still,
+        straight,
+        swinging,
+    )
+    from drapery.cloth.collisions import Collisions
+    from drapery.cloth.fabric import Fabric
+    from drapery.cloth.forces import Drag, Force, ForceField, Gravity
+    from drapery.cloth.meshes import disc, from_mesh, from_triangles
+    from drapery.cloth.pins import PinPath, Pins, PosePath, carried
+    from drapery.cloth.sewing import Seam, sew
+    from drapery.cloth.solvers.base import Solver
+    from drapery.cloth.solvers.desbrun import SolverDesbrun
+    from drapery.cloth.solvers.driver import SolverState
+    from drapery.cloth.solvers.implicit import SolverImplicit
+    from drapery.cloth.solvers.pbd import SolverPBD
+    from drapery.cloth.solvers.provot import SolverProvot
+    from drapery.cloth.solvers.registry import SOLVERS, solver
+    from drapery.cloth.solvers.verlet import SolverVerlet
+    from drapery.cloth.solvers.xpbd import SolverXPBD
+    from drapery.cloth.state import State, rest_state
+    from drapery.cloth.stepping import simulate
+    from drapery.cloth.wind import Wind
+    from drapery.cloth.world import Detail, World, WorldView
 
 __all__ = [
     "FLEXION",
     "SHEAR",
     "SOLVERS",
     "STRUCTURAL",
+    "Box",
+    "Capsule",
     "Cloth",
+    "Collider",
+    "Collisions",
     "Detail",
     "Drag",
     "Fabric",
     "Force",
+    "ForceField",
     "Gravity",
+    "Path",
     "PinPath",
+    "Pins",
+    "Plane",
+    "Pose",
+    "PosePath",
     "Seam",
     "Solver",
     "SolverDesbrun",
+    "SolverImplicit",
+    "SolverPBD",
+    "SolverProvot",
+    "SolverState",
+    "SolverVerlet",
     "SolverXPBD",
+    "Sphere",
     "State",
+    "TriangleMesh",
+    "Voxels",
     "Wind",
     "World",
+    "WorldView",
     "carried",
     "disc",
     "from_mesh",
     "from_triangles",
     "grid",
+    "height_collider",
+    "load_mesh",
     "max_stretch",
+    "mesh_collider",
     "rest_state",
+    "rotation_about",
     "sew",
     "simulate",
     "solver",
+    "still",
+    "straight",
     "strip",
+    "swinging",
 ]
+
+_MODULES = {
+    "builders": (
+        "grid",
+        "max_stretch",
+        "strip",
+    ),
+    "cloth": (
+        "Cloth",
+        "FLEXION",
+        "SHEAR",
+        "STRUCTURAL",
+    ),
+    "colliders": (
+        "Box",
+        "Capsule",
+        "Collider",
+        "Path",
+        "Plane",
+        "Pose",
+        "Sphere",
+        "TriangleMesh",
+        "Voxels",
+        "height_collider",
+        "load_mesh",
+        "mesh_collider",
+        "rotation_about",
+        "still",
+        "straight",
+        "swinging",
+    ),
+    "collisions": ("Collisions",),
+    "fabric": ("Fabric",),
+    "forces": (
+        "Drag",
+        "Force",
+        "ForceField",
+        "Gravity",
+    ),
+    "meshes": (
+        "disc",
+        "from_mesh",
+        "from_triangles",
+    ),
+    "pins": (
+        "PinPath",
+        "Pins",
+        "PosePath",
+        "carried",
+    ),
+    "sewing": (
+        "Seam",
+        "sew",
+    ),
+    "solvers.base": ("Solver",),
+    "solvers.desbrun": ("SolverDesbrun",),
+    "solvers.driver": ("SolverState",),
+    "solvers.implicit": ("SolverImplicit",),
+    "solvers.pbd": ("SolverPBD",),
+    "solvers.provot": ("SolverProvot",),
+    "solvers.registry": (
+        "SOLVERS",
+        "solver",
+    ),
+    "solvers.verlet": ("SolverVerlet",),
+    "solvers.xpbd": ("SolverXPBD",),
+    "state": (
+        "State",
+        "rest_state",
+    ),
+    "stepping": ("simulate",),
+    "wind": ("Wind",),
+    "world": (
+        "Detail",
+        "World",
+        "WorldView",
+    ),
+}
+_HOMES = {name: module for module, names in _MODULES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'drapery.cloth' has no attribute {name!r}")
+    value = getattr(import_module(f"drapery.cloth.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

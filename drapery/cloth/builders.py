@@ -1,4 +1,4 @@
-"""Builders of cloths: sizes in metres, masses by surface density, stiffness by kind of spring."""
+"""Builders of cloths: grids and strips."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,7 +101,7 @@ def strip(
 
 
 def check_particles(name: str, count: int) -> None:
-    """Raises OptionError for more particles than anyone can want."""
+    """Raises OptionError for more than `MAX_PARTICLES` particles."""
     if count > MAX_PARTICLES:
         raise OptionError(f"{name} has {count} particles; use at most {MAX_PARTICLES}")
 
@@ -150,7 +150,10 @@ def spring_lengths(positions: Array, cloth: Cloth) -> Array:
 
 
 def max_stretch(positions: Array, cloth: Cloth) -> float:
-    """The largest relative elongation of a structural spring; 0.05 is five per cent."""
+    """The largest relative elongation of a structural spring; 0.05 is five per cent.
+
+    positions: [m], shape [..., N, 3].
+    """
     structural = cloth.spring_kind == STRUCTURAL
     ratios = spring_lengths(positions, cloth)[..., structural] / cloth.spring_length[structural]
     return float(ratios.max() - 1.0)

@@ -24,16 +24,19 @@ MAX_GRAVITY = 1e6
 
 @dataclass(frozen=True)
 class Gravity:
-    """A uniform acceleration [m/s²]."""
+    """A uniform acceleration of every particle.
+
+    acceleration: [m/s²], each component from -1e6 to 1e6.
+    """
 
     acceleration: tuple[float, float, float] = (0.0, -9.81, 0.0)
 
 
 @dataclass(frozen=True)
 class Drag:
-    """Linear drag in still air: acceleration -rate · v, so a falling cloth ends at g / rate.
+    """Linear drag in still air: acceleration -rate · v, so the speed of a fall ends at g / rate.
 
-    rate: [1/s].
+    rate: [1/s], 0 to 1e6; it adds to the drag of the cloth's `Fabric`.
     """
 
     rate: float = 0.1
@@ -41,10 +44,10 @@ class Drag:
 
 @runtime_checkable
 class ForceField(Protocol):
-    """Any other force."""
+    """A force of your own: any object with this method. It is called once a step."""
 
     def acceleration(self, cloth: Cloth, state: State) -> Array:
-        """Acceleration of each particle [m/s²], shape [B, N, 3] or [N, 3]."""
+        """Acceleration of each particle [m/s²], shape [B, N, 3] or [N, 3], all finite."""
 
 
 Force = Gravity | Drag | Wind | ForceField

@@ -13,7 +13,8 @@ from drapery.errors import OptionError
 class Seam(NamedTuple):
     """Particles of one cloth that become the same as particles of another, pair by pair.
 
-    first, second: which cloths. first_particles, second_particles: their particles, [K] each.
+    first, second: numbers of two cloths in the list given to `sew`, from 0. first_particles,
+    second_particles: particles of each, [K]; the k-th of one becomes the k-th of the other.
     """
 
     first: int

@@ -28,8 +28,9 @@ class State:
 
 
 def rest_state(cloth: Cloth, count: int = 1, dtype: DTypeLike = np.float32) -> State:
-    """`count` cloths at rest in their rest shape, shape [count, N, 3]; float32 or float64.
+    """`count` cloths that do not move, in their rest shape: a start for `simulate`.
 
+    dtype: of positions and velocities, float32 or float64; the simulation keeps it.
     Raises OptionError.
     """
     check_count("count", count, 1, MAX_CLOTHS)

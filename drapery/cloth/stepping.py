@@ -1,4 +1,4 @@
-"""The one time loop."""
+"""The time loop: states of a cloth, step after step."""
 
 from __future__ import annotations
 

@@ -31,16 +31,18 @@ class Wind:
 
     Cloth edge-on to the wind feels none; cloth that moves with it feels none either.
 
-    velocity: mean wind [m/s], each part up to 1e6.
-    gusts: turbulence intensity, the rms of the gusts along the wind over its mean speed.
-    gust_size: the size of a gust [m]; they travel with the mean wind.
-    sine: amplitude of a regular swell over the mean speed; sine_period: its period [s].
-    seed: which gusts.
-    period: all repeats after this many seconds exactly; the sine's period and the gusts' speed
-        are rounded to fit. None: no repetition in sight.
-    pressure: force per area and speed [N s/m³].
+    velocity: mean wind [m/s], each component from -1e6 to 1e6.
+    gusts: turbulence intensity, the rms of the gusts along the wind over its mean speed, 0 to 1000.
+    gust_size: the size of a gust [m], 0.001 to 1e6; gusts travel with the mean wind.
+    sine: amplitude of a regular swell over the mean speed, 0 to 1000.
+    sine_period: period of the swell [s], 0.001 to 1e9.
+    seed: chooses the gusts; a whole number.
+    period: the wind repeats exactly after this time [s], 0.001 to 1e9; the period of the swell and
+        the speed of the gusts are rounded to fit. None: it does not repeat for hours.
+    pressure: force per area and speed [N s/m³], 0 to 1e6.
     phases: time offset of each cloth of a batch [s], shape [B] or one number.
     origins: where each cloth stands in the wind [m], shape [B, 3] or [3].
+    Raises OptionError.
     """
 
     velocity: tuple[float, float, float]

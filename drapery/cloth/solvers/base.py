@@ -1,4 +1,4 @@
-"""What every solver is."""
+"""The protocol that every solver follows, and checks that solvers share."""
 
 from collections.abc import Sequence
 from typing import Any, Protocol
@@ -19,14 +19,14 @@ MAX_STEPS = 10**9
 
 
 class Solver(Protocol):
-    """A method of stepping cloths: its options only.
+    """A method of stepping cloths. A solver object holds the method's settings and nothing else.
 
-    What it remembers between steps (filters, previous positions, multipliers) is its memory: made
-    by `init` for one cloth and step, handed to each `step` and returned by it.
+    What a method needs between steps (filters, previous positions, multipliers) is its solver
+    state: `init` makes one for a cloth and a step, each `step` takes one and returns the next.
     """
 
     def init(self, cloth: Cloth, dt: float) -> Any:
-        """A memory for steps of dt [s] of this cloth. Raises OptionError."""
+        """A solver state for steps of dt [s] of this cloth. Raises OptionError."""
 
     def step(
         self,
@@ -39,8 +39,9 @@ class Solver(Protocol):
         steps: int = 1,
         pins: PinPath | None = None,
     ) -> tuple[State, Any]:
-        """The state `steps` steps of dt [s] later; several steps in one call are the same, faster.
+        """The state of the cloths after `steps` steps of dt [s], and the next solver state.
 
+        Several steps in one call give the same result as one step a call, and are faster.
         pins: a path that the pinned particles follow; None leaves them where they are.
         Raises OptionError.
         """

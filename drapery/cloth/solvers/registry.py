@@ -1,4 +1,4 @@
-"""Solvers by name. Each is imported only when it is asked for."""
+"""Solvers by name. A solver's module is imported when it is first used."""
 
 from dataclasses import fields
 from importlib import import_module
@@ -15,11 +15,14 @@ SOLVERS = {
     "provot": "SolverProvot",
     "implicit": "SolverImplicit",
 }
-"""Names, which are those of the modules, and their classes; the default first."""
+"""Names of solvers (also of their modules) and their classes; the default is first."""
 
 
 def solver(name: str, **options: Any) -> Solver:
-    """A solver with some of its options. Raises OptionError for a name or an option that is not."""
+    """A solver by its name, with options by theirs: `solver("xpbd", substeps=8)`.
+
+    Raises OptionError for an unknown name or option.
+    """
     if name not in SOLVERS:
         raise OptionError(f"solver {name!r} is not known; use one of: {', '.join(SOLVERS)}")
     method = getattr(import_module(f"drapery.cloth.solvers.{name}"), SOLVERS[name])
