@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from drapery.cloth import Cloth, State
-from drapery.cloth.colliders import Collider, probes
+from drapery.cloth.colliders import Collider
 from drapery.cloth.colliders.packing import distance
+from drapery.cloth.colliders.sample_points import sample_points
 from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Shot, find
 from drapery.scenes.drawing import scene_frames
@@ -21,7 +22,7 @@ def still(name: str, frames: int = 1, fps: float = 20.0, **words: str) -> Frame:
 
 def clearance(cloth: Cloth, state: State, colliders: Sequence[Collider], order: int = 2) -> float:
     """The least distance [m] of the thin sheet from any collider; negative inside."""
-    points = probes(cloth, order)
+    points = sample_points(cloth, order)
     least = np.inf
     for sheet in state.positions:
         places = np.einsum("mc,mci->mi", points.weights, sheet[points.particles].astype(float))

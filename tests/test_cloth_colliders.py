@@ -1,7 +1,11 @@
 """Colliders: nothing enters, nothing tunnels, bounces and friction keep their laws."""
 
 import functools
+import math
+import pickle
+from concurrent.futures import ThreadPoolExecutor
 
+import numba
 import numpy as np
 import pytest
 import trimesh
@@ -17,17 +21,19 @@ from drapery.cloth.colliders import (
     Pose,
     Sphere,
     Voxels,
-    collide,
+    check_collider,
     height_collider,
     load_mesh,
     mesh_collider,
-    probes,
     rotation_about,
     straight,
     swinging,
 )
+from drapery.cloth.colliders.collision_world import CollisionWorld
 from drapery.cloth.colliders.packing import distance, pack
-from drapery.cloth.contact import contacts, separate
+from drapery.cloth.colliders.sample_points import sample_points
+from drapery.cloth.collisions import Collisions, collision_world
+from drapery.cloth.contact import self_contact
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 
@@ -70,13 +76,25 @@ def state(positions, velocities=None, time=0.0):
     return State(positions, np.broadcast_to(velocities, positions.shape).astype(float), time)
 
 
+def world_of(cloth, colliders, order=1, radius=RADIUS):
+    return CollisionWorld(cloth.inv_mass, colliders, sample_points(cloth, order), radius)
+
+
+def separate(cloth, thickness, now):
+    """The state with the cloth's own particles apart."""
+    world = CollisionWorld(
+        cloth.inv_mass, (), sample_points(cloth, 1), RADIUS, self_contact(cloth, thickness)
+    )
+    return world.resolve(now, State(now.positions, now.velocities, now.time + 1))
+
+
 def fall(cloth, start, colliders, steps, dt, order=1, force=GRAVITY, radius=RADIUS):
     """Semi-implicit Euler with collisions; yields every state."""
-    points, now = probes(cloth, order), start
+    world, now = world_of(cloth, colliders, order, radius), start
     for step in range(steps):
         v = now.velocities + force * dt
         after = State(now.positions + v * dt, v, start.time + (step + 1) * dt)
-        now = collide(cloth, now, after, colliders, points, radius=radius)
+        now = world.resolve(now, after)
         yield now
 
 
@@ -407,7 +425,7 @@ def test_pins_stay_and_share_nothing():
     start = state(positions, np.array([0, -20.0, 0]))
     moved = State(start.positions - 0.3 * UP, start.velocities, 1 / 60)
     ground = [Collider(Plane(ORIGIN, UP))]
-    after = collide(pinned, start, moved, ground, probes(pinned, 2), radius=RADIUS)
+    after = world_of(pinned, ground, 2).resolve(start, moved)
     np.testing.assert_array_equal(after.positions[0, ::2], moved.positions[0, ::2])
     assert after.positions[0, 1::2, 1].min() >= RADIUS - 1e-12
 
@@ -418,7 +436,7 @@ def test_a_push_on_a_face_lifts_corners_and_lowers_none():
     start = state(positions, np.array([0, -20.0, 0]))
     moved = State(start.positions - 0.33 * UP, start.velocities, 1 / 60)
     needle = [Collider(Sphere(np.array([0.02, 0, 0.01]), 0.1), friction=0)]
-    after = collide(cloth, start, moved, needle, probes(cloth, 6), radius=RADIUS)
+    after = world_of(cloth, needle, 6).resolve(start, moved)
     assert after.positions[0].min(axis=0)[1] > moved.positions[0].min(axis=0)[1] - 1e-12
     assert np.abs(after.positions - moved.positions).max() > 0.01
     tilt = after.positions - moved.positions
@@ -428,11 +446,11 @@ def test_a_push_on_a_face_lifts_corners_and_lowers_none():
 def test_the_points_of_the_faces_are_each_tested_once():
     cloth, positions = sheet(4, 3, 0.1, 0.0)
     edges = 3 * 3 + 4 * 2 + 3 * 2
-    assert len(probes(cloth, 1).weights) == 12
-    assert len(probes(cloth, 2).weights) == 12 + edges
-    assert len(probes(cloth, 3).weights) == 12 + 2 * edges + 12
+    assert len(sample_points(cloth, 1).weights) == 12
+    assert len(sample_points(cloth, 2).weights) == 12 + edges
+    assert len(sample_points(cloth, 3).weights) == 12 + 2 * edges + 12
     for order in (1, 2, 3, 5):
-        points = probes(cloth, order)
+        points = sample_points(cloth, order)
         np.testing.assert_allclose(points.weights.sum(axis=1), 1)
         places = np.einsum("mc,mci->mi", points.weights, positions[points.particles])
         assert len(np.unique(places.round(9), axis=0)) == len(places)
@@ -459,14 +477,15 @@ def test_a_batch_equals_its_cloths_alone_bit_for_bit():
 def test_self_collision_keeps_points_apart():
     points = np.random.default_rng(2).uniform(0, 0.3, size=(60, 3))
     cloth = Cloth(**{**vars(dust(60)), "rest_positions": np.arange(180.0).reshape(60, 3)})
-    contact, now = contacts(cloth, 0.05), state(points)
+    now = state(points)
     for _ in range(10):
-        now = separate(contact, now)
+        now = separate(cloth, 0.05, now)
     apart = np.linalg.norm(now.positions[0, :, None] - now.positions[0, None], axis=-1)
     assert apart[~np.eye(60, dtype=bool)].min() >= 0.05 - 1e-6
     np.testing.assert_allclose(now.positions.mean(axis=1)[0], points.mean(axis=0), atol=1e-12)
     np.testing.assert_array_equal(
-        separate(contact, state(points)).positions, separate(contact, state(points)).positions
+        separate(cloth, 0.05, state(points)).positions,
+        separate(cloth, 0.05, state(points)).positions,
     )
 
 
@@ -485,9 +504,185 @@ def test_self_collision_stops_approach_and_leaves_neighbours_alone():
     folded = state(
         [[0, 0, 0], [0.05, 0, 0], [0.0, 0.08, 0]], np.array([[0, 1.0, 0], [0, 0, 0], [0, -1.0, 0]])
     )
-    after = separate(contacts(chain, 0.1), folded)
+    after = separate(chain, 0.1, folded)
     np.testing.assert_allclose(after.positions[0], [[0, -0.01, 0], [0.05, 0, 0], [0, 0.09, 0]])
     np.testing.assert_allclose(after.velocities[0], 0, atol=1e-12)
+
+
+class Torus:
+    """A shape as a stranger writes it: about the y axis, in the shape's own frame."""
+
+    def __init__(self, radius, tube):
+        reach = radius + tube
+        self.parameters = radius, tube
+        self.bounds = (-reach, -tube, -reach), (reach, tube, reach)
+
+    @staticmethod
+    def signed_distance(point, parameters):
+        x, y, z = point
+        return math.hypot(math.hypot(x, z) - parameters[0], y) - parameters[1]
+
+
+class Ball:
+    """A sphere about the origin, with its own gradient."""
+
+    bounds = -np.ones(3), np.ones(3)
+    parameters = ()
+
+    @staticmethod
+    def signed_distance(point, parameters):
+        x, y, z = point
+        return math.sqrt(x * x + y * y + z * z) - 1.0
+
+    @staticmethod
+    def gradient(point, parameters):
+        x, y, z = point
+        length = math.sqrt(x * x + y * y + z * z)
+        return x / length, y / length, z / length
+
+
+class FinnedBall(Ball):
+    """A large ball with a plate of 1 mm on top: its gradient is taken by differences."""
+
+    bounds = (-1, -1, -1), (1, 2, 1)
+    gradient = None
+
+    @staticmethod
+    def signed_distance(point, parameters):
+        x, y, z = point
+        ball = math.sqrt(x * x + y * y + z * z) - 1.0
+        a, b, c = abs(x) - 0.0005, abs(y - 1.5) - 0.5, abs(z) - 0.2
+        outside = math.sqrt(max(a, 0.0) ** 2 + max(b, 0.0) ** 2 + max(c, 0.0) ** 2)
+        return min(ball, outside + min(max(a, b, c), 0.0))
+
+
+def test_a_users_shape_has_the_distance_that_its_function_gives():
+    points = np.random.default_rng(8).normal(size=(200, 3))
+    expected = np.hypot(np.hypot(points[:, 0], points[:, 2]) - 0.5, points[:, 1]) - 0.2
+    np.testing.assert_array_equal(gap(Torus(0.5, 0.2), points), expected)
+    for tube in (0.1, 0.2):
+        assert gap(Torus(0.5, tube), [[0.5, 0, 0]]) == -tube
+
+
+@pytest.mark.parametrize("kind", [Ball, type("Plain", (Ball,), {"gradient": None})])
+def test_a_users_ball_and_a_sphere_stop_a_cloth_alike(kind):
+    cloth, positions = sheet(9, 9, 0.1, 1.1)
+    ends = [
+        list(fall(cloth, state(positions), [Collider(shape)], 30, 1 / 60, order=2))[-1].positions
+        for shape in (kind(), Sphere(ORIGIN, 1.0))
+    ]
+    np.testing.assert_allclose(*ends, atol=RADIUS)
+
+
+@pytest.mark.parametrize("speed", [0.5, 5.0, 60.0])
+def test_nothing_passes_a_thin_feature_of_a_users_shape(speed):
+    shape = FinnedBall()
+    away = np.linspace(0.01, 0.5, 15)
+    starts = np.array([(side * x, 1.9, 0.1) for side in (-1, 1) for x in away])
+    side = np.sign(starts[:, 0])
+    velocities = np.stack([-side * speed, 0 * side, 0 * side], axis=1)
+    flight = fall(
+        dust(30), state(starts, velocities), [Collider(shape, friction=9.0)], 6, 1 / 60, 1, 0 * UP
+    )
+    for now in flight:
+        assert (now.positions[0, :, 0] * side > 0).all()
+        assert gap(shape, now.positions[0]).min() >= RADIUS - 1e-6
+
+
+def test_a_users_shape_moves_on_a_path():
+    ring = Collider(Torus(0.5, 0.1), path=straight((20.0, 0, 0)))
+    start = state([[0.75, 0, 0], [0.0, 0.5, 0.0]])
+    for now in fall(dust(2), start, [ring], 30, 1 / 60, force=0 * UP):
+        local = now.positions[0] - ring.path(now.time).position
+        assert gap(ring.shape, local).min() >= RADIUS - 1e-9
+    assert now.positions[0, 0, 0] > 10
+    np.testing.assert_array_equal(now.positions[0, 1], start.positions[0, 1])
+
+
+def returning(**attributes):
+    """A user's shape that differs from a torus in these attributes."""
+    functions = {k: staticmethod(v) if callable(v) else v for k, v in attributes.items()}
+    return type("Odd", (Torus,), functions)(0.5, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: returning(signed_distance=lambda p, q: p), "signed_distance returned"),
+        (lambda: returning(signed_distance=lambda p, q: q[9]), "raised IndexError"),
+        (lambda: returning(signed_distance=lambda p: 1.0), "raised TypeError"),
+        (lambda: returning(signed_distance=lambda p, q: math.nan), "is nan; return a finite"),
+        (lambda: returning(signed_distance=lambda p, q: eval("1.0")), "cannot compile"),
+        (lambda: returning(gradient=lambda p, q: 1.0), "cannot compile its gradient"),
+        (lambda: type("Odd", (), {"signed_distance": 1})(), "has no parameters"),
+        (lambda: type("Odd", (Torus,), {"bounds": 3, "__init__": lambda s: None})(), "parameters"),
+        (lambda: type("Odd", (), {})(), "has no signed_distance"),
+    ],
+)
+def test_a_users_shape_that_cannot_be_used_is_refused_with_its_name(make, message):
+    with pytest.raises(OptionError, match=message) as fault:
+        Collider(make())
+    assert str(fault.value).startswith("collider Odd")
+    assert "\n" not in str(fault.value) and "\x1b" not in str(fault.value)
+
+
+def test_a_distance_that_fails_in_flight_is_refused_with_its_name():
+    hole = returning(
+        signed_distance=lambda p, q: math.nan if 1.99 < p[0] < 2.01 else abs(p[0]) + 1.0
+    )
+    hole.bounds = np.array([[-9.0] * 3, [9.0] * 3])
+    flight = fall(dust(1), state([2.0, 0, 0]), [Collider(hole)], 1, 1 / 60)
+    with pytest.raises(OptionError, match="collider Odd: its signed_distance is not a number"):
+        next(flight)
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_the_built_in_shapes_pass_the_check_of_colliders(name):
+    check_collider(Collider(SHAPES[name]))
+
+
+def scaled(factor):
+    """A torus's distance times a factor."""
+    ring = numba.njit(Torus.signed_distance)
+    return lambda point, parameters: factor * ring(point, parameters)
+
+
+def test_the_check_of_colliders_finds_what_lets_cloth_through():
+    check_collider(Collider(Torus(0.5, 0.2)))
+    check_collider(Collider(returning(signed_distance=scaled(0.5))))
+    with pytest.raises(OptionError, match="steepest slope"):
+        check_collider(Collider(returning(signed_distance=scaled(1.5))))
+    small = Torus(0.5, 0.2)
+    small.bounds = Torus(0.5, 0.1).bounds
+    with pytest.raises(OptionError, match="outside its bounds"):
+        check_collider(Collider(small))
+    with pytest.raises(OptionError, match="no surface"):
+        check_collider(Collider(returning(signed_distance=lambda p, q: 1.0 + abs(p[0]))))
+    with pytest.raises(OptionError, match="rotation"):
+        bent = Pose(rotation=np.ones((3, 3)))
+        check_collider(Collider(Sphere(ORIGIN, 1.0), path=lambda time: bent))
+
+
+def test_threads_may_share_a_world_and_its_shapes():
+    cloth, positions = sheet(6, 6, 0.2, 0.7)
+    start = state(positions)
+    moved = State(start.positions - 0.6 * UP, start.velocities, 1 / 60)
+    # A new function, so that all threads ask for its compilation at once.
+    shape = returning(signed_distance=lambda p, q: math.hypot(math.hypot(p[0], p[2]), p[1]) - 0.5)
+    with ThreadPoolExecutor(4) as pool:
+        balls = list(pool.map(lambda _: Collider(shape), range(8)))
+        collisions = Collisions([balls[0], Collider(SHAPES["box"])], apart=0.1, threads=2)
+        world = collision_world(cloth, collisions)
+        ends = list(pool.map(lambda _: world.resolve(start, moved).positions, range(100)))
+    assert len({ball.packed.distance_address for ball in balls}) == 1
+    for end in ends:
+        np.testing.assert_array_equal(end, ends[0])
+
+
+def test_a_collider_survives_being_sent_to_another_process():
+    ring = pickle.loads(pickle.dumps(Collider(Torus(0.5, 0.1), friction=0.7)))
+    assert ring.friction == 0.7
+    assert distance(ring.packed, (0.5, 0.0, 0.0), 1.0)[0] == -0.1
 
 
 @pytest.mark.parametrize(
@@ -508,8 +703,8 @@ def test_self_collision_stops_approach_and_leaves_neighbours_alone():
         lambda: height_collider([[1.0]]),
         lambda: Collider(Sphere(ORIGIN, 1.0), friction=-1),
         lambda: Collider(Sphere(ORIGIN, 1.0), restitution=1.5),
-        lambda: probes(dust(1), 0),
-        lambda: contacts(dust(1), 0.0),
+        lambda: sample_points(dust(1), 0),
+        lambda: self_contact(dust(1), 0.0),
         lambda: load_mesh("no such file.obj"),
     ],
 )

@@ -1,10 +1,6 @@
-"""What happens after a solver's step: cloth leaves what it entered, and itself.
+"""The options of the collision stage, which follows every step of every solver."""
 
-Any solver's step moves the cloth as if nothing stood in its way. Then the collision stage brings it
-back, places and velocities, and the next step goes on from there. So every solver collides alike.
-"""
-
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,28 +8,28 @@ import numpy as np
 from drapery.cloth.attachments import limited_links
 from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.colliders import Collider, collide, probes
-from drapery.cloth.contact import contacts, separate
+from drapery.cloth.colliders.collider import Collider
+from drapery.cloth.colliders.collision_world import CollisionWorld
+from drapery.cloth.colliders.sample_points import sample_points
+from drapery.cloth.contact import self_contact
 from drapery.cloth.solvers.driver import check_limit
-from drapery.cloth.state import State
 from drapery.errors import OptionError
-
-Stage = Callable[[State, State], State]
-"""From the states before and after a solver's step to the state after collisions."""
 
 
 @dataclass(frozen=True, eq=False)
 class Collisions:
     """What a cloth collides with.
 
-    colliders: one after another; where they touch each other the last has the last word.
+    colliders: one after another; where they touch each other, the last one decides.
     thickness: of the cloth [m]; its middle keeps half of it from every collider.
-    order: how finely faces are tested, see `probes`.
+    order: how finely faces are tested, 1 to 16, see `sample_points`.
     apart: least distance between particles of the cloth itself [m]; None lets it pass through
-        itself. About the distance between neighbours, see `contact`.
+        itself. Use about the distance between neighbours.
     limit: longest length of a structural spring over its rest length; springs that colliders
         stretched further are shortened, and colliders come again, `rounds` times in all.
     threads: None for as many as there are processors.
+
+    Raises OptionError for numbers out of range.
     """
 
     colliders: Sequence[Collider] = ()
@@ -46,31 +42,26 @@ class Collisions:
 
     def __post_init__(self) -> None:
         if not 0 < self.thickness < np.inf:
-            raise OptionError(f"thickness {self.thickness!r}: give a length above 0 [m]")
+            raise OptionError(
+                f"thickness {self.thickness!r} is out of range; use a length above 0 [m]"
+            )
         check_limit(self.limit)
         check_count("rounds", self.rounds, 1, 100)
 
 
-def collision_stage(cloth: Cloth, collisions: Collisions) -> Stage:
-    """The stage for one cloth. Raises OptionError."""
-    points = probes(cloth, collisions.order)
-    contact = None if collisions.apart is None else contacts(cloth, collisions.apart)
+def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
+    """The collision stage for one cloth; any number of steps and threads may use it.
 
-    links = limited_links(cloth, collisions.limit, 1)
-
-    def stage(before: State, after: State) -> State:
-        if contact is not None:
-            after = separate(contact, after, threads=collisions.threads)
-        return collide(
-            cloth,
-            before,
-            after,
-            collisions.colliders,
-            points,
-            radius=collisions.thickness / 2,
-            links=links,
-            rounds=collisions.rounds,
-            threads=collisions.threads,
-        )
-
-    return stage
+    Raises OptionError.
+    """
+    apart = collisions.apart
+    return CollisionWorld(
+        np.array(cloth.inv_mass, float),
+        tuple(collisions.colliders),
+        sample_points(cloth, collisions.order),
+        collisions.thickness / 2,
+        None if apart is None else self_contact(cloth, apart),
+        limited_links(cloth, collisions.limit, 1),
+        collisions.rounds,
+        collisions.threads,
+    )

@@ -6,14 +6,12 @@ apart along the line between them, one after another in the order of their indic
 are tested, so the thickness should be about the distance between neighbours, not less.
 """
 
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.lanes import run_blocks, thread_count
-from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
@@ -23,28 +21,30 @@ PRIMES = (73856093, 19349663, 83492791)
 """Teschner's primes for the three cell coordinates."""
 
 
-@dataclass(frozen=True, eq=False)
-class Contacts:
+class SelfContact(NamedTuple):
     """What self-collision needs to know of a cloth.
 
     thickness: least distance [m] between particles.
-    friends: particles that may be nearer, [sum], for particle i at first[i] to first[i + 1].
+    first, excluded: particles that may be nearer to particle i are excluded[first[i] : first[i+1]].
     inv_mass: [1/kg], shape [N].
     """
 
     thickness: float
     first: NDArray[np.int32]
-    friends: NDArray[np.int32]
+    excluded: NDArray[np.int32]
     inv_mass: Array
 
 
-def contacts(cloth: Cloth, thickness: float) -> Contacts:
-    """Self-collision for a cloth; springs' ends and pairs that are nearer at rest are left alone.
+def self_contact(cloth: Cloth, thickness: float) -> SelfContact:
+    """Self-collision for a cloth. The ends of a spring, and pairs that are nearer at rest, are
+    excluded.
 
-    Raises OptionError for a thickness [m] that is not above 0.
+    thickness: least distance between other particles [m]. Raises OptionError unless it is above 0.
     """
     if not 0 < thickness < np.inf:
-        raise OptionError(f"self-collision thickness {thickness}: give a length above 0")
+        raise OptionError(
+            f"self-collision thickness {thickness} is out of range; use a length above 0 [m]"
+        )
     from scipy.spatial import cKDTree
 
     rest = np.asarray(cloth.rest_positions, float)
@@ -53,57 +53,26 @@ def contacts(cloth: Cloth, thickness: float) -> Contacts:
     ends = np.unique(np.concatenate([pairs, pairs[:, ::-1]]).astype(np.int32), axis=0)
     first = np.searchsorted(ends[:, 0], np.arange(len(rest) + 1)).astype(np.int32)
     inv_mass = np.ascontiguousarray(cloth.inv_mass, float)
-    return Contacts(float(thickness), first, np.ascontiguousarray(ends[:, 1]), inv_mass)
-
-
-def separate(contact: Contacts, state: State, *, threads: int | None = None) -> State:
-    """The state with particles at least the thickness apart, and none approaching when touching.
-
-    threads: None for as many as there are processors.
-    """
-    positions, velocities = (
-        np.array(a, float, order="C") for a in (state.positions, state.velocities)
-    )
-    fixed = (contact.thickness, contact.first, contact.friends, contact.inv_mass)
-
-    def work(first: int, last: int) -> None:
-        separate_all(positions, velocities, first, last, *fixed)
-
-    run_blocks(work, len(positions), 1, thread_count(threads))
-    dtype = state.positions.dtype
-    return replace(state, positions=positions.astype(dtype), velocities=velocities.astype(dtype))
+    return SelfContact(float(thickness), first, np.ascontiguousarray(ends[:, 1]), inv_mass)
 
 
 @entry_point
-def separate_all(
-    positions: Array,
-    velocities: Array,
-    begin: int,
-    end: int,
-    thickness: float,
-    first: NDArray[np.int32],
-    friends: NDArray[np.int32],
-    inv_mass: Array,
-) -> None:
-    """Cloths begin..end of a batch; each is one thread's alone, so threads change no bit."""
+def separate_all(x: Array, v: Array, begin: int, end: int, contact: SelfContact) -> None:
+    """Cloths begin..end of a batch: particles at least the thickness apart, and none approaching
+    when touching.
+
+    x, v: positions [m] and velocities [m/s], shape [B, N, 3], changed in place.
+    """
     for cloth in range(begin, end):
-        x, v = positions[cloth], velocities[cloth]
         for _ in range(PASSES):
-            if separate_pass(x, v, thickness, first, friends, inv_mass) == 0:
+            if separate_pass(x[cloth], v[cloth], contact) == 0:
                 break
 
 
 @kernel
-def separate_pass(
-    x: Array,
-    v: Array,
-    thickness: float,
-    first: NDArray[np.int32],
-    friends: NDArray[np.int32],
-    inv_mass: Array,
-) -> int:
+def separate_pass(x: Array, v: Array, contact: SelfContact) -> int:
     """Push apart every pair found in the hash, once; the number of pairs that were too near."""
-    cells = cells_of(x, thickness)
+    cells = cells_of(x, contact.thickness)
     starts, members = hashed(cells)
     found = 0
     for i in range(len(x)):
@@ -113,8 +82,8 @@ def separate_pass(
                     key = key_of(cells[i, 0] + a, cells[i, 1] + b, cells[i, 2] + c, len(starts) - 1)
                     for place in range(starts[key], starts[key + 1]):
                         j = members[place]
-                        if j > i and not befriended(i, j, first, friends):
-                            found += push_apart(x, v, i, j, thickness, inv_mass)
+                        if j > i and not is_excluded(i, j, contact):
+                            found += push_apart(x, v, i, j, contact)
     return found
 
 
@@ -152,20 +121,22 @@ def hashed(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int6
 
 
 @kernel
-def befriended(i: int, j: int, first: NDArray[np.int32], friends: NDArray[np.int32]) -> bool:
-    for place in range(first[i], first[i + 1]):
-        if friends[place] >= j:
-            return bool(friends[place] == j)
+def is_excluded(i: int, j: int, contact: SelfContact) -> bool:
+    """Whether particles i and j may be nearer than the thickness; j's are in rising order."""
+    for place in range(contact.first[i], contact.first[i + 1]):
+        if contact.excluded[place] >= j:
+            return bool(contact.excluded[place] == j)
     return False
 
 
 @kernel
-def push_apart(x: Array, v: Array, i: int, j: int, thickness: float, inv_mass: Array) -> int:
+def push_apart(x: Array, v: Array, i: int, j: int, contact: SelfContact) -> int:
     """Share the missing distance, and the approach speed, by inverse mass."""
+    thickness, inv_mass = contact.thickness, contact.inv_mass
     dx, dy, dz = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[j, 2] - x[i, 2]
     square = dx * dx + dy * dy + dz * dz
-    give = inv_mass[i] + inv_mass[j]
-    if square >= thickness * thickness or give == 0.0:
+    total = inv_mass[i] + inv_mass[j]
+    if square >= thickness * thickness or total == 0.0:
         return 0
     length = np.sqrt(square)
     n = (dx / length, dy / length, dz / length) if length > 0.0 else (0.0, 0.0, 1.0)
@@ -174,9 +145,9 @@ def push_apart(x: Array, v: Array, i: int, j: int, thickness: float, inv_mass: A
         approach += (v[j, axis] - v[i, axis]) * n[axis]
     stop = min(approach, 0.0)
     for axis in range(3):
-        push = (thickness - length) * n[axis] / give
+        push = (thickness - length) * n[axis] / total
         x[i, axis] -= inv_mass[i] * push
         x[j, axis] += inv_mass[j] * push
-        v[i, axis] += inv_mass[i] / give * stop * n[axis]
-        v[j, axis] -= inv_mass[j] / give * stop * n[axis]
+        v[i, axis] += inv_mass[i] / total * stop * n[axis]
+        v[j, axis] -= inv_mass[j] / total * stop * n[axis]
     return 1

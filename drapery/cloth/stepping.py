@@ -48,10 +48,10 @@ def simulate(
     if collisions is None:
         return _states(cloth, solver, forces, dt, state, solver_state, every, pins)
     # Imported here: a cloth that meets nothing starts without the colliders' kernels.
-    from drapery.cloth.collisions import collision_stage
+    from drapery.cloth.collisions import collision_world
 
-    stage = collision_stage(cloth, collisions)
-    return _colliding(cloth, solver, forces, dt, state, solver_state, every, pins, stage)
+    resolve = collision_world(cloth, collisions).resolve
+    return _colliding(cloth, solver, forces, dt, state, solver_state, every, pins, resolve)
 
 
 def check_arguments(cloth: Cloth, solver: Solver, pins: PinPath | None) -> None:
@@ -90,7 +90,7 @@ def _colliding(
     solver_state: Any,
     every: int,
     pins: PinPath | None,
-    stage: Callable[[State, State], State],
+    resolve: Callable[[State, State], State],
 ) -> Iterator[State]:
     """The same, step by step, with the collision stage after each."""
     while True:
@@ -98,4 +98,4 @@ def _colliding(
         for _ in range(every):
             before = state
             after, solver_state = solver.step(cloth, before, solver_state, forces, dt, pins=pins)
-            state = stage(before, after)
+            state = resolve(before, after)

@@ -1,6 +1,12 @@
-"""What cloth can meet, and how it answers."""
+"""What cloth can meet: shapes, their motion, and their surfaces.
 
-from drapery.cloth.colliders.collision_world import Collider, Probes, collide, face_probes, probes
+A `Collider` is a shape with a path, a restitution and a friction. A shape is one of those here, or
+any object with a signed distance of its own, see `SignedDistance`. Lengths are in metres, times in
+seconds, angles in degrees.
+"""
+
+from drapery.cloth.colliders.check import check_collider
+from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.meshes import height_collider, load_mesh, mesh_collider
 from drapery.cloth.colliders.pose import Path, Pose, rotation_about, still, straight, swinging
 from drapery.cloth.colliders.shapes import (
@@ -12,6 +18,7 @@ from drapery.cloth.colliders.shapes import (
     TriangleMesh,
     Voxels,
 )
+from drapery.cloth.colliders.user_defined import SignedDistance
 
 __all__ = [
     "Box",
@@ -20,17 +27,15 @@ __all__ = [
     "Path",
     "Plane",
     "Pose",
-    "Probes",
     "Shape",
+    "SignedDistance",
     "Sphere",
     "TriangleMesh",
     "Voxels",
-    "collide",
-    "face_probes",
+    "check_collider",
     "height_collider",
     "load_mesh",
     "mesh_collider",
-    "probes",
     "rotation_about",
     "still",
     "straight",

@@ -41,9 +41,9 @@ def _is_filled(filled: Grid, i: int, j: int, k: int) -> bool:
 def _outside_grid(filled: Grid, p: Vector) -> tuple[float, Vector]:
     wide, tall, deep = filled.shape
     closest = (min(max(p[0], 0.0), wide), min(max(p[1], 0.0), tall), min(max(p[2], 0.0), deep))
-    arm = subtract(p, closest)
-    length = norm(arm)
-    return length, unit(arm, length)
+    offset = subtract(p, closest)
+    length = norm(offset)
+    return length, unit(offset, length)
 
 
 @kernel

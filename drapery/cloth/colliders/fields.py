@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from drapery.mesh import Array
 
-SPHERE, CAPSULE, BOX, PLANE, BLOCKS, SURFACE = range(6)
+SPHERE, CAPSULE, BOX, PLANE, BLOCKS, SURFACE, USER_DEFINED = range(7)
 
 NO_FILLED = np.zeros((0, 0, 0), np.uint8)
 NO_CORNERS = np.zeros((0, 3, 3))
@@ -24,6 +24,7 @@ class Field(NamedTuple):
     Surfaces have, triangles in the tree's order, corners [m], shape [T, 3, 3]; normals:
     pseudonormals, shape [T, 7, 3]; boxes [M, 2, 3] and links [M, 3], see `bvh.Tree`; parts: first
     node and whether solid, shape [P, 2].
+    User-defined shapes have the addresses of their compiled functions; 0 for none.
     """
 
     kind: int
@@ -36,3 +37,5 @@ class Field(NamedTuple):
     boxes: Array = NO_CORNERS
     links: NDArray[np.int32] = NO_LINKS
     parts: NDArray[np.int32] = NO_LINKS
+    distance_address: int = 0
+    gradient_address: int = 0

@@ -1,11 +1,19 @@
-"""From shapes to signed distance fields, and the one door to all distances."""
+"""From shapes to signed distance fields, and the one function for the distance to any of them."""
 
 from functools import singledispatch
 
 import numpy as np
 
 from drapery.cloth.colliders.blocks import blocks_distance
-from drapery.cloth.colliders.fields import BLOCKS, BOX, CAPSULE, PLANE, SPHERE, Field
+from drapery.cloth.colliders.fields import (
+    BLOCKS,
+    BOX,
+    CAPSULE,
+    PLANE,
+    SPHERE,
+    USER_DEFINED,
+    Field,
+)
 from drapery.cloth.colliders.primitives import (
     box_distance,
     capsule_distance,
@@ -14,17 +22,30 @@ from drapery.cloth.colliders.primitives import (
 )
 from drapery.cloth.colliders.shapes import Box, Capsule, Plane, Shape, Sphere, TriangleMesh, Voxels
 from drapery.cloth.colliders.surfaces import pack_surface, surface_distance
-from drapery.cloth.colliders.vectors import Vector, scale, subtract
+from drapery.cloth.colliders.user_defined import (
+    call_distance,
+    call_gradient,
+    is_user_defined,
+    pack_user_defined,
+)
+from drapery.cloth.colliders.vectors import Vector, add, norm, scale, subtract, unit
 from drapery.errors import OptionError
-from drapery.jit import entry_point
+from drapery.jit import entry_point, kernel
+
+UP = (0.0, 1.0, 0.0)
+DIFFERENCE = 1e-5
+"""Half the width [m] of a central difference: its error and that of rounding are about equal."""
 
 
 @entry_point
 def distance(field: Field, p: Vector, limit: float) -> tuple[float, Vector]:
     """Signed distance [m] and outward unit direction at p, in the shape's frame.
 
-    Exact below `limit` [m]; above it any number of at least `limit` or a lower bound.
+    Exact below `limit` [m]; above it any number of at least `limit` or a lower bound. The
+    direction of user-defined shapes is left to `outward`, which costs more distances.
     """
+    if field.kind == USER_DEFINED:
+        return call_distance(field.distance_address, p[0], p[1], p[2], field.numbers), UP
     if field.kind == SPHERE:
         return sphere_distance(field.numbers, p)
     if field.kind == CAPSULE:
@@ -40,10 +61,41 @@ def distance(field: Field, p: Vector, limit: float) -> tuple[float, Vector]:
     return surface_distance(field, p, limit)
 
 
+@kernel
+def outward(field: Field, p: Vector, direction: Vector) -> Vector:
+    """The outward unit direction at p, where `distance` gave `direction`: a user-defined shape's
+    own gradient, or central differences."""
+    if field.kind != USER_DEFINED:
+        return direction
+    if field.gradient_address != 0:
+        result = np.empty(3)
+        call_gradient(field.gradient_address, p[0], p[1], p[2], field.numbers, result)
+        gradient = (result[0], result[1], result[2])
+    else:
+        gradient = (
+            _difference(field, p, (DIFFERENCE, 0.0, 0.0)),
+            _difference(field, p, (0.0, DIFFERENCE, 0.0)),
+            _difference(field, p, (0.0, 0.0, DIFFERENCE)),
+        )
+    return unit(gradient, norm(gradient))
+
+
+@kernel
+def _difference(field: Field, p: Vector, step: Vector) -> float:
+    there, _there = distance(field, add(p, step), 0.0)
+    back, _back = distance(field, subtract(p, step), 0.0)
+    return there - back
+
+
 @singledispatch
 def pack(shape: Shape) -> Field:
     """A shape as the kernels read it."""
-    raise OptionError(f"collider {type(shape).__name__}: give one of the shapes of this package")
+    if is_user_defined(shape):
+        return pack_user_defined(shape)
+    raise OptionError(
+        f"collider {type(shape).__name__} has no signed_distance; give one of the built-in shapes "
+        "or an object as SignedDistance describes it"
+    )
 
 
 @pack.register

@@ -21,9 +21,9 @@ from drapery.mesh import Array
 @kernel
 def sphere_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     """numbers: centre, radius."""
-    arm = subtract(p, (numbers[0], numbers[1], numbers[2]))
-    length = norm(arm)
-    return length - numbers[3], unit(arm, length)
+    offset = subtract(p, (numbers[0], numbers[1], numbers[2]))
+    length = norm(offset)
+    return length - numbers[3], unit(offset, length)
 
 
 @kernel
@@ -33,10 +33,10 @@ def capsule_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     axis = subtract((numbers[3], numbers[4], numbers[5]), start)
     square = dot(axis, axis)
     part = dot(subtract(p, start), axis) / square if square > 0 else 0.0
-    arm = subtract(p, along(start, min(max(part, 0.0), 1.0), axis))
-    length = norm(arm)
+    offset = subtract(p, along(start, min(max(part, 0.0), 1.0), axis))
+    length = norm(offset)
     if length > 1e-300:
-        return length - numbers[6], unit(arm, length)
+        return length - numbers[6], unit(offset, length)
     return -numbers[6], _across(axis)
 
 
@@ -72,10 +72,10 @@ def cuboid_distance(half: Vector, p: Vector) -> tuple[float, Vector]:
         min(max(p[1], -half[1]), half[1]),
         min(max(p[2], -half[2]), half[2]),
     )
-    arm = subtract(p, closest)
-    length = norm(arm)
+    offset = subtract(p, closest)
+    length = norm(offset)
     if length > 0:
-        return length, unit(arm, length)
+        return length, unit(offset, length)
     return _nearest_face(half, p)
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.colliders.user_defined import SignedDistance
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
 
@@ -111,7 +112,7 @@ class TriangleMesh:
     solid: NDArray[np.bool_]
 
 
-Shape = Sphere | Capsule | Box | Plane | Voxels | TriangleMesh
+Shape = Sphere | Capsule | Box | Plane | Voxels | TriangleMesh | SignedDistance
 
 
 def sixfold_volumes(vertices: Array, triangles: Triangles, part: NDArray[np.int32]) -> Array:

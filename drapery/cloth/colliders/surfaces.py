@@ -2,8 +2,8 @@
 
 The nearest point of a triangle follows Ericson, "Real-Time Collision Detection" (2005), section
 5.1.5. The sign follows Bærentzen and Aanæs, "Signed distance computation using the angle weighted
-pseudonormal" (IEEE TVCG 11(3), 2005): a point is outside when the arm from its nearest point looks
-along the pseudonormal of the face, edge or vertex on which that point lies.
+pseudonormal" (IEEE TVCG 11(3), 2005): a point is outside when the vector from its nearest point to
+it points along the pseudonormal of the face, edge or vertex on which that nearest point lies.
 """
 
 import numpy as np
@@ -108,9 +108,9 @@ def _part_distance(
             continue
         for triangle in range(field.links[node, 1], field.links[node, 2]):
             c, r = closest_on_triangle(field.corners[triangle], p)
-            arm = subtract(p, c)
-            if dot(arm, arm) < square:
-                square, at, region, closest = dot(arm, arm), triangle, r, c
+            offset = subtract(p, c)
+            if dot(offset, offset) < square:
+                square, at, region, closest = dot(offset, offset), triangle, r, c
     if at < 0:
         return limit, (0.0, 1.0, 0.0)
     return _with_sign(row(field.normals[at], region), subtract(p, closest), solid)
@@ -131,13 +131,13 @@ def _wait(
 
 
 @kernel
-def _with_sign(pseudonormal: Vector, arm: Vector, solid: int) -> tuple[float, Vector]:
-    length = norm(arm)
+def _with_sign(pseudonormal: Vector, offset: Vector, solid: int) -> tuple[float, Vector]:
+    length = norm(offset)
     if length < 1e-12:
         return 0.0, pseudonormal
-    if solid and dot(arm, pseudonormal) < 0:
-        return -length, scale(-1 / length, arm)
-    return length, scale(1 / length, arm)
+    if solid and dot(offset, pseudonormal) < 0:
+        return -length, scale(-1 / length, offset)
+    return length, scale(1 / length, offset)
 
 
 @kernel

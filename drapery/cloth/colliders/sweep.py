@@ -14,8 +14,10 @@ function, and the slopes at both ends of an advance bound it from below.
 
 from typing import NamedTuple
 
+import numpy as np
+
 from drapery.cloth.colliders.fields import Field
-from drapery.cloth.colliders.packing import distance
+from drapery.cloth.colliders.packing import distance, outward
 from drapery.cloth.colliders.vectors import (
     Vector,
     add,
@@ -46,7 +48,7 @@ QUIET = 0.25
 """Approach [m/s] below which nothing bounces: more than gravity's gain in a step of 1/60 s."""
 
 
-class Frame(NamedTuple):
+class RigidSweep(NamedTuple):
     """A shape's pose at the start and the end of a step: positions [m], rotations [3, 3]."""
 
     position0: Array
@@ -55,7 +57,7 @@ class Frame(NamedTuple):
     rotation1: Array
 
 
-class Skin(NamedTuple):
+class ContactParams(NamedTuple):
     """What happens at a touch: distance kept [m], restitution, Coulomb friction."""
 
     radius: float
@@ -74,14 +76,14 @@ def out_of_frame(position: Array, rotation: Array, p: Vector) -> Vector:
 
 
 @kernel
-def surface_velocity(frame: Frame, p: Vector, dt: float) -> Vector:
+def surface_velocity(sweep: RigidSweep, p: Vector, dt: float) -> Vector:
     """Velocity [m/s] in the world of the shape's point p."""
-    start = out_of_frame(frame.position0, frame.rotation0, p)
-    return scale(1 / dt, subtract(out_of_frame(frame.position1, frame.rotation1, p), start))
+    start = out_of_frame(sweep.position0, sweep.rotation0, p)
+    return scale(1 / dt, subtract(out_of_frame(sweep.position1, sweep.rotation1, p), start))
 
 
 @kernel
-def misses(field: Field, a: Vector, b: Vector, radius: float) -> bool:
+def bounds_miss(field: Field, a: Vector, b: Vector, radius: float) -> bool:
     """Whether the segment's box and the shape's box are further apart than the radius."""
     for axis in range(3):
         if max(a[axis], b[axis]) < field.bounds[0, axis] - radius:
@@ -92,10 +94,11 @@ def misses(field: Field, a: Vector, b: Vector, radius: float) -> bool:
 
 
 @kernel
-def trace(field: Field, p: Vector, motion: Vector, radius: float) -> tuple[float, Vector]:
+def time_of_impact(field: Field, p: Vector, motion: Vector, radius: float) -> tuple[float, Vector]:
     """The part of `motion` after which p comes nearer than `radius`, and the normal there.
 
-    2 when it never does. A point that starts too near is held only if it goes nearer still.
+    2 when it never does, NaN where the distance is NaN. A point that starts too near is held only
+    if it goes nearer still.
     """
     length = norm(motion)
     if length == 0.0:
@@ -103,13 +106,17 @@ def trace(field: Field, p: Vector, motion: Vector, radius: float) -> tuple[float
     limit = length + 2 * radius
     gap, normal = distance(field, p, limit)
     gap -= radius
+    if np.isnan(gap):
+        return gap, normal
     part = 0.0
     for _ in range(MAX_ADVANCES):
         ahead = min(part + advance(field, gap, radius) / length, 1.0)
         ahead_gap, ahead_normal = distance(field, along(p, ahead, motion), limit)
         ahead_gap -= radius
+        if np.isnan(ahead_gap):
+            return ahead_gap, normal
         if ahead_gap < min(gap, 0.0) - TOUCH:
-            return approach(field, p, motion, radius, part, gap, normal, ahead, ahead_gap)
+            return refine_impact(field, p, motion, radius, part, gap, normal, ahead, ahead_gap)
         if field.inradius > 0.0:
             fall, rise = dot(normal, motion), dot(ahead_normal, motion)
             least = least_between(gap, fall, ahead_gap, rise, ahead - part)
@@ -170,7 +177,7 @@ def descend(
 
 
 @kernel
-def approach(
+def refine_impact(
     field: Field,
     p: Vector,
     motion: Vector,
@@ -201,7 +208,7 @@ def approach(
 
 
 @kernel
-def rubbed(along_surface: Vector, limit: float) -> Vector:
+def rub(along_surface: Vector, limit: float) -> Vector:
     """What Coulomb friction leaves: the vector shortened by `limit`, or nothing."""
     length = norm(along_surface)
     if length <= limit:
@@ -210,68 +217,81 @@ def rubbed(along_surface: Vector, limit: float) -> Vector:
 
 
 @kernel
-def reflected(v: Vector, normal: Vector, restitution: float, friction: float) -> Vector:
+def respond(v: Vector, normal: Vector, restitution: float, friction: float) -> Vector:
     """A velocity or motion after a touch; one that leaves the surface stays as it is."""
     into = -dot(v, normal)
     if into <= 0:
         return v
     tangent = along(v, into, normal)
-    left = rubbed(tangent, friction * (1 + restitution) * into)
+    left = rub(tangent, friction * (1 + restitution) * into)
     return along(left, restitution * into, normal)
 
 
 @kernel
-def meet(
-    field: Field, frame: Frame, skin: Skin, start: Vector, end: Vector, velocity: Vector, dt: float
+def sweep_point(
+    field: Field,
+    sweep: RigidSweep,
+    contact: ContactParams,
+    start: Vector,
+    end: Vector,
+    velocity: Vector,
+    dt: float,
 ) -> tuple[int, Vector, Vector]:
     """Whether a point that moves from start to end [m] is MISSED, TOUCHED or BOUNCED; its new end,
     and its velocity after the impact [m/s]."""
-    p = into_frame(frame.position0, frame.rotation0, start)
-    goal = into_frame(frame.position1, frame.rotation1, end)
-    if misses(field, p, goal, skin.radius):
+    p = into_frame(sweep.position0, sweep.rotation0, start)
+    goal = into_frame(sweep.position1, sweep.rotation1, end)
+    if bounds_miss(field, p, goal, contact.radius):
         return MISSED, end, velocity
     touch, v = MISSED, velocity
     motion = subtract(goal, p)
     for _ in range(MAX_TOUCHES):
-        part, normal = trace(field, p, motion, skin.radius)
+        part, normal = time_of_impact(field, p, motion, contact.radius)
         if part > 1.0:
             p = add(p, motion)
             break
         p = along(p, part, motion)
-        v, bounce = _answer(frame, skin, p, normal, v, dt)
+        normal = outward(field, p, normal)
+        v, bounce = impact_velocity(sweep, contact, p, normal, v, dt)
         touch = max(touch, BOUNCED if bounce > 0 else TOUCHED)
-        motion = reflected(scale(1 - part, motion), normal, bounce, skin.friction)
-    pushed, p, v = _pushed_out(field, frame, skin, p, v, dt)
+        motion = respond(scale(1 - part, motion), normal, bounce, contact.friction)
+    pushed, p, v = push_out(field, sweep, contact, p, v, dt)
     if touch == MISSED and not pushed:
         return MISSED, end, velocity
-    return max(touch, TOUCHED), out_of_frame(frame.position1, frame.rotation1, p), v
+    return max(touch, TOUCHED), out_of_frame(sweep.position1, sweep.rotation1, p), v
 
 
 @kernel
-def _answer(
-    frame: Frame, skin: Skin, p: Vector, normal: Vector, velocity: Vector, dt: float
+def impact_velocity(
+    sweep: RigidSweep,
+    contact: ContactParams,
+    p: Vector,
+    normal: Vector,
+    velocity: Vector,
+    dt: float,
 ) -> tuple[Vector, float]:
     """The velocity after a touch at p, and the restitution that applied."""
-    outward = turned(frame.rotation1, normal)
-    carried = surface_velocity(frame, p, dt)
+    direction = turned(sweep.rotation1, normal)
+    carried = surface_velocity(sweep, p, dt)
     relative = subtract(velocity, carried)
-    bounce = skin.restitution if -dot(relative, outward) > QUIET else 0.0
-    return add(carried, reflected(relative, outward, bounce, skin.friction)), bounce
+    bounce = contact.restitution if -dot(relative, direction) > QUIET else 0.0
+    return add(carried, respond(relative, direction, bounce, contact.friction)), bounce
 
 
 @kernel
-def _pushed_out(
-    field: Field, frame: Frame, skin: Skin, p: Vector, velocity: Vector, dt: float
+def push_out(
+    field: Field, sweep: RigidSweep, contact: ContactParams, p: Vector, velocity: Vector, dt: float
 ) -> tuple[bool, Vector, Vector]:
     """A point that is too near all the same (it began inside, or waits in a corner) goes out."""
     pushed = False
     for _ in range(MAX_PUSHES):
-        d, normal = distance(field, p, 2 * skin.radius)
-        if d >= skin.radius:
+        d, normal = distance(field, p, 2 * contact.radius)
+        if d >= contact.radius:
             break
-        p = along(p, clear_push(field, p, d, normal, skin.radius), normal)
-        velocity, _bounce = _answer(frame, skin, p, normal, velocity, dt)
-        pushed = pushed or d < skin.radius - TOUCH
+        normal = outward(field, p, normal)
+        p = along(p, clear_push(field, p, d, normal, contact.radius), normal)
+        velocity, _bounce = impact_velocity(sweep, contact, p, normal, velocity, dt)
+        pushed = pushed or d < contact.radius - TOUCH
     return pushed, p, velocity
 
 

@@ -1,0 +1,247 @@
+"""Shapes that a user defines by a signed distance function.
+
+The function is compiled once, when the first collider with it is made, and the kernels call it by
+its address. So the kernels themselves are compiled once for all shapes, and a step costs what the
+function costs.
+"""
+
+import inspect
+import re
+import threading
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from llvmlite import ir
+from numba import carray, cfunc, njit, types
+from numba.core.dispatcher import Dispatcher
+from numba.core.errors import NumbaError
+from numba.extending import intrinsic
+from numpy.typing import ArrayLike
+
+from drapery.cloth.colliders.fields import USER_DEFINED, Field
+from drapery.cloth.colliders.vectors import Vector
+from drapery.errors import OptionError
+from drapery.mesh import Array
+
+DistanceFunction = Callable[[Vector, Array], float]
+GradientFunction = Callable[[Vector, Array], Vector]
+
+
+class SignedDistance(Protocol):
+    """What an object needs to be the shape of a `Collider`. No base class is needed.
+
+    signed_distance: a function of (point, parameters), as a static method or an attribute, that
+        numba can compile: numbers, `math` and `numpy` only. point: x, y, z [m] in the shape's own
+        frame, a tuple. parameters: the array below. It returns the distance to the surface [m],
+        negative inside. It may be less than the true distance (advances become shorter), never
+        more: a point may then pass through the shape. `check_collider` tests this.
+    parameters: numbers that the function reads, shape [K]; they may be none.
+    bounds: low and high corner [m], shape [2, 3], of a box in the shape's own frame that holds the
+        whole surface; infinite where the shape has no end.
+
+    An optional attribute `gradient`, a function of (point, parameters) that returns the outward
+    unit direction (x, y, z), replaces central differences of the distance.
+
+    Functions are kept for as long as the program runs: use one function with many parameters, not
+    a new function for each collider.
+    """
+
+    @property
+    def signed_distance(self) -> DistanceFunction: ...
+
+    @property
+    def parameters(self) -> Sequence[float] | Array: ...
+
+    @property
+    def bounds(self) -> ArrayLike: ...
+
+
+class _Compiled(NamedTuple):
+    """Compiled functions; they must live as long as their addresses are in use."""
+
+    distance: Any
+    gradient: Any
+
+
+_cfunc: Any = cfunc
+_intrinsic: Any = intrinsic
+_pointer = types.CPointer(types.float64)
+_DISTANCE = types.float64(types.float64, types.float64, types.float64, _pointer, types.intp)
+_GRADIENT = types.void(types.float64, types.float64, types.float64, _pointer, types.intp, _pointer)
+_compiled: dict[tuple[DistanceFunction, GradientFunction | None], _Compiled] = {}
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+_lock = threading.Lock()
+"""Held while a function is looked up or compiled, so that each has one address."""
+
+
+def is_user_defined(shape: object) -> bool:
+    """Whether a shape has a signed distance of its own."""
+    return hasattr(shape, "signed_distance")
+
+
+def pack_user_defined(shape: SignedDistance) -> Field:
+    """A shape as the kernels read it. Raises OptionError."""
+    name = f"collider {type(shape).__name__}"
+    for wanted in ("parameters", "bounds"):
+        if not hasattr(shape, wanted):
+            raise OptionError(f"{name} has no {wanted}; add them, see SignedDistance")
+    parameters, bounds = _parameters(name, shape.parameters), _bounds(name, shape.bounds)
+    gradient: GradientFunction | None = getattr(shape, "gradient", None)
+    _try(name, shape.signed_distance, parameters)
+    with _lock:
+        key = shape.signed_distance, gradient
+        if key not in _compiled:
+            _compiled[key] = _compile(name, *key)
+        made = _compiled[key]
+    field = Field(
+        USER_DEFINED,
+        parameters,
+        bounds,
+        0.0,
+        distance_address=made.distance.address,
+        gradient_address=made.gradient.address if made.gradient else 0,
+    )
+    _check_samples(name, made.distance, field)
+    return field
+
+
+def _parameters(name: str, value: Sequence[float] | Array) -> Array:
+    try:
+        numbers = np.array(value, float)
+    except (TypeError, ValueError):
+        raise OptionError(f"{name}: parameters {value!r} are not numbers") from None
+    if numbers.ndim != 1 or not np.isfinite(numbers).all():
+        raise OptionError(f"{name}: parameters {value!r} are out of range; give finite numbers [K]")
+    return numbers
+
+
+def _bounds(name: str, value: ArrayLike) -> Array:
+    try:
+        corners = np.array(value, float)
+    except (TypeError, ValueError):
+        corners = np.zeros(0)
+    if corners.shape != (2, 3) or not (corners[0] < corners[1]).all():
+        raise OptionError(
+            f"{name}: bounds {value!r} are no box; give its low and high corner [2, 3]"
+        )
+    return corners
+
+
+def _try(name: str, function: DistanceFunction, parameters: Array) -> None:
+    """Call the function as Python, whose errors are clearer than the compiler's."""
+    if inspect.ismethod(function):
+        raise OptionError(f"{name}: signed_distance is a method; make it a static method")
+    plain = getattr(function, "py_func", function)
+    try:
+        distance = plain((0.125, 0.25, 0.5), parameters)
+    except Exception as fault:
+        reason = f"{type(fault).__name__}: {fault}"
+        raise OptionError(
+            f"{name}: signed_distance(point, parameters) raised {_line(reason)}"
+        ) from fault
+    if np.ndim(distance) != 0 or not np.isreal(distance):
+        raise OptionError(
+            f"{name}: signed_distance returned {_line(repr(distance))}; return one number"
+        )
+
+
+def _compile(name: str, distance: DistanceFunction, gradient: GradientFunction | None) -> _Compiled:
+    return _Compiled(
+        _callable(name, "signed_distance", distance, _distance_wrapper, _DISTANCE),
+        _callable(name, "gradient", gradient, _gradient_wrapper, _GRADIENT) if gradient else None,
+    )
+
+
+def _callable(
+    name: str, what: str, function: Any, wrapper: Callable[[Any], Any], signature: Any
+) -> Any:
+    inner = function if isinstance(function, Dispatcher) else njit(error_model="numpy")(function)
+    try:
+        return _cfunc(signature, error_model="numpy")(wrapper(inner))
+    except NumbaError as fault:
+        raise OptionError(
+            f"{name}: numba cannot compile its {what} ({_reason(fault)}); "
+            "use numbers, math and numpy only"
+        ) from fault
+
+
+def _distance_wrapper(inner: Any) -> Any:
+    def call(x: Any, y: Any, z: Any, first: Any, count: Any) -> Any:
+        return inner((x, y, z), carray(first, (count,)))
+
+    return call
+
+
+def _gradient_wrapper(inner: Any) -> Any:
+    def call(x: Any, y: Any, z: Any, first: Any, count: Any, result: Any) -> None:
+        direction = inner((x, y, z), carray(first, (count,)))
+        result[0], result[1], result[2] = direction[0], direction[1], direction[2]
+
+    return call
+
+
+def _check_samples(name: str, compiled: Any, field: Field) -> None:
+    """Raises OptionError unless the distance is finite over the bounds."""
+    low, high = np.clip(field.bounds, -10.0, 10.0)
+    first = field.numbers.ctypes.data_as(compiled.ctypes.argtypes[3])
+    for part in np.ndindex(5, 5, 5):
+        x, y, z = (float(c) for c in low + (high - low) * (np.array(part) + 0.01) / 4.02)
+        distance = compiled.ctypes(x, y, z, first, field.numbers.size)
+        if not np.isfinite(distance):
+            raise OptionError(
+                f"{name}: signed_distance at ({x:g}, {y:g}, {z:g}) m is {distance}; "
+                "return a finite number everywhere"
+            )
+
+
+def _reason(fault: Exception) -> str:
+    """The first line of numba's message that is about the function."""
+    lines = [_COLOUR.sub("", line).strip() for line in str(fault).splitlines()]
+    lines = [line for line in lines if line and not line.startswith("Failed in nopython mode")]
+    return _line(lines[0] if lines else type(fault).__name__)
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())[:160]
+
+
+def _function_of(builder: Any, address: Any, result: Any, operands: Sequence[Any]) -> Any:
+    shape = ir.FunctionType(result, [operand.type for operand in operands])
+    return builder.inttoptr(address, shape.as_pointer())
+
+
+def _operands(context: Any, builder: Any, signature: Any, args: Any) -> list[Any]:
+    """x, y, z, the first parameter's place, and their number."""
+    parameters = context.make_array(signature.args[4])(context, builder, args[4])
+    return [*args[1:4], parameters.data, builder.extract_value(parameters.shape, 0)]
+
+
+@_intrinsic
+def call_distance(typing: Any, address: Any, x: Any, y: Any, z: Any, parameters: Any) -> Any:
+    """The distance function at an address."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        operands = _operands(context, builder, signature, args)
+        function = _function_of(builder, args[0], ir.DoubleType(), operands)
+        return builder.call(function, operands)
+
+    f8 = types.float64
+    return f8(types.int64, f8, f8, f8, parameters), generate
+
+
+@_intrinsic
+def call_gradient(
+    typing: Any, address: Any, x: Any, y: Any, z: Any, parameters: Any, result: Any
+) -> Any:
+    """The gradient function at an address, into an array [3]."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        place = context.make_array(signature.args[5])(context, builder, args[5])
+        operands = [*_operands(context, builder, signature, args), place.data]
+        function = _function_of(builder, args[0], ir.VoidType(), operands)
+        builder.call(function, operands)
+        return context.get_dummy_value()
+
+    f8 = types.float64
+    return types.none(types.int64, f8, f8, f8, parameters, result), generate
