@@ -282,7 +282,11 @@ def test_files_are_told_by_their_bytes(tmp_path: Path):
         ("a.nbt", b"", "a.nbt: an empty file"),
         ("a.nbt", b"hello", "a.nbt: neither NBT nor a region"),
         ("r.0.0.mca", b"hello", "r.0.0.mca: cut off: 5 bytes"),
-        ("r.0.0.mca", struct.pack(">I", 0x00FFFF01).ljust(4096, b"\0"), "no chunk at byte"),
+        (
+            "r.0.0.mca",
+            struct.pack(">I", 0x00FFFF01).ljust(4096, b"\0"),
+            "there is no chunk at byte",
+        ),
     ],
 )
 def test_files_that_are_none_are_refused_by_name(
@@ -344,7 +348,7 @@ def test_a_schematic_of_nothing_but_banners_is_too_much():
 
 
 def test_folders_that_are_no_world_and_missing_paths_are_refused(tmp_path: Path):
-    with pytest.raises(DesignError, match="no world"):
+    with pytest.raises(DesignError, match="not a world"):
         list(banners_in(tmp_path))
     with pytest.raises(DesignError, match="no such file"):
         list(banners_in(tmp_path / "nowhere"))

@@ -37,7 +37,7 @@ def test_one_of_several_is_chosen_by_number():
     assert parse_banner(CHEST, number=2) == BLUE
     with pytest.raises(DesignError, match=r"2 banners, from 'Items\[0\]' to .* by its number"):
         parse_banner(CHEST)
-    with pytest.raises(DesignError, match="no banner number 3: they are 1 to 2"):
+    with pytest.raises(DesignError, match="no banner number 3; use 1 to 2"):
         parse_banner(CHEST, number=3)
     assert parse_banner(CHEST.replace("blue", "red")) == RED
 
@@ -99,7 +99,7 @@ def test_a_file_that_is_not_there_is_called_so(name: str):
 @pytest.mark.parametrize(
     ("data", "part"),
     [
-        (b"\xff\xff\xff\x00", "neither text nor a known file"),
+        (b"\xff\xff\xff\x00", "neither text nor a known kind of file"),
         (b"", "empty"),
         (b"white " + b"x" * (5 << 20), "over 1048576"),
         (b"\x1f\x8b\x08", "broken.txt"),
@@ -160,7 +160,7 @@ def test_a_banner_parses_texts_whatever_is_imported_first(module: str):
 
 
 def test_a_folder_that_is_no_world_is_named(tmp_path: Path):
-    with pytest.raises(DesignError, match="a folder, and no Java world"):
+    with pytest.raises(DesignError, match="a folder, but not a Java world"):
         read_designs(str(tmp_path))
 
 

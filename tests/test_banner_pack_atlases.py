@@ -126,5 +126,5 @@ def test_broken_atlases_are_named(tmp_path: Path, atlas: str) -> None:
     "name", ["../x", "a:../../x", "a:b:c", "Überall", "a: b", "x" * 200, "", "a:"]
 )
 def test_names_that_are_no_ids_are_refused(name: str) -> None:
-    with pytest.raises(PackError, match="is no id"):
+    with pytest.raises(PackError, match="is not an id"):
         open_packs().sheet(name)

@@ -44,17 +44,17 @@ def test_no_such_path(tmp_path: Path) -> None:
 @pytest.mark.parametrize("data", [b"", b"PK", b"hello" * 100, plain(1, 1, 1, 1)])
 def test_other_files(tmp_path: Path, data: bytes) -> None:
     (tmp_path / "a.zip").write_bytes(data)
-    assert "neither a folder nor a whole zip" in refusal(tmp_path / "a.zip")
+    assert "neither a folder nor a complete zip" in refusal(tmp_path / "a.zip")
 
 
 @pytest.mark.parametrize(
     ("folder", "hint"),
     [
-        ("packs/one/assets", "it lies inside one, point at"),
-        ("packs/one/assets/minecraft/textures", "it lies inside one, point at"),
-        ("packs", "it holds several, choose one: one, two"),
-        ("zips", "it holds a.zip, point at one of them"),
-        ("bedrock", "it is one for Bedrock"),
+        ("packs/one/assets", "it is a folder inside a pack, give"),
+        ("packs/one/assets/minecraft/textures", "it is a folder inside a pack, give"),
+        ("packs", "it holds several packs, choose one: one, two"),
+        ("zips", "it holds a.zip, give one of them"),
+        ("bedrock", "it is a pack for Bedrock"),
         ("empty", "it has neither assets nor pack.mcmeta"),
     ],
 )
@@ -71,10 +71,16 @@ def test_folders_that_are_no_packs(tmp_path: Path, folder: str, hint: str) -> No
 @pytest.mark.parametrize(
     ("names", "hint"),
     [
-        (["manifest.json"], "it is one for Bedrock"),
+        (["manifest.json"], "it is a pack for Bedrock"),
         (["inner.zip"], "it holds another zip"),
-        (["one/assets/a", "two/assets/a"], "it holds several, unpack it and choose one: one, two"),
-        (["a\nb/assets/a", "c/assets/a"], "it holds several, unpack it and choose one: 'a\\nb', c"),
+        (
+            ["one/assets/a", "two/assets/a"],
+            "it holds several packs, unpack it and choose one: one, two",
+        ),
+        (
+            ["a\nb/assets/a", "c/assets/a"],
+            "it holds several packs, unpack it and choose one: 'a\\nb', c",
+        ),
         (["readme.txt"], "neither assets nor pack.mcmeta"),
         ([], "neither assets nor pack.mcmeta"),
     ],
@@ -87,7 +93,7 @@ def test_zips_that_are_no_packs(tmp_path: Path, names: list[str], hint: str) -> 
     "name", ["../evil", "assets/../../evil", "/etc/evil", "C:/evil", "..\\evil"]
 )
 def test_names_that_lead_out(tmp_path: Path, name: str) -> None:
-    assert "leads out of it" in refusal(zip_pack(tmp_path / "a.zip", {**SOUND, name: "x"}))
+    assert "leads out of the pack" in refusal(zip_pack(tmp_path / "a.zip", {**SOUND, name: "x"}))
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["a.zip"]
 
 
@@ -100,7 +106,7 @@ def test_links_in_folders(tmp_path: Path) -> None:
     assert "is a link out of the pack" in refusal(pack)
     (pack / CREEPER).unlink()
     (pack / CREEPER).symlink_to(pack / "nothing")
-    assert "is a link to nothing" in refusal(pack)
+    assert "is a broken link" in refusal(pack)
     (pack / CREEPER).unlink()
     (pack / CREEPER).symlink_to(pack / CREEPER)
     assert "creeper.png" in refusal(pack)
@@ -141,14 +147,14 @@ def flagged(path: Path, bit: int) -> Path:
 
 def test_encrypted_zips(tmp_path: Path) -> None:
     path = flagged(zip_pack(tmp_path / "a.zip", SOUND), 1)
-    assert "is encrypted: pack it without a password" in refusal(path)
+    assert "is encrypted: make the zip without a password" in refusal(path)
 
 
 @pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
 def test_other_compressions(tmp_path: Path, method: int) -> None:
     with zipfile.ZipFile(tmp_path / "a.zip", "w", method) as archive:
         archive.writestr(CREEPER, plain(1, 1, 1, 1))
-    assert "use plain deflate" in refusal(tmp_path / "a.zip")
+    assert "use deflate" in refusal(tmp_path / "a.zip")
 
 
 def test_truncated_zips(tmp_path: Path) -> None:
@@ -156,10 +162,10 @@ def test_truncated_zips(tmp_path: Path) -> None:
     cut = tmp_path / "cut.zip"
     for length in range(0, len(whole) - 1, 23):
         cut.write_bytes(whole[:length])
-        assert "get it anew" in refusal(cut)
+        assert "download it again" in refusal(cut)
     # Without its middle the list of contents points at the wrong places.
     cut.write_bytes(whole[:40] + whole[90:])
-    assert "anew" in refusal(cut)
+    assert "again" in refusal(cut)
 
 
 def test_files_twice_in_a_zip(tmp_path: Path) -> None:
@@ -171,9 +177,9 @@ def test_files_twice_in_a_zip(tmp_path: Path) -> None:
 
 def test_zip_bombs(tmp_path: Path) -> None:
     path = zip_pack(tmp_path / "a.zip", {CREEPER: bytes(MAX_PNG + 1)})
-    assert "a zip bomb is not read" in refusal(path)
+    assert "zip bombs are not read" in refusal(path)
     small = zip_pack(tmp_path / "b.zip", {CREEPER: bytes(2 << 20)})
-    assert "a zip bomb is not read" in refusal(small)
+    assert "zip bombs are not read" in refusal(small)
 
 
 def test_zip_bombs_that_lie_about_their_size(tmp_path: Path) -> None:

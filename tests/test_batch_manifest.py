@@ -71,7 +71,7 @@ def test_defaults_lie_under_the_manifests_own(tmp_path: Path) -> None:
 
 
 def test_defaults_lie_under_the_manifests_own_but_packs_must_be_packs(tmp_path: Path) -> None:
-    with pytest.raises(ManifestError, match="no resource pack") as caught:
+    with pytest.raises(ManifestError, match="not a resource pack") as caught:
         read_manifest(as_csv(tmp_path), {"packs": str(tmp_path)})
     assert [fault.place for fault in caught.value.faults] == ["line 3", "line 4", "line 5"]
 

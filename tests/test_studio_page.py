@@ -214,7 +214,7 @@ def test_broken_text_shows_the_line_and_the_page_goes_on(page: Any) -> None:
     assert "unknown dye 'mauve'" in find(page, ".panel-text .fault").text
     secret = Path(__file__).resolve()
     paste(page, str(secret))
-    wait_until(lambda: "no form of a banner" in alert(page))
+    wait_until(lambda: "not a known form of a banner" in alert(page))
     paste(page, "white creeper:lime")
     is_now(page, "white creeper:lime")
     assert not find(page, ".panel-text .fault").is_displayed()

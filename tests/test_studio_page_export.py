@@ -296,7 +296,7 @@ def test_a_broken_pack_is_one_line(page: Page, tmp_path: Path) -> None:
     broken.write_bytes(b"PK\x03\x04 not whole")
     odd = zip_pack(tmp_path / "odd.zip", {META: mcmeta(), CREEPER: b"no picture"})
     drop(page, "packs", broken, odd)
-    assert "neither a folder nor a whole zip" in page.notice("broken.zip")
+    assert "neither a folder nor a complete zip" in page.notice("broken.zip")
     assert "is not a PNG file" in page.notice("odd.zip")
     told = page.driver.find_elements("css selector", ".q-notification")
     assert {each.get_attribute("role") for each in told} == {"alert"}

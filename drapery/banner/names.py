@@ -48,7 +48,7 @@ def shown(value: object, longest: int = 40) -> str:
         return f"a list of {len(value)}"
     if isinstance(value, int) and value.bit_length() > 256:
         return f"a number of {value.bit_length()} bits"
-    text = value if isinstance(value, str) else " ".join(str(value).split())
+    text = str(value) if isinstance(value, str) else " ".join(str(value).split())
     if len(text) > longest:
         text = text[: longest - 1] + "…"
     return repr(text) if isinstance(value, str) else text
@@ -91,7 +91,9 @@ def pattern_id(name: object, at: str = "", *, bukkit: bool = False) -> str:
     Raises DesignError, opening with the place `at`.
     """
     if not isinstance(name, str):
-        raise DesignError(f"{_place(at)}{shown(name)} is no pattern: give its id, as 'creeper'")
+        raise DesignError(
+            f"{_place(at)}{shown(name)} is not a pattern: give its id, such as 'creeper'"
+        )
     if is_custom(name):
         return name
     key = plain(name)
@@ -112,16 +114,16 @@ def dye_name(value: object, at: str = "", *, inverted: bool = False) -> str:
     """
     if isinstance(value, int) and not isinstance(value, bool):
         if not 0 <= value < len(DYE_NAMES):
-            raise DesignError(f"{_place(at)}{shown(value)} is no dye: they are numbered 0 to 15")
+            raise DesignError(f"{_place(at)}{shown(value)} is not a dye: the numbers are 0 to 15")
         return DYE_NAMES[15 - value if inverted else value]
     if not isinstance(value, str):
-        raise DesignError(f"{_place(at)}{shown(value)} is no dye: give its name, as 'lime'")
+        raise DesignError(f"{_place(at)}{shown(value)} is not a dye: give its name, such as 'lime'")
     key = plain(value)
     name = _DYE_ALSO.get(key, key)
     if name not in DYES:
         hint = _did_you_mean(key, [*DYES, *_DYE_ALSO])
         raise DesignError(
-            f"{_place(at)}unknown dye {shown(value)}{hint or ': the sixteen are '}"
+            f"{_place(at)}unknown dye {shown(value)}{hint or '; the sixteen are '}"
             + ("" if hint else ", ".join(DYES))
         )
     return name
@@ -133,7 +135,9 @@ def bukkit_pattern(name: str, at: str = "") -> str:
     Raises DesignError, opening with the place `at`, for the patterns of data packs.
     """
     if is_custom(name):
-        raise DesignError(f"{_place(at)}Bukkit has no name for {shown(name)}, of a data pack")
+        raise DesignError(
+            f"{_place(at)}Bukkit has no name for {shown(name)}, a data pack's pattern"
+        )
     names = {meant: said for said, meant in _BUKKIT.items()}
     return names.get(name, name).upper()
 
@@ -150,8 +154,8 @@ def _place(at: str) -> str:
 
 def _pattern_hint(name: str, key: str) -> str:
     if ":" in name and not name.startswith("minecraft:"):
-        return ": a data pack's pattern is 'namespace:path' in small letters"
-    return _did_you_mean(key, _pattern_table()) or ": give an id, as 'creeper' or 'stripe_top'"
+        return ": write a data pack's pattern as 'namespace:path' in lower case"
+    return _did_you_mean(key, _pattern_table()) or ": give an id, such as 'creeper' or 'stripe_top'"
 
 
 def _did_you_mean(key: str, names: "dict[str, str] | list[str]") -> str:

@@ -31,7 +31,7 @@ def write(banner: Banner) -> str:
 def block_entity(banner: Banner) -> dict[str, DataTree]:
     """The block entity as a tree."""
     if banner.kind != "banner":
-        raise DesignError("Bedrock's shields bear no design: write the form 'give'")
+        raise DesignError("Bedrock's shields have no design: write the form 'give'")
     if banner == OMINOUS:
         return {"id": "Banner", "Base": 15, "Type": 1}
     layers = [_layer(layer, number) for number, layer in enumerate(banner.layers, 1)]

@@ -33,7 +33,7 @@ def compounds(tree: dict[str, DataTree], where: str, *keys: str) -> list[dict[st
         if key in tree:
             items = tree[key]
             if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
-                raise DesignError(f"{where}: {key} is no list of compounds; save the file anew")
+                raise DesignError(f"{where}: {key} is not a list of compounds; save the file again")
             return items
     return []
 
@@ -42,7 +42,7 @@ def compound(tree: dict[str, DataTree], where: str, key: str) -> dict[str, DataT
     """The compound under a key; empty if there is none. Raises DesignError for anything else."""
     value = tree.get(key, {})
     if not isinstance(value, dict):
-        raise DesignError(f"{where}: {key} is {shown(value)}, no compound; save the file anew")
+        raise DesignError(f"{where}: {key} is {shown(value)}, not a compound; save the file again")
     return value
 
 
@@ -54,7 +54,7 @@ def spot(value: DataTree, where: str) -> Spot:
     if isinstance(value, dict):
         value = [value.get(axis) for axis in "xyz"]
     if not isinstance(value, list) or len(value) != 3 or not all(map(_is_finite, value)):
-        raise DesignError(f"{where}: {shown(value)} is no position of three numbers")
+        raise DesignError(f"{where}: {shown(value)} is not a position of three numbers")
     return int(value[0] // 1), int(value[1] // 1), int(value[2] // 1)
 
 
@@ -68,7 +68,7 @@ def longs(value: DataTree, where: str) -> NDArray[np.int64]:
         return value.array().astype(np.int64)
     if value is None or (isinstance(value, list) and all(isinstance(n, int) for n in value)):
         return np.array(value or (), np.int64)
-    raise DesignError(f"{where}: {shown(value)} is no array of longs; save the file anew")
+    raise DesignError(f"{where}: {shown(value)} is not an array of longs; save the file again")
 
 
 def at_block(where: str, place: Spot) -> str:

@@ -83,7 +83,7 @@ def _index(states: dict[str, DataTree], count: int, number: int, where: str) -> 
     spanning = len(packed) == longs_needed(SECTION_BLOCKS, bits, spanning=True)
     if not spanning and len(packed) != longs_needed(SECTION_BLOCKS, bits, spanning=False):
         raise DesignError(
-            f"{where}: {len(packed)} longs do not hold a section of {count} block states;"
-            " let the game save the chunk anew"
+            f"{where}: {len(packed)} longs do not make a section of {count} block states;"
+            " let the game save the chunk again"
         )
     return int(unpack(packed, bits, np.array([number]), spanning)[0])

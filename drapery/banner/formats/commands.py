@@ -102,8 +102,8 @@ def _check_rest(rest: list[Part]) -> None:
         if part in _MODES:
             return
         raise DesignError(
-            f"{_position(part)}unexpected {shown(part)} after the item: layers stand in its"
-            ' brackets, as [banner_patterns=[{pattern:"creeper",color:"lime"}]]'
+            f"{_position(part)}unexpected {shown(part)} after the item: write layers in its"
+            ' brackets, as in [banner_patterns=[{pattern:"creeper",color:"lime"}]]'
         )
 
 
@@ -121,8 +121,8 @@ def _nearest(parts: list[Part]) -> str:
         if isinstance(part, str) and len(part) < 60:
             close = difflib.get_close_matches(bare(part), known, 1, 0.7)
             if close:
-                return f": {shown(part)} is no item of the game; did you mean '{close[0]}'?"
-    return ": it needs an item as minecraft:white_banner[banner_patterns=[…]]"
+                return f": {shown(part)} is not an item of the game; did you mean '{close[0]}'?"
+    return ": it needs an item such as minecraft:white_banner[banner_patterns=[…]]"
 
 
 def _position(part: Part) -> str:

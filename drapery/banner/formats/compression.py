@@ -11,7 +11,7 @@ MAX_BYTES = 64 * 2**20
 _PIECE = 2**20
 _FEED = 2**16
 _GZIP_OR_ZLIB = 32 + zlib.MAX_WBITS
-_REMEDY = "save or download the file anew"
+_REMEDY = "save or download the file again"
 
 
 def inflate(data: bytes, where: str, limit: int = MAX_BYTES) -> bytes:
@@ -68,5 +68,5 @@ def check_size(size: int, where: str, limit: int = MAX_BYTES) -> None:
     """Raise DesignError for a file over the limit [bytes]."""
     if size > limit:
         raise DesignError(
-            f"{where}: over {limit / 2**20:g} MiB unpacked; cut a smaller piece out of it"
+            f"{where}: over {limit / 2**20:g} MiB unpacked; save a smaller piece of it"
         )

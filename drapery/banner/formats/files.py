@@ -101,15 +101,15 @@ def _refusal(head: bytes) -> str:
     if head[:4] == b"PK\x03\x04":
         return "a zip file; unpack it and give the world's folder or one of its files"
     if not head:
-        return "an empty file; save or download it anew"
+        return "an empty file; save or download it again"
     return "neither NBT nor a region file; give a structure, a schematic or a world"
 
 
 def _in_world(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
     if (folder / "db" / "CURRENT").exists():
         raise DesignError(
-            f"{folder}: a world of Bedrock Edition, which is not read;"
-            " save what you want with a structure block and give the .mcstructure"
+            f"{folder}: a world of Bedrock Edition, which is not supported;"
+            " save the part that you want with a structure block and give the .mcstructure"
         )
     found = False
     for path in _world_files(folder):
@@ -121,7 +121,7 @@ def _in_world(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
         except OSError as error:
             on_error(DesignError(f"{path}: {error.strerror}; make it readable"))
     if not found:
-        raise DesignError(f"{folder}: no world of Java Edition; give the folder of level.dat")
+        raise DesignError(f"{folder}: not a world of Java Edition; give the folder of level.dat")
 
 
 def _world_files(folder: Path) -> Iterator[Path]:

@@ -44,6 +44,6 @@ def write(banner: Banner) -> str:
 def block_entity(banner: Banner) -> dict[str, DataTree]:
     """The block entity: `{"Base": …, "Patterns": […]}`, dyes inverted."""
     if banner.kind != "banner":
-        raise DesignError("this form has no shields: write the form 'give' or 'give-legacy'")
+        raise DesignError("this form cannot hold shields: write the form 'give' or 'give-legacy'")
     layers = legacy_layers(banner.layers, "1.12", inverted=True, lacks=LACKS)
     return {"Base": 15 - DYES[banner.base].number} | ({"Patterns": layers} if layers else {})

@@ -76,7 +76,7 @@ def _names(
     packed = longs(region.get("BlockStates"), where)
     if len(packed) < longs_needed(count, bits, spanning=True):
         raise DesignError(
-            f"{where}: BlockStates holds fewer than {count} blocks; save the file anew"
+            f"{where}: BlockStates holds fewer than {count} blocks; save the file again"
         )
     palette = {number: name for number, name in enumerate(states) if name}
     return names_in_box(packed_pieces(packed, bits, count), palette, box, places, where)

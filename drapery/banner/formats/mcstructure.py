@@ -60,7 +60,9 @@ def _place(number: str, size: Spot, where: str) -> Spot:
     """The place of a block by its number."""
     _, height, length = size
     if not (number.isascii() and number.isdigit() and len(number) < 12 and height * length > 0):
-        raise DesignError(f"{where}: {number[:12]!r} is no block's number; export the file anew")
+        raise DesignError(
+            f"{where}: {number[:12]!r} is not the number of a block; export the file again"
+        )
     return int(number) // (height * length), int(number) // length % height, int(number) % length
 
 

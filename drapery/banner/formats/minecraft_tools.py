@@ -97,7 +97,7 @@ def _number(text: str, name: str, value: str) -> int:
 def _layer(text: str, numbers: dict[tuple[str, int], int], layer: int) -> Layer:
     shape = numbers["shape", layer]
     if shape > len(PATTERN_ORDER):
-        place = f"shape_id_{layer}={shape} is no pattern (1 to {len(PATTERN_ORDER)})"
+        place = f"shape_id_{layer}={shape} is not a pattern (1 to {len(PATTERN_ORDER)})"
         refuse(SITE, text, place, REMEDY)
     return Layer(PATTERN_ORDER[shape - 1], _dye(text, numbers, layer))
 
@@ -107,5 +107,5 @@ def _dye(text: str, numbers: dict[tuple[str, int], int], layer: int) -> str:
     if index is None:
         refuse(SITE, text, f"color_id_{layer} is missing", REMEDY)
     if index >= len(COLOURS):
-        refuse(SITE, text, f"color_id_{layer}={index} is no dye (0 to 15)", REMEDY)
+        refuse(SITE, text, f"color_id_{layer}={index} is not a dye (0 to 15)", REMEDY)
     return COLOURS[index]

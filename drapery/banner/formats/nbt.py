@@ -98,9 +98,7 @@ class _Cursor:
     def spend(self, tags: int) -> None:
         self.tags_left -= tags
         if self.tags_left < 0:
-            raise _BytesError(
-                f"over {MAX_TAGS} tags by byte {self.at}; cut a smaller piece out of it"
-            )
+            raise _BytesError(f"over {MAX_TAGS} tags by byte {self.at}; save a smaller piece of it")
 
 
 def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, DataTree]:
@@ -118,7 +116,7 @@ def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, D
     try:
         return _read_root(_Cursor(data, start, _CODECS[order or guess]))
     except (IndexError, struct.error):
-        fault = f"cut off: it ends at byte {len(data)} within a tag; save or download it anew"
+        fault = f"cut off: it ends at byte {len(data)} within a tag; save or download it again"
     except _BytesError as found:
         fault = str(found)
     raise DesignError(f"{where}: {fault}")
@@ -190,7 +188,7 @@ def _fill_compound(cursor: _Cursor, node: dict[str, DataTree]) -> Container | No
         stop = start + length_of(data, cursor.at + 1)[0]
         name = names.get(data[start:stop]) or _new_name(names, data[start:stop])
         if kind > _LAST:
-            raise _BytesError(f"{kind} at byte {cursor.at} is no kind of tag; save the file anew")
+            raise _BytesError(f"{kind} at byte {cursor.at} is no kind of tag; save the file again")
         cursor.spend(_COST[kind])
         reader = readers[kind]
         if reader:
@@ -235,10 +233,10 @@ def _list_head(cursor: _Cursor) -> tuple[int, int]:
     kind, length = cursor.data[at], max(0, cursor.codec.int_(cursor.data, at + 1)[0])
     cursor.at = at + 5
     if kind > _LAST or (kind == _END and length):
-        raise _BytesError(f"a list of {length} of kind {kind} at byte {at}; save the file anew")
+        raise _BytesError(f"a list of {length} of kind {kind} at byte {at}; save the file again")
     if length > len(cursor.data) - cursor.at:
         raise _BytesError(
-            f"a list of {length} at byte {at} is longer than the rest; save or download it anew"
+            f"a list of {length} at byte {at} is longer than the rest; save or download it again"
         )
     cursor.spend(1 if kind in _NUMBERS else length * _COST[kind])
     return kind, length
@@ -283,7 +281,7 @@ def _array(data: bytes, at: int, dtype: str, length: int) -> tuple[list[Any] | N
     stop = at + length * int(dtype[-1])
     if length < 0 or stop > len(data):
         raise _BytesError(
-            f"an array of {length} at byte {at} is longer than the rest; save it anew"
+            f"an array of {length} at byte {at} is longer than the rest; save it again"
         )
     numbers = Numbers(data, at, length, dtype)
     return (numbers.array().tolist() if length <= SHORT_LIST else numbers), stop
@@ -317,7 +315,7 @@ def _byte_array_reader(length_of: Length) -> Reader:
     def read(data: bytes, at: int) -> tuple[bytes, int]:
         stop = at + 4 + length_of(data, at)[0]
         if not at + 4 <= stop <= len(data):
-            raise _BytesError(f"an array at byte {at} is longer than the rest; save it anew")
+            raise _BytesError(f"an array at byte {at} is longer than the rest; save it again")
         return data[at + 4 : stop], stop
 
     return read

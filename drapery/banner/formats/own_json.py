@@ -28,7 +28,9 @@ def matches(tree: DataTree) -> bool:
 def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:
     """The banner of the JSON's tree. Raises DesignError naming the place."""
     if "base" not in tree:
-        raise DesignError('the JSON has no "base": give its dye, as {"base": "red", "layers": []}')
+        raise DesignError(
+            'the JSON has no "base": give its dye, as in {"base": "red", "layers": []}'
+        )
     kind = tree.get("kind", "banner")
     if kind not in ("banner", "shield"):
         raise DesignError(f"kind: {shown(kind)} is neither 'banner' nor 'shield'")

@@ -35,7 +35,7 @@ def pick(
         here = wanted[np.searchsorted(wanted, first) : np.searchsorted(wanted, first + len(values))]
         hits = np.flatnonzero(np.isin(values, kinds)) if len(kinds) else kinds
         if len(picked) + len(here) + len(hits) > MAX_PICKED:
-            raise DesignError(f"{where}: over {MAX_PICKED} banners; cut a smaller piece out of it")
+            raise DesignError(f"{where}: over {MAX_PICKED} banners; save a smaller piece of it")
         for offset in (here - first).tolist() + hits.tolist():
             picked[first + offset] = int(values[offset])
     return picked
@@ -69,7 +69,7 @@ def varint_pieces(data: bytes, where: str) -> Pieces:
         piece = np.frombuffer(data, np.uint8, min(PIECE, len(data) - start), start)
         ends = np.flatnonzero(piece < 128)
         if not len(ends):
-            raise DesignError(f"{where}: block data has no end after byte {start}; save it anew")
+            raise DesignError(f"{where}: block data has no end after byte {start}; save it again")
         yield first, _varints(piece, ends, f"{where}: block data near byte {start}")
         first += len(ends)
         start += int(ends[-1]) + 1
@@ -81,7 +81,7 @@ def _varints(piece: NDArray[np.uint8], ends: NDArray[np.int64], where: str) -> N
     starts = np.concatenate(([0], ends[:-1] + 1))
     sizes = ends - starts + 1
     if sizes.max() > 5:
-        raise DesignError(f"{where} has a number of over five bytes; save the file anew")
+        raise DesignError(f"{where} has a number of over five bytes; save the file again")
     values = np.zeros(len(ends), np.int64)
     for place in range(int(sizes.max())):
         byte = piece[np.minimum(starts + place, ends)].astype(np.int64) & 127

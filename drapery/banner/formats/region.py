@@ -98,7 +98,7 @@ def _listed(head: bytes, where: str, on_error: OnError) -> list[int]:
     if len(head) < SECTOR:
         # The game makes empty region files where it meant to save and did not.
         if head:
-            on_error(DesignError(f"{where}: cut off: {len(head)} bytes are no region file"))
+            on_error(DesignError(f"{where}: cut off: {len(head)} bytes are not a region file"))
         return []
     return [number for number in range(SIDE * SIDE) if _place(head, number) != (0, 0)]
 
@@ -129,7 +129,7 @@ def _unpacked(
     length = int.from_bytes(opening[:4], "big")
     if len(opening) < 5 or not 1 <= length <= count * SECTOR:
         at = first * SECTOR
-        raise DesignError(f"{where}: no chunk at byte {at}; let the game repair the world")
+        raise DesignError(f"{where}: there is no chunk at byte {at}; let the game repair the world")
     kind = opening[4]
     large = kind & _OWN_FILE
     data = _own_file(folder, own_file, where) if large else file.read(length - 1)
@@ -140,7 +140,7 @@ def _own_file(folder: Path | None, name: str, where: str) -> bytes:
     """What a chunk of over a megabyte keeps in a file beside the region."""
     path = folder / name if folder else None
     if path is None or path.is_symlink() or not path.is_file():
-        raise DesignError(f"{where}: its file {name} is missing; copy it beside the region")
+        raise DesignError(f"{where}: its file {name} is missing; copy it into the region's folder")
     check_size(path.stat().st_size, f"{where} {name}", MAX_CHUNK)
     return path.read_bytes()
 
@@ -151,8 +151,8 @@ def _unwrap(data: bytes, kind: int, where: str) -> bytes:
     if kind not in (1, 2, 3):
         name = KINDS.get(kind, "unknown")
         raise DesignError(
-            f"{where}: compressed by method {kind} ({name}), which is not read;"
-            " set region-file-compression=deflate and let the server save it anew"
+            f"{where}: compressed by method {kind} ({name}), which is not supported;"
+            " set region-file-compression=deflate and let the server save it again"
         )
     if kind == 3:
         check_size(len(data), where, MAX_CHUNK)

@@ -85,12 +85,12 @@ def recognise(text: str) -> Form:
             return form
     if text.lstrip().startswith(("http://", "https://")):
         raise DesignError(
-            f"{shown(text.strip(), 60)}: no banner editor's address that is known here;"
+            f"{shown(text.strip(), 60)}: not the address of a known banner editor;"
             " copy the banner's /give command instead"
         )
     raise DesignError(
-        f"{shown(text.strip(), 60)}: no form of a banner; write it as {shorthand.EXAMPLE!r},"
-        " or paste a /give command"
+        f"{shown(text.strip(), 60)}: not a known form of a banner; write it as"
+        f" {shorthand.EXAMPLE!r}, or paste a /give command"
     )
 
 
@@ -103,10 +103,10 @@ def parse_banners(text: str, *, form: str | None = None) -> list[FoundBanner]:
     Raises DesignError with the place and the remedy.
     """
     if len(text) > MAX_TEXT:
-        raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: cut it down")
+        raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: shorten it")
     text = text.removeprefix("\ufeff")
     if not text.strip():
-        raise DesignError(f"the text is empty: give a banner, as {shorthand.EXAMPLE!r}")
+        raise DesignError(f"the text is empty: give a banner, such as {shorthand.EXAMPLE!r}")
     if form is not None:
         return _named(form).read(text)
     lines = _command_lines(text)
@@ -144,7 +144,7 @@ def pick(found: list[FoundBanner], number: int | None = None) -> Banner:
             f"{len(found)} banners, from {shown(first)} to {shown(last)}: choose one by its number"
         )
     if not 1 <= number <= len(found):
-        raise DesignError(f"there is no banner number {number}: they are 1 to {len(found)}")
+        raise DesignError(f"there is no banner number {number}; use 1 to {len(found)}")
     return found[number - 1].banner
 
 
@@ -178,7 +178,7 @@ def _named(form: str) -> Form:
     if form in FORMS:
         return FORMS[form]
     if form in binary_forms():
-        raise DesignError(f"the form {form!r} is one of files, and this is a text; give a file")
+        raise DesignError(f"the form {form!r} is for files, but this is a text; give a file")
     raise _unknown(form)
 
 
@@ -187,7 +187,7 @@ def _unknown(form: str) -> DesignError:
 
     known = (*FORMS, *binary_forms())
     close = difflib.get_close_matches(form[:40].lower(), known, 1)
-    hint = f"; did you mean '{close[0]}'?" if close else f": they are {', '.join(known)}"
+    hint = f"; did you mean '{close[0]}'?" if close else f"; known are {', '.join(known)}"
     return DesignError(f"unknown form {shown(form)}{hint}")
 
 
@@ -220,7 +220,7 @@ def _all_lines(lines: list[tuple[int, str]]) -> list[FoundBanner]:
             found += [FoundBanner(f.banner, f"line {number} {f.where}") for f in read]
         except DesignError as error:
             errors.append(DesignError(_with_line(str(error), number)))
-    return _despite(found, errors, "the commands hold no banner: paste a /give command")
+    return _despite(found, errors, "there is no banner in the commands: paste a /give command")
 
 
 def _with_line(message: str, number: int) -> str:
@@ -267,7 +267,7 @@ def _as_path(source: str | Path) -> Path | None:
         if path.exists() and (not path.is_dir() or _is_world(path)):
             return path
         if path.is_dir() and path.name != source:
-            raise DesignError(f"{shown(source, 80)}: a folder, and no Java world; give a file")
+            raise DesignError(f"{shown(source, 80)}: a folder, but not a Java world; give a file")
     except OSError:
         return None
     known = path.suffix.lower() in _SUFFIXES and not set('{}[]"').intersection(source)
@@ -307,7 +307,9 @@ def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
     from drapery.banner.formats.compression import MAX_BYTES, check_size
 
     if path.is_dir():
-        raise DesignError(f"{path}: a folder, and no file of the form {form.name!r}; give a file")
+        raise DesignError(
+            f"{path}: a folder, but not a file of the form {form.name!r}; give a file"
+        )
     check_size(path.stat().st_size, str(path), MAX_BYTES)
     try:
         return _despite(list(form.read(path.read_bytes())), [], "no banner in it")
@@ -328,6 +330,6 @@ def _decoded(data: bytes, name: str) -> str:
         return data.decode(encoding)
     except UnicodeDecodeError as error:
         raise DesignError(
-            f"{name}: neither text nor a known file of banners (byte {error.start});"
+            f"{name}: neither text nor a known kind of file (byte {error.start});"
             " give UTF-8 text, NBT, a schematic or a region"
         ) from None

@@ -26,6 +26,6 @@ def recognises(text: str) -> bool:
 def write(banner: Banner) -> str:
     """The command that places the banner, standing. Raises DesignError for shields."""
     if banner.kind != "banner":
-        raise DesignError("a shield is no block and cannot be placed: write the form 'give'")
+        raise DesignError("a shield is not a block and cannot be placed: write the form 'give'")
     entity = write_snbt({"patterns": names(banner.layers)}) if banner.layers else ""
     return f"/setblock ~ ~ ~ minecraft:{banner.base}_banner{entity}"

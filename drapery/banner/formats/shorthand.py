@@ -29,7 +29,7 @@ def parse(text: str) -> Banner:
         return OMINOUS
     pieces = [words for line in text.translate(_BREAKS).split("\n") if (words := _words(line))]
     if not pieces:
-        raise DesignError(f"the text is empty: write a base dye and layers, as {EXAMPLE!r}")
+        raise DesignError(f"the text is empty: write a base dye and layers, such as {EXAMPLE!r}")
     shield = pieces[0][0].lower() == "shield" and bool(pieces[0].pop(0))
     if not pieces[0]:
         raise DesignError("the shield has no base dye: write 'shield white creeper:lime'")
@@ -62,7 +62,7 @@ def _words(line: str) -> list[str]:
 
 def _base(word: str) -> str:
     if ":" in word.removeprefix("minecraft:"):
-        raise DesignError(f"{shown(word)}: a base dye comes first, as {EXAMPLE!r}")
+        raise DesignError(f"{shown(word)}: a base dye comes first, as in {EXAMPLE!r}")
     return base_of(word) or dye_name(word, "base")
 
 
@@ -82,5 +82,5 @@ def _layer(phrase: str, at: str) -> Layer:
     if not colon:
         dye, _, pattern = phrase.partition(" ")
         if not pattern or not is_dye(dye):
-            raise DesignError(f"{at}: it has no dye: write pattern:dye, as 'creeper:lime'")
+            raise DesignError(f"{at}: it has no dye: write pattern:dye, such as 'creeper:lime'")
     return Layer(pattern_id(pattern, at), dye_name(dye, at))

@@ -65,7 +65,7 @@ def _key(key: str) -> str:
 
 def _parse(text: str, start: str, line: int) -> Any:
     if len(text) > MAX_TEXT:
-        raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: cut it down")
+        raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: shorten it")
     from lark.exceptions import UnexpectedInput
 
     try:
@@ -112,9 +112,9 @@ class _Limits:
             elif token.type in ("RBRACE", "RSQB"):
                 depth -= 1
             if depth > MAX_DEPTH:
-                raise _FaultError(token, f"nested over {MAX_DEPTH} deep: no banner is")
+                raise _FaultError(token, f"nested over {MAX_DEPTH} deep: no banner needs that")
             if number >= MAX_TOKENS:
-                raise _FaultError(token, f"over {MAX_TOKENS} words and brackets: cut the text down")
+                raise _FaultError(token, f"over {MAX_TOKENS} words and brackets: shorten the text")
             yield token
 
 
@@ -175,7 +175,7 @@ def _build() -> Any:
 
         def array(self, c: Any) -> DataTree:
             if c[0] not in ("B", "I", "L"):
-                raise _FaultError(c[0], f"{shown(c[0])} is no type of array: they are B, I and L")
+                raise _FaultError(c[0], f"{shown(c[0])} is not a type of array; use B, I or L")
             return c[1] if len(c) > 1 else []
 
     return Build()
@@ -228,14 +228,16 @@ def _call(name: "Token", arguments: list[DataTree]) -> DataTree:
         return int(argument != 0)
     if name == "uuid" and isinstance(argument, str):
         return _uuid(name, argument)
-    raise _FaultError(name, f"{shown(str(name))} is no call that SNBT knows: bool(1), uuid('…')")
+    raise _FaultError(
+        name, f"{shown(str(name))} is not a function of SNBT; use bool(1) or uuid('…')"
+    )
 
 
 def _uuid(name: "Token", text: str) -> list[int]:
     """Four signed numbers of 32 bits, highest first."""
     digits = text.replace("-", "")
     if not re.fullmatch("[0-9a-fA-F]{32}", digits):
-        raise _FaultError(name, f"{shown(text)} is no UUID")
+        raise _FaultError(name, f"{shown(text)} is not a UUID")
     words = [int(digits[place : place + 8], 16) for place in range(0, 32, 8)]
     return [word - (1 << 32) if word >> 31 else word for word in words]
 
@@ -264,7 +266,7 @@ def _escape(token: "Token", match: "re.Match[str]") -> str:
 
             return unicodedata.lookup(match[4])
     except (ValueError, OverflowError, KeyError):
-        raise _FaultError(token, f"{shown(match[0])} is no character") from None
+        raise _FaultError(token, f"{shown(match[0])} is not a character") from None
     return _LETTERS.get(match[5], match[5])
 
 
@@ -295,7 +297,7 @@ def _explain(error: "UnexpectedInput", text: str, line: int) -> NoReturn:
     where = _where_at(text, place, line)
     if isinstance(error, UnexpectedCharacters) and text[place : place + 1] in ("'", '"'):
         raise DesignError(
-            f"{where}: a quote that never ends {_excerpt(text, place)}; close it"
+            f"{where}: a quote that is not closed {_excerpt(text, place)}; close it"
         ) from None
     raise DesignError(f"{where}: {what} {_excerpt(text, place)}{_wanted(error)}") from None
 

@@ -92,7 +92,7 @@ def read_layers(entries: DataTree, at: str, *, inverted: bool = False) -> tuple[
     if entries is None:
         return ()
     if not isinstance(entries, list):
-        raise DesignError(f"{at}: {shown(entries)} is no list of layers")
+        raise DesignError(f"{at}: {shown(entries)} is not a list of layers")
     check_count(len(entries), at)
     return tuple(_layer(entry, under(at, n), inverted) for n, entry in enumerate(entries))
 
@@ -107,7 +107,7 @@ def check_count(count: int, at: str) -> None:
 
 def _layer(entry: DataTree, at: str, inverted: bool) -> Layer:
     if not isinstance(entry, dict):
-        raise DesignError(f"{at}: {shown(entry)} is no layer: write {{pattern:…, color:…}}")
+        raise DesignError(f"{at}: {shown(entry)} is not a layer: write {{pattern:…, color:…}}")
     pattern = _present(entry, at, "pattern", "Pattern")
     colour = _present(entry, at, "color", "Color", "colour")
     return Layer(_pattern(*pattern), dye_name(colour[0], colour[1], inverted=inverted))
@@ -126,7 +126,7 @@ def _pattern(value: DataTree, at: str) -> str:
         return pattern_id(value, at)
     key, asset = get(value, "asset_id")
     if not isinstance(asset, str):
-        raise DesignError(f"{at}: a pattern defined on the spot needs its asset_id, as 'ns:name'")
+        raise DesignError(f"{at}: an inline pattern needs its asset_id, such as 'ns:name'")
     return asset if is_custom(asset) else pattern_id(asset, under(at, key))
 
 
@@ -137,12 +137,12 @@ def banner_from_item(item: DataTree, at: str = "") -> Banner:
     Bedrock's `{Name, Damage, Count, tag}`.
     """
     if not isinstance(item, dict):
-        raise DesignError(f"{at or 'item'}: {shown(item)} is no item: write {{id:…, …}}")
+        raise DesignError(f"{at or 'item'}: {shown(item)} is not an item: write {{id:…, …}}")
     _, identifier = get(item, "id", "Name")
     if not is_banner_id(identifier) and not is_shield_id(identifier):
         raise DesignError(
-            f"{under(at, 'id')}: {shown(identifier)} is no banner and no shield;"
-            " give an id as 'minecraft:red_banner'"
+            f"{under(at, 'id')}: {shown(identifier)} is neither a banner nor a shield;"
+            " give an id such as 'minecraft:red_banner'"
         )
     key, components = get(item, "components")
     if components is not None:
@@ -191,7 +191,7 @@ def _shield_from_tag(entity: dict[str, DataTree], at: str, *, inverted: bool) ->
 def _shield(base: str | None, layers: tuple[Layer, ...], at: str) -> Banner:
     if base is None and not layers:
         raise DesignError(
-            f"{at or 'shield'}: a plain shield bears no design: give base_color or banner_patterns"
+            f"{at or 'shield'}: a plain shield has no design: give base_color or banner_patterns"
         )
     return Banner(base or "white", layers, kind="shield")
 
@@ -212,8 +212,8 @@ def banner_from_block_entity(entity: DataTree, at: str = "", *, block: str | Non
         return Banner(dye, read_layers(entries, under(at, key)))
     if "Base" not in entity:
         raise DesignError(
-            f"{at or 'block entity'}: the base dye is not told here but by the block's id:"
-            " put it before, as minecraft:red_banner{…}"
+            f"{at or 'block entity'}: the block's id, which names the base dye, is missing:"
+            " write it first, as in minecraft:red_banner{…}"
         )
     base = dye_name(entity["Base"], under(at, "Base"), inverted=True)
     return Banner(base, read_layers(entries, under(at, key), inverted=True))
@@ -223,8 +223,8 @@ def _known_base(item_id: str, at: str) -> str:
     dye = base_of(item_id)
     if dye is None:
         raise DesignError(
-            f"{at or 'item'}: {shown(item_id)} does not tell the base dye;"
-            " give an id as 'minecraft:red_banner'"
+            f"{at or 'item'}: {shown(item_id)} does not name the base dye;"
+            " give an id such as 'minecraft:red_banner'"
         )
     return dye
 
@@ -233,7 +233,7 @@ def _mapping(tree: DataTree, at: str) -> dict[str, DataTree]:
     if tree is None:
         return {}
     if not isinstance(tree, dict):
-        raise DesignError(f"{at or 'the text'}: {shown(tree)} where a compound {{…}} is wanted")
+        raise DesignError(f"{at or 'the text'}: {shown(tree)} is not a compound; write {{…}}")
     return tree
 
 

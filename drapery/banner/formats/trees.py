@@ -37,7 +37,7 @@ def _all(tree: DataTree) -> list[FoundBanner]:
     found = list(_found(tree))
     if not found:
         raise DesignError(
-            f"no banner in the {_sort(tree)}: it needs an id as 'minecraft:red_banner'"
+            f"no banner in the {_sort(tree)}: it needs an id such as 'minecraft:red_banner'"
         )
     return found
 
@@ -82,8 +82,8 @@ def _tells_base(tag: dict[str, DataTree]) -> bool:
 def _baseless(tree: dict[str, DataTree]) -> Banner:
     sample = "[…]" if get(tree, "BlockEntityTag")[1] is None else "{…}"
     raise DesignError(
-        f"{next(iter(tree))}: the base dye is not told here but by the item's id:"
-        f" put it before, as minecraft:red_banner{sample}"
+        f"{next(iter(tree))}: the item's id, which names the base dye, is missing:"
+        f" write it first, as in minecraft:red_banner{sample}"
     )
 
 

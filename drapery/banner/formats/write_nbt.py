@@ -53,5 +53,5 @@ def block_entity(banner: Banner) -> dict[str, DataTree]:
 def placeable(banner: Banner) -> Banner:
     """The same banner. Raises DesignError for a shield, which cannot be placed as a block."""
     if banner.kind == "shield":
-        raise DesignError("a shield is no block; write it as an item, or its design as a banner")
+        raise DesignError("a shield is not a block; write it as an item, or its design as a banner")
     return banner

@@ -54,7 +54,7 @@ def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:
         tree, at = tree["banner"], under(at, "banner")
     layers = tree.get("layers", [])
     if not isinstance(layers, list):
-        raise DesignError(f"{under(at, 'layers')}: {shown(layers)} is no list of layers")
+        raise DesignError(f"{under(at, 'layers')}: {shown(layers)} is not a list of layers")
     check_count(len(layers), under(at, "layers"))
     read = tuple(_layer(x, under(under(at, "layers"), n)) for n, x in enumerate(layers))
     return Banner(dye_name(tree.get("base"), under(at, "base")), read)
@@ -62,7 +62,7 @@ def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:
 
 def _layer(entry: DataTree, at: str) -> Layer:
     if not isinstance(entry, dict):
-        raise DesignError(f"{at}: {shown(entry)} is no layer: write {{colour:…, pattern:…}}")
+        raise DesignError(f"{at}: {shown(entry)} is not a layer: write {{colour:…, pattern:…}}")
     colour = entry.get("colour", entry.get("color"))
     pattern = pattern_id(entry.get("pattern"), under(at, "pattern"), bukkit=True)
     return Layer(pattern, dye_name(colour, under(at, "colour")))
@@ -74,7 +74,7 @@ def write(banner: Banner) -> str:
     Raises DesignError for shields and for the patterns of data packs.
     """
     if banner.kind != "banner":
-        raise DesignError("Wynncraft has no shields: write another form, as 'give'")
+        raise DesignError("Wynncraft has no shields: write another form, such as 'give'")
     return json.dumps(
         {
             "base": banner.base.upper(),

@@ -42,11 +42,13 @@ def _regex(text: Any, name: str) -> re.Pattern[str] | None:
     if not isinstance(text, str) or len(text) > _MAX_LENGTH:
         raise PackError(f"{name} must be a regular expression of up to {_MAX_LENGTH} letters")
     if not _is_cheap(text):
-        raise PackError(f"{name} {text!r} could search for hours: repeat no group, * and + up to 3")
+        raise PackError(
+            f"{name} {text!r} could search for hours: use at most 3 of * and +, and repeat no group"
+        )
     try:
         return re.compile(text)
     except (re.error, RecursionError, OverflowError) as error:
-        raise PackError(f"{name} {text!r} is no regular expression: {error}") from None
+        raise PackError(f"{name} {text!r} is not a regular expression: {error}") from None
 
 
 def _is_cheap(text: str) -> bool:

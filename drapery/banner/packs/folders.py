@@ -83,12 +83,12 @@ class FolderSource:
     def _refuse_way_out(self, path: Path, name: str) -> None:
         if not path.resolve().is_relative_to(self.root.resolve()):
             raise PackError(
-                f"{self.label}: {name} is a link out of the pack: put the file itself there"
+                f"{self.label}: {name} is a link out of the pack: replace it by the file itself"
             )
 
     def _refuse_broken_link(self, path: Path, name: str) -> None:
         if path.is_symlink():
-            raise PackError(f"{self.label}: {name} is a link to nothing: put the file itself there")
+            raise PackError(f"{self.label}: {name} is a broken link: replace it by the file itself")
 
 
 def open_folder(path: Path) -> FolderSource:
@@ -99,21 +99,21 @@ def open_folder(path: Path) -> FolderSource:
     inside = [name for name in sorted(names) if _looks_like_pack(path / name)]
     if len(inside) == 1:
         return FolderSource(path / inside[0], str(path / inside[0]))
-    raise PackError(f"pack {path} is no resource pack: {_folder_hint(path, inside)}")
+    raise PackError(f"pack {path} is not a resource pack: {_folder_hint(path, inside)}")
 
 
 def _folder_hint(path: Path, inside: list[str]) -> str:
     if inside:
-        return f"it holds several, choose one: {listed(inside)}"
+        return f"it holds several packs, choose one: {listed(inside)}"
     for parent in path.resolve().parents:
         if (parent / "pack.mcmeta").is_file():
-            return f"it lies inside one, point at {parent}"
+            return f"it is a folder inside a pack, give {parent}"
     if (path / "manifest.json").is_file():
-        return "it is one for Bedrock, and only those for Java are read"
+        return "it is a pack for Bedrock Edition; only packs for Java Edition are read"
     zips = [entry.name for entry in path.iterdir() if entry.suffix in (".zip", ".jar")]
     if zips:
-        return f"it holds {listed(zips)}, point at one of them"
-    return "it has neither assets nor pack.mcmeta, point at the folder that has"
+        return f"it holds {listed(zips)}, give one of them"
+    return "it has neither assets nor pack.mcmeta, give the folder that has"
 
 
 def _looks_like_pack(path: Path) -> bool:

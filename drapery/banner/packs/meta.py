@@ -82,9 +82,9 @@ def read_json(data: bytes, name: str) -> Any:
         raise PackError(f"{name}: byte {error.start} is not UTF-8: save it as UTF-8") from None
     except json.JSONDecodeError as error:
         place = f"line {error.lineno}, column {error.colno}"
-        raise PackError(f"{name}, {place}: {error.msg}: mend the JSON") from None
+        raise PackError(f"{name}, {place}: {error.msg}: correct the JSON") from None
     except (RecursionError, ValueError):
-        raise PackError(f"{name} is nested too deep or holds too long a number") from None
+        raise PackError(f"{name} is nested too deep or has a number with too many digits") from None
 
 
 def parse_meta(data: bytes, name: str) -> PackMeta:
@@ -141,7 +141,7 @@ def _overlay(entry: Any, name: str) -> Overlay:
         raise PackError(f"{name}: directory {shown(directory)} must be a name of a-z, 0-9, _ and -")
     formats = _formats(entry, "formats", name)
     if formats is None:
-        raise PackError(f"{name} must say its formats: give min_format and max_format")
+        raise PackError(f"{name} must have formats: give min_format and max_format")
     return Overlay(directory, formats)
 
 

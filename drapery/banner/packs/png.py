@@ -54,7 +54,7 @@ def read_png(data: bytes, name: str) -> Texels:
             image.load()
             texels = _rgba(image, depth=data[24])
     except (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error) as error:
-        raise PackError(f"{name} is a broken PNG file ({error}): save it anew") from None
+        raise PackError(f"{name} is a broken PNG file ({error}): save it again") from None
     texels.setflags(write=False)
     return texels
 

@@ -43,7 +43,7 @@ def parse_atlas(data: bytes, name: str) -> tuple[tuple[SpriteSource, ...], tuple
     root = read_json(data, name)
     entries = root.get("sources") if isinstance(root, dict) else None
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
-        raise PackError(f"{name} must have a list of objects named sources")
+        raise PackError(f"{name} must have sources, a list of objects")
     if len(entries) > _MAX_SOURCES:
         raise PackError(f"{name} has {len(entries)} sources; at most {_MAX_SOURCES} are read")
     read = [_source(entry, f"{name}: source {n}") for n, entry in enumerate(entries)]
@@ -84,5 +84,5 @@ def _source(entry: dict[str, Any], name: str) -> SpriteSource | str:
 def _text(entry: dict[str, Any], key: str, name: str) -> str:
     value = entry.get(key)
     if not isinstance(value, str):
-        raise PackError(f"{name} must have {key}, a text")
+        raise PackError(f"{name} must have {key}, a string")
     return value

@@ -262,7 +262,7 @@ class Packs:
         definition = read_json(found.data, place)
         asset = definition.get("asset_id") if isinstance(definition, dict) else None
         if not isinstance(asset, str):
-            raise PackError(f"{place} must have asset_id, a text such as {pattern!r}")
+            raise PackError(f"{place} must have asset_id, a string such as {pattern!r}")
         return full_id(asset, place)
 
     def _atlas(self, kind: Kind) -> tuple[SpriteSource, ...]:

@@ -19,7 +19,9 @@ def full_id(text: str, place: str = "pattern or texture") -> str:
     """The id with its namespace. Raises PackError, calling where it was found by `place`."""
     name = text if ":" in text else f"minecraft:{text}"
     if not is_id(name):
-        raise PackError(f"{place}: {text[:80]!r} is no id: write namespace:path in a-z, 0-9, _./-")
+        raise PackError(
+            f"{place}: {text[:80]!r} is not an id: write namespace:path in a-z, 0-9, _./-"
+        )
     return name
 
 

@@ -187,8 +187,8 @@ def _frame_size(animation: dict[str, Any], width: int, height: int, name: str) -
     )
     if width % size[0] or height % size[1]:
         raise PackError(
-            f"{name}: frames of {size[0]} x {size[1]} do not fit into {width} x {height} px evenly:"
-            " mend the size"
+            f"{name}: frames of {size[0]} x {size[1]} do not divide {width} x {height} px evenly:"
+            " change the size"
         )
     return size
 

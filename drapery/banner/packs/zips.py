@@ -40,14 +40,16 @@ class ZipSource:
             return None
         place = f"{self.label}: {name}"
         if name in self.doubles:
-            raise PackError(f"{place} is in the zip twice: pack it anew")
+            raise PackError(f"{place} is in the zip twice: make the zip again")
         _check_entry(entry, limit, place)
         try:
             with self.archive.open(entry) as file:
                 # The stated size may lie; never more than the limit is unpacked.
                 return within(file.read(limit + 1), limit, place)
         except _zip_faults() as error:
-            raise PackError(f"{place} is damaged ({reason(error)}): get the zip anew") from None
+            raise PackError(
+                f"{place} is damaged ({reason(error)}): download the zip again"
+            ) from None
 
     def files(self, folder: str) -> tuple[str, ...]:
         """See `PackSource`."""
@@ -76,7 +78,9 @@ def open_zip(path: Path) -> ZipSource:
     try:
         archive = ZipFile(path)
     except _zip_faults() as error:
-        raise PackError(f"pack {path} is a damaged zip ({reason(error)}): get it anew") from None
+        raise PackError(
+            f"pack {path} is a damaged zip ({reason(error)}): download it again"
+        ) from None
     try:
         return _indexed(archive, str(path))
     except PackError:
@@ -94,7 +98,7 @@ def _indexed(archive: "ZipFile", label: str) -> ZipSource:
     for name, _ in named:
         if name.startswith("/") or name[1:2] == ":" or ".." in name.split("/"):
             raise PackError(
-                f"pack {label}: the name {name[:80]!r} leads out of it: do not trust it"
+                f"pack {label}: the name {name[:80]!r} leads out of the pack: do not trust it"
             )
     root = _root_in_zip([name for name, _ in named], label)
     entries: dict[str, ZipInfo] = {}
@@ -121,14 +125,14 @@ def _root_in_zip(names: list[str], label: str) -> str:
     if len(inside) == 1:
         return f"{inside.pop()}/"
     if inside:
-        hint = f"it holds several, unpack it and choose one: {listed(inside)}"
+        hint = f"it holds several packs, unpack it and choose one: {listed(inside)}"
     elif "manifest.json" in tops:
-        hint = "it is one for Bedrock, and only those for Java are read"
+        hint = "it is a pack for Bedrock Edition; only packs for Java Edition are read"
     elif any(name.endswith(".zip") for name in tops):
         hint = "it holds another zip, unpack it once"
     else:
         hint = "it has neither assets nor pack.mcmeta at its top"
-    raise PackError(f"pack {label} is no resource pack: {hint}")
+    raise PackError(f"pack {label} is not a resource pack: {hint}")
 
 
 def _check_directory(path: Path) -> None:
@@ -139,7 +143,9 @@ def _check_directory(path: Path) -> None:
         tail = file.read()
     at = tail.rfind(b"PK\x05\x06")
     if at < 0 or len(tail) < at + 22:
-        raise PackError(f"pack {path} is neither a folder nor a whole zip or jar: get it anew")
+        raise PackError(
+            f"pack {path} is neither a folder nor a complete zip or jar: download it again"
+        )
     length = struct.unpack_from("<I", tail, at + 12)[0]
     if tail[at - 20 : at - 16] == b"PK\x06\x07":
         # Only the place where zipfile itself looks counts: right before the locator.
@@ -147,20 +153,20 @@ def _check_directory(path: Path) -> None:
         length = struct.unpack_from("<Q", big, 40)[0] if big[:4] == b"PK\x06\x06" else 1 << 64
     if length > MAX_DIRECTORY:
         raise PackError(
-            f"pack {path} lists too many files; at most {MAX_FILES} are read: thin it out"
+            f"pack {path} lists too many files; at most {MAX_FILES} are read: remove some"
         )
 
 
 def _check_entry(entry: "ZipInfo", limit: int, place: str) -> None:
     if entry.flag_bits & 1:
-        raise PackError(f"{place} is encrypted: pack it without a password")
+        raise PackError(f"{place} is encrypted: make the zip without a password")
     if S_ISLNK(entry.external_attr >> 16):
-        raise PackError(f"{place} is a link: put the file itself there")
+        raise PackError(f"{place} is a link: replace it by the file itself")
     if entry.compress_type not in (0, 8):
-        raise PackError(f"{place} is squeezed in a way the game cannot read: use plain deflate")
+        raise PackError(f"{place} has a compression that the game cannot read: use deflate")
     squeezed = entry.file_size > MAX_RATIO * max(1, entry.compress_size)
     if entry.file_size > limit or (squeezed and entry.file_size > 1 << 20):
         raise PackError(
             f"{place} would unpack from {entry.compress_size} to {entry.file_size} bytes:"
-            " a zip bomb is not read"
+            " zip bombs are not read"
         )
