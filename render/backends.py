@@ -1,7 +1,19 @@
-"""Renderers by name. A backend is a function from a scene to a frame.
+"""Renderers by name. A backend is a function from a `Scene` to a `Frame`.
 
-Installed packages add their own by an entry point in the group `drapery.backends`, whose name is
-the backend's and whose value is such a function.
+Another package adds one by an entry point in the group `drapery.backends`; its name is the name
+that users give, its value the function. In the package's pyproject.toml:
+
+    [project.entry-points."drapery.backends"]
+    wireframe = "my_package.drawing:draw_scene"
+
+and in my_package/drawing.py:
+
+    def draw_scene(scene: Scene) -> Frame: ...
+
+The frame has the scene's size, and straight alpha over the scene's background. The function raises
+OptionError for a scene that it cannot draw and BackendError where the machine lacks what it needs;
+it keeps no reference to the scene's arrays beyond a cache, and may be called from any thread.
+The names of built-in backends cannot be taken. `drapery doctor` draws a triangle with it.
 """
 
 from collections.abc import Callable
@@ -13,6 +25,7 @@ from drapery.render.frame import Frame
 from drapery.render.scene import Scene
 
 DrawScene = Callable[[Scene], Frame]
+"""A backend."""
 
 GROUP = "drapery.backends"
 
@@ -25,7 +38,12 @@ DEFAULT = "soft"
 
 
 def backend(name: str | DrawScene = "auto") -> DrawScene:
-    """The renderer of this name; a renderer is returned as it is. Raises BackendError."""
+    """The backend of this name: a function that draws a `Scene` as a `Frame`.
+
+    name: `soft`, `pyrender`, a name that an installed package adds, or `auto`, which is `soft`; a
+        function is returned as it is.
+    Raises BackendError for another name, or where the backend cannot be loaded.
+    """
     if not isinstance(name, str):
         return name
     chosen = DEFAULT if name == "auto" else name
@@ -37,17 +55,22 @@ def backend(name: str | DrawScene = "auto") -> DrawScene:
         raise BackendError(f"backend {name!r} is not known; use one of: {known}")
     try:
         found: DrawScene = added[chosen].load()
-    except Exception as fault:  # whatever a stranger's package raises while it is imported
+    except Exception as fault:  # a package may raise anything while it is imported
         raise BackendError(
             f"backend {name!r} of {added[chosen].value} cannot be loaded ({fault});"
-            " mend or remove the package that brings it"
+            " repair or remove the package that adds it"
         ) from fault
     return found
 
 
 def backend_names() -> list[str]:
-    """All names that `backend` takes, `auto` aside."""
+    """All names that `backend` takes, except `auto`."""
     return [*BUILT_IN, *_added()]
+
+
+def added_backends() -> dict[str, str]:
+    """The backends of installed packages, and the package that adds each."""
+    return {name: point.dist.name if point.dist else name for name, point in _added().items()}
 
 
 def _added() -> dict[str, EntryPoint]:

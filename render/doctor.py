@@ -1,20 +1,31 @@
-"""Which backends work on this machine, and the one line that mends each that does not."""
+"""Which backends work on this machine, and one line to repair each that does not.
+
+Every backend draws a triangle, in a process of its own: a driver may crash or hang.
+"""
 
 import subprocess
 import sys
 from importlib.metadata import version
 from typing import NamedTuple
 
-from drapery.errors import BackendError
-from drapery.render.backends import backend, backend_names
+from drapery.render.backends import added_backends, backend
+from drapery.render.frame import Frame
 from drapery.render.gl.platform import INSTALL_GL, INSTALL_PYRENDER
 
-TIMEOUT = 60  # seconds
-DESCRIBE_GL = "from drapery.render.gl import describe; print(describe())"
+TIMEOUT = 120
+"""How long a backend may take, compiling included [s]."""
+DRAW = "from drapery.render.doctor import try_backend; print(try_backend({!r}))"
+DRAW_GL = DRAW.format("pyrender")
+ENCODE = (
+    "import av; [av.codec.Codec(name, 'w') for name in ('libx264', 'libvpx-vp9')];"
+    " print(av.__version__)"
+)
+INSTALL_VIDEO = 'pip install "drapery[video]"'
+SET_CACHE = "export NUMBA_CACHE_DIR=FOLDER, with a folder that may be written"
 
 
 class BackendReport(NamedTuple):
-    """What is known of a backend. remedy: a command that mends it, or "" where it works."""
+    """What is known of a backend. remedy: a command that repairs it, or "" where it works."""
 
     name: str
     works: bool
@@ -23,54 +34,79 @@ class BackendReport(NamedTuple):
 
 
 def backend_report() -> list[BackendReport]:
-    """Try every backend, and the video library. Nothing that one does can harm this process."""
-    own = {"soft": _soft, "pyrender": _pyrender}
-    tried = [own[name]() if name in own else _added(name) for name in backend_names()]
-    return [*tried, _video()]
+    """Try every backend, and the video encoders. No failure can harm this process."""
+    added = [_added(name, package) for name, package in added_backends().items()]
+    return [_soft(), _pyrender(), *added, _video()]
+
+
+def try_backend(name: str) -> str:
+    """Draw one triangle; returns what drew it. Raises what the backend raises."""
+    from drapery.mesh import make_mesh
+    from drapery.render.camera import Camera
+    from drapery.render.drawing import draw_models, make_model
+
+    triangle = make_mesh([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], [(0, 1, 2)])
+    model = make_model(triangle, colour="red", lit=False)
+    camera = Camera((0, 0, 5), (0, 0, 0), height=2.0)
+    frame = draw_models([model], camera=camera, size=(16, 16), samples=1, backend=name)
+    _check_triangle(frame)
+    if name == "soft":
+        from drapery.render.soft.tiles import draw_tiles
+
+        return f"kernels cached in {draw_tiles.stats.cache_path}"
+    if name == "pyrender":
+        from drapery.render.gl import describe
+
+        return describe()
+    return f"{backend(name).__module__}"
+
+
+def _check_triangle(frame: Frame) -> None:
+    """Raise ValueError unless this is a red triangle on nothing, 16 x 16 pixels."""
+    pixels = frame.pixels
+    if pixels.shape != (16, 16, 4) or tuple(pixels[10, 8]) != (255, 0, 0, 255) or pixels[0, 0, 3]:
+        raise ValueError("it draws a triangle wrongly")
 
 
 def _soft() -> BackendReport:
-    return BackendReport("soft", True, f"numba {version('numba')}, the default", "")
+    works, said = _run(DRAW.format("soft"))
+    detail = f"numba {version('numba')}, the default; {said}" if works else said
+    return BackendReport("soft", works, detail, "" if works else SET_CACHE)
 
 
 def _pyrender() -> BackendReport:
-    """OpenGL is started in a process of its own: a driver may crash, or hang."""
-    try:
-        # -P: a checkout in the current folder is not the package as it is installed.
-        child = subprocess.run(
-            [sys.executable, "-P", "-c", DESCRIBE_GL],
-            capture_output=True,
-            text=True,
-            timeout=TIMEOUT,
-        )
-    except subprocess.TimeoutExpired:
-        return BackendReport("pyrender", False, f"OpenGL hangs for {TIMEOUT} s", INSTALL_GL)
-    if child.returncode == 0:
-        return BackendReport("pyrender", True, child.stdout.strip().splitlines()[-1], "")
-    if child.returncode < 0:
-        reason = f"OpenGL crashed with signal {-child.returncode}"
-        return BackendReport("pyrender", False, reason, INSTALL_GL)
-    last = (child.stderr.strip().splitlines() or ["no reason given"])[-1]
-    reason = last.removeprefix("drapery.errors.BackendError: ")
+    works, said = _run(DRAW_GL)
+    if works:
+        return BackendReport("pyrender", True, said, "")
     for remedy in (INSTALL_PYRENDER, INSTALL_GL):
-        if reason.endswith(remedy):
-            return BackendReport("pyrender", False, reason.removesuffix(f": {remedy}"), remedy)
-    return BackendReport("pyrender", False, reason, INSTALL_GL)
+        if said.endswith(remedy):
+            return BackendReport("pyrender", False, said.removesuffix(f": {remedy}"), remedy)
+    return BackendReport("pyrender", False, said, INSTALL_GL)
 
 
-def _added(name: str) -> BackendReport:
-    try:
-        backend(name)
-    except BackendError as error:
-        return BackendReport(name, False, str(error), "pip install --upgrade its package")
-    return BackendReport(name, True, "from an installed package", "")
+def _added(name: str, package: str) -> BackendReport:
+    works, said = _run(DRAW.format(name))
+    detail = f"from the package {package}" if works else said
+    return BackendReport(name, works, detail, "" if works else f"pip install --upgrade {package}")
 
 
 def _video() -> BackendReport:
-    from importlib.util import find_spec
+    works, said = _run(ENCODE)
+    detail = f"PyAV {said}, for .mp4 and .webm" if works else said
+    return BackendReport("video", works, detail, "" if works else INSTALL_VIDEO)
 
-    if find_spec("av") is None:
-        return BackendReport(
-            "video", False, "PyAV is not installed", 'pip install "drapery[video]"'
+
+def _run(program: str) -> tuple[bool, str]:
+    """Whether a program ends well in a process of its own, and its last line or the reason."""
+    try:
+        # -P: a checkout in the current folder is not the package as it is installed.
+        child = subprocess.run(
+            [sys.executable, "-P", "-c", program], capture_output=True, text=True, timeout=TIMEOUT
         )
-    return BackendReport("video", True, f"PyAV {version('av')}, for .mp4 and .webm", "")
+    except subprocess.TimeoutExpired:
+        return False, f"no answer within {TIMEOUT} s"
+    if child.returncode < 0:
+        return False, f"crashed with signal {-child.returncode}"
+    lines = (child.stderr if child.returncode else child.stdout).strip().splitlines()
+    last = (lines or ["no reason given"])[-1]
+    return child.returncode == 0, last.removeprefix("drapery.errors.BackendError: ")

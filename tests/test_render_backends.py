@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from drapery.errors import BackendError
-from drapery.render import backends
+from drapery.render import backends, doctor
 from drapery.render.frame import Frame
 from drapery.render.scene import Scene
 from drapery.render.soft import draw_scene
@@ -47,3 +47,21 @@ def test_one_that_cannot_be_loaded_says_whose_it_is(added: None) -> None:
 def test_a_name_that_is_none() -> None:
     with pytest.raises(BackendError, match="'vulkan' is not known; use one of: auto, soft, pyr"):
         backends.backend("vulkan")
+
+
+def test_the_doctor_draws_before_it_says_works(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A backend that another package adds is tried in a process of its own, like ours."""
+    monkeypatch.setattr(doctor, "added_backends", lambda: {"vulkan": "drapery-vulkan"})
+    monkeypatch.setattr(doctor, "ENCODE", "raise ImportError('libx264 is missing')")
+    monkeypatch.setattr(doctor, "DRAW_GL", "print('a driver')")
+    soft, pyrender, vulkan, video = doctor.backend_report()
+    assert soft.works and "kernels cached in" in soft.detail
+    assert pyrender == ("pyrender", True, "a driver", "")
+    assert not vulkan.works and "'vulkan' is not known" in vulkan.detail
+    assert vulkan.remedy == "pip install --upgrade drapery-vulkan"
+    assert not video.works and "libx264 is missing" in video.detail
+
+
+def test_the_doctor_sees_a_triangle_that_is_wrong() -> None:
+    with pytest.raises(ValueError, match="wrongly"):
+        doctor._check_triangle(Frame(np.zeros((16, 16, 4), np.uint8)))

@@ -118,9 +118,12 @@ def bad(**change: object) -> Model:
         (bad(uvs=np.full((4, 2), np.nan)), "model 1: uvs have shape .* all finite"),
         (bad(normals=np.zeros((3, 3))), r"model 1: normals have shape \(3, 3\)"),
         (bad(positions=np.zeros((4, 2)), normals=np.zeros((4, 2))), "model 1: positions have"),
-        (Model(quad(), (painted(1, 2, 3, 4),), np.array([1])), "look_index names looks outside"),
-        (Model(quad(), (painted(1, 2, 3, 4),), np.array([0, 0])), "look_index have shape"),
-        (Model(quad(), (Material(()),)), "look 1 has no layers"),
+        (
+            Model(quad(), (painted(1, 2, 3, 4),), np.array([1])),
+            "material_index names materials outside",
+        ),
+        (Model(quad(), (painted(1, 2, 3, 4),), np.array([0, 0])), "material_index have shape"),
+        (Model(quad(), (Material(()),)), "material 1 has no layers"),
         (
             Model(quad(), (Material((TextureLayer(np.zeros((4, 4, 3), np.uint8)),)),)),
             "cannot be drawn",

@@ -272,7 +272,7 @@ def test_the_doctor_knows_what_works() -> None:
 def test_the_doctor_survives_a_crash_of_opengl(
     monkeypatch: pytest.MonkeyPatch, program: str, detail: str
 ) -> None:
-    monkeypatch.setattr(doctor, "DESCRIBE_GL", program)
+    monkeypatch.setattr(doctor, "DRAW_GL", program)
     reports = {report.name: report for report in doctor.backend_report()}
     assert not reports["pyrender"].works
     assert detail in reports["pyrender"].detail and "apt-get" in reports["pyrender"].remedy
@@ -280,6 +280,6 @@ def test_the_doctor_survives_a_crash_of_opengl(
 
 def test_a_process_that_drew_ends_quietly() -> None:
     child = subprocess.run(
-        [sys.executable, "-c", doctor.DESCRIBE_GL], capture_output=True, text=True, timeout=60
+        [sys.executable, "-c", doctor.DRAW_GL], capture_output=True, text=True, timeout=60
     )
     assert (child.returncode, child.stderr) == (0, "")
