@@ -33,7 +33,7 @@ from drapery.cloth.colliders import Collider, Plane, Sphere
 from drapery.cloth.collisions import Collisions
 from drapery.cloth.solvers.registry import SOLVERS, solver
 from drapery.mesh import Array, Mesh, vertex_normals
-from drapery.render.contact import table
+from drapery.render.contact import contact_table
 from drapery.render.frame import Frame, Pixels
 from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
@@ -209,7 +209,7 @@ def ball_model() -> Model:
 def sheet(size: int) -> Frame:
     """All solvers' pictures."""
     rows = [pictures(name, size) for name in SOLVERS]
-    return table(ACROSS, tuple(SOLVERS), [picture for row in rows for picture in row])
+    return contact_table(ACROSS, tuple(SOLVERS), [picture for row in rows for picture in row])
 
 
 def show(rows: Sequence[Row]) -> None:

@@ -21,7 +21,7 @@ from drapery.errors import DraperyError
 from drapery.settings import Settings
 from drapery.testing.case_check import check_cases, update_cases
 from drapery.testing.cases import Case, CaseFile
-from drapery.testing.failures import clear, write_report
+from drapery.testing.failures import clear_report, write_report
 
 BANNER_TEXTURES = "minecraft:entity/banner/"
 
@@ -116,7 +116,7 @@ def _check_goldens(cases: tuple[Case, ...], opts: DraperyOptions, folder: Path) 
         list(update_cases(file, folder))
         return
     report = folder / opts.report
-    clear(report)
+    clear_report(report)
     faults = [o for o in check_cases(file, folder, report) if o.fault is not None]
     if faults:
         page = write_report(report)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from drapery.mesh import Mesh, face_normals, make_mesh, vertex_normals
     from drapery.render.backends import DrawScene, backend, backend_names
     from drapery.render.camera import Camera, clip_matrix, projection_matrix, view_matrix
+    from drapery.render.contact import contact_sheet, contact_table, on_checker, stack_frames
     from drapery.render.debug import (
         edges_model,
         normals_model,
@@ -25,9 +26,16 @@ if TYPE_CHECKING:
         springs_model,
         stretch_model,
     )
+    from drapery.render.doctor import BackendReport, backend_report
     from drapery.render.drawing import Colour, draw_models, draw_scene, make_model
-    from drapery.render.encode import save_animation, save_frame
-    from drapery.render.export import save_model
+    from drapery.render.encode import (
+        check_animation_target,
+        check_still_target,
+        save_animation,
+        save_frame,
+    )
+    from drapery.render.encode.png import png_bytes
+    from drapery.render.export import MODEL_ENDINGS, check_model_target, save_model
     from drapery.render.frame import Animation, Frame
     from drapery.render.light import GAME_LIGHT, UNLIT, Light, lit_at
     from drapery.render.lines import dot_model, line_model
@@ -38,9 +46,11 @@ if TYPE_CHECKING:
 
 __all__ = [
     "GAME_LIGHT",
+    "MODEL_ENDINGS",
     "UNLIT",
     "VIEWS",
     "Animation",
+    "BackendReport",
     "Camera",
     "Colour",
     "DrawScene",
@@ -54,8 +64,14 @@ __all__ = [
     "View",
     "backend",
     "backend_names",
+    "backend_report",
+    "check_animation_target",
+    "check_model_target",
+    "check_still_target",
     "clip_matrix",
     "contact_shadow",
+    "contact_sheet",
+    "contact_table",
     "dot_model",
     "draw_models",
     "draw_scene",
@@ -69,12 +85,15 @@ __all__ = [
     "make_mesh",
     "make_model",
     "normals_model",
+    "on_checker",
     "pins_model",
+    "png_bytes",
     "projection_matrix",
     "save_animation",
     "save_frame",
     "save_model",
     "springs_model",
+    "stack_frames",
     "stretch_model",
     "turntable",
     "vertex_normals",
@@ -85,12 +104,17 @@ _NAMES = {
     "drapery.mesh": ("Mesh", "face_normals", "make_mesh", "vertex_normals"),
     "drapery.render.backends": ("DrawScene", "backend", "backend_names"),
     "drapery.render.camera": ("Camera", "clip_matrix", "projection_matrix", "view_matrix"),
+    "drapery.render.contact": ("contact_sheet", "contact_table", "on_checker", "stack_frames"),
     "drapery.render.debug": (
         *("edges_model", "normals_model", "pins_model", "springs_model", "stretch_model"),
     ),
+    "drapery.render.doctor": ("BackendReport", "backend_report"),
     "drapery.render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),
-    "drapery.render.encode": ("save_animation", "save_frame"),
-    "drapery.render.export": ("save_model",),
+    "drapery.render.encode": (
+        *("check_animation_target", "check_still_target", "save_animation", "save_frame"),
+    ),
+    "drapery.render.encode.png": ("png_bytes",),
+    "drapery.render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
     "drapery.render.frame": ("Animation", "Frame"),
     "drapery.render.light": ("GAME_LIGHT", "UNLIT", "Light", "lit_at"),
     "drapery.render.lines": ("dot_model", "line_model"),

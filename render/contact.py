@@ -17,8 +17,11 @@ INK = (40, 40, 44, 255)
 CHECKER = (224, 214)
 
 
-def strip(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) -> Frame:
-    """Labelled pictures in rows on paper."""
+def contact_sheet(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) -> Frame:
+    """Labelled pictures in rows on paper.
+
+    pictures: labels and pixels, of any sizes. columns: pictures in a row; None is one row.
+    """
     columns = columns or len(pictures)
     rows = -(-len(pictures) // columns)
     width, height = _largest([picture for _, picture in pictures])
@@ -35,8 +38,11 @@ def strip(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) ->
     return Frame(np.asarray(sheet))
 
 
-def table(across: Sequence[str], down: Sequence[str], pictures: Sequence[Pixels]) -> Frame:
-    """Pictures row by row on paper, with a heading over each column and before each row."""
+def contact_table(across: Sequence[str], down: Sequence[str], pictures: Sequence[Pixels]) -> Frame:
+    """Pictures row by row on paper, with a heading over each column and before each row.
+
+    across, down: the headings. pictures: len(across) * len(down) of them, row by row.
+    """
     width, height = _largest(pictures)
     names, heads = [_lines(name, 2 * LEAST_LABEL) for name in down], [_lines(h, 1) for h in across]
     left = max(map(_width, names)) + 2 * GAP
@@ -56,8 +62,8 @@ def table(across: Sequence[str], down: Sequence[str], pictures: Sequence[Pixels]
     return Frame(np.asarray(sheet))
 
 
-def stack(frames: Sequence[Frame]) -> Frame:
-    """Pictures under one another on paper, flush left."""
+def stack_frames(frames: Sequence[Frame]) -> Frame:
+    """Pictures under one another on paper, aligned at the left."""
     width = max(frame.pixels.shape[1] for frame in frames)
     height = sum(frame.pixels.shape[0] for frame in frames)
     sheet = np.full((height, width, 4), PAPER, np.uint8)
@@ -78,11 +84,6 @@ def on_checker(pixels: Pixels, cell: int = 8) -> Pixels:
     mixed = (pixels[..., :3] * alpha + board * (255 - alpha) + 127) // 255
     opaque = np.full((height, width, 1), 255)
     return np.concatenate([mixed, opaque], axis=-1).astype(np.uint8)
-
-
-def enlarge(pixels: Pixels, scale: int) -> Pixels:
-    """Every pixel as a square of `scale` pixels."""
-    return pixels.repeat(scale, axis=0).repeat(scale, axis=1)
 
 
 def _largest(pictures: Sequence[Pixels]) -> tuple[int, int]:

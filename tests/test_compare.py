@@ -14,7 +14,7 @@ from drapery.banner.packs import open_packs
 from drapery.comparison.metrics import measure
 from drapery.comparison.panels import difference_panel
 from drapery.errors import OptionError
-from drapery.render.contact import enlarge, on_checker, stack, strip
+from drapery.render.contact import contact_sheet, on_checker, stack_frames
 from drapery.render.frame import Frame
 
 SMALL = ("--size", "48x64")
@@ -58,15 +58,15 @@ def test_the_panel_marks_every_changed_pixel_and_no_other() -> None:
 def test_contact_sheets_keep_texels() -> None:
     picture = np.random.default_rng(1).integers(0, 256, (5, 7, 4), np.uint8)
     picture[..., 3] = 255
-    sheet = strip([("a", enlarge(picture, 3)), ("b", picture)]).pixels
+    sheet = contact_sheet([("a", picture.repeat(3, 0).repeat(3, 1)), ("b", picture)]).pixels
     found = [
         (y, x)
         for y in range(sheet.shape[0] - 15)
         for x in range(sheet.shape[1] - 21)
-        if np.array_equal(sheet[y : y + 15, x : x + 21], enlarge(picture, 3))
+        if np.array_equal(sheet[y : y + 15, x : x + 21], picture.repeat(3, 0).repeat(3, 1))
     ]
     assert len(found) == 1
-    assert stack([Frame(picture), Frame(picture)]).pixels.shape == (10, 7, 4)
+    assert stack_frames([Frame(picture), Frame(picture)]).pixels.shape == (10, 7, 4)
     assert (on_checker(np.zeros((9, 9, 4), np.uint8))[..., 3] == 255).all()
 
 

@@ -16,39 +16,6 @@ from drapery.render import Camera, draw_models, draw_scene, frame_view, make_mes
 SQUARE = make_mesh([(-1, 1, 0), (1, 1, 0), (-1, -1, 0), (1, -1, 0)], [(0, 2, 1), (1, 2, 3)])
 
 
-def test_every_public_name_is_there_documented_and_listed() -> None:
-    assert drapery.render.__all__ == sorted(drapery.render.__all__, key=_isort_key)
-    assert dir(drapery.render) == sorted(drapery.render.__all__)
-    for name in drapery.render.__all__:
-        value = getattr(drapery.render, name)
-        if inspect.isfunction(value) or inspect.isclass(value):
-            assert value.__doc__, name
-
-
-def _isort_key(name: str) -> tuple[int, str]:
-    kind = 0 if name.isupper() else 1 if name[0].isupper() else 2
-    return kind, name
-
-
-def test_type_checkers_and_users_see_the_same_names() -> None:
-    """The imports for type checkers, and the table of modules behind `__getattr__`."""
-    tree = ast.parse(Path(inspect.getfile(drapery.render)).read_text(encoding="utf-8"))
-    (checked,) = (node for node in tree.body if isinstance(node, ast.If))
-    imported = {
-        alias.name: node.module
-        for node in checked.body
-        if isinstance(node, ast.ImportFrom)
-        for alias in node.names
-    }
-    assert imported == drapery.render._MODULE_OF
-    assert set(imported) == set(drapery.render.__all__)
-
-
-def test_a_name_that_is_not_public() -> None:
-    with pytest.raises(AttributeError, match=r"'drapery\.render' has no attribute 'colour'"):
-        drapery.render.colour  # noqa: B018
-
-
 def test_importing_the_package_does_not_wait_for_numba() -> None:
     code = "import drapery.render, sys; drapery.render.Camera; print('numba' in sys.modules)"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -17,11 +17,11 @@ from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.packs import open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.pictures import draw, draw_face
-from drapery.render.contact import GAP, strip, table
+from drapery.render.contact import GAP, contact_sheet, contact_table
 from drapery.settings import Settings
 from drapery.sheets.drawn import packs_sheet, rotations_sheet
 from drapery.sheets.faces import contents_sheet, patterns_sheet, steps_sheet
-from drapery.sheets.sheet import Sheet
+from drapery.sheets.sheet import PictureSheet
 
 pytestmark = pytest.mark.filterwarnings("ignore:not in the packs")
 
@@ -45,14 +45,16 @@ def boxes(picture: np.ndarray, colours: list[tuple[int, ...]]) -> list[tuple[int
 def test_a_strip_shows_each_picture_whole_in_rows() -> None:
     colours = [(10 * n, 200, 3) for n in range(7)]
     pictures = [(f"a_name_of_many_words_{n}", blank(*c)) for n, c in enumerate(colours)]
-    places = boxes(strip(pictures, 3).pixels, colours)
+    places = boxes(contact_sheet(pictures, 3).pixels, colours)
     assert len({left for left, *_ in places}) == 3 and len({top for _, top, *_ in places}) == 3
     assert [p[:2] for p in places] == sorted((p[:2] for p in places), key=lambda p: p[::-1])
 
 
 def test_a_table_shows_each_picture_under_and_beside_its_heading() -> None:
     colours = [(10 * n, 200, 3) for n in range(6)]
-    frame = table(["left", "middle", "right"], ["upper", "lower"], [blank(*c) for c in colours])
+    frame = contact_table(
+        ["left", "middle", "right"], ["upper", "lower"], [blank(*c) for c in colours]
+    )
     places = np.array(boxes(frame.pixels, colours)).reshape(2, 3, 4)
     assert (np.ptp(places[:, :, 1], axis=1) == 0).all()
     assert (np.ptp(places[:, :, 0], axis=0) == 0).all()
@@ -87,7 +89,7 @@ def html_pictures(path: Path) -> list[tuple[str, bytes]]:
     ]
 
 
-def picture_bytes(sheet: Sheet) -> list[tuple[str, bytes]]:
+def picture_bytes(sheet: PictureSheet) -> list[tuple[str, bytes]]:
     return [(cell.label, cell.pixels.tobytes()) for cell in sheet.cells]
 
 

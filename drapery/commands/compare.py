@@ -106,12 +106,12 @@ def _check_target(target: Path) -> None:
 def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, float]]) -> None:
     from drapery.comparison.pairs import pair_entry, pair_sheet
     from drapery.comparison.report import html_report, write_text
-    from drapery.render.contact import stack
+    from drapery.render.contact import stack_frames
     from drapery.render.frame import Animation
 
     ending = target.suffix.lower()
     if ending == ".png":
-        stack([pair_sheet(pair) for pair in pairs]).save(target)
+        stack_frames([pair_sheet(pair) for pair in pairs]).save(target)
     elif ending == ".gif":
         Animation(_flicker(pairs), 2.0).save(target)
     elif ending == ".html":

@@ -24,10 +24,10 @@ def check(
     """Draw every case and compare: exit code 0 all as before, 1 some differ, 2 bad input."""
     from drapery.testing.case_check import check_cases, unused_goldens
     from drapery.testing.cases import read_cases
-    from drapery.testing.failures import clear, write_report
+    from drapery.testing.failures import clear_report, write_report
 
     cases = read_cases(file)
-    clear(report)
+    clear_report(report)
     failed = 0
     with compile_notice():
         for outcome in check_cases(cases, file.parent, report):

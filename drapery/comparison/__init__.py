@@ -1,1 +1,101 @@
-"""How two pictures differ: figures, panels to look at, and a report."""
+"""How two pictures differ: figures, panels to look at, and a report.
+
+`compare` compares two designs or pictures, `measure` two arrays; `draw_variants` and `compare_variants` draw and compare designs,
+packs, layer modes or backends, and name the layer from which they differ. Names are loaded when
+they are first used.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from drapery.comparison.cost import Cost, cost_of
+    from drapery.comparison.metrics import Difference, errors, measure
+    from drapery.comparison.pairs import (
+        Comparison,
+        build_up_sheet,
+        compare,
+        compare_variants,
+        pair_entry,
+        pair_sheet,
+    )
+    from drapery.comparison.panels import difference_panel, side_by_side
+    from drapery.comparison.report import (
+        ReportEntry,
+        data_address,
+        data_of,
+        html_report,
+        write_text,
+    )
+    from drapery.comparison.variants import Variant, draw_variants
+
+__all__ = [
+    "Comparison",
+    "Cost",
+    "Difference",
+    "ReportEntry",
+    "Variant",
+    "build_up_sheet",
+    "compare",
+    "compare_variants",
+    "cost_of",
+    "data_address",
+    "data_of",
+    "difference_panel",
+    "draw_variants",
+    "errors",
+    "html_report",
+    "measure",
+    "pair_entry",
+    "pair_sheet",
+    "side_by_side",
+    "write_text",
+]
+
+_NAMES = {
+    "drapery.comparison.pairs": (
+        "Comparison",
+        "build_up_sheet",
+        "compare",
+        "compare_variants",
+        "pair_entry",
+        "pair_sheet",
+    ),
+    "drapery.comparison.cost": (
+        "Cost",
+        "cost_of",
+    ),
+    "drapery.comparison.metrics": (
+        "Difference",
+        "errors",
+        "measure",
+    ),
+    "drapery.comparison.panels": (
+        "difference_panel",
+        "side_by_side",
+    ),
+    "drapery.comparison.report": (
+        "ReportEntry",
+        "data_address",
+        "data_of",
+        "html_report",
+        "write_text",
+    ),
+    "drapery.comparison.variants": (
+        "Variant",
+        "draw_variants",
+    ),
+}
+_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module 'drapery.comparison' has no attribute {name!r}")
+    value = getattr(import_module(_MODULE_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -7,10 +7,10 @@ from typing import Unpack
 from drapery.banner.design import Banner
 from drapery.comparison.metrics import Difference, measure
 from drapery.comparison.panels import side_by_side
-from drapery.comparison.report import Entry, data_address
+from drapery.comparison.report import ReportEntry, data_address
 from drapery.comparison.variants import Variant, variant_of
 from drapery.errors import OptionError
-from drapery.render.contact import strip
+from drapery.render.contact import contact_sheet
 from drapery.render.frame import Frame
 from drapery.settings import Options, Settings
 
@@ -104,7 +104,7 @@ def build_up_sheet(pair: Comparison) -> Frame | None:
     names = [_step_name(pair.other, count) for count in range(len(pair.build_up))]
     firsts = [(name, a.pixels) for name, (a, _, _) in zip(names, pair.build_up, strict=True)]
     others = [(f"max {difference.max_error}", b.pixels) for _, b, difference in pair.build_up]
-    return strip([*firsts, *others], columns=len(names))
+    return contact_sheet([*firsts, *others], columns=len(names))
 
 
 def _step_name(variant: Variant, count: int) -> str:
@@ -116,11 +116,11 @@ def _step_name(variant: Variant, count: int) -> str:
     return f"layer {count} ({layer.pattern}, {layer.dye})"
 
 
-def pair_entry(pair: Comparison) -> Entry:
+def pair_entry(pair: Comparison) -> ReportEntry:
     """The pair as a part of a report."""
     pictures = [("side by side", data_address(pair_sheet(pair)))]
     sheet = build_up_sheet(pair)
     if sheet is not None:
         pictures.append(("built up layer by layer", data_address(sheet)))
     facts = {k: v for k, v in pair.difference.as_dict().items() if v is not None}
-    return Entry(pair.other.label, pair.difference.same, pair.line(), facts, tuple(pictures))
+    return ReportEntry(pair.other.label, pair.difference.same, pair.line(), facts, tuple(pictures))

@@ -3,8 +3,9 @@
 import numpy as np
 
 from drapery.comparison.metrics import errors
-from drapery.render.contact import enlarge, on_checker, strip
+from drapery.render.contact import contact_sheet, on_checker
 from drapery.render.frame import Frame, Pixels
+from drapery.render.resize import enlarge
 
 
 def difference_panel(expected: Pixels, actual: Pixels, gain: int = 8) -> Pixels:
@@ -26,4 +27,4 @@ def side_by_side(
     scale = max(1, 256 // max(expected.shape[:2]))
     panels = (expected, actual, difference_panel(expected, actual))
     named = zip((*labels, "difference"), panels, strict=True)
-    return strip([(label, enlarge(panel, scale)) for label, panel in named])
+    return contact_sheet([(label, enlarge(Frame(panel), scale).pixels) for label, panel in named])

@@ -39,7 +39,7 @@ _PAGE = """<!doctype html>
 
 
 @dataclass(frozen=True)
-class Entry:
+class ReportEntry:
     """One part of a report: what was compared, what came of it, pictures as data addresses."""
 
     name: str
@@ -59,7 +59,7 @@ def data_of(encoded: bytes, kind: str) -> str:
     return f"data:image/{kind};base64,{base64.b64encode(encoded).decode('ascii')}"
 
 
-def html_report(title: str, summary: str, entries: list[Entry]) -> str:
+def html_report(title: str, summary: str, entries: list[ReportEntry]) -> str:
     """The page as text; it needs no other file."""
     from jinja2 import Environment
 

@@ -13,18 +13,18 @@ from drapery.render.frame import Frame
 from drapery.render.views import frame_view
 from drapery.scenes.stager import still
 from drapery.settings import ROTATIONS, Settings
-from drapery.sheets.sheet import Cell, Sheet
+from drapery.sheets.sheet import PictureSheet, SheetCell
 
 COMPASS = {0: "south", 4: "west", 8: "north", 12: "east"}
 
 
-def rotations_sheet(design: Banner | None, settings: Settings) -> Sheet:
+def rotations_sheet(design: Banner | None, settings: Settings) -> PictureSheet:
     """All sixteen rotations, by one camera. Raises OptionError, PackError or BackendError."""
     cells = tuple(
-        Cell(f"{number} {COMPASS.get(number, '')}".rstrip(), frame.pixels)
+        SheetCell(f"{number} {COMPASS.get(number, '')}".rstrip(), frame.pixels)
         for number, frame in enumerate(_rotations(design, settings))
     )
-    return Sheet("Sixteen rotations", cells, 8)
+    return PictureSheet("Sixteen rotations", cells, 8)
 
 
 def _rotations(design: Banner | None, settings: Settings) -> list[Frame]:
@@ -39,7 +39,7 @@ def _rotations(design: Banner | None, settings: Settings) -> list[Frame]:
 
 def packs_sheet(
     banner: Banner, paths: Sequence[str | Path], settings: Settings, *, scale: int | None = None
-) -> Sheet:
+) -> PictureSheet:
     """One design over our own art, and over each pack alone, drawn by the settings.
 
     scale: shows plain faces instead, each texel of a 64 x 64 pack so many pixels wide.
@@ -53,5 +53,5 @@ def packs_sheet(
             frame = draw(banner, replace(settings, packs=packs))
         else:
             frame = draw_face(banner, packs=packs, format=settings.format, scale=scale)
-        cells.append(Cell(name, frame.pixels))
-    return Sheet("One design over many packs", tuple(cells), min(len(cells), 6))
+        cells.append(SheetCell(name, frame.pixels))
+    return PictureSheet("One design over many packs", tuple(cells), min(len(cells), 6))

@@ -11,7 +11,7 @@ from drapery.banner.packs import Packs
 from drapery.errors import OptionError, PackError
 from drapery.pictures import face_pixels
 from drapery.render.frame import Pixels
-from drapery.sheets.sheet import Cell, Sheet
+from drapery.sheets.sheet import PictureSheet, SheetCell
 
 MAX_FACES = 2000
 
@@ -20,7 +20,7 @@ Side = Literal["front", "back"]
 
 def patterns_sheet(
     packs: Packs, base: str, dyes: Sequence[str], *, side: Side = "front", scale: int = 3
-) -> Sheet:
+) -> PictureSheet:
     """Every pattern of the packs in every one of these dyes, on a base.
 
     A pattern whose file is broken is an empty cell that says so. Raises OptionError for more
@@ -37,41 +37,45 @@ def patterns_sheet(
     )
     title, names = f"{len(patterns)} patterns on {_words(base)}", tuple(map(_short, patterns))
     if len(dyes) > 1:
-        return Sheet(title, cells, len(dyes), tuple(map(_words, dyes)), names)
-    return Sheet(f"{title}, in {_words(dyes[0])}", cells, min(11, len(cells)))
+        return PictureSheet(title, cells, len(dyes), tuple(map(_words, dyes)), names)
+    return PictureSheet(f"{title}, in {_words(dyes[0])}", cells, min(11, len(cells)))
 
 
-def contents_sheet(packs: Packs, *, base: str = "white", dye: str = "black") -> Sheet:
+def contents_sheet(packs: Packs, *, base: str = "white", dye: str = "black") -> PictureSheet:
     """Every pattern of a stack of packs, and which of the packs it is from.
 
     Raises OptionError for more than 2000 patterns.
     """
     sheet = patterns_sheet(packs, base, (dye,))
     cells = tuple(
-        Cell(f"{cell.label} {_origin(packs, pattern)}".rstrip(), cell.pixels)
+        SheetCell(f"{cell.label} {_origin(packs, pattern)}".rstrip(), cell.pixels)
         for pattern, cell in zip(packs.patterns(), sheet.cells, strict=True)
     )
-    return Sheet(" over ".join(pack.label for pack in packs.packs[::-1]), cells, sheet.columns)
+    return PictureSheet(
+        " over ".join(pack.label for pack in packs.packs[::-1]), cells, sheet.columns
+    )
 
 
-def steps_sheet(banner: Banner, packs: Packs) -> Sheet:
+def steps_sheet(banner: Banner, packs: Packs) -> PictureSheet:
     """The banner after each step at the loom, with the dye and the pattern to use."""
     made = [(f"base, {banner.base}", Banner(banner.base))]
     made += [(f"{step.layer.pattern}, {step.layer.dye}", step.banner) for step in steps(banner)]
     cells = tuple(
-        Cell(f"{number}. {name}", face_pixels(until, packs, 4))
+        SheetCell(f"{number}. {name}", face_pixels(until, packs, 4))
         for number, (name, until) in enumerate(made)
     )
-    return Sheet("The loom's steps", cells, min(len(cells), 6))
+    return PictureSheet("The loom's steps", cells, min(len(cells), 6))
 
 
-def _pattern_cell(packs: Packs, banner: Banner, with_dye: bool, side: Side, scale: int) -> Cell:
+def _pattern_cell(
+    packs: Packs, banner: Banner, with_dye: bool, side: Side, scale: int
+) -> SheetCell:
     (layer,) = banner.layers
     label = _short(layer.pattern) + (f", {_words(layer.dye)}" if with_dye else "")
     try:
-        return Cell(label, face_pixels(banner, packs, scale, side))
+        return SheetCell(label, face_pixels(banner, packs, scale, side))
     except PackError:
-        return Cell(f"{label} (broken)", _nothing(scale))
+        return SheetCell(f"{label} (broken)", _nothing(scale))
 
 
 def _nothing(scale: int) -> Pixels:

@@ -50,7 +50,7 @@ def html_page(
 ) -> str:
     """The page as text; it needs no other file.
 
-    cells: labels and pictures, row by row. columns, across, down: as in `Sheet`.
+    cells: labels and pictures, row by row. columns, across, down: as in `PictureSheet`.
     """
     from jinja2 import Environment
 

@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.render.contact import strip, table
+from drapery.render.contact import contact_sheet, contact_table
 from drapery.render.encode import check_still_target
 from drapery.render.encode.output import check_writable
 from drapery.render.frame import Frame, Pixels
 
 
 @dataclass(frozen=True, eq=False)
-class Cell:
+class SheetCell:
     """One picture and what it is."""
 
     label: str
@@ -18,7 +18,7 @@ class Cell:
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class PictureSheet:
     """Pictures of one size in rows.
 
     columns: pictures in a row. across, down: headings of columns and rows, which then take the
@@ -26,7 +26,7 @@ class Sheet:
     """
 
     title: str
-    cells: tuple[Cell, ...]
+    cells: tuple[SheetCell, ...]
     columns: int
     across: tuple[str, ...] = ()
     down: tuple[str, ...] = ()
@@ -34,8 +34,8 @@ class Sheet:
     def frame(self) -> Frame:
         """The sheet as one picture."""
         if self.across:
-            return table(self.across, self.down, [cell.pixels for cell in self.cells])
-        return strip(self._pictures(), self.columns)
+            return contact_table(self.across, self.down, [cell.pixels for cell in self.cells])
+        return contact_sheet(self._pictures(), self.columns)
 
     def save(self, path: str | Path) -> None:
         """Write it as .png, or as .html that needs no other file. Raises OutputError."""

@@ -1,1 +1,96 @@
-"""Golden-image tests: a pytest plugin, and the same checks without writing Python."""
+"""Golden-image tests: a pytest plugin, and the same checks without writing Python.
+
+With pytest the fixture `golden`, of the type `Golden`, compares a picture with its golden file. A
+TOML or YAML file of cases is checked by `read_cases` and `check_cases`. A picture is compared by
+itself with `agrees`, within a `Tolerance`. Names are loaded when they are first used.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from drapery.testing.case_check import CaseResult, check_cases, unused_goldens, update_cases
+    from drapery.testing.cases import Case, CaseFile, read_cases
+    from drapery.testing.explain import LayerNote, explain_change, layer_notes
+    from drapery.testing.failures import clear_report, keep_failure, write_report
+    from drapery.testing.golden import (
+        GoldenError,
+        Tolerance,
+        agrees,
+        as_frame,
+        decode,
+        encode,
+        fingerprint,
+    )
+    from drapery.testing.plugin import Golden
+
+__all__ = [
+    "Case",
+    "CaseFile",
+    "CaseResult",
+    "Golden",
+    "GoldenError",
+    "LayerNote",
+    "Tolerance",
+    "agrees",
+    "as_frame",
+    "check_cases",
+    "clear_report",
+    "decode",
+    "encode",
+    "explain_change",
+    "fingerprint",
+    "keep_failure",
+    "layer_notes",
+    "read_cases",
+    "unused_goldens",
+    "update_cases",
+    "write_report",
+]
+
+_NAMES = {
+    "drapery.testing.case_check": (
+        "CaseResult",
+        "check_cases",
+        "unused_goldens",
+        "update_cases",
+    ),
+    "drapery.testing.cases": (
+        "Case",
+        "CaseFile",
+        "read_cases",
+    ),
+    "drapery.testing.explain": (
+        "LayerNote",
+        "explain_change",
+        "layer_notes",
+    ),
+    "drapery.testing.failures": (
+        "clear_report",
+        "keep_failure",
+        "write_report",
+    ),
+    "drapery.testing.golden": (
+        "GoldenError",
+        "Tolerance",
+        "agrees",
+        "as_frame",
+        "decode",
+        "encode",
+        "fingerprint",
+    ),
+    "drapery.testing.plugin": ("Golden",),
+}
+_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module 'drapery.testing' has no attribute {name!r}")
+    value = getattr(import_module(_MODULE_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

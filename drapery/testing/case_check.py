@@ -26,7 +26,7 @@ from drapery.testing.golden import (
 
 
 @dataclass(frozen=True)
-class Outcome:
+class CaseResult:
     """What came of a case. fault: one line, or None where the picture is as it was."""
 
     name: str
@@ -34,7 +34,7 @@ class Outcome:
     written: bool = False
 
 
-def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[Outcome]:
+def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[CaseResult]:
     """Draw each case and hold it against its golden; pictures of faults go to `report`.
 
     Raises a DraperyError that names the case where one cannot be drawn.
@@ -42,10 +42,10 @@ def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[Outcome
     for case in cases.case:
         frame, notes = _draw(case)
         path = _golden_path(cases, case, folder)
-        yield Outcome(case.name, _fault(case, path, frame, notes, report))
+        yield CaseResult(case.name, _fault(case, path, frame, notes, report))
 
 
-def update_cases(cases: CaseFile, folder: Path) -> Iterator[Outcome]:
+def update_cases(cases: CaseFile, folder: Path) -> Iterator[CaseResult]:
     """Draw each case and write it as the golden where it differs from the one there.
 
     Raises OutputError, or a DraperyError that names the case where one cannot be drawn.
@@ -59,7 +59,7 @@ def update_cases(cases: CaseFile, folder: Path) -> Iterator[Outcome]:
             make_folder(path.parent)
             with replacing(path) as beside:
                 beside.write_bytes(new)
-        yield Outcome(case.name, written=changed)
+        yield CaseResult(case.name, written=changed)
 
 
 def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:

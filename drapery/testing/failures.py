@@ -10,7 +10,7 @@ import re
 from pathlib import Path
 
 from drapery.comparison.panels import side_by_side
-from drapery.comparison.report import Entry, data_of, html_report, write_text
+from drapery.comparison.report import ReportEntry, data_of, html_report, write_text
 from drapery.errors import OutputError
 from drapery.render.encode.output import make_folder
 from drapery.render.frame import Frame
@@ -52,7 +52,7 @@ def write_report(folder: Path) -> Path | None:
     return page
 
 
-def clear(folder: Path) -> None:
+def clear_report(folder: Path) -> None:
     """Remove the failures of earlier runs; other files stay.
 
     Raises OutputError where one cannot be removed, as in a folder of another user.
@@ -71,12 +71,12 @@ def clear(folder: Path) -> None:
         ) from None
 
 
-def _entry(facts: Path) -> Entry:
+def _entry(facts: Path) -> ReportEntry:
     known = json.loads(facts.read_text(encoding="utf-8"))
     stem = facts.name.removesuffix(_FACTS)
     paths = [(kind, facts.parent / f"{stem}.{kind}.png") for kind in _PICTURES]
     pictures = [(kind, data_of(path.read_bytes(), "png")) for kind, path in paths if path.exists()]
-    return Entry(known["name"], False, known["line"], pictures=tuple(pictures))
+    return ReportEntry(known["name"], False, known["line"], pictures=tuple(pictures))
 
 
 def _stem(test: str, label: str) -> str:

@@ -40,10 +40,10 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_sessionstart(session: pytest.Session) -> None:
     if _is_worker(session.config):
         return
-    from drapery.testing.failures import clear
+    from drapery.testing.failures import clear_report
 
     try:
-        clear(_report_folder(session.config))
+        clear_report(_report_folder(session.config))
     except DraperyError as error:
         session.config.stash[_STALE] = True
         warning = pytest.PytestWarning(f"{error} with --drapery-report DIR")

@@ -1,0 +1,31 @@
+"""The public names of packages that load them when they are first used."""
+
+import ast
+import inspect
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+PACKAGES = ["drapery.render", "drapery.comparison", "drapery.sheets", "drapery.testing"]
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_every_public_name_is_there_documented_and_seen_by_type_checkers(package: str) -> None:
+    module = import_module(package)
+    tree = ast.parse(Path(inspect.getfile(module)).read_text(encoding="utf-8"))
+    (checked,) = (node for node in tree.body if isinstance(node, ast.If))
+    imported = {
+        alias.name: node.module
+        for node in checked.body
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+    assert imported == module._MODULE_OF
+    assert dir(module) == sorted(imported) == sorted(module.__all__)
+    for name in module.__all__:
+        value = getattr(module, name)
+        if inspect.isfunction(value) or inspect.isclass(value):
+            assert value.__doc__, name
+    with pytest.raises(AttributeError, match=f"module '{package}' has no attribute 'absent'"):
+        module.absent  # noqa: B018
