@@ -1,12 +1,12 @@
-"""What a user sees when input is bad: one line naming the input, the place in it and the remedy."""
+"""Errors for users: one line with the input, the place in it and the remedy."""
 
 
 class DraperyError(Exception):
-    """Any fault that the user can mend. The message is one complete line; the exit code is 2."""
+    """A fault that the user can correct. Its message is one line; commands then exit with 2."""
 
 
 class DesignError(DraperyError):
-    """A text or file that was meant as a banner and cannot be read as one."""
+    """A text or file that cannot be read as a banner."""
 
 
 class PackError(DraperyError):
@@ -14,7 +14,7 @@ class PackError(DraperyError):
 
 
 class OptionError(DraperyError):
-    """An option or argument outside what it may be."""
+    """An option or argument with a value that is not allowed."""
 
 
 class BackendError(DraperyError):

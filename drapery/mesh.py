@@ -1,5 +1,6 @@
 """Triangle meshes as plain arrays. The last axis is the vector, every earlier axis a batch."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -83,9 +84,10 @@ def vertex_normals(positions: Array, triangles: Triangles) -> Array:
 
 
 def _planes(positions: Array) -> list[Array]:
-    """x, y and z of [..., V, 3], each [V, batch]: whole batches in one row, as processors like."""
-    count = positions.shape[-2]
-    return [np.moveaxis(positions[..., axis], -1, 0).reshape(count, -1) for axis in range(3)]
+    """x, y and z of [..., V, 3], each [V, batch], so that a loop runs over a whole batch."""
+    *batch, count, _ = positions.shape
+    shape = count, math.prod(batch)
+    return [np.moveaxis(positions[..., axis], -1, 0).reshape(shape) for axis in range(3)]
 
 
 def _cross(u: list[Array], v: list[Array]) -> list[Array]:
@@ -97,7 +99,7 @@ def _cross(u: list[Array], v: list[Array]) -> list[Array]:
 
 
 def _faces_around(triangles: Triangles, count: int) -> NDArray[np.intp]:
-    """The triangles at each vertex, shape [V, most], filled up with the number T of no triangle."""
+    """The triangles at each vertex, shape [V, D] for the largest degree D; unused entries are T."""
     corners = triangles.T.reshape(-1)
     order = np.argsort(corners, kind="stable")
     degrees = np.bincount(corners, minlength=count)

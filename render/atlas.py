@@ -34,7 +34,7 @@ class Atlas:
 
 
 def make_atlas(sprites: Sequence[Texels]) -> Atlas:
-    """Lay sprites of any sizes on one sheet. Raises OptionError where they need too much room."""
+    """Lay sprites of any sizes on one sheet. Raises OptionError above MAX_SHEET texels."""
     if not sprites:
         return Atlas(np.zeros((1, 1, 4), np.uint8), np.zeros((0, 4), np.int32))
     sizes = np.array([sprite.shape[1::-1] for sprite in sprites], np.int64)

@@ -1,4 +1,4 @@
-"""Where a picture is taken from. Right-handed, y up; the camera looks along its own -z."""
+"""Cameras and their matrices. Right-handed, y up; a camera looks along its own -z."""
 
 import math
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ Matrix = NDArray[np.float64]
 class Camera:
     """A camera.
 
-    position, target: where it stands and what it looks at [m].
-    up: the direction that is up in the picture.
+    position, target: its place and the point that it looks at [m]; they differ.
+    up: the direction that is up in the picture, not parallel to the line of sight.
     fov: vertical field of view [degrees]; used where `height` is None.
     height: vertical extent of an orthographic picture [m]; None for perspective.
     near, far: the clipping planes' distances [m].
@@ -90,7 +90,7 @@ def clip_matrix(camera: Camera, size: tuple[int, int]) -> Matrix:
     matrix = np.asarray(sum(lens[:, k, None] * eye[k] for k in range(4)))
     if not np.isfinite(matrix).all():
         raise OptionError(
-            "the camera's position, target and up must span a view; give it a target other than"
-            " its position, and an up across its sight"
+            "the camera's position, target and up must span a view; use a target other than its"
+            " position, and an up that is not parallel to the line of sight"
         )
     return matrix

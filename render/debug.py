@@ -1,6 +1,6 @@
-"""What is behind a picture, drawn into it: edges, springs, pins, normals, a map of stretch.
+"""Models that show a simulation: edges, springs, pins, normals, a map of stretch.
 
-Each function makes a model to put beside, or in the place of, those of a scene.
+Each function makes a model to add to a scene, or to replace one of it.
 """
 
 from typing import Any

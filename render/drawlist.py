@@ -157,7 +157,7 @@ def _check_count(triangles: int) -> None:
 
 
 def _check(number: int, model: Model) -> None:
-    """Refuse what would read outside an array."""
+    """Raise OptionError for a model that would make a kernel read outside an array."""
     mesh = model.mesh
     if mesh.positions.ndim not in (2, 3) or mesh.positions.shape[-1] != 3:
         _refuse(number, "positions", mesh.positions, "[V, 3] or [B, V, 3]")

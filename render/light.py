@@ -1,4 +1,4 @@
-"""How bright a surface is: a factor that multiplies its colour."""
+"""Lights: factors that multiply the colours of surfaces."""
 
 from dataclasses import dataclass, replace
 
@@ -44,14 +44,14 @@ GAME_LIGHT = Light(((0.2, 1.0, -0.7), (-0.2, 1.0, 0.7)), 0.4, 0.6)
 """The two lights of the game's world."""
 
 GLIMMER = 0.04
-"""What is seen where no light falls at all."""
+"""The least factor, where no light falls."""
 
 UNLIT = Light((), 1.0, 0.0)
 """Full brightness everywhere: the plain colours of the texture."""
 
 
 def lit_at(light: Light, block: int, sky: int, daylight: float = 1.0) -> Light:
-    """A light as it is where the world's light has these levels.
+    """A light at a place of the world with these light levels.
 
     block, sky: light levels 0..15 of torches and of the sky, as the game counts them.
     daylight: 1 at noon, 0 at night.

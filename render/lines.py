@@ -12,7 +12,7 @@ from drapery.render.scene import Alpha, Material, Model, Texels, TextureLayer
 from drapery.render.vectors import dots, unit
 
 NEARER = 0.004
-"""Lines are drawn this share of their distance nearer, so the surface they lie on shows them."""
+"""Lines are drawn nearer by this share of their distance, so that a surface does not hide them."""
 
 
 def line_model(
@@ -23,7 +23,7 @@ def line_model(
     height: int,
     width: float = 1.5,
 ) -> Model:
-    """Straight lines, of the same width wherever they are, in plain colours.
+    """Straight lines of one width in pixels at any distance, in plain colours.
 
     points: [m], shape [N, 3]; segments: indices into points, shape [S, 2].
     colours: straight-alpha sRGB, shape [4] or [S, 4].
@@ -41,7 +41,7 @@ def line_model(
 def dot_model(
     points: Array, colours: ArrayLike, camera: Camera, height: int, width: float = 5.0
 ) -> Model:
-    """Squares that face the camera, of the same size wherever they are.
+    """Squares of one size in pixels at any distance, which face the camera.
 
     points: [m], shape [N, 3]; colours: straight-alpha sRGB, shape [4] or [N, 4].
     height: of the picture [pixels]; width: of the dots [pixels].

@@ -1,4 +1,4 @@
-"""Normal maps: every texel is lit by a normal of its own, before anything is drawn.
+"""Normal maps: every texel is lit by its own normal before the scene is drawn.
 
 Textures are sampled to the nearest texel, so light worked out once a texel is all that a picture
 can show of a normal map, and every backend draws it alike. A texel's place on the surface is that
@@ -123,7 +123,7 @@ def has_relief(scene: Scene) -> bool:
 
 
 def _relief(material: Material) -> Relief:
-    """A layer without a map leaves what the maps below say as it is."""
+    """All layers as one; a layer without a map does not change the maps below it."""
     sheets = [(layer.texels, layer.normal, layer.specular) for layer in material.layers]
     sizes = [sheet.shape[:2] for layer in sheets for sheet in layer if sheet is not None]
     size = max(height for height, _ in sizes), max(width for _, width in sizes)

@@ -1,4 +1,4 @@
-"""What is drawn: meshes wearing materials, seen by a camera under a light."""
+"""A scene: meshes with materials, a camera and a light."""
 
 from dataclasses import dataclass, field
 from typing import Literal
@@ -22,7 +22,7 @@ class TextureLayer:
 
     A texel becomes round(texel * tint / 255) per channel and is laid over what is below by its
     8-bit alpha a: round((a * src + (255 - a) * dst) / 255).
-    normal, specular: LabPBR maps of the same sheet, of any size; None is a smooth, dull surface.
+    normal, specular: LabPBR maps of the same texture, of any size; None is a smooth, matt surface.
     """
 
     texels: Texels
@@ -33,11 +33,11 @@ class TextureLayer:
 
 @dataclass(frozen=True, eq=False)
 class Material:
-    """Layers on one surface, lowest first; they share the mesh's UVs, whatever their sizes.
+    """The layers of a surface, lowest first; all share the mesh's UVs, at any size.
 
     alpha: what the lowest layer's alpha means. `opaque` ignores it (the game's solid layer),
         `cutout` leaves out pixels under one half, `blend` lays it over what is behind.
-    lit: whether the scene's light falls on it; otherwise it shows its plain colours.
+    lit: whether the scene's light changes its colours.
     """
 
     layers: tuple[TextureLayer, ...]
@@ -64,8 +64,7 @@ class Model:
 class Scene:
     """Everything one picture needs.
 
-    The arrays in it must not be changed in place: what is the same from one picture to the next
-    is prepared once and known again by identity.
+    Its arrays must not be changed in place: prepared data is cached by their identity.
 
     size: width and height in pixels.
     background: straight-alpha sRGB colour; (0, 0, 0, 0) is transparent.

@@ -1,7 +1,7 @@
-"""A contact shadow: where things stand on, or hang close over, a floor, it is darker.
+"""Contact shadows: a floor is darker below models that stand on it or hang close over it.
 
-The things are drawn from below, four times, each time up to twice as high: what is close to the
-floor is in all four pictures and darkens most. Their average, blurred, is a veil on the floor.
+The models are drawn from below four times, each time up to half the height: what is close to the
+floor is in all four pictures and darkens most. Their average, blurred, is a dark quad on the floor.
 """
 
 from collections.abc import Sequence
@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.scene import Material, Model, Scene, TextureLayer
@@ -26,12 +27,16 @@ BLURS = 2
 def contact_shadow(
     models: Sequence[Model], floor: float, reach: float = 1.0, strength: float = 0.5
 ) -> Model:
-    """A veil on the floor at this height [m] under models.
+    """A dark quad on the floor under models, to be drawn after what lies on the floor.
 
-    reach: up to how high above the floor a thing has a shadow [m].
-    strength: how dark it is where all of the reach is filled, 0..1.
+    floor: its height [m]. reach: models cast a shadow up to this height above it [m].
+    strength: how dark the shadow is under a model that fills all of the reach, 0..1.
+    Raises OptionError where no model has finite positions.
     """
-    points = np.concatenate([model.mesh.positions.reshape(-1, 3) for model in models])
+    parts = [model.mesh.positions.reshape(-1, 3) for model in models]
+    if not any(map(len, parts)) or not all(np.isfinite(part).all() for part in parts):
+        raise OptionError("a contact shadow needs models with finite positions; give at least one")
+    points = np.concatenate(parts)
     low, high = points[:, [0, 2]].min(axis=0), points[:, [0, 2]].max(axis=0)
     scale = min(RESOLUTION, (MAX_TEXELS - 8) / max(float((high - low).max()), 1e-6))
     size = np.ceil((high - low) * scale).astype(int) + 8

@@ -1,4 +1,4 @@
-"""Named cameras that frame what is to be seen."""
+"""Named views, and cameras that frame their subject."""
 
 import math
 from dataclasses import dataclass, replace
@@ -13,7 +13,7 @@ from drapery.render.vectors import dots
 
 @dataclass(frozen=True)
 class View:
-    """From where a named view looks at its subject.
+    """A direction of view.
 
     azimuth: degrees around it; 0 looks at its front (from +z), 90 from +x.
     elevation: degrees above the horizon.
@@ -46,18 +46,20 @@ def find_view(view: str | View) -> View:
 
 
 def frame_view(view: str | View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
-    """The view of points [..., 3]: all are seen, with `margin` of the picture around.
+    """A camera in the direction of a view that shows all points.
 
-    aspect: width / height of the picture. For moving cloth give the points of all its moments.
-    view: a View or its name. Raises OptionError for a name that is not known.
+    view: a View, or its name in VIEWS. points: [m], shape [..., 3]; for moving cloth those of all
+    its moments. aspect: width / height of the picture. margin: the free share at each side.
+    Raises OptionError for a name that is not known, or for points that are not finite.
     """
     return frame_points(find_view(view), points, aspect, margin)
 
 
 def turntable(view: View, points: Array, aspect: float, frames: int) -> list[Camera]:
-    """One camera a frame, once around points [..., 3]; all stay in the picture.
+    """One camera for each frame, once around points [m] of shape [..., 3], which all stay visible.
 
-    The turn is about the upright axis through their middle; it begins where the view looks from.
+    The cameras turn about the upright axis through the middle of the points; the first looks in
+    the direction of the view. aspect: width / height of the picture.
     Raises OptionError for points that are not finite.
     """
     points = points.reshape(-1, 3).astype(np.float64)
@@ -91,7 +93,9 @@ def _turned(camera: Camera, axis: Array, degrees: float) -> Camera:
 
 
 def frame_points(view: View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
-    """A camera in the view's direction that shows all points as large as the margin allows.
+    """A camera in the direction of a view that shows all points as large as the margin allows.
+
+    points: [m], shape [..., 3]. aspect: width / height. margin: the free share at each side.
 
     Raises OptionError for points that are not finite.
     """

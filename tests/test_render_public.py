@@ -104,3 +104,11 @@ def _imported(tree: ast.AST) -> set[str]:
             found |= {str(node.module), *(f"{node.module}.{alias.name}" for alias in node.names)}
         found |= _imported(node)
     return found
+
+
+@pytest.mark.parametrize(
+    "models", [[], [make_model(make_mesh(np.zeros((0, 3)), np.zeros((0, 3), int)))]]
+)
+def test_a_shadow_of_nothing_is_refused(models: list[drapery.render.Model]) -> None:
+    with pytest.raises(OptionError, match="needs models with finite positions"):
+        drapery.render.contact_shadow(models, 0.0)

@@ -218,8 +218,8 @@ def test_lists_may_not_be_written_to() -> None:
     [
         ({"size": (0, 5)}, "size 0x5"),
         ({"size": (20000, 5)}, "size 20000x5 cannot be drawn; use 1 to 16384"),
-        ({"background": (0, 0, 256, 0)}, "is no colour; use four of 0 to 255"),
-        ({"background": (0, 0, 0)}, "is no colour"),
+        ({"background": (0, 0, 256, 0)}, "is not a colour; use four numbers from 0 to 255"),
+        ({"background": (0, 0, 0)}, "is not a colour"),
         ({"samples": 5}, "samples 5 is not known; use 1, 4 or 16"),
         ({"camera": Camera((1, 1, 1), (1, 1, 1))}, "the camera's position"),
         ({"camera": Camera((0, 5, 0), (0, 0, 0))}, "the camera's position"),

@@ -93,8 +93,8 @@ def test_create_pass_fail_report_update_pass(outside: tuple[Path, Pytest]) -> No
 
 
 HARMS: dict[str, tuple[bytes | str | tuple[int, int], str]] = {
-    "text": (b"not a picture", "no readable PNG"),
-    "empty": (b"", "no readable PNG"),
+    "text": (b"not a picture", "not a readable PNG"),
+    "empty": (b"", "not a readable PNG"),
     "mode": ("L", "mode is L"),
     "size": ((9, 8), "size changed from 9x8 to 8x8"),
 }

@@ -1,8 +1,8 @@
 """How two pictures differ: figures, panels to look at, and a report.
 
-`compare` compares two designs or pictures, `measure` two arrays; `draw_variants` and `compare_variants` draw and compare designs,
-packs, layer modes or backends, and name the layer from which they differ. Names are loaded when
-they are first used.
+`compare` compares two designs or pictures, `measure` two arrays of pixels; `draw_variants` and
+`compare_variants` draw and compare designs, packs, layer modes or backends, and name the layer from
+which they differ. Names are loaded when they are first used.
 """
 
 from importlib import import_module

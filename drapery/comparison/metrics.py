@@ -1,4 +1,4 @@
-"""How far two pictures are apart, in figures."""
+"""Measures of the difference between two pictures."""
 
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -60,7 +60,7 @@ def measure(
     """Measure a picture, [H, W, 4] uint8 sRGB with straight alpha, against the expected one.
 
     slack: a pixel counts as changed where a channel is further off than this.
-    perceptual: SSIM and FLIP as well, which take longer and want the `compare` extra.
+    perceptual: SSIM and FLIP as well, which take longer and need the `compare` extra.
     Raises OptionError where the sizes differ or the extra is not installed.
     """
     worst = errors(expected, actual)
@@ -117,4 +117,4 @@ def _flip(expected: Pixels, actual: Pixels) -> float:
 
 
 def _missing(metric: str) -> OptionError:
-    return OptionError(f'{metric} wants more packages: pip install "drapery[compare]"')
+    return OptionError(f'{metric} needs more packages: pip install "drapery[compare]"')

@@ -64,7 +64,7 @@ def draw_variants(
     form: str | None = None,
     number: int | None = None,
 ) -> list[Variant]:
-    """What the words of a comparison name, each drawn.
+    """The variants that a comparison names, each drawn.
 
     subjects: two or more pictures; or one or more designs, and packs to draw them with.
     form, number: how designs are read, and which banner of those that hold several.
@@ -147,4 +147,4 @@ def _load(path: Path) -> Frame:
     except OptionError:
         raise
     except Exception as error:  # Pillow raises many kinds for a broken file
-        raise OptionError(f"{path} is no readable picture ({error}); draw it again") from error
+        raise OptionError(f"{path} is not a readable picture ({error}); draw it again") from error

@@ -23,7 +23,7 @@ def patterns_sheet(
 ) -> PictureSheet:
     """Every pattern of the packs in every one of these dyes, on a base.
 
-    A pattern whose file is broken is an empty cell that says so. Raises OptionError for more
+    A pattern whose file is broken is an empty cell labelled as broken. Raises OptionError for more
     than 2000 faces.
     """
     patterns = packs.patterns()
@@ -83,7 +83,7 @@ def _nothing(scale: int) -> Pixels:
 
 
 def _origin(packs: Packs, pattern: str) -> str:
-    """Nothing for the topmost pack; else in brackets what is meant."""
+    """The pack that a pattern is from, in brackets; nothing for the topmost pack."""
     try:
         level = packs.level(pattern)
     except PackError:

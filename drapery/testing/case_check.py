@@ -1,4 +1,4 @@
-"""Checking a file of cases: each is drawn and held against its golden, or becomes the new one."""
+"""Checking a file of cases: each is drawn and compared with its golden, or becomes the new one."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ from drapery.testing.golden import (
 
 @dataclass(frozen=True)
 class CaseResult:
-    """What came of a case. fault: one line, or None where the picture is as it was."""
+    """The result of a case. fault: one line, or None where the picture agrees with its golden."""
 
     name: str
     fault: str | None = None
@@ -35,7 +35,7 @@ class CaseResult:
 
 
 def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[CaseResult]:
-    """Draw each case and hold it against its golden; pictures of faults go to `report`.
+    """Draw each case and compare it with its golden; pictures of failures go to `report`.
 
     Raises a DraperyError that names the case where one cannot be drawn.
     """

@@ -113,7 +113,7 @@ def _load(path: Path) -> dict[str, Any]:
 def _check_names(path: Path, cases: tuple[Case, ...]) -> None:
     seen: set[str] = set()
     for case in cases:
-        # Some file systems do not tell case apart.
+        # Some file systems ignore case.
         if case.name.lower() in seen:
             raise OptionError(f"{path}: two cases are named {case.name!r}; give each its own name")
         seen.add(case.name.lower())

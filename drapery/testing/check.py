@@ -50,7 +50,7 @@ class _GoldenFile(SingleFileSnapshotExtension):
 
 
 class HashGolden(_GoldenFile):
-    """A golden of which only size and hash are kept."""
+    """A golden that holds only size and hash."""
 
     file_extension = "sha256"
 
@@ -89,7 +89,7 @@ def check_golden(
     design: tuple[Banner, tuple[str | Path, ...]] | None,
     report: Path,
 ) -> str | None:
-    """Compare, or write where an update is asked for; the fault in one line, or None."""
+    """Compare with the golden, or write it in an update; the fault in one line, or None."""
     frame = _drawn(picture, backend)
     notes = _notes(design)
     extension = HashGolden if hashed else _picture_golden(Tolerance(*tolerance))

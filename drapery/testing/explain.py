@@ -18,11 +18,11 @@ MAX_SHIFT = 4
 """How far a layer's picture may have moved to be recognised [texels]."""
 
 LayerNote = dict[str, str]
-"""A layer as a golden keeps it: its name and its front face as a PNG."""
+"""A layer as a golden stores it: its name and its front face as a PNG."""
 
 
 def layer_notes(banner: Banner, packs: Packs) -> list[LayerNote]:
-    """What a golden remembers of a design: the front face of every layer, untinted."""
+    """The front face of every layer of a design, untinted, as a golden stores it."""
     names = ["the cloth", f"base, {banner.base}"]
     names += [f"{layer.pattern}, {layer.dye}" for layer in banner.layers]
     sheets = [texels for texels, _ in flag_layers(banner, packs)]
@@ -38,7 +38,7 @@ def explain_change(
     before: list[LayerNote] | None = None,
     after: list[LayerNote] | None = None,
 ) -> str:
-    """One line: which layer changed and how, where the notes tell, and by how much."""
+    """One line: how much changed and, where layer notes are given, which layer and how."""
     if expected.pixels.shape != actual.pixels.shape:
         return f"the size changed from {_size(expected)} to {_size(actual)}"
     difference = measure(expected.pixels, actual.pixels)
@@ -49,7 +49,7 @@ def explain_change(
 
 def _layer_changes(before: list[LayerNote], after: list[LayerNote]) -> Iterator[str]:
     if len(before) != len(after):
-        # Cloth and base are no layers.
+        # Cloth and base do not count as layers.
         yield f"{len(before) - 2} layers became {len(after) - 2}"
     for number, (old, new) in enumerate(zip(before, after, strict=False)):
         place = f"layer {number - 1}" if number > 1 else "below the layers:"

@@ -1,7 +1,7 @@
-"""What is kept of a failed check: expected, actual, magnified difference, and a page of them all.
+"""The report of failed checks: expected, actual and difference of each, and a page of them all.
 
-Workers of pytest-xdist write side by side: every failure has files of its own, and the page is made
-from them at the end by the process that has no workers' part.
+Workers of pytest-xdist write at the same time: every failure has files of its own, and the main
+process makes the page from them at the end.
 """
 
 import hashlib
@@ -41,7 +41,7 @@ def keep_failure(
 
 
 def write_report(folder: Path) -> Path | None:
-    """Make the page of all failures kept in a folder; None where there are none."""
+    """Make the page of all failures in a folder; None where there are none. Raises OutputError."""
     entries = [_entry(facts) for facts in sorted(folder.glob(f"*{_FACTS}"))]
     if not entries:
         return None

@@ -1,4 +1,4 @@
-"""What a golden file holds, and whether a picture is still the one in it."""
+"""Golden files, and whether a picture agrees with one."""
 
 import hashlib
 import io
@@ -23,7 +23,7 @@ class GoldenError(DraperyError):
 
 @dataclass(frozen=True)
 class Tolerance:
-    """How far a picture may be from its golden; by default not at all.
+    """How far a picture may differ from its golden; by default not at all.
 
     channel: an error of at most this much, 0..255, does not count.
     pixels: at most so many pixels may be further away.
@@ -90,7 +90,7 @@ def decode(data: bytes) -> tuple[Frame, list[dict[str, str]] | None]:
     except GoldenError:
         raise
     except Exception as error:  # Pillow raises many kinds for a broken file
-        raise GoldenError(f"the golden is no readable PNG ({error})") from error
+        raise GoldenError(f"the golden is not a readable PNG ({error})") from error
     return frame, _layers(note) if note else None
 
 

@@ -1,4 +1,4 @@
-"""Frames to files: the ending, or a folder, chooses the format.
+"""Frames written as files; the ending, or a folder, chooses the format.
 
 | target                 | what is written                                                      |
 |------------------------|----------------------------------------------------------------------|
@@ -65,7 +65,7 @@ def save_animation(
     progress: called with the number of frames drawn and `total`, which is len(frames) if known.
     Raises OptionError for an unknown ending, no frame or frames of several sizes, OutputError for
     a bad target, BackendError where PyAV is missing. Whatever is raised leaves no partial file;
-    KeyboardInterrupt keeps the whole frames of a folder.
+    KeyboardInterrupt leaves the finished frames in a folder.
     """
     kind = check_animation_target(path)
     check_fps(fps)

@@ -1,4 +1,4 @@
-"""Writing files so that a failure leaves what was there before, and says why in one line."""
+"""Files are replaced whole: a failure leaves the older file, and one line says why."""
 
 import os
 from collections.abc import Iterator
@@ -47,7 +47,9 @@ def explained(path: Path) -> Iterator[None]:
         if error.filename is not None and partial_path(path).name not in str(error.filename):
             raise
         reason = error.strerror or str(error)
-        raise OutputError(f"cannot write {path}: {reason}; mend that or choose another") from error
+        raise OutputError(
+            f"cannot write {path}: {reason}; repair that or choose another file"
+        ) from error
 
 
 @contextmanager

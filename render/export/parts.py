@@ -1,4 +1,4 @@
-"""Scenes taken apart for 3-D files: meshes in one atlas, with where they move.
+"""Scenes divided into meshes for 3-D files: one atlas, and the positions of each frame.
 
 A 3-D file knows one texture for a surface, so the layers are laid over one another first.
 """
@@ -22,7 +22,7 @@ MAX_NUMBERS = 1 << 27
 
 @dataclass(frozen=True, eq=False)
 class MeshPart:
-    """The triangles of one model that mean the same by alpha and light.
+    """The triangles of one model with the same alpha mode and lighting.
 
     positions, normals: [m], shape [F, V, 3], one frame where it does not move.
     triangles: shape [T, 3]. uvs: fractions of the atlas, v downwards, shape [V, 2].

@@ -1,8 +1,8 @@
 """Pictures by OpenGL, through pyrender: a graphics card where EGL finds one, else Mesa's llvmpipe.
 
-The obstacles of starting it are met in `platform`, those of drawing in `passes`. One renderer
-lives as long as the process, for deleting one ends OpenGL for all; it keeps the topology it drew
-last, so that an animation only uploads positions and light.
+`platform` starts it, `passes` draws with it. One renderer lives as long as the process, because
+deleting one ends OpenGL for all; it caches the last topology, so that an animation only uploads
+positions and light.
 """
 
 import atexit
@@ -34,7 +34,7 @@ CUTOUT_BIT, SOLID_BIT, UNLIT_BIT = 1, 2, 4  # as in flat.frag
 
 @dataclass
 class OffscreenContext:
-    """What one process keeps: pyrender, its platform and renderer, and the scene drawn last."""
+    """The state of one process: pyrender, its platform and renderer, and the last scene."""
 
     pyrender: Any
     passes: Any
@@ -55,8 +55,8 @@ _lock = Lock()
 def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
     """Draw a scene. Raises OptionError for what cannot be drawn, BackendError without OpenGL.
 
-    stacked: lay layers over one another in the picture, in one pass each, as the game does, rather
-    than once beforehand in the texture. That is slower; colours round by up to 2/255 otherwise.
+    stacked: draw each layer in a pass of its own, as the game does, instead of compositing the
+    layers into one texture first. It is slower, and colours differ by up to 2/255.
     """
     drawing = draw_list(scene.models)
     with _current() as context:
@@ -87,7 +87,7 @@ def describe() -> str:
 
 @contextmanager
 def _current() -> Iterator[OffscreenContext]:
-    """The context, its context current in this thread alone."""
+    """The context, made current in this thread and in no other."""
     with _lock:
         context = _context()
         if context.process != os.getpid():
@@ -113,7 +113,7 @@ def _context() -> OffscreenContext:
 
 
 def _close(context: OffscreenContext) -> None:
-    """End OpenGL while its modules are still whole."""
+    """End OpenGL while its modules still exist."""
     if context.process == os.getpid():
         context.platform.make_current()
         if context.materials is not None:
@@ -144,7 +144,7 @@ def _check(context: OffscreenContext, scene: Scene, drawing: DrawList) -> None:
             model = int(np.searchsorted(drawing.topology.vertex_start, vertex, "right")) - 1
             raise OptionError(
                 f"model {model} has {name} that are not finite numbers;"
-                " a simulation that blew up wants a smaller time step"
+                " if a simulation diverged, use a smaller time step"
             )
 
 
@@ -174,7 +174,7 @@ def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Tri
 
 
 def _set_up(context: OffscreenContext, topology: Topology, stacked: bool) -> None:
-    """Put the constant part of a draw list on the graphics side, and the last one's away."""
+    """Upload the constant part of a draw list, and delete that of the last one."""
     pyrender, passes, old = context.pyrender, context.passes, context.vertices
     material_tables = _material_tables(topology.material_tables, stacked)
     vertex_material = np.zeros(len(topology.uvs), np.int32)
@@ -201,8 +201,8 @@ def _set_up(context: OffscreenContext, topology: Topology, stacked: bool) -> Non
 
 
 def _material_tables(material_tables: MaterialTables, stacked: bool) -> MaterialTables:
-    """Layers composited beforehand; if stacked only where they blend, for there a triangle must lay
-    down all its layers at once."""
+    """Tables with composited layers; if stacked, only where a material blends, because a triangle
+    that blends must draw all its layers at once."""
     many = material_tables.material_layers[:, 1] > 1
     if stacked:
         many &= material_tables.material_alpha == BLEND

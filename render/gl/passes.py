@@ -1,4 +1,4 @@
-"""pyrender's renderer, taught ordered layers. Import it only after `platform.load_pyrender`.
+"""pyrender's renderer with ordered layers. Import it only after `platform.load_pyrender`.
 
 One primitive draws one layer of every triangle that has it, in the order of the layers; the depth
 test is GL_LEQUAL, so that an upper layer lies on the lower one. All primitives of a mesh share the

@@ -1,10 +1,10 @@
-"""Starting pyrender without a display, with every obstacle on the way.
+"""Start pyrender without a display. What stands in the way:
 
 - PyOpenGL fixes its platform at import, and only a start shows whether EGL works: so the libraries
   are tried by ctypes before anything of OpenGL is imported. EGL comes first; Mesa 25.1 dropped
   OSMesa.
 - `import pyrender` pulls in its window, hence pyglet, hence X11: a stub stands in for it.
-- An OSMesa context has framebuffers, though pyrender says no; and PyOpenGL hands out a new object
+- An OSMesa context has framebuffers, although pyrender denies it; and PyOpenGL makes a new object
   for the same OSMesa context each time, so pyrender's shader cache would miss on every frame.
 """
 
@@ -104,7 +104,7 @@ def load_pyrender() -> tuple[ModuleType, Any]:
 
 
 def release(platform: Any) -> None:
-    """Let go of the context, which is current in one thread at a time."""
+    """Release the context, which is current in one thread at a time."""
     if hasattr(platform, "_egl_display"):
         from OpenGL.EGL import EGL_NO_CONTEXT, EGL_NO_SURFACE, eglMakeCurrent
 

@@ -1,4 +1,4 @@
-"""The rasteriser in plain numbers: no system package, and the same bits on every machine.
+"""The rasteriser on the processor: it needs no system package and draws the same bits everywhere.
 
 Stages: project the vertices, clip the few triangles that need it, put those that blend last, sort
 triangles into tiles, draw the tiles. Every stage is shared out over threads in a way that cannot
@@ -106,7 +106,9 @@ def _background(scene: Scene) -> np.uint32:
     """The background as the kernels write it. Raises OptionError."""
     colour = np.array(scene.background)
     if colour.shape != (4,) or colour.min() < 0 or colour.max() > 255:
-        raise OptionError(f"background {scene.background} is no colour; use four of 0 to 255")
+        raise OptionError(
+            f"background {scene.background} is not a colour; use four numbers from 0 to 255"
+        )
     packed: np.uint32 = colour.astype(np.uint8).view(np.uint32)[0]
     return packed
 
@@ -125,7 +127,7 @@ def _project(
         if found & BROKEN:
             raise OptionError(
                 f"model {number} has positions or normals that are not finite numbers;"
-                " a simulation that blew up wants a smaller time step"
+                " if a simulation diverged, use a smaller time step"
             )
         union |= found
     return Raster(vertices, flags, constant.triangles, constant.triangle_material), union
