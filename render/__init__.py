@@ -34,15 +34,16 @@ if TYPE_CHECKING:
         save_animation,
         save_frame,
     )
+    from drapery.render.encode.output import check_writable, make_folder, replacing
     from drapery.render.encode.png import png_bytes
     from drapery.render.export import MODEL_ENDINGS, check_model_target, save_model
-    from drapery.render.frame import Animation, Frame
+    from drapery.render.frame import Animation, Frame, Pixels
     from drapery.render.light import GAME_LIGHT, UNLIT, Light, lit_at
     from drapery.render.lines import dot_model, line_model
     from drapery.render.resize import enlarge
-    from drapery.render.scene import Material, Model, Scene, TextureLayer
+    from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
     from drapery.render.shadow import contact_shadow
-    from drapery.render.views import VIEWS, View, frame_points, frame_view, turntable
+    from drapery.render.views import VIEWS, View, find_view, frame_points, frame_view, turntable
 
 __all__ = [
     "GAME_LIGHT",
@@ -59,7 +60,9 @@ __all__ = [
     "Material",
     "Mesh",
     "Model",
+    "Pixels",
     "Scene",
+    "Texels",
     "TextureLayer",
     "View",
     "backend",
@@ -68,6 +71,7 @@ __all__ = [
     "check_animation_target",
     "check_model_target",
     "check_still_target",
+    "check_writable",
     "clip_matrix",
     "contact_shadow",
     "contact_sheet",
@@ -78,10 +82,12 @@ __all__ = [
     "edges_model",
     "enlarge",
     "face_normals",
+    "find_view",
     "frame_points",
     "frame_view",
     "line_model",
     "lit_at",
+    "make_folder",
     "make_mesh",
     "make_model",
     "normals_model",
@@ -89,6 +95,7 @@ __all__ = [
     "pins_model",
     "png_bytes",
     "projection_matrix",
+    "replacing",
     "save_animation",
     "save_frame",
     "save_model",
@@ -113,15 +120,23 @@ _NAMES = {
     "drapery.render.encode": (
         *("check_animation_target", "check_still_target", "save_animation", "save_frame"),
     ),
+    "drapery.render.encode.output": ("check_writable", "make_folder", "replacing"),
     "drapery.render.encode.png": ("png_bytes",),
     "drapery.render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
-    "drapery.render.frame": ("Animation", "Frame"),
+    "drapery.render.frame": ("Animation", "Frame", "Pixels"),
     "drapery.render.light": ("GAME_LIGHT", "UNLIT", "Light", "lit_at"),
     "drapery.render.lines": ("dot_model", "line_model"),
     "drapery.render.resize": ("enlarge",),
-    "drapery.render.scene": ("Material", "Model", "Scene", "TextureLayer"),
+    "drapery.render.scene": ("Material", "Model", "Scene", "Texels", "TextureLayer"),
     "drapery.render.shadow": ("contact_shadow",),
-    "drapery.render.views": ("VIEWS", "View", "frame_points", "frame_view", "turntable"),
+    "drapery.render.views": (
+        "VIEWS",
+        "View",
+        "find_view",
+        "frame_points",
+        "frame_view",
+        "turntable",
+    ),
 }
 _MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
 

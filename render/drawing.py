@@ -9,19 +9,20 @@ from PIL import ImageColor
 
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
+from drapery.render.backends import DrawScene
 from drapery.render.backends import backend as backend_named
 from drapery.render.camera import Camera
 from drapery.render.frame import Frame
 from drapery.render.light import GAME_LIGHT, Light
 from drapery.render.scene import Alpha, Material, Model, Scene, TextureLayer
-from drapery.render.views import frame_view
+from drapery.render.views import View, frame_view
 
 Colour = str | tuple[int, int, int] | tuple[int, int, int, int]
 """`#rrggbb`, `#rrggbbaa`, a CSS name, or red, green, blue and alpha, each 0 to 255."""
 
 
-def draw_scene(scene: Scene, backend: str = "auto") -> Frame:
-    """Draw a scene by the backend of this name.
+def draw_scene(scene: Scene, backend: str | DrawScene = "auto") -> Frame:
+    """Draw a scene by a backend or the backend of this name.
 
     Raises BackendError for a backend that is not known or cannot run, OptionError for sizes,
     textures or meshes that cannot be drawn.
@@ -32,18 +33,18 @@ def draw_scene(scene: Scene, backend: str = "auto") -> Frame:
 def draw_models(
     models: Iterable[Model | Mesh],
     *,
-    view: str = "iso",
+    view: str | View = "iso",
     camera: Camera | None = None,
     size: tuple[int, int] = (512, 512),
     background: Colour = (0, 0, 0, 0),
     light: Light = GAME_LIGHT,
     samples: Literal[1, 4, 16] = 4,
-    backend: str = "auto",
+    backend: str | DrawScene = "auto",
 ) -> Frame:
-    """Draw models, framed by a named view; a bare mesh is drawn white.
+    """Draw models, framed by a view; a bare mesh is drawn white.
 
-    view: a name in VIEWS, used where `camera` is None. For the frames of an animation make one
-        camera with `frame_view` from the points of all its moments.
+    view: a View or its name in VIEWS, used where `camera` is None. For the frames of an animation
+        make one camera with `frame_view` from the points of all its moments.
     size: width and height [pixels]. samples: 1, 4 or 16 for each pixel.
     Raises OptionError or BackendError as `draw_scene` and `frame_view` do.
 

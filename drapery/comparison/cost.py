@@ -7,8 +7,7 @@ from time import perf_counter
 from drapery.banner.packs import open_packs
 from drapery.comparison.variants import Variant
 from drapery.errors import OptionError
-from drapery.render.backends import backend
-from drapery.render.scene import Scene
+from drapery.render import Scene, backend
 from drapery.scenes.stager import still
 
 REPEATS = 9

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.errors import OptionError
-from drapery.render.frame import Pixels
+from drapery.render import Pixels
 
 MATTE = 128
 """Grey under transparent pixels [sRGB] where a metric knows no alpha."""

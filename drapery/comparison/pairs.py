@@ -10,8 +10,7 @@ from drapery.comparison.panels import side_by_side
 from drapery.comparison.report import ReportEntry, data_address
 from drapery.comparison.variants import Variant, variant_of
 from drapery.errors import OptionError
-from drapery.render.contact import contact_sheet
-from drapery.render.frame import Frame
+from drapery.render import Frame, contact_sheet
 from drapery.settings import Options, Settings
 
 

@@ -3,9 +3,7 @@
 import numpy as np
 
 from drapery.comparison.metrics import errors
-from drapery.render.contact import contact_sheet, on_checker
-from drapery.render.frame import Frame, Pixels
-from drapery.render.resize import enlarge
+from drapery.render import Frame, Pixels, contact_sheet, enlarge, on_checker
 
 
 def difference_panel(expected: Pixels, actual: Pixels, gain: int = 8) -> Pixels:

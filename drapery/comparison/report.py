@@ -5,9 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from drapery.render.encode.output import replacing
-from drapery.render.encode.png import png_bytes
-from drapery.render.frame import Frame
+from drapery.render import Frame, png_bytes, replacing
 
 _PAGE = """<!doctype html>
 <html lang="en">

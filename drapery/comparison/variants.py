@@ -13,7 +13,7 @@ from drapery.banner.formats import read_designs
 from drapery.banner.formats.registry import pick
 from drapery.errors import OptionError
 from drapery.pictures import draw
-from drapery.render.frame import Frame
+from drapery.render import Frame
 from drapery.settings import Options, Settings
 
 PICTURE_ENDINGS = (".png", ".gif", ".webp", ".apng")

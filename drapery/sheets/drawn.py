@@ -9,8 +9,7 @@ import numpy as np
 from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
 from drapery.pictures import draw, draw_face, draw_scenes
-from drapery.render.frame import Frame
-from drapery.render.views import frame_view
+from drapery.render import Frame, frame_view
 from drapery.scenes.stager import still
 from drapery.settings import ROTATIONS, Settings
 from drapery.sheets.sheet import PictureSheet, SheetCell

@@ -10,7 +10,7 @@ from drapery.banner.loom import steps
 from drapery.banner.packs import Packs
 from drapery.errors import OptionError, PackError
 from drapery.pictures import face_pixels
-from drapery.render.frame import Pixels
+from drapery.render import Pixels
 from drapery.sheets.sheet import PictureSheet, SheetCell
 
 MAX_FACES = 2000

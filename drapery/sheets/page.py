@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from drapery.comparison.report import data_address
-from drapery.render.frame import Frame, Pixels
+from drapery.render import Frame, Pixels
 
 _PAGE = """<!doctype html>
 <html lang="en">

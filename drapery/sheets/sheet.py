@@ -3,10 +3,14 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.render.contact import contact_sheet, contact_table
-from drapery.render.encode import check_still_target
-from drapery.render.encode.output import check_writable
-from drapery.render.frame import Frame, Pixels
+from drapery.render import (
+    Frame,
+    Pixels,
+    check_still_target,
+    check_writable,
+    contact_sheet,
+    contact_table,
+)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,7 @@ from drapery.banner.formats import read_design
 from drapery.banner.packs import open_packs
 from drapery.errors import DraperyError
 from drapery.pictures import draw
-from drapery.render.encode.output import make_folder, replacing
-from drapery.render.frame import Frame
+from drapery.render import Frame, make_folder, replacing
 from drapery.settings import Settings
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.explain import LayerNote, explain_change, layer_notes

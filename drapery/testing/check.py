@@ -12,8 +12,7 @@ from syrupy.location import PyTestLocation
 
 from drapery.banner.design import Banner
 from drapery.errors import OutputError
-from drapery.render.frame import Frame
-from drapery.render.scene import Scene
+from drapery.render import Frame, Scene
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
 from drapery.testing.failures import keep_failure
 from drapery.testing.golden import (
@@ -156,7 +155,7 @@ def _picture_golden(tolerance: Tolerance) -> type[PictureGolden]:
 
 def _drawn(picture: Any, backend: str) -> Frame:
     if isinstance(picture, Scene):
-        from drapery.render.backends import backend as backend_by_name
+        from drapery.render import backend as backend_by_name
 
         return backend_by_name(backend)(picture)
     return as_frame(picture)

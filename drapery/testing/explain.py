@@ -11,8 +11,7 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import FRONT, flag_layers
 from drapery.comparison.metrics import measure
-from drapery.render.encode.png import png_bytes
-from drapery.render.frame import Frame, Pixels
+from drapery.render import Frame, Pixels, png_bytes
 
 MAX_SHIFT = 4
 """How far a layer's picture may have moved to be recognised [texels]."""

@@ -12,8 +12,7 @@ from pathlib import Path
 from drapery.comparison.panels import side_by_side
 from drapery.comparison.report import ReportEntry, data_of, html_report, write_text
 from drapery.errors import OutputError
-from drapery.render.encode.output import make_folder
-from drapery.render.frame import Frame
+from drapery.render import Frame, make_folder
 
 _FACTS = ".failure.json"
 _PICTURES = ("expected", "actual", "difference")

@@ -11,7 +11,7 @@ from PIL import Image, PngImagePlugin
 
 from drapery.comparison.metrics import errors
 from drapery.errors import DraperyError, OptionError
-from drapery.render.frame import Frame
+from drapery.render import Frame
 
 LAYERS_KEY = "drapery:layers"
 MAX_SIDE = 16384
