@@ -65,7 +65,7 @@ def save_animation(
     progress: called with the number of frames drawn and `total`, which is len(frames) if known.
     Raises OptionError for an unknown ending, no frame or frames of several sizes, OutputError for
     a bad target, BackendError where PyAV is missing. Whatever is raised leaves no partial file;
-    KeyboardInterrupt leaves the finished frames in a folder.
+    KeyboardInterrupt leaves the finished frames in a folder that had none.
     """
     kind = check_animation_target(path)
     check_fps(fps)

@@ -2,7 +2,8 @@
 
 A run replaces the folder's own frame_NNNN.png files, longer earlier runs' included, and touches
 nothing else in it. The frames gather in a hidden folder beside the target and move in at the end,
-so a failed run changes nothing; one stopped by Ctrl-C moves in the frames that are whole.
+so a failed run changes nothing. One stopped by Ctrl-C moves in the finished frames, unless the
+folder holds frames of an earlier run, which then stay as they are.
 """
 
 import os
@@ -31,7 +32,8 @@ def write_sequence(folder: Path, frames: Iterable[HasPixels]) -> None:
             try:
                 _gather(gathering, frames)
             except KeyboardInterrupt:
-                _move_in(gathering, folder)
+                if not _own_frames(folder):
+                    _move_in(gathering, folder)
                 raise
             _move_in(gathering, folder)
     finally:
@@ -57,6 +59,12 @@ def _gather(gathering: Path, frames: Iterable[HasPixels]) -> None:
         unfinished.rename(path)
 
 
+def _own_frames(folder: Path) -> list[Path]:
+    if not folder.is_dir():
+        return []
+    return [path for path in folder.iterdir() if FRAME_NAME.fullmatch(path.name)]
+
+
 def _move_in(gathering: Path, folder: Path) -> None:
     fresh = sorted(path.name for path in gathering.glob("*.png"))
     if not fresh:
@@ -66,8 +74,8 @@ def _move_in(gathering: Path, folder: Path) -> None:
             unfinished.unlink()
         gathering.rename(folder)
         return
-    for stale in folder.iterdir():
-        if FRAME_NAME.fullmatch(stale.name) and stale.name not in fresh:
+    for stale in _own_frames(folder):
+        if stale.name not in fresh:
             stale.unlink()
     for name in fresh:
         (gathering / name).replace(folder / name)
