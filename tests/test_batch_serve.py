@@ -1,6 +1,7 @@
 """The service: the pictures that `draw` draws, each drawn once; a reason for every refusal."""
 
-import threading
+import shutil
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -8,22 +9,30 @@ from urllib.parse import quote
 
 import numpy as np
 import pytest
-from batch_works import job
 from hypothesis import given
 from hypothesis import strategies as st
+from pack_maker import CREEPER, plain
 from PIL import Image
 from starlette.testclient import TestClient
+from test_batch_keys import make_pack
 
 from drapery import Banner, animate, draw
-from drapery.batch.jobs import Job, JobResult
 from drapery.batch.manifest import PictureRequest
 from drapery.batch.pool import JobLimits
 from drapery.batch.warmup import warm_up
+from drapery.errors import OptionError
 from drapery.serve.app import make_app
-from drapery.serve.job_queue import BusyError, JobQueue
 from drapery.serve.picture_cache import PictureCache
-from drapery.serve.rates import Rates
-from drapery.serve.request_params import ServiceConfig, read_request
+from drapery.serve.rates import MAX_CLIENTS, RateLimiter
+from drapery.serve.request_params import (
+    MAX_PARAMETERS,
+    MAX_QUERY,
+    MAX_REASONS,
+    ServiceConfig,
+    parse_query,
+    read_request,
+)
+from drapery.settings import Settings
 
 SMALL = "size=24x32&grid=3x5"
 LIME = "white+creeper:lime"
@@ -70,7 +79,7 @@ def test_the_etag_is_the_key_so_nothing_is_drawn_twice(client: TestClient) -> No
     tags = {"If-None-Match": f'"other", W/{first.headers["etag"]}'}
     same = client.get(f"/banner.png?design=blue&{SMALL}", headers=tags)
     assert (same.status_code, same.content) == (304, b"")
-    assert "drapery_kept_total" in client.get("/metrics").text
+    assert "drapery_cache_hits_total" in client.get("/metrics").text
 
 
 BAD = {
@@ -90,10 +99,10 @@ BAD = {
     "design=red&packs=/tmp": "'packs' is no option",
     "design=red&texture=/tmp/x.png": "'texture' is no option",
     "design=red&backend=pyrender": "'backend' is no option",
-    "design=red&kind=cape": "wears a file",
+    "design=red&kind=cape": "which an address cannot name",
     "design=red&design=blue": "given twice",
     "design=red&seconds=3": "'seconds' is no option",
-    "design=red&facing=east": "facing east is of banners on a wall",
+    "design=red&facing=east": "facing east applies only to banners on a wall",
 }
 
 
@@ -112,7 +121,7 @@ def test_loops_have_limits_of_their_own(client: TestClient) -> None:
 
 def test_the_api_describes_itself(client: TestClient) -> None:
     api = client.get("/openapi.json").json()
-    assert set(api["paths"]) == {"/banner.png", "/banner.gif", "/metrics"}
+    assert set(api["paths"]) == {"/banner.png", "/banner.gif", "/metrics", "/healthz", "/readyz"}
     named = {p["name"] for p in api["paths"]["/banner.gif"]["get"]["parameters"]}
     assert {"design", "size", "pose", "seconds"} <= named
     assert client.get("/docs").status_code == 200
@@ -129,12 +138,85 @@ def test_many_clients_at_once_share_what_is_drawn(client: TestClient) -> None:
     assert {answer.status_code for answer in answers} == {200}
     assert len({answer.content for answer in answers}) == 3
     assert _drawn(client) - before == 3
-    assert len(client.app.state.studio.queue) == 0
+    assert len(client.app.state.service.queue) == 0
 
 
 def _drawn(client: TestClient) -> float:
     lines = client.get("/metrics").text.splitlines()
     return next(float(line.split()[1]) for line in lines if line.startswith("drapery_drawn_total"))
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "&".join(f"wnid{n}=1" for n in range(MAX_PARAMETERS)),
+        "&".join(f"{n:x}" for n in range(6_000)),
+        "&".join(["design=red"] * MAX_PARAMETERS),
+        "design=" + "%F0%9F%8F%B4" * 2000,
+        "wnid" * 8000 + "=1",
+        "=" * 30_000,
+        "&" * 30_000,
+        "design=red&seed=" + "9" * 310,
+        "design=red&rotation=" + "9" * 310,
+        "design=red&seed=" + "9" * 20_000,
+        "x" * 60_000,
+    ],
+    ids=range(11),
+)
+def test_a_long_query_costs_little_and_is_answered_briefly(client: TestClient, query: str) -> None:
+    start = time.process_time()
+    got = client.get(f"/banner.png?{query}")
+    assert time.process_time() - start < 0.5
+    assert got.status_code in (414, 422)
+    assert len(got.content) < 4096
+    assert 1 <= len(got.json()["detail"]) <= MAX_REASONS
+
+
+def test_a_query_has_a_longest_length_and_a_most_parameters() -> None:
+    assert len(parse_query(b"a" * MAX_QUERY)) == 1
+    with pytest.raises(OptionError, match="32768 bytes"):
+        parse_query(b"a" * (MAX_QUERY + 1))
+    assert len(parse_query(b"&".join([b"a"] * MAX_PARAMETERS))) == MAX_PARAMETERS
+    with pytest.raises(OptionError, match="over 64 parameters"):
+        parse_query(b"&".join([b"a"] * (MAX_PARAMETERS + 1)))
+
+
+def test_the_service_says_that_it_is_alive_and_ready(client: TestClient) -> None:
+    client.get(f"/banner.png?design=red&{SMALL}")
+    assert client.get("/healthz").status_code == 200
+    assert client.get("/readyz").status_code == 200
+    assert "drapery_ready 1.0" in client.get("/metrics").text
+
+
+def test_a_pack_that_changes_is_not_drawn_under_its_old_etag(tmp_path: Path) -> None:
+    pack = make_pack(tmp_path / "pack")
+    config = ServiceConfig(Settings(packs=(pack,), size=(24, 32)))
+    red, blue = (f"/banner.png?design={base}+creeper:lime&{SMALL}" for base in ("red", "blue"))
+    with TestClient(make_app(config, rate=0)) as client:
+        before = client.get(blue)
+        (pack / CREEPER).write_bytes(plain(9, 9, 9, 255))
+        after = client.get(red)
+    again = make_pack(tmp_path / "again")
+    assert (before.status_code, after.status_code) == (200, 200)
+    assert before.content == drawn_with(again, "blue")
+    assert after.content == drawn_with(again, "red") != drawn_with(pack, "red")
+
+
+def drawn_with(pack: Path, base: str) -> bytes:
+    path = pack.with_suffix(".png")
+    banner = Banner.parse(f"{base} creeper:lime")
+    draw(banner, packs=[pack], size=(24, 32), grid=(3, 5)).save(path)
+    return path.read_bytes()
+
+
+def test_no_answer_names_a_folder_of_the_service(tmp_path: Path) -> None:
+    pack = make_pack(tmp_path / "pack")
+    with TestClient(make_app(ServiceConfig(Settings(packs=(pack,))), rate=0)) as client:
+        service = client.app.state.service
+        shutil.rmtree(service.config.base.packs[0])
+        got = client.get(f"/banner.png?design=red+creeper:lime&{SMALL}")
+    assert got.status_code == 503
+    assert got.json()["detail"] == ["the service could not draw the picture; ask again"]
 
 
 NAMES = st.sampled_from(["design", "size", "wind", "seed", "x", "time", "rotation"])
@@ -148,69 +230,31 @@ def test_any_query_is_a_request_or_reasons(query: list[tuple[str, str]]) -> None
     )
 
 
-class Slow:
-    """A executor that ends its jobs when it is on_result to."""
-
-    def __init__(self) -> None:
-        self.may_end, self.began, self.running = threading.Event(), [], []
-
-    def free(self) -> int:
-        return 2 - len(self.running)
-
-    def start(self, one: Job) -> None:
-        self.began.append(one.key)
-        self.running.append(one)
-
-    def poll(self, timeout: float) -> list[JobResult]:
-        self.may_end.wait(timeout)
-        if not self.may_end.is_set():
-            return []
-        ended, self.running = self.running, []
-        return [JobResult(one) for one in ended]
-
-    def close(self) -> None:
-        pass
-
-
-def test_a_desk_draws_equal_jobs_once_and_says_when_it_is_full() -> None:
-    executor = Slow()
-    queue = JobQueue(lambda: executor, most=2)
-    try:
-        first = queue.ask(job("a"))
-        assert queue.ask(job("a")) is first
-        others = []
-        with pytest.raises(BusyError):
-            for number in range(10):
-                others.append(queue.ask(job(str(number))))
-        executor.may_end.set()
-        keys = [answer.result(5).job.key for answer in (first, *others) if answer]
-        assert sorted(executor.began) == sorted(keys)
-        assert len(set(keys)) == len(keys)
-    finally:
-        queue.close()
-    assert len(queue) == 0
-
-
-def test_a_shelf_keeps_what_was_used_last(tmp_path: Path) -> None:
-    cache = PictureCache(tmp_path, most=25)
+def test_a_cache_holds_what_was_used_last() -> None:
+    cache = PictureCache(25)
     for name in "abc":
-        (tmp_path / name).write_bytes(name.encode() * 10)
-        cache.put(name, 10)
-        cache.take("a")
-    assert (cache.take("b"), cache.take("a"), cache.total) == (None, b"a" * 10, 20)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["a", "c"]
-    (tmp_path / "a").unlink()
-    assert (cache.take("a"), cache.total) == (None, 10)
+        cache.put(name, name.encode() * 10)
+        cache.get("a")
+    assert (cache.get("b"), cache.get("a"), cache.size) == (None, b"a" * 10, 20)
+    cache.put("large", b"x" * 26)
+    assert (cache.get("large"), cache.size) == (None, 20)
 
 
 def test_a_rate_lets_a_burst_pass_and_then_one_at_a_time() -> None:
     now = [0.0]
-    rates = Rates(60, burst=3, clock=lambda: now[0])
+    rates = RateLimiter(60, burst=3, clock=lambda: now[0])
     assert [rates.wait("a") for _ in range(4)] == [0, 0, 0, 1.0]
     assert rates.wait("b") == 0
     now[0] += 1.0
     assert [rates.wait("a"), rates.wait("a")] == [0, 1.0]
-    assert Rates(0).wait("a") == 0
+    assert RateLimiter(0).wait("a") == 0
+
+
+def test_a_flood_of_clients_takes_bounded_memory() -> None:
+    rates = RateLimiter(60, clock=lambda: 0.0)
+    for number in range(MAX_CLIENTS + 100):
+        rates.wait(str(number))
+    assert len(rates._buckets) == MAX_CLIENTS
 
 
 def test_too_many_requests_are_told_when_to_come_again() -> None:

@@ -49,11 +49,11 @@ LAW: dict[str, set[str]] = {
         ),
     },
     "drapery.batch": {
-        *("errors", "options", "settings", "yaml_text"),
+        *("errors", "option", "options", "settings", "yaml_text"),
         *("banner", "style", "render", "pictures", "comparison"),
     },
     "drapery.serve": {
-        *("errors", "options", "settings", "banner", "style", "render", "pictures", "batch"),
+        *("errors", "option", "options", "settings", "banner", "style", "batch"),
     },
     "drapery.studio": {
         *("errors", "mesh", "settings", "cloth", "banner", "render", "style", "scenes"),

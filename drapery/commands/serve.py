@@ -18,11 +18,21 @@ def run(
     ] = None,
     rate: Annotated[float, typer.Option(help="Requests a minute of a client; 0: any.")] = 600.0,
     timeout: Annotated[float, typer.Option(help="Seconds that one picture may take.")] = 20.0,
+    deadline: Annotated[
+        float, typer.Option(help="Seconds that an answer may take, waiting included.")
+    ] = 30.0,
     memory: Annotated[int, typer.Option(help="MiB that one picture may take.")] = 1024,
-    cache: Annotated[int, typer.Option(help="MiB of pictures that are kept.")] = 256,
+    cache: Annotated[int, typer.Option(help="MiB of pictures that are kept in memory.")] = 64,
     side: Annotated[int, typer.Option(help="The widest and tallest picture in pixels.")] = 1024,
+    trusted_proxy: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="ADDRESS",
+            help="An address or network whose X-Forwarded-For names the client.",
+        ),
+    ] = None,
 ) -> None:
-    """Answer /banner.png?design=… and /banner.gif?design=…; /docs tells the rest."""
+    """Answer /banner.png?design=… and /banner.gif?design=…; /docs lists the parameters."""
     import os
 
     from drapery.banner.packs import open_packs
@@ -31,32 +41,36 @@ def run(
     from drapery.settings import MAX_SIDE, Settings
 
     try:
-        import uvicorn
-
         from drapery.serve.app import make_app
+        from drapery.serve.server import address_of, check_proxies, listen, run_server
     except ImportError:
         raise BackendError('the service needs an extra; pip install "drapery[serve]"') from None
     from drapery.batch.pool import JobLimits
     from drapery.batch.warmup import warm_up
     from drapery.serve.request_params import PictureLimits, ServiceConfig
 
+    count = (os.cpu_count() or 1) if workers is None else workers
     within("port", port, 0, 65535)
-    within("workers", workers or 1, 1, 512, "processes")
+    within("workers", count, 1, 512, "processes")
     within("rate", rate, 0, 1e6, "requests a minute")
     within("timeout", timeout, 0.1, 3600, "s")
+    within("deadline", deadline, 0.1, 3600, "s")
     within("memory", memory, 16, 1 << 20, "MiB")
     within("cache", cache, 1, 1 << 20, "MiB")
     within("side", side, 16, MAX_SIDE, "pixels")
+    proxies = check_proxies(trusted_proxy or ())
     base = Settings(packs=tuple(packs or ()), format=format, size=(min(256, side), min(320, side)))
     open_packs(base.packs, format=format)
+    listening = listen(host, port)
     with compile_notice():
         warm_up()
     app = make_app(
         ServiceConfig(base, PictureLimits(side=side)),
-        workers=workers or os.cpu_count() or 1,
+        workers=count,
         limits=JobLimits(timeout, memory << 20),
         rate=rate,
         cache=cache << 20,
+        deadline=deadline,
     )
-    say(f"listening at http://{host}:{port}; /docs tells what may be asked")
-    uvicorn.run(app, host=host, port=port, log_level="warning")
+    say(f"listening at {address_of(listening)}; /docs lists the parameters")
+    run_server(app, listening, proxies)

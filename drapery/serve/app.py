@@ -1,39 +1,48 @@
 """The service as a FastAPI application."""
 
 import asyncio
+import logging
 import math
+import shutil
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from fastapi import FastAPI, Request, Response
 from fastapi.responses import JSONResponse
 from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, generate_latest
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from starlette.concurrency import run_in_threadpool
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from drapery.batch.executor import Executor
-from drapery.batch.jobs import Job, JobResult, make_job, run_job
-from drapery.batch.keys import DigestCache
+from drapery.batch.executor import RetryPolicy
+from drapery.batch.jobs import OUT_OF_MEMORY, Job, JobResult, make_job, run_job
+from drapery.batch.keys import DigestCache, code_version
 from drapery.batch.pool import JobLimits, ProcessPool
 from drapery.batch.stores import LocalStore
-from drapery.errors import DraperyError
-from drapery.serve.job_queue import BusyError, JobQueue
+from drapery.errors import OptionError
+from drapery.serve.job_queue import BusyError, JobQueue, Unavailable
 from drapery.serve.picture_cache import PictureCache
-from drapery.serve.rates import Rates
-from drapery.serve.request_params import ServiceConfig, parameters, read_request
+from drapery.serve.rates import RateLimiter
+from drapery.serve.request_params import ServiceConfig, parameters, parse_query, read_request
 
-KINDS = {".png": "image/png", ".gif": "image/gif"}
-CACHING = "public, max-age=86400"
+Ending: TypeAlias = Literal[".png", ".gif"]
+MEDIA_TYPES: dict[Ending, str] = {".png": "image/png", ".gif": "image/gif"}
+CACHE_CONTROL = "public, max-age=86400"
+WORKER_RESTARTS = RetryPolicy(limit=math.inf, pause=0.25, longest=30.0)
+"""Workers that end as they start are started again for ever: memory may be free again."""
+CLOSED_REQUEST = 499
+"""What metrics count for a client that did not wait; no client sees it."""
 REASONS = {
-    304: "the picture that If-None-Match names is still the one",
-    422: "the address is at fault; `detail` says why",
+    304: "the picture that If-None-Match names is unchanged",
+    414: "the query is too long",
+    422: "the address is wrong; `detail` says why",
     429: "too many requests; Retry-After says when to ask again",
-    503: "too busy, or the drawing failed for a reason of ours; ask again",
+    503: "too busy, or the service could not draw; ask again",
     504: "the picture takes too long to draw",
 }
 _DETAIL = {
@@ -41,83 +50,117 @@ _DETAIL = {
     "required": ["detail"],
     "properties": {"detail": {"type": "array", "items": {"type": "string"}}},
 }
+_log = logging.getLogger(__name__)
 
 
 class Metrics:
-    """What /metrics tells."""
+    """The numbers of /metrics."""
 
     def __init__(self) -> None:
-        own = self.registry = CollectorRegistry()
-        counted = ["path", "status"]
-        self.requests = Counter("drapery_requests", "Requests.", counted, registry=own)
-        self.drawn = Counter("drapery_drawn", "Pictures drawn.", registry=own)
-        self.kept = Counter("drapery_kept", "Pictures drawn before.", registry=own)
-        self.waiting = Gauge("drapery_waiting", "Pictures to be drawn.", registry=own)
-        self.cache = Gauge("drapery_shelf_bytes", "Bytes of pictures kept.", registry=own)
-        self.seconds = Histogram("drapery_draw_seconds", "Time of a drawing.", registry=own)
+        registry = self.registry = CollectorRegistry()
+        labels = ["path", "status"]
+        self.requests = Counter("drapery_requests", "Requests.", labels, registry=registry)
+        self.drawn = Counter("drapery_drawn", "Pictures drawn.", registry=registry)
+        self.cache_hits = Counter("drapery_cache_hits", "Pictures drawn before.", registry=registry)
+        self.waiting = Gauge("drapery_waiting", "Pictures to be drawn.", registry=registry)
+        self.ready = Gauge("drapery_ready", "1 if a worker can draw, else 0.", registry=registry)
+        self.cache = Gauge("drapery_cache_bytes", "Bytes of cached pictures.", registry=registry)
+        self.seconds = Histogram("drapery_draw_seconds", "Time of a drawing.", registry=registry)
 
 
-class Studio:
-    """What the handlers share. config: packs and limits of pictures. The rest: see there."""
+class PictureService:
+    """What the handlers share."""
 
     def __init__(
         self,
         config: ServiceConfig,
-        spawn: Callable[[], Executor],
+        store: LocalStore,
+        pool: Callable[[], ProcessPool],
+        metrics: Metrics,
+        rates: RateLimiter,
+        *,
+        cache: int,
         waiting: int,
-        cache: PictureCache,
-        rates: Rates,
+        deadline: float,
     ) -> None:
-        self.config, self.cache, self.rates = config, cache, rates
-        self.meters, self.digests = Metrics(), DigestCache()
-        self.queue = JobQueue(spawn, waiting, self._keep)
-        # Packs are read once, at the start.
+        """Start the workers; see `make_app`. store: where workers write."""
+        self.config, self.store, self.metrics, self.rates = config, store, metrics, rates
+        self.deadline = deadline
+        self.cache = PictureCache(cache)
+        self.digests = DigestCache()
         for pack in config.base.packs:
             self.digests.of(pack)
+        code_version()  # read once, not by the first request
+        self.queue: JobQueue[bytes | JobResult] = JobQueue(pool, self._finish, waiting)
 
-    async def answer(self, request: Request, ending: str) -> Response:
+    async def answer(self, request: Request, ending: Ending) -> Response:
         """A picture, or why there is none."""
         pause = self.rates.wait(request.client.host if request.client else "")
         if pause:
             return _refusal(429, ["too many requests; ask again later"], pause)
-        picture = read_request(request.query_params.multi_items(), ending, self.config)
-        if isinstance(picture, list):
-            return _refusal(422, picture)
         try:
-            job = _filed(make_job(picture, self.digests), ending)
-        except DraperyError as error:
-            return _refusal(503, [str(error)])
-        headers = {"ETag": f'"{job.key}"', "Cache-Control": CACHING}
-        if _names(request.headers.get("if-none-match", ""), job.key):
+            query = parse_query(request.scope["query_string"])
+        except OptionError as error:
+            return _refusal(414, [str(error)])
+        # In a thread, so that a long design does not stop the others.
+        job = await run_in_threadpool(self._job, query, ending)
+        if isinstance(job, list):
+            return _refusal(422, job)
+        headers = {"ETag": f'"{job.key}"', "Cache-Control": CACHE_CONTROL}
+        if _matches(request.headers.get("if-none-match", ""), job.key):
             return Response(status_code=304, headers=headers)
-        kept = await run_in_threadpool(self.cache.take, job.outs[0])
-        if kept is not None:
-            self.meters.kept.inc()
-            return Response(kept, media_type=KINDS[ending], headers=headers)
-        return await self._draw(job, ending, headers)
+        data = self.cache.get(job.key)
+        if data is None:
+            drawn = await self._draw(request, job)
+            if isinstance(drawn, Response):
+                return drawn
+            data = drawn
+        else:
+            self.metrics.cache_hits.inc()
+        return Response(data, media_type=MEDIA_TYPES[ending], headers=headers)
 
-    def _keep(self, result: JobResult) -> None:
-        if result.error is None:
-            self.cache.put(result.job.outs[0], result.size)
-            self.meters.drawn.inc()
-            self.meters.seconds.observe(result.seconds)
+    def _job(self, query: list[tuple[str, str]], ending: Ending) -> Job | list[str]:
+        """The job of a query, with its key as its file; or what is wrong with the query."""
+        request = read_request(query, ending, self.config)
+        if isinstance(request, list):
+            return request
+        job = make_job(request, self.digests)
+        return replace(job, outs=(f"{job.key}{ending}",))
 
-    async def _draw(self, job: Job, ending: str, headers: dict[str, str]) -> Response:
+    def _finish(self, result: JobResult) -> bytes | JobResult:
+        """The bytes of a picture, or the result that has none."""
+        if result.error is not None:
+            _log.warning("a picture was not drawn: %s", result.error)
+            return result
+        path = self.store.path(result.job.outs[0])
+        data = path.read_bytes()
+        path.unlink(missing_ok=True)
+        self.cache.put(result.job.key, data)
+        self.metrics.drawn.inc()
+        self.metrics.seconds.observe(result.seconds)
+        return data
+
+    async def _draw(self, request: Request, job: Job) -> bytes | Response:
         try:
-            answer = self.queue.ask(job, lambda: job.outs[0] in self.cache)
-            if answer is not None:
-                # Others may wait for the same picture, so one who leaves must not cancel it.
-                fault = _fault(await asyncio.shield(asyncio.wrap_future(answer)))
-                if fault is not None:
-                    return fault
+            answer = self.queue.ask(job, lambda: self.cache.get(job.key))
         except BusyError:
             return _refusal(503, ["too many pictures are waiting; ask again"], 2)
-        except RuntimeError as error:
-            return _refusal(503, [str(error)], 5)
-        data = await run_in_threadpool(self.cache.take, job.outs[0])
-        if data is None:
-            return _refusal(503, ["the picture has gone; ask again"], 1)
-        return Response(data, media_type=KINDS[ending], headers=headers)
+        left = asyncio.create_task(_disconnected(request))
+        try:
+            # Others may wait for the same picture, so nothing here cancels it.
+            done = asyncio.wrap_future(answer)
+            first = asyncio.FIRST_COMPLETED
+            await asyncio.wait({done, left}, timeout=self.deadline, return_when=first)
+        finally:
+            left.cancel()
+            self.queue.leave(job, answer)
+        if answer.done():
+            return _answered(answer.result())
+        if left.done() and not left.cancelled():
+            return Response(status_code=CLOSED_REQUEST)
+        if not self.queue.ready:
+            return _refusal(503, ["no worker is running; ask again"], 5)
+        return _refusal(504, [f"the picture was not drawn within {self.deadline:g} s"])
 
 
 def make_app(
@@ -126,45 +169,73 @@ def make_app(
     workers: int = 1,
     limits: JobLimits | None = None,
     rate: float = 600.0,
-    cache: int = 256 << 20,
+    cache: int = 64 << 20,
     waiting: int = 64,
+    deadline: float = 30.0,
 ) -> FastAPI:
     """The application; its processes live as long as it runs.
 
     workers: processes that draw. limits: of one picture's time and memory.
-    rate: requests a minute of one client, 0 for any. cache: bytes of pictures kept.
-    waiting: pictures that may wait to be drawn.
+    rate: requests a minute of one client, 0 for any. cache: bytes of pictures that are cached.
+    waiting: pictures that may wait to be drawn. deadline: of an answer [s].
     """
     chosen, bounds = config or ServiceConfig(), limits or JobLimits(20.0, 1 << 30)
+    metrics = Metrics()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        with TemporaryDirectory(prefix="drapery-serve-") as folder:
-            store = LocalStore(Path(folder))
-            spawn = partial(ProcessPool, partial(run_job, store=store), workers, bounds)
-            studio = Studio(chosen, spawn, waiting, PictureCache(store.folder, cache), Rates(rate))
-            app.state.studio = studio
+        with TemporaryDirectory(prefix="drapery-serve-", ignore_cleanup_errors=True) as folder:
+            store = LocalStore(Path(folder, "pictures"))
+            own = await run_in_threadpool(_with_own_packs, chosen, Path(folder, "packs"))
+            work = partial(run_job, store=store)
+            pool = partial(ProcessPool, work, workers, bounds, restarts=WORKER_RESTARTS)
+            service = PictureService(
+                *(own, store, pool, metrics, RateLimiter(rate)),
+                cache=cache,
+                waiting=waiting,
+                deadline=deadline,
+            )
+            app.state.service = service
             try:
                 yield
             finally:
-                await run_in_threadpool(studio.queue.close)
+                await run_in_threadpool(service.queue.close)
 
     app = FastAPI(
         title="Drapery",
         description="Pictures of Minecraft banners as cloth.",
         lifespan=lifespan,
     )
-    _count_requests(app)
+    app.add_middleware(CountRequests, metrics=metrics)
     _add_picture(app, ".png", "A banner as one picture.", chosen)
     _add_picture(app, ".gif", "A banner waving, as a seamless loop.", chosen)
-    _add_metrics(app)
+    _add_metrics(app, metrics)
+    _add_health(app)
     return app
 
 
-def _add_picture(app: FastAPI, ending: str, summary: str, config: ServiceConfig) -> None:
+def _with_own_packs(config: ServiceConfig, folder: Path) -> ServiceConfig:
+    """The configuration with copies of its packs.
+
+    A pack that is edited while the service runs would be drawn under the old ETag.
+    """
+    packs = []
+    for number, pack in enumerate(map(Path, config.base.packs)):
+        target = folder / str(number) / pack.name
+        target.parent.mkdir(parents=True)
+        if pack.is_dir():
+            ignored = shutil.ignore_patterns(".git")
+            shutil.copytree(pack, target, ignore=ignored, ignore_dangling_symlinks=True)
+        else:
+            shutil.copyfile(pack, target)
+        packs.append(target)
+    return replace(config, base=replace(config.base, packs=tuple(packs)))
+
+
+def _add_picture(app: FastAPI, ending: Ending, summary: str, config: ServiceConfig) -> None:
     async def handler(request: Request) -> Response:
-        studio: Studio = request.app.state.studio
-        return await studio.answer(request, ending)
+        service: PictureService = request.app.state.service
+        return await service.answer(request, ending)
 
     app.add_api_route(
         f"/banner{ending}",
@@ -173,24 +244,24 @@ def _add_picture(app: FastAPI, ending: str, summary: str, config: ServiceConfig)
         summary=summary,
         response_class=Response,
         operation_id=f"banner_{ending[1:]}",
-        responses=_responses(KINDS[ending]),
+        responses=_responses(MEDIA_TYPES[ending]),
         openapi_extra={"parameters": parameters(ending == ".gif", config.limits)},
     )
 
 
 def _responses(kind: str) -> dict[int | str, dict[str, Any]]:
     picture = {kind: {"schema": {"type": "string", "format": "binary"}}}
-    on_result: dict[int | str, dict[str, Any]] = {
+    described: dict[int | str, dict[str, Any]] = {
         200: {"description": "The picture.", "content": picture}
     }
     for status, reason in REASONS.items():
-        on_result[status] = {"description": reason}
+        described[status] = {"description": reason}
         if status != 304:
-            on_result[status]["content"] = {"application/json": {"schema": _DETAIL}}
-    return on_result
+            described[status]["content"] = {"application/json": {"schema": _DETAIL}}
+    return described
 
 
-def _add_metrics(app: FastAPI) -> None:
+def _add_metrics(app: FastAPI, metrics: Metrics) -> None:
     text = {"text/plain": {"schema": {"type": "string"}}}
 
     @app.get(
@@ -199,41 +270,81 @@ def _add_metrics(app: FastAPI) -> None:
         response_class=Response,
         responses={200: {"description": "The counters.", "content": text}},
     )
-    def metrics(request: Request) -> Response:
-        studio: Studio = request.app.state.studio
-        studio.meters.waiting.set(len(studio.queue))
-        studio.meters.cache.set(studio.cache.total)
-        return Response(generate_latest(studio.meters.registry), media_type=CONTENT_TYPE_LATEST)
+    def read_metrics(request: Request) -> Response:
+        service: PictureService = request.app.state.service
+        metrics.waiting.set(len(service.queue))
+        metrics.ready.set(service.queue.ready)
+        metrics.cache.set(service.cache.size)
+        return Response(generate_latest(metrics.registry), media_type=CONTENT_TYPE_LATEST)
 
 
-def _count_requests(app: FastAPI) -> None:
-    @app.middleware("http")
-    async def count(request: Request, call_next: Callable[[Request], Any]) -> Response:
-        response: Response = await call_next(request)
-        known = request.url.path in ("/banner.png", "/banner.gif", "/metrics")
-        path = request.url.path if known else "other"
-        request.app.state.studio.meters.requests.labels(path, str(response.status_code)).inc()
-        response.headers["X-Content-Type-Options"] = "nosniff"
-        return response
+def _add_health(app: FastAPI) -> None:
+    detail = {"application/json": {"schema": _DETAIL}}
+    unwell: dict[int | str, dict[str, Any]] = {503: {"description": "No.", "content": detail}}
+
+    @app.get("/healthz", summary="Whether the service works.", responses=unwell)
+    def read_health(request: Request) -> Response:
+        alive = request.app.state.service.queue.alive
+        return _state(alive, "the queue of pictures has ended; restart the service")
+
+    @app.get("/readyz", summary="Whether a worker can draw.", responses=unwell)
+    def read_readiness(request: Request) -> Response:
+        ready = request.app.state.service.queue.ready
+        return _state(ready, "no worker is running; workers are being started")
 
 
-def _filed(job: Job, ending: str) -> Job:
-    """The job with its key as its file."""
-    return replace(job, outs=(f"{job.key}{ending}",))
+class CountRequests:
+    """Counts requests, and keeps browsers from guessing types."""
+
+    def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
+        self.app, self.metrics = app, metrics
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request (ASGI)."""
+        if scope["type"] != "http":
+            return await self.app(scope, receive, send)
+        known = ("/banner.png", "/banner.gif", "/metrics", "/healthz", "/readyz")
+        path = scope["path"] if scope["path"] in known else "other"
+
+        async def count(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                self.metrics.requests.labels(path, str(message["status"])).inc()
+                message["headers"].append((b"x-content-type-options", b"nosniff"))
+            await send(message)
+
+        await self.app(scope, receive, count)
 
 
-def _names(header: str, key: str) -> bool:
+async def _disconnected(request: Request) -> None:
+    """Wait until the client goes away."""
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
+def _matches(header: str, key: str) -> bool:
     """Whether an If-None-Match names the key (RFC 9110, 13.1.2)."""
     tags = (tag.strip().removeprefix("W/").strip('"') for tag in header.split(","))
     return header.strip() == "*" or key in tags
 
 
-def _fault(result: JobResult) -> Response | None:
-    """The refusal where a picture could not be drawn."""
-    if result.error is None:
-        return None
-    status = 504 if "it took over" in result.error else 503 if result.retryable else 422
-    return _refusal(status, [result.error])
+def _answered(answer: bytes | JobResult | Unavailable) -> bytes | Response:
+    """The picture, or the refusal; reasons of the service go to its log, not to clients."""
+    if isinstance(answer, bytes):
+        return answer
+    if isinstance(answer, Unavailable):
+        return _refusal(503, ["the picture was lost with its worker; ask again"], 5)
+    error = str(answer.error)
+    if answer.timed_out:
+        return _refusal(504, ["the picture takes too long to draw; make it smaller"])
+    if error.startswith(OUT_OF_MEMORY):
+        return _refusal(503, ["the picture needs too much memory; make it smaller"])
+    if answer.retryable:
+        return _refusal(503, ["the service could not draw the picture; ask again"], 5)
+    return _refusal(422, [error])
+
+
+def _state(good: bool, otherwise: str) -> Response:
+    return JSONResponse({"detail": ["yes"]}) if good else _refusal(503, [otherwise], 5)
 
 
 def _refusal(status: int, reasons: list[str], pause: float = 0.0) -> JSONResponse:

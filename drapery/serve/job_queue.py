@@ -1,113 +1,188 @@
-"""Jobs taken from many requests at once: each is drawn once, by a pool that outlives its jobs."""
+"""Jobs from many requests at once: each is drawn once, by workers that are kept running."""
 
+import logging
+import math
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future
-from queue import Empty, Full, Queue
-from typing import TypeAlias
+from dataclasses import dataclass, field
+from typing import Generic, TypeAlias, TypeVar
 
-from drapery.batch.executor import Executor
+from drapery.batch.executor import Executor, RetryPolicy
 from drapery.batch.jobs import Job, JobResult
 
-Answer: TypeAlias = Future[JobResult]
+T = TypeVar("T")
+RESTARTS = RetryPolicy(limit=math.inf, pause=0.5, longest=30.0)
+"""An executor that fails is made again after growing pauses, for ever."""
+CLOSE_TIMEOUT = 3.0
+"""How long `close` waits for the thread [s]."""
 
 
 class BusyError(Exception):
-    """More jobs wait than the queue takes."""
+    """The queue is full."""
 
 
-class JobQueue:
-    """A thread that hands jobs to an executor.
+@dataclass(frozen=True)
+class Unavailable:
+    """An answer without a result, because no worker could do the job. reason: for the log."""
 
-    spawn: makes the executor, in that thread. most: how many may wait.
-    on_result: hears of each result in that thread, before those who asked.
-    """
+    reason: str
+
+
+Answer: TypeAlias = Future[T | Unavailable]
+
+
+@dataclass
+class _Pending(Generic[T]):
+    """A job that is queued or running. waiters: how many wait for its answer."""
+
+    job: Job
+    answer: Answer[T] = field(default_factory=Future)
+    waiters: int = 0
+
+
+class JobQueue(Generic[T]):
+    """A thread that gives jobs to an executor, and makes a new one when it fails."""
 
     def __init__(
         self,
         spawn: Callable[[], Executor],
-        most: int = 64,
-        on_result: Callable[[JobResult], None] = lambda result: None,
+        finish: Callable[[JobResult], T],
+        limit: int = 64,
+        restarts: RetryPolicy = RESTARTS,
     ) -> None:
-        self._spawn, self._told = spawn, on_result
-        self._waiting: Queue[Job] = Queue(most)
-        self._answers: dict[str, Answer] = {}
-        self._lock = threading.Lock()
+        """Start the thread.
+
+        spawn: makes the executor. finish: turns a result into the answer of those who wait. Both
+        are called in the thread. limit: how many jobs may be queued.
+        """
+        self._spawn, self._finish, self._limit = spawn, finish, limit
+        self._restarts = restarts
+        self._pending: dict[str, _Pending[T]] = {}
+        self._queued: dict[str, None] = {}
+        self._changed = threading.Condition()
         self._closing = threading.Event()
-        self._thread = threading.Thread(target=self._live, name="drapery-queue", daemon=True)
+        self._ready = False
+        self._failures = 0
+        self._thread = threading.Thread(target=self._run, name="drapery-queue", daemon=True)
         self._thread.start()
 
     def __len__(self) -> int:
-        """How many jobs wait or are being drawn."""
-        return len(self._answers)
+        """How many jobs are queued or running."""
+        return len(self._pending)
 
-    def ask(self, job: Job, made: Callable[[], bool] = lambda: False) -> Answer | None:
-        """The result of a job, when it is there; equal jobs share one. Raises BusyError.
+    @property
+    def ready(self) -> bool:
+        """Whether a worker can do jobs."""
+        return self._ready and self.alive
 
-        made: whether the picture is there by now, so that nothing is to be done: None. What was
-        on_result of a result holds when this is asked.
+    @property
+    def alive(self) -> bool:
+        """Whether the thread runs."""
+        return self._thread.is_alive()
+
+    def ask(self, job: Job, known: Callable[[], T | None] = lambda: None) -> Answer[T]:
+        """The answer to a job; equal jobs share one. Raises BusyError.
+
+        known: the answer if there is one already; what `finish` did is done when this is called.
+        Each call of `ask` is followed by one of `leave`.
         """
-        with self._lock:
-            answer = self._answers.get(job.key)
-            if answer is None:
-                if made():
-                    return None
-                try:
-                    self._waiting.put_nowait(job)
-                except Full:
-                    raise BusyError from None
-                answer = self._answers[job.key] = Future()
-            return answer
+        with self._changed:
+            pending = self._pending.get(job.key)
+            if pending is None:
+                value = known()
+                if value is not None or self._closing.is_set():
+                    answer: Answer[T] = Future()
+                    answer.set_result(Unavailable("closing") if value is None else value)
+                    return answer
+                if len(self._queued) >= self._limit:
+                    raise BusyError
+                pending = self._pending[job.key] = _Pending(job)
+                self._queued[job.key] = None
+                self._changed.notify()
+            pending.waiters += 1
+            return pending.answer
+
+    def leave(self, job: Job, answer: Answer[T]) -> None:
+        """Say that one who asked waits no longer; a queued job that nobody waits for is dropped."""
+        with self._changed:
+            pending = self._pending.get(job.key)
+            if pending is None or pending.answer is not answer:
+                return
+            pending.waiters -= 1
+            if pending.waiters <= 0 and job.key in self._queued:
+                del self._queued[job.key], self._pending[job.key]
 
     def close(self) -> None:
-        """End the executor; what waits is answered with a fault."""
+        """End the workers; those who wait get `Unavailable`."""
         self._closing.set()
-        self._thread.join()
+        self._thread.join(CLOSE_TIMEOUT)
 
-    def _live(self) -> None:
+    def _run(self) -> None:
+        while not self._closing.is_set():
+            try:
+                self._work()
+            except Exception as error:
+                self._failures += 1
+                pause = self._restarts.delay(self._failures)
+                logging.getLogger(__name__).warning(
+                    "the workers ended (%s); they are started again in %.1f s", error, pause
+                )
+                self._give_up(f"the workers ended: {error}")
+                self._closing.wait(pause)
+        self._give_up("the service is closing")
+
+    def _work(self) -> None:
+        """Give jobs to one executor until the queue closes, or it raises."""
         executor = self._spawn()
-        running: dict[str, Job] = {}
+        running: set[str] = set()
         try:
             while not self._closing.is_set():
+                self._ready = executor.ready()
                 self._begin(executor, running)
-                for result in executor.poll(_patience(executor.free(), bool(running))):
-                    running.pop(result.job.key, None)
-                    self._told(result)
+                for result in executor.poll(_timeout(executor.free(), bool(running))):
+                    running.discard(result.job.key)
+                    self._failures = 0
                     self._answer(result)
-        except Exception as error:
-            self._closing.set()
-            self._give_up(f"the pool has ended: {error}")
-            raise
         finally:
+            self._ready = False
             executor.close()
-            self._give_up("the service is closing")
 
-    def _begin(self, executor: Executor, running: dict[str, Job]) -> None:
+    def _begin(self, executor: Executor, running: set[str]) -> None:
         while executor.free() > 0:
-            try:
-                job = self._waiting.get(block=not running, timeout=0.1)
-            except Empty:
-                return
-            running[job.key] = job
+            with self._changed:
+                if not self._queued and not running:
+                    self._changed.wait(0.1)
+                if not self._queued:
+                    return
+                key = next(iter(self._queued))
+                del self._queued[key]
+                job = self._pending[key].job
+            running.add(key)
             executor.start(job)
 
     def _answer(self, result: JobResult) -> None:
-        with self._lock:
-            answer = self._answers.pop(result.job.key, None)
-        if answer is not None and answer.set_running_or_notify_cancel():
-            answer.set_result(result)
+        value: T | Unavailable
+        try:
+            value = self._finish(result)
+        except Exception as error:
+            value = Unavailable(f"the result is lost: {error}")
+        with self._changed:
+            pending = self._pending.pop(result.job.key, None)
+        if pending is not None:
+            pending.answer.set_result(value)
 
-    def _give_up(self, why: str) -> None:
-        with self._lock:
-            answers, self._answers = list(self._answers.values()), {}
-        for answer in answers:
-            if answer.set_running_or_notify_cancel():
-                answer.set_exception(RuntimeError(why))
+    def _give_up(self, reason: str) -> None:
+        with self._changed:
+            lost, self._pending = list(self._pending.values()), {}
+            self._queued.clear()
+        for pending in lost:
+            pending.answer.set_result(Unavailable(reason))
 
 
-def _patience(free: int, running: bool) -> float:
-    """How long to wait for a result [s]: short while a new job, which cannot wake this wait,
-    could begin at once."""
+def _timeout(free: int, running: bool) -> float:
+    """How long to wait for a result [s]: not long while a new job could begin at once, since its
+    arrival does not end this wait."""
     if not free:
         return 0.1
     return 0.005 if running else 0.0

@@ -1,55 +1,29 @@
-"""Pictures that were drawn, kept up to a number of bytes; the one unused longest goes first."""
+"""Pictures that were drawn, up to a number of bytes; the least recently used goes first."""
 
 import threading
-from collections import OrderedDict
-from pathlib import Path
+
+from cachetools import LRUCache
 
 
 class PictureCache:
-    """Files of a folder that nobody else writes to. most: bytes of all."""
+    """Encoded pictures by their keys. Threads may share it. limit: bytes of all pictures."""
 
-    def __init__(self, folder: Path, most: int = 256 << 20) -> None:
-        self.folder, self.most = folder, most
-        self._sizes: OrderedDict[str, int] = OrderedDict()
-        self._total = 0
+    def __init__(self, limit: int = 64 << 20) -> None:
+        self._pictures: LRUCache[str, bytes] = LRUCache(limit, getsizeof=len)
         self._lock = threading.Lock()
 
-    def __len__(self) -> int:
-        return len(self._sizes)
-
     @property
-    def total(self) -> int:
-        """Bytes of all files."""
-        return self._total
+    def size(self) -> int:
+        """Bytes of all pictures."""
+        return int(self._pictures.currsize)
 
-    def __contains__(self, name: object) -> bool:
-        return name in self._sizes
-
-    def take(self, name: str) -> bytes | None:
-        """A file's bytes, or None where it is not kept."""
+    def get(self, key: str) -> bytes | None:
+        """A picture, or None."""
         with self._lock:
-            if name not in self._sizes:
-                return None
-            self._sizes.move_to_end(name)
-        try:
-            return (self.folder / name).read_bytes()
-        except OSError:
-            self._drop(name)
-            return None
+            return self._pictures.get(key)
 
-    def put(self, name: str, size: int) -> None:
-        """Say that a file of this size [bytes] is there now."""
+    def put(self, key: str, data: bytes) -> None:
+        """Add a picture, unless it is larger than the whole cache."""
         with self._lock:
-            self._total += size - self._sizes.pop(name, 0)
-            self._sizes[name] = size
-            old = []
-            while self._total > self.most and len(self._sizes) > 1:
-                other, its = self._sizes.popitem(last=False)
-                self._total -= its
-                old.append(other)
-        for other in old:
-            (self.folder / other).unlink(missing_ok=True)
-
-    def _drop(self, name: str) -> None:
-        with self._lock:
-            self._total -= self._sizes.pop(name, 0)
+            if len(data) <= self._pictures.maxsize:
+                self._pictures[key] = data

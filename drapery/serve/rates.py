@@ -1,13 +1,18 @@
-"""How often a client may ask: a bucket of tokens for each, filled at a steady rate."""
+"""How often a client may ask: a token bucket for each client, filled at a steady rate.
+
+The bucket is ten lines over cachetools. The package `limits` was tried: its storage in memory runs
+a timer thread over all clients, has no bound on their number, and follows the wall clock.
+"""
 
 import time
-from collections import OrderedDict
 from collections.abc import Callable
+
+from cachetools import LRUCache
 
 MAX_CLIENTS = 10_000
 
 
-class Rates:
+class RateLimiter:
     """per_minute: requests of one client; 0 is without limit. burst: how many at once."""
 
     def __init__(
@@ -17,17 +22,15 @@ class Rates:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.per_second, self.burst, self._clock = per_minute / 60, burst, clock
-        self._buckets: OrderedDict[str, tuple[float, float]] = OrderedDict()
+        self._buckets: LRUCache[str, tuple[float, float]] = LRUCache(MAX_CLIENTS)
 
     def wait(self, client: str) -> float:
-        """0 where the client may ask now, which is counted; else how long it must wait [s]."""
+        """Count a request: 0 if the client may ask now, else how long it must wait [s]."""
         if self.per_second <= 0:
             return 0.0
         now = self._clock()
-        tokens, before = self._buckets.pop(client, (float(self.burst), now))
+        tokens, before = self._buckets.get(client, (float(self.burst), now))
         tokens = min(self.burst, tokens + (now - before) * self.per_second)
         pause = 0.0 if tokens >= 1 else (1 - tokens) / self.per_second
         self._buckets[client] = (tokens - 1 if tokens >= 1 else tokens, now)
-        while len(self._buckets) > MAX_CLIENTS:
-            self._buckets.popitem(last=False)
         return pause

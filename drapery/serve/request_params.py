@@ -1,36 +1,45 @@
-"""What an address asks for, checked: a request within the service's limits, or its faults."""
+"""The parameters of an address become a checked request, or the reasons why they cannot."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
+from urllib.parse import parse_qsl
 
 from drapery.batch.manifest import PictureRequest
 from drapery.errors import DraperyError, OptionError
-from drapery.options import check_options, unknown
-from drapery.settings import MAX_WIND, Pins, Settings, within
+from drapery.option import Option, within
+from drapery.options import check_options, one_line, unknown
+from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 
-PUBLIC_OPTIONS = (
-    *("size", "pose", "placement", "rotation", "facing", "view", "grid"),
-    *("pins", "wind", "direction", "gusts", "time"),
-    *("seed", "layers", "thickness", "background", "kind"),
-)
-"""Options that anyone may set. Those that name files, packs or backends are the service's own."""
+PUBLIC_OPTIONS = tuple(name for name, option in OPTIONS.items() if option.public)
+"""Options that anyone may set. Only the service sets those that name files, packs or backends."""
+MAX_QUERY = 32 << 10
+"""Bytes of the query. A design of 8000 characters fits, with three bytes for each."""
+MAX_PARAMETERS = 64
+MAX_REASONS = 8
+"""The most reasons of one refusal."""
 
-PAIR = {"type": "string", "pattern": "^[1-9][0-9]{0,3}x[1-9][0-9]{0,3}$"}
+_PAIR = {"type": "string", "pattern": "^[1-9][0-9]{0,3}x[1-9][0-9]{0,3}$"}
+_COLOUR = {"type": "string", "pattern": "^(transparent|#?[0-9a-fA-F]{6})$"}
+_NEEDS_FILE = ("cape", "elytra")
+"""Kinds that show a texture of the user's."""
 
 
 @dataclass(frozen=True)
 class PictureLimits:
-    """JobLimits of one picture. side [pixels], pixels of all frames, seconds and fps of a loop,
-    particles along a side of the cloth, hang: time that cloth hangs [s], max_length of a design."""
+    """Limits of one picture.
+
+    side [pixels], pixels of all frames, seconds and fps of a loop, particles along a side of the
+    cloth, time that the cloth hangs [s], max_length of a design [characters].
+    """
 
     side: int = 1024
     pixels: int = 32 << 20
     seconds: float = 10.0
     fps: float = 30.0
     particles: int = 33
-    hang: float = 60.0
+    time: float = 60.0
     max_length: int = 8000
 
 
@@ -44,110 +53,117 @@ class ServiceConfig:
 
 def parameters(animated: bool, limits: PictureLimits) -> list[dict[str, Any]]:
     """The query's parameters, for OpenAPI."""
-    schemas: dict[str, dict[str, Any]] = {
-        "design": {"type": "string", "minLength": 1, "maxLength": limits.max_length},
-        "size": PAIR,
-        "pose": {"enum": ["cloth", "vanilla"]},
-        "placement": {"enum": ["standing", "wall", "item"]},
-        "rotation": {"type": "integer", "minimum": 0, "maximum": 15},
-        "facing": {"enum": ["south", "west", "north", "east"]},
-        "view": {"enum": ["front", "back", "iso", "gui", "hero"]},
-        "grid": PAIR,
-        "pins": {"enum": list(get_args(Pins))},
-        "wind": {"type": "number", "minimum": 0, "maximum": MAX_WIND},
-        "direction": {"type": "number", "minimum": -360, "maximum": 360},
-        "gusts": {"type": "number", "minimum": 0, "maximum": 2},
-        "time": {"type": "number", "minimum": 0, "maximum": limits.hang},
-        "seed": {"type": "integer", "minimum": 0, "maximum": 2**32 - 1},
-        "layers": {"enum": ["stacked", "flat"]},
-        "thickness": {"type": "number", "minimum": 0, "maximum": 8},
-        "background": {"type": "string", "pattern": "^(transparent|#?[0-9a-fA-F]{6})$"},
-        "kind": {"enum": ["auto", "banner", "shield"]},
-    }
+    schemas = {"design": {"type": "string", "minLength": 1, "maxLength": limits.max_length}}
+    schemas |= {name: _schema(OPTIONS[name]) for name in PUBLIC_OPTIONS}
+    schemas["time"]["maximum"] = limits.time
     if animated:
-        schemas["seconds"] = {"type": "number", "exclusiveMinimum": 0, "maximum": limits.seconds}
-        schemas["fps"] = {"type": "number", "minimum": 1, "maximum": limits.fps}
+        schemas |= {name: _schema(option) for name, option in LOOP_OPTIONS.items()}
+        schemas["seconds"]["maximum"] = limits.seconds
+        schemas["fps"]["maximum"] = limits.fps
     return [
         {"name": name, "in": "query", "required": name == "design", "schema": schema}
         for name, schema in schemas.items()
     ]
 
 
+def _schema(option: Option) -> dict[str, Any]:
+    """The JSON schema of an option's texts."""
+    if option.parts:
+        return dict(_PAIR)
+    if option.name == "background":
+        return dict(_COLOUR)
+    if option.choices:
+        return {"enum": [choice for choice in option.choices if choice not in _NEEDS_FILE]}
+    names: dict[object, str] = {bool: "boolean", int: "integer", float: "number"}
+    schema: dict[str, Any] = {"type": names.get(option.type, "string")}
+    if option.bounds is not None:
+        schema["minimum"], schema["maximum"] = option.bounds
+    return schema
+
+
+def parse_query(query: bytes) -> list[tuple[str, str]]:
+    """Names and values of a query. Raises OptionError where it is too long."""
+    if len(query) > MAX_QUERY:
+        raise OptionError(f"the query has over {MAX_QUERY} bytes; make it shorter")
+    text = query.decode("latin-1")
+    try:
+        return parse_qsl(text, keep_blank_values=True, max_num_fields=MAX_PARAMETERS)
+    except ValueError:
+        raise OptionError(f"over {MAX_PARAMETERS} parameters; leave out some") from None
+
+
 def read_request(
     query: Sequence[tuple[str, str]], ending: str, config: ServiceConfig
 ) -> PictureRequest | list[str]:
-    """The request of a query, or why it is none, one line for each fault.
+    """The request of a query, or the reasons why it is none, one line each.
 
     query: names and values as they stand in the address. ending: `.png` or `.gif`.
     """
-    words = dict(query)
-    known = frozenset(
-        {"design", *PUBLIC_OPTIONS, *(("seconds", "fps") if ending == ".gif" else ())}
-    )
-    faults = [unknown(name, known) for name in words if name not in known]
-    faults += [f"{name} is given twice; give it once" for name in _twice(query, known)]
+    faults = _faults(query, ending)
+    values = dict(query)
     if faults:
-        return faults
-    settings = check_options({n: words[n] for n in PUBLIC_OPTIONS if n in words}, Path())
+        return faults[:MAX_REASONS]
+    settings = check_options({n: values[n] for n in PUBLIC_OPTIONS if n in values}, Path())
     if isinstance(settings, list):
-        return settings
-    chosen = {n: getattr(settings, n) for n in PUBLIC_OPTIONS if n in words}
+        return settings[:MAX_REASONS]
+    chosen = {n: getattr(settings, n) for n in PUBLIC_OPTIONS if n in values}
     try:
         settings = replace(config.base, **chosen)
-        return _request(words, settings, ending, config.limits)
+        return _request(values, settings, ending, config.limits)
     except (DraperyError, ValueError) as error:
-        return [str(error)]
+        return [one_line(str(error))]
+
+
+def _faults(query: Sequence[tuple[str, str]], ending: str) -> list[str]:
+    """What is wrong with the names of a query."""
+    loop = tuple(LOOP_OPTIONS) if ending == ".gif" else ()
+    known = frozenset({"design", *PUBLIC_OPTIONS, *loop})
+    names = [name for name, _ in query]
+    strange = [name for name in dict.fromkeys(names) if name not in known]
+    twice = sorted({name for name in names if name in known and names.count(name) > 1})
+    # Each is compared with all known names, which takes time.
+    faults = [unknown(name, known) for name in strange[:MAX_REASONS]]
+    return faults + [f"{name} is given twice; give it once" for name in twice]
 
 
 def _request(
-    words: dict[str, str], settings: Settings, ending: str, limits: PictureLimits
+    values: dict[str, str], settings: Settings, ending: str, limits: PictureLimits
 ) -> PictureRequest:
     from drapery.banner.formats import parse_banner
-    from drapery.render.views import VIEWS
-    from drapery.settings import one_of
     from drapery.style.kinds import check_kind
 
-    text = words.get("design", "")
+    text = values.get("design", "")
     if not text:
         raise OptionError("design is missing; write ?design=white+creeper:lime")
     if len(text) > limits.max_length:
-        raise OptionError(f"design has over {limits.max_length} max_length; write it shorter")
-    one_of("view", settings.view, tuple(VIEWS))
-    # Never `read_design`: a stranger's text must not name a file.
+        raise OptionError(f"design has over {limits.max_length} characters; write it shorter")
+    # Never `read_design`: a client's text must not name a file.
     banner = parse_banner(text)
-    if settings.kind in ("cape", "elytra"):
-        raise OptionError(f"kind {settings.kind} wears a file, which is not for an address")
+    if settings.kind in _NEEDS_FILE:
+        raise OptionError(f"kind {settings.kind} shows a file, which an address cannot name")
     check_kind(banner, settings)
-    seconds, fps = _times(words, limits) if ending == ".gif" else (None, None)
-    _within(settings, 1 if seconds is None else round(seconds * (fps or 1)), limits)
+    seconds, fps = _times(values, limits) if ending == ".gif" else (None, None)
+    frames = 1 if seconds is None or fps is None else round(seconds * fps)
+    _check_size(settings, frames, limits)
     return PictureRequest("address", "picture" + ending, banner, settings, seconds, fps)
 
 
-def _times(words: dict[str, str], limits: PictureLimits) -> tuple[float, float]:
+def _times(values: dict[str, str], limits: PictureLimits) -> tuple[float, float]:
     from drapery.settings import frame_count
 
-    seconds, fps = _number("seconds", words, 4.0), _number("fps", words, 20.0)
+    seconds, fps = (
+        option.parse(values[name]) if name in values else option.default
+        for name, option in LOOP_OPTIONS.items()
+    )
     within("fps", fps, 1, limits.fps, "frames/s")
     within("seconds", seconds, 1 / fps, limits.seconds, "s")
     frame_count(seconds, fps)
     return seconds, fps
 
 
-def _number(name: str, words: dict[str, str], default: float) -> float:
-    try:
-        return float(words.get(name, default))
-    except ValueError:
-        raise OptionError(f"{name} {words[name][:20]!r} is no number; write 4 or 2.5") from None
-
-
-def _within(settings: Settings, frames: int, limits: PictureLimits) -> None:
+def _check_size(settings: Settings, frames: int, limits: PictureLimits) -> None:
     width, height = settings.size
     within("size", max(width, height), 1, limits.side, "pixels")
     within("grid", max(settings.grid), 2, limits.particles, "particles")
-    within("time", settings.time, 0, limits.hang, "s")
+    within("time", settings.time, 0, limits.time, "s")
     within("pixels of all frames", width * height * frames, 1, limits.pixels)
-
-
-def _twice(query: Sequence[tuple[str, str]], known: frozenset[str]) -> list[str]:
-    names = [name for name, _ in query]
-    return sorted({name for name in names if name in known and names.count(name) > 1})

@@ -1,0 +1,127 @@
+"""The service on a socket: uvicorn, with limits on silent connections and on their number."""
+
+import asyncio
+import ipaddress
+import socket
+from collections.abc import Sequence
+from typing import Any
+
+import uvicorn
+from fastapi import FastAPI
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+from drapery.errors import OptionError, OutputError
+
+HEAD_TIMEOUT = 10.0
+"""How long a client may take to send the head of a request [s]."""
+MAX_HEAD = 48 << 10
+"""Bytes of the head of a request."""
+MAX_CONNECTIONS = 512
+MAX_CONNECTIONS_OF_CLIENT = 128
+"""The most connections of one address that is not a trusted proxy's."""
+STOP_TIMEOUT = 5
+"""How long answers in work may take after SIGTERM [s]; the workers end after that."""
+
+
+class LimitedProtocol(H11Protocol):
+    """Closes connections that send no whole head in time, or that are too many.
+
+    uvicorn's own timeout begins after the first response, and its limit of concurrency refuses
+    every client while silent connections last.
+    """
+
+    _head_timer: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: Any) -> None:
+        """Accept a connection, or close it if there are too many."""
+        super().connection_made(transport)
+        self._watch_head()
+        host = self.client[0] if self.client else ""
+        same = sum(1 for other in self.connections if _host(other) == host)
+        limited = not self.config.proxy_headers and same > MAX_CONNECTIONS_OF_CLIENT
+        if limited or len(self.connections) > MAX_CONNECTIONS:
+            transport.abort()
+
+    def data_received(self, data: bytes) -> None:
+        """Read a part of a request."""
+        super().data_received(data)
+        self._watch_head()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Forget the timer."""
+        self._stop_timer()
+        super().connection_lost(exc)
+
+    def _watch_head(self) -> None:
+        answering = self.cycle is not None and not self.cycle.response_complete
+        if answering:
+            self._stop_timer()
+        elif self._head_timer is None:
+            self._head_timer = self.loop.call_later(HEAD_TIMEOUT, self.transport.close)
+
+    def _stop_timer(self) -> None:
+        if self._head_timer is not None:
+            self._head_timer.cancel()
+            self._head_timer = None
+
+
+def _host(connection: Any) -> str:
+    return connection.client[0] if connection.client else ""
+
+
+def listen(host: str, port: int) -> socket.socket:
+    """A listening socket; port 0 chooses a free one. Raises OutputError."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    try:
+        return socket.create_server((host, port), family=family, backlog=2048)
+    except (OSError, UnicodeError) as error:
+        reason = getattr(error, "strerror", None) or "no such address"
+        raise OutputError(
+            f"cannot listen at {host}:{port}: {reason}; choose another --host or --port"
+        ) from None
+
+
+def address_of(listening: socket.socket) -> str:
+    """Its address as a URL."""
+    host, port = listening.getsockname()[:2]
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+
+
+def check_proxies(proxies: Sequence[str]) -> list[str]:
+    """Addresses or networks of trusted proxies. Raises OptionError."""
+    for text in proxies:
+        try:
+            ipaddress.ip_network(text)
+        except ValueError:
+            raise OptionError(
+                f"trusted proxy {text[:60]!r} is not an address; write 10.0.0.1 or 10.0.0.0/8"
+            ) from None
+    return list(proxies)
+
+
+def run_server(app: FastAPI, listening: socket.socket, proxies: Sequence[str] = ()) -> None:
+    """Answer requests until SIGTERM or SIGINT, then end within ten seconds; see `make_server`."""
+    server = make_server(app, proxies)
+    server.run(sockets=[listening])
+    if not server.started:
+        raise SystemExit(3)
+
+
+def make_server(app: Any, proxies: Sequence[str] = ()) -> uvicorn.Server:
+    """A server for an ASGI application.
+
+    proxies: the only addresses or networks whose X-Forwarded-For is believed.
+    """
+    config = uvicorn.Config(
+        app,
+        http=LimitedProtocol,
+        ws="none",
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        proxy_headers=bool(proxies),
+        forwarded_allow_ips=check_proxies(proxies),
+        h11_max_incomplete_event_size=MAX_HEAD,
+        timeout_graceful_shutdown=STOP_TIMEOUT,
+    )
+    return uvicorn.Server(config)
