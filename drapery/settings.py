@@ -7,6 +7,7 @@ manifests, files of cases and the studio's fields are made from the table.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -117,7 +118,7 @@ def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
 class Settings:
     """Checked options of a picture. Raises OptionError that names the option and its limits."""
 
-    packs: Sequence[PackLike] = _option(
+    packs: PackLike | Sequence[PackLike] = _option(
         (),
         Path,
         "Resource packs (folder, zip or jar) laid over our own art; later ones win",
@@ -379,8 +380,9 @@ class Settings:
     @property
     def pack_paths(self) -> tuple[str | Path, ...]:
         """The packs as paths. Raises OptionError for a pack in memory, which no file holds."""
-        paths = tuple(pack for pack in self.packs if isinstance(pack, str | Path))
-        if len(paths) < len(self.packs):
+        packs: tuple[PackLike, ...] = OPTIONS["packs"].check(self.packs)
+        paths = tuple(pack for pack in packs if isinstance(pack, str | Path))
+        if len(paths) < len(packs):
             raise OptionError("packs: one is in memory; save it as a folder or zip, give its path")
         return paths
 
@@ -390,6 +392,14 @@ class Settings:
         if self.texture is None or isinstance(self.texture, str | Path):
             return self.texture
         raise OptionError("texture: it is an array; save it as a PNG file, give its path")
+
+    @property
+    def wind_speed(self) -> float:
+        """Mean speed of the wind [m/s]."""
+        if isinstance(self.wind, float):
+            return self.wind
+        velocity: Sequence[float] = getattr(self.wind, "velocity", (self.wind,))
+        return math.hypot(*velocity)
 
     @property
     def turned(self) -> float:

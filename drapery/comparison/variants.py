@@ -101,7 +101,7 @@ def _drawn(
         )
     axes: dict[str, list[tuple[str, dict[str, Any]]]] = {
         "designs": [(text, {}) for text, _ in banners] if len(banners) > 1 else [],
-        "packs": [(Path(p).name, {"packs": (*settings.packs, p)}) for p in packs],
+        "packs": [(Path(p).name, {"packs": (*settings.pack_paths, p)}) for p in packs],
         "layers": [(mode, {"layers": mode}) for mode in layer_modes],
         "backends": [(name, {"backend": name}) for name in backends],
     }

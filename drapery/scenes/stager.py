@@ -70,8 +70,7 @@ class ClothSpec:
 
     def make_cloth(self) -> Cloth:
         """The cloth at rest. Raises OptionError."""
-        fabric = {} if self.fabric is None else {"fabric": self.fabric}
-        return grid(*self.shape, *self.size, pins=self.pins, **fabric)
+        return grid(*self.shape, *self.size, pins=self.pins, fabric=self.fabric or Fabric())
 
     def make_solver(self) -> Solver:
         """The solver. Raises OptionError for a name that is not known."""

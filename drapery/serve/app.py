@@ -88,7 +88,7 @@ class PictureService:
         self.deadline = deadline
         self.cache = PictureCache(cache)
         self.digests = DigestCache()
-        for pack in config.base.packs:
+        for pack in config.base.pack_paths:
             self.digests.of(pack)
         code_version()  # read once, not by the first request
         self.queue: JobQueue[bytes | JobResult] = JobQueue(pool, self._finish, waiting)

@@ -109,7 +109,6 @@ def of_tree(tree: object) -> tuple[Sketch, Settings]:
 def look_of(words: object) -> Settings:
     """Checked options from what JSON held. Raises DesignError, also for options never shared."""
     from drapery.options import check_options
-    from drapery.render.views import VIEWS
 
     if not isinstance(words, dict):
         raise DesignError(f"options: no JSON object; {_REMEDY}")
@@ -119,8 +118,6 @@ def look_of(words: object) -> Settings:
     checked = check_options(words, Path())
     if isinstance(checked, list):
         raise DesignError(f"options: {checked[0]}")
-    if checked.view not in VIEWS:
-        raise DesignError(f"options: view {checked.view[:40]!r} is none of {', '.join(VIEWS)}")
     return checked
 
 

@@ -28,7 +28,7 @@ class WindControls:
     on: whether it blows.
     """
 
-    speed: float = Settings.wind
+    speed: float = Settings().wind_speed
     direction: float | None = None
     gusts: float = Settings.gusts
     seed: int = 0
@@ -42,7 +42,7 @@ class WindControls:
 
 def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
     """What blows in a picture."""
-    return WindControls(settings.wind, settings.direction, settings.gusts, settings.seed, on)
+    return WindControls(settings.wind_speed, settings.direction, settings.gusts, settings.seed, on)
 
 
 def wind_of(controls: WindControls) -> Wind:
