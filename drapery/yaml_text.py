@@ -70,7 +70,7 @@ def _check_events(text: str) -> None:
         if isinstance(event, yaml.AliasEvent):
             if any(anchor == event.anchor for anchor, _ in open_nodes):
                 _refuse(f"*{event.anchor} repeats a value inside itself", event)
-            size = sizes.get(event.anchor, 0)
+            size = sizes.get(event.anchor or "", 0)
             repeated, count = repeated + size, count + size
             if repeated > MAX_REPEATED:
                 _refuse(f"aliases repeat more than {MAX_REPEATED} values", event)
@@ -90,7 +90,7 @@ def _check_events(text: str) -> None:
                 sizes[anchor] = count - start + 1
 
 
-def _refuse(reason: str, event: yaml.Event) -> None:
+def _refuse(reason: str, event: Any) -> None:
     raise yaml.MarkedYAMLError(problem=reason, problem_mark=event.start_mark)
 
 
