@@ -1,19 +1,99 @@
-"""Every example runs and leaves pictures that show something."""
+"""Every example runs and leaves its pictures; ten of them use public names and few lines."""
 
+import ast
 import importlib.util
+import runpy
+import subprocess
+import sys
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from PIL import Image
 
+from drapery.testing.plugin import Golden
+
 EXAMPLES = Path(__file__).parent.parent / "examples"
-SMALLER = {"crowd": {"side": 6, "seconds": 0.2}, "own_cloth": {"frames": 12}}
+PROGRAMS = {
+    "render": ("banner.png", "face.png"),
+    "animate": ("waving.webp", *(f"frame-{number}.png" for number in range(4))),
+    "own_pack": ("heart.png",),
+    "own_cloth": ("sheet.png",),
+    "own_solver": ("own_solver.png",),
+    "video": ("banner.mp4",),
+    "compare_designs": ("difference.png",),
+    "batch": tuple(f"pictures/{dye}.png" for dye in ("white", "yellow", "orange", "red")),
+    "animated_gltf": ("banner.glb",),
+}
+"""Programs of at most twelve lines, and what each leaves in the current folder."""
+STUDIES = sorted(path.stem for path in EXAMPLES.glob("*.py") if path.stem not in PROGRAMS)
+SMALLER: dict[str, dict[str, Any]] = {"crowd": {"side": 5}}
 """The same program on less, where the whole takes long."""
+PUBLIC = (
+    *("drapery", "drapery.batch", "drapery.cloth", "drapery.cloth.colliders"),
+    *("drapery.packs", "drapery.render", "drapery.style", "drapery.testing"),
+)
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in EXAMPLES.glob("*.py")))
-def test_an_example_writes_its_pictures(name: str, tmp_path: Path) -> None:
+def run(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run a program in a folder; that of many processes must be a process of its own."""
+    program = EXAMPLES / f"{name}.py"
+    if name == "batch":
+        subprocess.run([sys.executable, program], cwd=folder, check=True, timeout=300)
+        return
+    monkeypatch.chdir(folder)
+    runpy.run_path(str(program), run_name="__main__")
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_a_program_is_short_and_uses_only_public_names(name: str) -> None:
+    text = (EXAMPLES / f"{name}.py").read_text()
+    assert len([line for line in text.splitlines() if line.strip()]) <= 12
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("drapery"):
+            assert node.module in PUBLIC
+            public = import_module(node.module).__all__
+            assert {alias.name for alias in node.names} <= set(public)
+        elif isinstance(node, ast.Import):
+            assert not any(alias.name.startswith("drapery") for alias in node.names)
+
+
+@pytest.mark.filterwarnings("ignore:not in the packs")
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_a_program_draws_what_it_drew_before(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, golden: Golden
+) -> None:
+    run(name, tmp_path, monkeypatch)
+    for target in PROGRAMS[name]:
+        path = tmp_path / target
+        if path.suffix in (".png", ".webp"):
+            with Image.open(path) as picture:
+                golden(picture.convert("RGBA"), f"{name}-{path.stem}")
+
+
+def test_the_video_has_every_frame(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    av = pytest.importorskip("av")
+    run("video", tmp_path, monkeypatch)
+    with av.open(str(tmp_path / "banner.mp4")) as video:
+        frames = [frame.to_ndarray(format="rgb24") for frame in video.decode(video=0)]
+    assert len(frames) == 80 and frames[0].shape == (320, 256, 3)
+    assert np.abs(frames[0].astype(int) - frames[40]).max() > 64
+
+
+def test_the_model_has_a_morph_target_for_every_frame(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run("animated_gltf", tmp_path, monkeypatch)
+    assert trimesh.load_scene(tmp_path / "banner.glb").geometry
+    header, _, _ = (tmp_path / "banner.glb").read_bytes()[20:].partition(b"\x00")
+    assert header.count(b'"POSITION"') > 20
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_a_study_writes_its_pictures(name: str, tmp_path: Path) -> None:
     spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
     assert spec is not None and spec.loader is not None
     program = importlib.util.module_from_spec(spec)
@@ -22,10 +102,9 @@ def test_an_example_writes_its_pictures(name: str, tmp_path: Path) -> None:
     written = list(tmp_path.iterdir())
     assert written
     for path in written:
-        if path.suffix != ".glb":
-            with Image.open(path) as picture:
-                texels = np.asarray(picture.convert("RGBA"))
-            assert len(np.unique(texels.reshape(-1, 4), axis=0)) > 8, path.name
+        with Image.open(path) as picture:
+            texels = np.asarray(picture.convert("RGBA"))
+        assert len(np.unique(texels.reshape(-1, 4), axis=0)) > 8, path.name
 
 
 def test_every_example_is_listed() -> None:
