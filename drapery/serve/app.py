@@ -220,7 +220,7 @@ def _with_own_packs(config: ServiceConfig, folder: Path) -> ServiceConfig:
     A pack that is edited while the service runs would be drawn under the old ETag.
     """
     packs = []
-    for number, pack in enumerate(map(Path, config.base.packs)):
+    for number, pack in enumerate(map(Path, config.base.pack_paths)):
         target = folder / str(number) / pack.name
         target.parent.mkdir(parents=True)
         if pack.is_dir():
