@@ -65,12 +65,12 @@ class Ours:
         places = np.arange(load.cloths)[:, None] * np.array([1.3, 0.0, 0.7])
         winds = [Wind((1.0, 0.0, 5.0), origins=places)] if windy else []
         self.forces = (Gravity(), *winds)
-        self.memory = solver.init(self.cloth, load.dt)
+        self.solver_state = solver.init(self.cloth, load.dt)
         self.state = rest_state(self.cloth, load.cloths, np.float32)
 
     def step(self, count: int) -> None:
-        self.state, self.memory = self.solver.step(
-            self.cloth, self.state, self.memory, self.forces, self.load.dt, steps=count
+        self.state, self.solver_state = self.solver.step(
+            self.cloth, self.state, self.solver_state, self.forces, self.load.dt, steps=count
         )
 
     def positions(self) -> np.ndarray:
@@ -102,18 +102,18 @@ def measure(workload: str, whole: Load, system: str, effort: int, seconds: float
         fits = max(1, peer.MOST_PARTICLES // (load.columns * load.rows))
         scale = max(1.0, load.cloths / fits)
         load = replace(load, cloths=min(load.cloths, fits), effort=effort)
-    before = most_memory()
+    before = peak_memory()
     runner = Ours(load, method, workload not in STILL) if own else peer.start(load)
     rate, worst = _pace(runner, load, seconds)
     rate /= scale
-    memory = (most_memory() - before) / load.particles
+    memory = (peak_memory() - before) / load.particles
     label = f"{system.rsplit('-', 1)[0] if own else system}{f'({effort})' if effort else ''}"
     particle_steps = rate * whole.particles
     return Row(workload, label, threads, rate, particle_steps, worst, memory, scale > 1)
 
 
-def most_memory() -> int:
-    """The most that this process ever held [bytes]."""
+def peak_memory() -> int:
+    """Peak memory of this process [bytes]."""
     return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 

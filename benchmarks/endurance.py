@@ -10,14 +10,14 @@ from rich.progress import Progress
 from drapery.cloth import Gravity, State, Wind, grid, max_stretch, rest_state
 from drapery.cloth.solvers.registry import SOLVERS, solver
 
-AT_ONCE = 2000
+STEPS_A_CALL = 2000
 CLOTHS = 8
-"""As many as fit in a register, each in gusts of its own."""
+"""A register of double precision holds so many; each has gusts of its own."""
 
 
 @dataclass(frozen=True)
 class Endured:
-    """steps: until the end, or the first number that is none. fastest: [m/s]."""
+    """steps: until the end, or the first that is not finite. fastest: [m/s]."""
 
     solver: str
     steps: int
@@ -28,28 +28,35 @@ class Endured:
 
 
 def endure(name: str, steps: int, progress: Progress) -> Endured:
-    """Small banners in hard gusts, the wind's seed new every `AT_ONCE` steps."""
+    """Small banners in hard gusts, the wind's seed new every `STEPS_A_CALL` steps."""
     cloth, method = grid(5, 9, 0.8333, 1.6667), solver(name, threads=1)
-    memory, state = method.init(cloth, 1 / 60), rest_state(cloth, CLOTHS, np.float32)
+    solver_state, state = method.init(cloth, 1 / 60), rest_state(cloth, CLOTHS, np.float32)
     places = np.arange(CLOTHS)[:, None] * np.array([7.3, 0.0, 3.1])
     bar, start = progress.add_task(name, total=steps), perf_counter()
     stretch = fastest = 0.0
     for done, wind in _gusts(steps, places):
-        state, memory = method.step(
-            cloth, state, memory, (Gravity(), wind), 1 / 60, steps=min(AT_ONCE, steps - done)
+        state, solver_state = method.step(
+            cloth,
+            state,
+            solver_state,
+            (Gravity(), wind),
+            1 / 60,
+            steps=min(STEPS_A_CALL, steps - done),
         )
         finite = _finite(state)
-        progress.update(bar, completed=min(done + AT_ONCE, steps))
+        progress.update(bar, completed=min(done + STEPS_A_CALL, steps))
         stretch = max(stretch, max_stretch(state.positions, cloth))
         fastest = max(fastest, float(np.abs(state.velocities).max()))
         if not finite:
-            return Endured(name, done + AT_ONCE, False, stretch, fastest, perf_counter() - start)
+            return Endured(
+                name, done + STEPS_A_CALL, False, stretch, fastest, perf_counter() - start
+            )
     return Endured(name, steps, True, stretch, fastest, perf_counter() - start)
 
 
 def _gusts(steps: int, places: np.ndarray) -> Iterator[tuple[int, Wind]]:
     random = np.random.default_rng(0)
-    for done in range(0, steps, AT_ONCE):
+    for done in range(0, steps, STEPS_A_CALL):
         velocity = random.normal(scale=(4.0, 1.5, 4.0))
         seed = int(random.integers(1 << 31))
         yield done, Wind(tuple(velocity), gusts=0.8, gust_size=1.0, seed=seed, origins=places)

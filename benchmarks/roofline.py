@@ -19,8 +19,8 @@ from drapery.cloth import Cloth, simd
 BLOCK = 16, 128
 """Rows and lanes of the copied array, 8 KB of single precision."""
 PULL, SPRING, DRIFT, VELOCITY, PRESS, NOISE = 25, 27, 9, 6, 75, 300
-"""Flops: a pull of two particles, a spring's force, a particle's way and speed, the wind's pressure
-on it, and the noise at one sample."""
+"""Flops: a constraint of two particles, a spring's force, a particle's drift and speed, the
+pressure of the wind on it, and the noise at one sample."""
 BOTH_ENDS, FORCE_ENDS, WAY, SPEED, PRESSED, SAMPLED = 12, 18, 9, 9, 33, 12
 """Numbers that they read and write."""
 
@@ -42,8 +42,8 @@ class Cost:
 
     def fraction(self, machine: Machine, particle_steps_per_s: float) -> float:
         """Of the rate that the machine could reach at most."""
-        least = max(self.flops / machine.flops, self.bytes / machine.copy)
-        return least * particle_steps_per_s
+        shortest = max(self.flops / machine.flops, self.bytes / machine.copy)
+        return shortest * particle_steps_per_s
 
 
 def measured() -> Machine:
@@ -67,7 +67,7 @@ def _best(work: Any) -> float:
 def _copy(y: Any, x: Any, times: int) -> None:
     for _ in range(times):
         for row in range(x.shape[0]):
-            for lane in range(0, x.shape[1], simd.span(x)):
+            for lane in range(0, x.shape[1], simd.lane_count(x)):
                 simd.store(y, row, lane, simd.load(x, row, lane))
 
 
@@ -84,28 +84,28 @@ def _calculate(x: Any, part: Any, times: int) -> None:
     simd.store(x, 8, 0, ((a + b) + (c + d)) + ((e + f) + (g + h)))
 
 
-def cost(cloth: Cloth, memory: Any, winds: int) -> Cost:
-    """Of a step by the plan in a solver's memory, desbrun's or xpbd's."""
-    plan, free = memory.plan, int((cloth.inv_mass > 0).sum())
+def cost(cloth: Cloth, solver_state: Any, winds: int) -> Cost:
+    """Of a step by the plan in a solver state, desbrun's or xpbd's."""
+    plan, free = solver_state.plan, int((cloth.inv_mass > 0).sum())
     sheet = hasattr(plan, "sheet")
     controls = plan.sheet.controls if sheet else plan.body.controls
-    substeps = memory.substeps
+    substeps = solver_state.substeps
     parts = [
         (winds * len(controls), NOISE, SAMPLED),
         (winds * free, PRESS, PRESSED),
         (free, VELOCITY, SPEED),
     ]
     if hasattr(plan, "constraints"):
-        links = _pulls(plan.links) if sheet else len(plan.links.longest)
-        solved = _pulls(plan.constraints) if sheet else len(plan.constraints.square)
+        attachments = _pairs(plan.attachments) if sheet else len(plan.attachments.longest)
+        solved = _pairs(plan.constraints) if sheet else len(plan.constraints.square)
         parts += [
-            (solved + links * -(-substeps // 2), PULL, BOTH_ENDS),
+            (solved + attachments * -(-substeps // 2), PULL, BOTH_ENDS),
             (free * substeps, DRIFT, WAY),
         ]
     else:
-        links = _pulls(plan.links) if sheet else len(plan.links.longest)
+        attachments = _pairs(plan.attachments) if sheet else len(plan.attachments.longest)
         parts += [
-            (links * substeps, PULL + 1, BOTH_ENDS),
+            (attachments * substeps, PULL + 1, BOTH_ENDS),
             (len(cloth.spring_length) * substeps, SPRING, FORCE_ENDS),
             (free * substeps, DRIFT, WAY),
             (substeps, *_filter(cloth, plan.filter)),
@@ -116,10 +116,10 @@ def cost(cloth: Cloth, memory: Any, winds: int) -> Cost:
     return Cost(flops / count, 4 * numbers / count)
 
 
-def _pulls(pulls: Any) -> int:
+def _pairs(batches: Any) -> int:
     """Pairs in a sheet's pulls: those with a part to move."""
-    moved = (pulls.values[1:] != 0).any(axis=0)
-    ends = zip(pulls.start, pulls.lanes, strict=True)
+    moved = (batches.values[1:] != 0).any(axis=0)
+    ends = zip(batches.start, batches.lanes, strict=True)
     return int(sum(moved[start : start + lanes].sum() for start, lanes in ends))
 
 
@@ -137,5 +137,5 @@ def show(label: str, cost: Cost, machine: Machine, particle_steps_per_s: float) 
     return (
         f"{label}: {cost.flops:.0f} flops and {cost.bytes:.0f} bytes a particle step; this machine "
         f"{machine.flops / 1e9:.0f} GFlop/s and {machine.copy / 1e9:.0f} GB/s: "
-        f"{100 * cost.fraction(machine, particle_steps_per_s):.0f} % of the most"
+        f"{100 * cost.fraction(machine, particle_steps_per_s):.0f} % of the machine's limit"
     )

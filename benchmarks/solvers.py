@@ -76,11 +76,11 @@ def measure(name: str) -> Row:
 def step_ms(name: str, cloth: Cloth, count: int, steps: int) -> float:
     """Time of a step of `count` cloths in wind, on one thread [ms]."""
     method, state = solver(name, threads=1), rest_state(cloth, count)
-    memory, forces = method.init(cloth, DT), [Gravity(), Wind((0.0, 0.0, 4.0))]
+    solver_state, forces = method.init(cloth, DT), [Gravity(), Wind((0.0, 0.0, 4.0))]
     times = []
     for _ in range(5):
         start = time.perf_counter()
-        state, memory = method.step(cloth, state, memory, forces, DT, steps=steps)
+        state, solver_state = method.step(cloth, state, solver_state, forces, DT, steps=steps)
         times.append(time.perf_counter() - start)
     return 1000 * min(times[1:]) / steps
 

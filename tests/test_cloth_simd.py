@@ -12,18 +12,18 @@ SETTINGS = {"error_model": "numpy"}
 @njit(**SETTINGS)
 def calculated(x, part):
     """Of two rows, in a third: all that a register can."""
-    y = simd.room(3, x.shape[1], x)
+    y = simd.empty_lanes(3, x.shape[1], x)
     y[:2] = x
-    for lane in range(0, y.shape[1], simd.span(y)):
+    for lane in range(0, y.shape[1], simd.lane_count(y)):
         a, b = simd.load(y, 0, lane), simd.load(y, 1, lane)
-        d = simd.root(a * a + b * b) / simd.larger(a, b) - part * b
-        simd.store(y, 2, lane, simd.flushed(d + simd.fill(part) * -a, part))
+        d = simd.sqrt(a * a + b * b) / simd.maximum(a, b) - part * b
+        simd.store(y, 2, lane, simd.flush_denormals(d + simd.fill(part) * -a, part))
     return y
 
 
 @njit(**SETTINGS)
 def first_byte(like):
-    return simd.room(5, 48, like).ctypes.data
+    return simd.empty_lanes(5, 48, like).ctypes.data
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -43,4 +43,4 @@ def test_rooms_begin_with_a_cache_line(dtype):
 
 @pytest.mark.parametrize("count, lanes", [(0, 0), (1, 16), (16, 16), (17, 32)])
 def test_lanes_are_filled_up_to_whole_registers(count, lanes):
-    assert simd.whole(count, np.float32) == lanes
+    assert simd.padded_count(count, np.float32) == lanes

@@ -1,12 +1,12 @@
-"""Links: pairs of particles that may not move farther apart than a longest length.
+"""Attachments: pairs of particles that may not be farther apart than a longest length.
 
-Provot (1995) shortens each overlong spring in turn, and the error travels one spring a sweep: on
-fine grids twenty sweeps are far from enough. Three things carry it farther, in this order:
-long-range attachments tie each particle to its pins by one link (Kim, Chentanez, Müller, "Long
-range attachments", SCA 2012); links over 2, 4, 8, … cells bound the distance between particles
-far apart on the cloth, coarse ones first (after Müller, "Hierarchical position based dynamics",
-VRIPHYS 2008); and the springs themselves go from the pins outwards, so that one sweep carries an
-error from the top of a hanging cloth to its free edge.
+Provot (1995) shortens each long spring in turn, and the error travels one spring a sweep: on fine
+grids twenty sweeps are not enough. Three things carry it farther, in this order. Long-range
+attachments tie each particle to its pins (Kim, Chentanez, Müller, "Long range attachments", SCA
+2012). Attachments over 2, 4, 8, … cells bound the distance between particles far apart on the
+cloth, the longest first (after Müller, "Hierarchical position based dynamics", VRIPHYS 2008). The
+springs themselves are taken from the pins outwards, so that one sweep carries an error from the
+top of a hanging cloth to its free edge.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ from drapery.mesh import Array
 FEW_PINS = 4
 """Particles are attached to every pin if there are no more than this, else to the nearest."""
 
-MOST_LEVELS = 16
+MAX_LEVELS = 16
 """The longest links go over 2^16 springs."""
 
 
@@ -92,15 +92,15 @@ def attachments(cloth: Cloth, slack: float) -> tuple[NDArray[np.int32], Array]:
         pairs = np.stack([np.repeat(pins, len(free)), np.tile(free, len(pins))], axis=1)
     else:
         pairs = np.stack([nearest_pins(cloth)[free], free], axis=1)
-    reach = np.empty(len(pairs))
+    max_distance = np.empty(len(pairs))
     for pin in np.unique(pairs[:, 0]):
         mine = pairs[:, 0] == pin
-        reach[mine] = _reach(cloth, pin, pairs[mine, 1])
-    found = np.isfinite(reach)
-    return pairs[found].astype(np.int32), slack * reach[found]
+        max_distance[mine] = _max_distances(cloth, pin, pairs[mine, 1])
+    found = np.isfinite(max_distance)
+    return pairs[found].astype(np.int32), slack * max_distance[found]
 
 
-def _reach(cloth: Cloth, pin: int, particles: NDArray[np.integer]) -> Array:
+def _max_distances(cloth: Cloth, pin: int, particles: NDArray[np.integer]) -> Array:
     """Distance of particles from a pin over the cloth at rest [m].
 
     Straight on a flat grid; elsewhere along the springs, which is a little too far, never too near.
@@ -155,7 +155,7 @@ def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Arr
 
 
 def _ancestor_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
-    """The same for any cloth: from each particle 2^n springs up the shortest way to a pin."""
+    """The same for any cloth: from each particle 2^n springs up the shortest path to a pin."""
     if not (cloth.inv_mass == 0).any():
         return []
     distances = pin_distances(cloth)
@@ -164,7 +164,7 @@ def _ancestor_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32],
     while True:
         above = above[above]
         below = np.flatnonzero((cloth.inv_mass[above] > 0) & np.isfinite(distances))
-        if not len(below) or len(groups) == MOST_LEVELS:
+        if not len(below) or len(groups) == MAX_LEVELS:
             return groups[::-1]
         below = below[np.argsort(distances[below], kind="stable")]
         pairs = np.stack([above[below], below], axis=1).astype(np.int32)
@@ -172,7 +172,7 @@ def _ancestor_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32],
 
 
 def _next_towards_pins(cloth: Cloth, distances: Array) -> NDArray[np.int64]:
-    """For each particle its neighbour on the shortest way to a pin, [N]; pins have themselves."""
+    """For each particle its neighbour on the shortest path to a pin, [N]; itself for pins."""
     a, b = np.concatenate([cloth.spring_pairs, cloth.spring_pairs[:, ::-1]]).T
     lengths = np.tile(cloth.spring_length, 2)
     shortest = np.isfinite(distances[a]) & (distances[a] + lengths <= distances[b] * (1 + 1e-12))

@@ -1,4 +1,4 @@
-"""The filter of Desbrun 1999, W = (I - dt² M⁻¹ H)⁻¹, in the cheapest form for each cloth.
+"""The filter of Desbrun 1999, W = (I - dt² M⁻¹ H)⁻¹, in the cheapest form for a cloth.
 
 H is the springs' linear Hessian: H_ij = k_ij, H_ii = -sum_j k_ij. Pinned particles have no
 inverse mass, so their rows of W are those of the identity. A free cloth's rows each sum to 1.
@@ -13,13 +13,13 @@ from drapery.cloth.cloth import Cloth
 from drapery.cloth.exact import inverse, sine_of_turns
 from drapery.mesh import Array
 
-LARGEST = 1 << 20
-"""Numbers in a separable filter's matrices, beyond which they are kept as factors."""
+MAX_MATRIX_NUMBERS = 1 << 20
+"""A separable filter with more numbers in its matrices is stored as factors."""
 
-DENSE = 400
-"""Most particles of an irregular cloth whose filter is a whole matrix."""
-MANY_PINS = 64
-"""Most pins beside a whole top row that a grid's separable filter takes."""
+MAX_DENSE = 400
+"""An irregular cloth with more particles has a band matrix as its filter."""
+MAX_SEPARABLE_PINS = 64
+"""A grid with more pins, other than its top row, has no separable filter."""
 
 
 class Filter(NamedTuple):
@@ -52,7 +52,7 @@ class BandFilter(NamedTuple):
 class SheetFilter(NamedTuple):
     """W of a regular grid laid out as rows of lanes; see `drapery.cloth.sheets`.
 
-    into: [W, W], each column's part of each wave along the row; back: the other way.
+    into: [W, W], each column's part of each wave along the row; back: the inverse.
     near, far, inverse: of each wave's column, L one and two below the diagonal and 1 / D, [R, W].
     first: the first free row. release: [P, R · W], see `Filter`.
     """
@@ -71,9 +71,9 @@ def cloth_filter(cloth: Cloth, dt: float) -> Filter | BandFilter:
     columns = cloth.grid_shape[1] if cloth.grid_shape else 0
     pins = np.flatnonzero(cloth.inv_mass == 0)
     hangs = np.array_equal(pins, np.arange(columns))
-    if is_regular(cloth) and (hangs or len(pins) <= MANY_PINS):
+    if is_regular(cloth) and (hangs or len(pins) <= MAX_SEPARABLE_PINS):
         return separable_filter(cloth, dt)
-    if len(cloth.inv_mass) > DENSE:
+    if len(cloth.inv_mass) > MAX_DENSE:
         return band_filter(cloth, dt)
     W = dense_filter(cloth, dt)
     return Filter(W.ravel(), np.array([[0, len(W), 0, 1, 0]]), np.zeros((len(W), 0)))
@@ -203,15 +203,15 @@ def sheet_filter(cloth: Cloth, dt: float, width: int) -> SheetFilter:
     near, far, inverse_diagonal = _pentadiagonal(*bands)
     whole = -(-width // 16) * 16
     release = _release(V, U, _spectrum(cloth, r, c, dt), pins, hangs)
-    held = _widened(release.T.reshape(-1, rows, columns), width)
+    held = _padded(release.T.reshape(-1, rows, columns), width)
     return SheetFilter(
-        _widened(_widened(U.T, width).T, whole),
-        _widened(_widened(U, width).T, whole),
-        _widened(near, whole),
-        _widened(far, whole),
-        _widened(inverse_diagonal, whole, 1.0),
+        _padded(_padded(U.T, width).T, whole),
+        _padded(_padded(U, width).T, whole),
+        _padded(near, whole),
+        _padded(far, whole),
+        _padded(inverse_diagonal, whole, 1.0),
         int(hangs),
-        _widened(held.reshape(len(held), rows * width), -(-rows * width // 16) * 16),
+        _padded(held.reshape(len(held), rows * width), -(-rows * width // 16) * 16),
     )
 
 
@@ -233,7 +233,7 @@ def _pentadiagonal(diagonal: Array, near: Array, far: Array) -> tuple[Array, Arr
     return one, two, inverse
 
 
-def _widened(values: Array, width: int, filling: float = 0.0) -> Array:
+def _padded(values: Array, width: int, filling: float = 0.0) -> Array:
     """The last axis filled up."""
     wide = np.full((*values.shape[:-1], width), filling)
     wide[..., : values.shape[-1]] = values
@@ -247,7 +247,7 @@ def _products(V: Array, U: Array, spectrum: Array, first: int) -> tuple[Array, N
     starts = first + columns * np.arange(rows)
     into = [(0, columns, start, 1, 0) for start in starts]
     back = [(size, columns, start, 1, 0) for start in starts]
-    if rows * rows * columns <= LARGEST:
+    if rows * rows * columns <= MAX_MATRIX_NUMBERS:
         # One matrix a wave, V diag(spectrum[:, wave]) Vᵀ, summed without BLAS.
         down = (V[None, :, None, :] * V[None, None] * spectrum.T[:, None, None]).sum(-1)
         lines = [(2 * size + c * rows * rows, rows, first + c, columns, 1) for c in range(columns)]

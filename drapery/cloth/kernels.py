@@ -1,7 +1,7 @@
 """The inner loops that the solvers share.
 
 Arrays are [3N, L]: row 3i + axis holds one coordinate of particle i for L cloths of one topology
-("lanes"), so every inner loop does the same to each cloth and is vectorised. Arithmetic is strict
+("lanes"), so an inner loop does the same for each cloth and is vectorised. Arithmetic is strict
 IEEE in a fixed order (no fastmath): the same bits for any L, on any processor.
 `error_model="numpy"` is needed: a division that may raise cannot be vectorised. Loops over three
 axes have a bound that the compiler does not know, or it would unroll them and take thrice as long.
@@ -14,15 +14,15 @@ from numba.extending import overload
 
 from drapery.cloth import exact
 from drapery.cloth.filters import BandFilter
-from drapery.cloth.simd import fill, flushed, larger, load, root, span, store
+from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
 from drapery.cloth.spin import NoSpin
 from drapery.cloth.wind import CROSSWIND
 from drapery.jit import kernel
 
 TINY = 1e-6
-"""Springs count as at least this share of their rest length, so that coincident ends divide."""
-STILL = 1e-9
-"""Slower velocities [m/s] are flushed to 0: decaying motion would become subnormal, and slow."""
+"""Springs count as at least this share of their rest length: ends that coincide divide by it."""
+MIN_SPEED = 1e-9
+"""Slower velocities [m/s] become 0: subnormal numbers would slow the processor down."""
 GUST_RMS = 0.1836
 """Rms of gradient noise whose gradients are uniform in [-1, 1]³, measured over 10⁷ points."""
 ALONG, ACROSS, UP = CROSSWIND
@@ -31,7 +31,7 @@ sine_of_turns = kernel(exact.sine_of_turns)
 
 
 @kernel
-def take_lanes(y: Any, x: Any, start: Any) -> None:
+def load_lanes(y: Any, x: Any, start: Any) -> None:
     """Copy the lanes from `start` of x [3N, B] into the block y [3N, L]."""
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):
@@ -39,7 +39,7 @@ def take_lanes(y: Any, x: Any, start: Any) -> None:
 
 
 @kernel
-def give_lanes(x: Any, y: Any, start: Any) -> None:
+def store_lanes(x: Any, y: Any, start: Any) -> None:
     """Copy the block y [3N, L] to the lanes from `start` of x [3N, B]."""
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):
@@ -53,18 +53,18 @@ def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) 
     for s in range(springs.rest.size):
         i, j = 3 * np.intp(springs.pairs[s, 0]), 3 * np.intp(springs.pairs[s, 1])
         length = springs.rest[s]
-        least, pull = fill(length * tiny), dt * springs.stiffness[s]
+        shortest, pull = fill(length * tiny), dt * springs.stiffness[s]
         pull_i, pull_j = pull * inv_mass[i // 3], pull * inv_mass[j // 3]
-        for lane in range(0, x.shape[1], span(x)):
-            dx, dy, dz = way(x, i, j, lane)
-            d = root(dx * dx + dy * dy + dz * dz)
-            strain = (d - length) / larger(d, least)
+        for lane in range(0, x.shape[1], lane_count(x)):
+            dx, dy, dz = direction(x, i, j, lane)
+            d = sqrt(dx * dx + dy * dy + dz * dz)
+            strain = (d - length) / maximum(d, shortest)
             add(g, i, lane, pull_i * strain, dx, dy, dz)
             add(g, j, lane, -pull_j * strain, dx, dy, dz)
 
 
 @kernel
-def way(x: Any, i: Any, j: Any, lane: Any) -> Any:
+def direction(x: Any, i: Any, j: Any, lane: Any) -> Any:
     """From rows i, i + 1 and i + 2 to those at j."""
     return (
         load(x, j, lane) - load(x, i, lane),
@@ -83,15 +83,15 @@ def add(x: Any, row: Any, lane: Any, part: Any, dx: Any, dy: Any, dz: Any) -> No
 
 @kernel
 def shorten(x: Any, attachments: Any) -> None:
-    """Provot's correction: links over their longest length are pulled back to it, in order."""
+    """Provot's correction: pairs over their longest length are pulled back to it, in order."""
     for s in range(attachments.longest.size):
         i, j = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
-        most = fill(attachments.longest[s])
+        longest = fill(attachments.longest[s])
         part_i, part_j = attachments.share_i[s], -attachments.share_j[s]
-        for lane in range(0, x.shape[1], span(x)):
-            dx, dy, dz = way(x, i, j, lane)
-            d = larger(root(dx * dx + dy * dy + dz * dz), most)
-            excess = (d - most) / d
+        for lane in range(0, x.shape[1], lane_count(x)):
+            dx, dy, dz = direction(x, i, j, lane)
+            d = maximum(sqrt(dx * dx + dy * dy + dz * dz), longest)
+            excess = (d - longest) / d
             if part_i != 0:
                 add(x, i, lane, part_i * excess, dx, dy, dz)
             if part_j != 0:
@@ -117,7 +117,7 @@ def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any) -> None
         h = seed ^ spread(i, np.uint32(0x9E3779B1)), seed ^ spread(next_i, np.uint32(0x9E3779B1))
         m = spread(j, np.uint32(0x27D4EB2F)), spread(j + one, np.uint32(0x27D4EB2F))
         n = spread(k, np.uint32(0x165667B1)), spread(k + one, np.uint32(0x165667B1))
-        u, v, w = faded(x), faded(y), faded(z)
+        u, v, w = fade(x), fade(y), fade(z)
         none = x * F(0), x * F(0), x * F(0)
         near = (one - v) * (one - w), v * (one - w), (one - v) * w, v * w
         p = corner(none, h[0] ^ m[0] ^ n[0], (one - u) * near[0], x, y, z)
@@ -133,13 +133,13 @@ def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any) -> None
 
 @kernel
 def below(x: Any) -> Any:
-    """The whole number at or below x. np.floor would keep a loop from being vectorised."""
+    """The greatest whole number not above x. A loop with np.floor is not vectorised."""
     whole = type(x)(np.int32(x))
     return whole - type(x)(1) if whole > x else whole
 
 
 @kernel
-def faded(x: Any) -> Any:
+def fade(x: Any) -> Any:
     """Perlin's fade, 6 x⁵ - 15 x⁴ + 10 x³."""
     F = type(x)
     return x * x * x * (x * (x * F(6) - F(15)) + F(10))
@@ -152,19 +152,19 @@ def spread(cell: Any, factor: Any) -> Any:
 
 
 @kernel
-def folded(h: Any, places: Any) -> Any:
-    """Bits and themselves some places down."""
+def xor_shifted(h: Any, places: Any) -> Any:
+    """Bits combined with themselves shifted to the right."""
     return np.uint32(h ^ np.uint32(h >> places))
 
 
 @kernel
 def corner(sums: Any, h: Any, weight: Any, x: Any, y: Any, z: Any) -> Any:
-    """The three sums with a corner's part added: its gradient, from bits h, times the way to it."""
+    """The three sums plus a corner's part: its gradient, from bits h, times the vector to it."""
     F = type(x)
     # The 32-bit finaliser of MurmurHash3 (Appleby 2011).
-    h = folded(np.uint32(h), np.uint32(16))
-    h = folded(np.uint32(h * np.uint32(0x85EBCA6B)), np.uint32(13))
-    h = folded(np.uint32(h * np.uint32(0xC2B2AE35)), np.uint32(16))
+    h = xor_shifted(np.uint32(h), np.uint32(16))
+    h = xor_shifted(np.uint32(h * np.uint32(0x85EBCA6B)), np.uint32(13))
+    h = xor_shifted(np.uint32(h * np.uint32(0xC2B2AE35)), np.uint32(16))
     p = F(np.int32(h & np.uint32(255))) - F(127.5)
     q = F(np.int32((h >> np.uint32(8)) & np.uint32(255))) - F(127.5)
     r = F(np.int32((h >> np.uint32(16)) & np.uint32(255))) - F(127.5)
@@ -236,7 +236,7 @@ def add_wind_velocities(
         wp, wq = faces.weights[i, 0], faces.weights[i, 1]
         wr, ws = faces.weights[i, 2], faces.weights[i, 3]
         push = x.dtype.type(dt * inv_mass[i] * pressure)
-        for lane in range(0, x.shape[1], span(x)):
+        for lane in range(0, x.shape[1], lane_count(x)):
             nx, ny, nz = vector_area(x, faces, i, lane)
             head_on = fill(x.dtype.type(0))
             for axis in range(3):
@@ -249,7 +249,7 @@ def add_wind_velocities(
                     flow = flow + ws * load(wind, s + axis, lane)
                 along = nx if axis == 0 else ny if axis == 1 else nz
                 head_on = head_on + along * (flow - load(v, 3 * i + axis, lane))
-            area = root(nx * nx + ny * ny + nz * nz) + tiny
+            area = sqrt(nx * nx + ny * ny + nz * nz) + tiny
             add(g, 3 * i, lane, push * head_on / area, nx, ny, nz)
 
 
@@ -288,12 +288,12 @@ def frame_velocity(mean: Any, v: Any, pins: Any) -> None:
 def subtract_frame(g: Any, v: Any, mean: Any) -> None:
     """g = v - mean."""
     for row in range(v.shape[0]):
-        for lane in range(0, v.shape[1], span(v)):
+        for lane in range(0, v.shape[1], lane_count(v)):
             store(g, row, lane, load(v, row, lane) - load(mean, row % 3, lane))
 
 
 def filter_velocities(both: Any, filter: Any, pins: Any) -> None:
-    """both[1] = W both[0], pins at 0; both [2, 3N, L], of which both[0] is spoilt.
+    """both[1] = W both[0], pins at 0; both [2, 3N, L], of which both[0] is overwritten.
 
     By the filter's form: `filters.Filter` or `filters.BandFilter`.
     """
@@ -312,7 +312,7 @@ def _filter_velocities(both: Any, filter: Any, pins: Any) -> Any:
 
 @kernel
 def filter_by_products(both: Any, filter: Any, pins: Any) -> None:
-    """both[1] = W both[0], pins at 0; both [2, 3N, L], of which both[0] is spoilt. See `Filter`."""
+    """both[1] = W both[0], pins at 0; both [2, 3N, L]; both[0] is overwritten. See `Filter`."""
     for row in range(3 * pins.size):
         for lane in range(both.shape[2]):
             both[0, 3 * pins[row // 3] + row % 3, lane] = 0
@@ -323,7 +323,7 @@ def filter_by_products(both: Any, filter: Any, pins: Any) -> None:
         for row in range(3 * size):
             to = 3 * (base + row // 3 * stride) + row % 3
             part = filter.matrices[begin + row // 3 * size : begin + (row // 3 + 1) * size]
-            for lane in range(0, both.shape[2], span(both)):
+            for lane in range(0, both.shape[2], lane_count(both)):
                 total = other = fill(both.dtype.type(0))
                 at = 3 * base + row % 3
                 for i in range(0, size - 1, 2):
@@ -469,7 +469,7 @@ def add_uniform(g: Any, mean: Any, inv_mass: Any, numbers: Any, push: Any, start
         if inv_mass[row // 3] == 0:
             continue
         fall = F(numbers[0] * numbers[3 + row % 3])
-        for lane in range(0, g.shape[1], span(g)):
+        for lane in range(0, g.shape[1], lane_count(g)):
             speed = load(g, row, lane)
             if push.size > 0:
                 speed = speed + dt * load(push, row, start + lane)
@@ -480,7 +480,7 @@ def add_uniform(g: Any, mean: Any, inv_mass: Any, numbers: Any, push: Any, start
 def move(x: Any, u: Any, old: Any, dt: Any) -> None:
     """old = x; x += dt u."""
     for row in range(x.shape[0]):
-        for lane in range(0, x.shape[1], span(x)):
+        for lane in range(0, x.shape[1], lane_count(x)):
             here = load(x, row, lane)
             store(old, row, lane, here)
             store(x, row, lane, here + dt * load(u, row, lane))
@@ -502,9 +502,9 @@ def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any)
 
 @kernel
 def set_velocities(v: Any, x: Any, old: Any, dt: Any) -> None:
-    """v = (x - old) / dt, flushed to 0 below STILL."""
-    still, rate = x.dtype.type(STILL), x.dtype.type(1 / dt)
+    """v = (x - old) / dt, flushed to 0 below MIN_SPEED."""
+    still, rate = x.dtype.type(MIN_SPEED), x.dtype.type(1 / dt)
     for row in range(x.shape[0]):
-        for lane in range(0, x.shape[1], span(x)):
+        for lane in range(0, x.shape[1], lane_count(x)):
             speed = (load(x, row, lane) - load(old, row, lane)) * rate
-            store(v, row, lane, flushed(speed, still))
+            store(v, row, lane, flush_denormals(speed, still))

@@ -1,7 +1,7 @@
-"""Between states, [B, N, 3], and what the kernels run over: lanes [3N, B], in blocks.
+"""Conversion between states, [B, N, 3], and the lanes that kernels use, [3N, B], in blocks.
 
-A block's cloths are stepped together while they are in cache. Each lane does the same arithmetic
-whatever its block, so neither the block's width nor the number of threads changes a bit.
+The cloths of a block are stepped together while they are in cache. The arithmetic of a lane does
+not depend on its block, so neither the block's width nor the number of threads changes a bit.
 """
 
 import os
@@ -15,7 +15,7 @@ import numpy as np
 
 from drapery.cloth.checks import shown
 from drapery.cloth.pins import PinPath
-from drapery.cloth.simd import lanes_of, whole
+from drapery.cloth.simd import lanes_per_register, padded_count
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array
@@ -25,12 +25,12 @@ BLOCK_BYTES = 1 << 18
 
 
 def to_lanes(values: Array) -> Array:
-    """[B, N, 3] as contiguous [3N, L], with B filled up to whole registers by copies of the last.
+    """[B, N, 3] as contiguous [3N, L]; copies of the last cloth fill B up to whole registers.
 
-    No copy of what `from_lanes` returned.
+    What `from_lanes` returned is not copied.
     """
     rows, count = 3 * values.shape[1], len(values)
-    lanes = whole(count, values.dtype)
+    lanes = padded_count(count, values.dtype)
     held = values.base
     if (
         isinstance(held, np.ndarray)
@@ -40,7 +40,7 @@ def to_lanes(values: Array) -> Array:
         and from_lanes(held, count).__array_interface__ == values.__array_interface__
     ):
         return held
-    return filled(values.transpose(1, 2, 0).reshape(rows, count), lanes)
+    return padded(values.transpose(1, 2, 0).reshape(rows, count), lanes)
 
 
 def from_lanes(lanes: Array, count: int) -> Array:
@@ -48,8 +48,8 @@ def from_lanes(lanes: Array, count: int) -> Array:
     return lanes.reshape(-1, 3, lanes.shape[1]).transpose(2, 0, 1)[:count]
 
 
-def filled(values: Array, lanes: int) -> Array:
-    """The last axis filled up by copies of its last part."""
+def padded(values: Array, lanes: int) -> Array:
+    """The last axis padded to `lanes` by copies of its last part."""
     more = [(0, 0)] * (values.ndim - 1) + [(0, lanes - values.shape[-1])]
     if not values.size:
         return np.zeros((*values.shape[:-1], 0), values.dtype)
@@ -57,17 +57,17 @@ def filled(values: Array, lanes: int) -> Array:
 
 
 def block_width(particles: int, values: Array, threads: int) -> int:
-    """Cloths to a block, whole registers: of the widths that stay in cache, the one that leaves
-    the busiest thread the least. values: their positions, [3N, L]."""
-    register = lanes_of(values.dtype)
-    most = BLOCK_BYTES // (6 * particles * values.itemsize) // register * register
-    most = min(256, max(register, most))
+    """Cloths in a block: a multiple of a register. Of the widths that stay in cache, the one with
+    the least work for the busiest thread. values: positions, [3N, L]."""
+    register = lanes_per_register(values.dtype)
+    maximum = BLOCK_BYTES // (6 * particles * values.itemsize) // register * register
+    maximum = min(256, max(register, maximum))
 
     def busiest(width: int) -> int:
         blocks = -(-int(values.shape[1]) // width)
         return -(-blocks // threads) * width
 
-    return min(range(most, most // 2, -register), key=busiest)
+    return min(range(maximum, maximum // 2, -register), key=busiest)
 
 
 def run_blocks(work: Callable[[int, int], None], count: int, width: int, threads: int) -> None:
@@ -104,7 +104,7 @@ def thread_count(wanted: int | None) -> int:
 
 def cast(plan: Any, dtype: Any) -> Any:
     """A named tuple of arrays and numbers with its floating-point arrays as `dtype`."""
-    with np.errstate(under="ignore"):  # so small a part is none
+    with np.errstate(under="ignore"):  # parts too small for the type become 0
         return type(plan)(
             *[
                 np.ascontiguousarray(part, dtype)
@@ -116,8 +116,8 @@ def cast(plan: Any, dtype: Any) -> Any:
 
 
 def pin_targets(path: PinPath | None, state: State, dt: float, steps: int, pinned: int) -> Array:
-    """Where the P pins are after each step, [steps, 3P, B] or [steps, 3P, 1]; [0, ...]
-    if they stay. Raises OptionError."""
+    """Positions of the P pins after each step, [steps, 3P, B] or [steps, 3P, 1]; [0, ...] for
+    pins that do not move. Raises OptionError."""
     dtype = state.positions.dtype
     if path is None:
         return np.zeros((0, 3 * pinned, 1), dtype)

@@ -43,7 +43,7 @@ def outwards(distances: Array, pairs: NDArray[np.int32], lengths: Array) -> NDAr
 
 
 def across_then_outwards(cloth: Cloth, springs: NDArray[np.integer]) -> NDArray[np.integer]:
-    """These springs [S]: first those across the way from the pins, then those along it, outwards.
+    """These springs [S]: those across the direction to the pins, then those along it, outwards.
 
     Mixed, row by row, they make projections without a limit unstable on fine grids. A grid's are
     built in a fit order: all rows, then all columns from the top down.

@@ -32,7 +32,7 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
     OptionError.
     """
     if not cloths:
-        raise OptionError("nothing to sew: give at least one cloth")
+        raise OptionError("nothing to sew: give at first_number one cloth")
     drags = sorted({cloth.drag for cloth in cloths})
     if len(drags) > 1:
         raise OptionError(
@@ -71,9 +71,9 @@ def _pairs(
         for cloth, particles in ((seam.first, seam.first_particles), (seam[2], seam[3])):
             if not 0 <= cloth < len(cloths):
                 raise OptionError(f"seam {place} names cloth {cloth}; use 0 to {len(cloths) - 1}")
-            chosen, most = np.asarray(particles), len(cloths[cloth].inv_mass) - 1
-            if chosen.size and (chosen.min() < 0 or chosen.max() > most):
-                raise OptionError(f"seam {place} names particles outside 0 to {most}")
+            chosen, last = np.asarray(particles), len(cloths[cloth].inv_mass) - 1
+            if chosen.size and (chosen.min() < 0 or chosen.max() > last):
+                raise OptionError(f"seam {place} names particles outside 0 to {last}")
             sides.append(chosen + starts[cloth])
         if len(sides[0]) != len(sides[1]):
             raise OptionError(f"seam {place} joins {len(sides[0])} to {len(sides[1])} particles")
@@ -83,14 +83,14 @@ def _pairs(
 
 def _merged(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
     """New numbers of `count` particles whose pairs are made one, in the order of the first."""
-    least = np.arange(count)
+    first_number = np.arange(count)
     while True:
-        before = least.copy()
+        before = first_number.copy()
         for a, b in (pairs.T, pairs.T[::-1]):
-            np.minimum.at(least, b, least[a])
-        least = least[least]
-        if np.array_equal(before, least):
-            return np.unique(least, return_inverse=True)[1].astype(np.int64)
+            np.minimum.at(first_number, b, first_number[a])
+        first_number = first_number[first_number]
+        if np.array_equal(before, first_number):
+            return np.unique(first_number, return_inverse=True)[1].astype(np.int64)
 
 
 def _sewn_masses(

@@ -1,7 +1,7 @@
 """The inner loops over one grid laid out as a plane of lanes; see `sheets`.
 
-As in `kernels`, with arrays [3, lanes]. Loops go on to the end of a whole register: what they are
-given there changes nothing.
+As in `kernels`, with arrays [3, lanes]. Loops run to the end of a whole register: the
+numbers there change nothing.
 """
 
 from typing import Any
@@ -9,10 +9,8 @@ from typing import Any
 import numpy as np
 
 from drapery.cloth import kernels
-from drapery.cloth.kernels import STILL, TINY
-from drapery.cloth.simd import fill, flushed, larger, root, span
-from drapery.cloth.simd import load as get
-from drapery.cloth.simd import store as put
+from drapery.cloth.kernels import MIN_SPEED, TINY
+from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
 from drapery.cloth.wind import Gusts
 from drapery.jit import kernel
 
@@ -27,7 +25,7 @@ def lane_of(particle: Any, sheet: Any) -> Any:
 
 
 @kernel
-def load(y: Any, x: Any, cloth: Any, sheet: Any) -> None:
+def load_plane(y: Any, x: Any, cloth: Any, sheet: Any) -> None:
     """One cloth of lanes x [3N, B] into y [3, lanes]."""
     for particle in range(x.shape[0] // 3):
         for axis in range(3):
@@ -35,7 +33,7 @@ def load(y: Any, x: Any, cloth: Any, sheet: Any) -> None:
 
 
 @kernel
-def store(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
+def store_plane(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
     """y [3, lanes] into one cloth of lanes x [3N, B]."""
     for particle in range(x.shape[0] // 3):
         for axis in range(3):
@@ -43,52 +41,52 @@ def store(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
 
 
 @kernel
-def ways(x: Any, a: Any, b: Any) -> Any:
+def directions(x: Any, a: Any, b: Any) -> Any:
     """From the lanes at a to those at b."""
     return (
-        get(x, 0, b) - get(x, 0, a),
-        get(x, 1, b) - get(x, 1, a),
-        get(x, 2, b) - get(x, 2, a),
+        load(x, 0, b) - load(x, 0, a),
+        load(x, 1, b) - load(x, 1, a),
+        load(x, 2, b) - load(x, 2, a),
     )
 
 
 @kernel
-def add_spring_velocities(g: Any, x: Any, pulls: Any, work: Any) -> None:
+def add_spring_velocities(g: Any, x: Any, batches: Any, work: Any) -> None:
     """g += dt/m · F, where the parts are dt k / m. work: see `move_both`."""
     tiny, lead = x.dtype.type(TINY), work.shape[1] // 2
-    for entry in range(pulls.a.size):
-        a, b, start = pulls.a[entry], pulls.b[entry], pulls.start[entry]
-        for n in range(0, pulls.lanes[entry], span(x)):
-            dx, dy, dz = ways(x, a + n, b + n)
-            length = get(pulls.values, 0, start + n)
-            d = root(dx * dx + dy * dy + dz * dz)
-            strain = (d - length) / larger(d, length * tiny)
-            put(work, 0, lead + n, strain * dx)
-            put(work, 1, lead + n, strain * dy)
-            put(work, 2, lead + n, strain * dz)
-        move_both(g, pulls, entry, work)
+    for entry in range(batches.a.size):
+        a, b, start = batches.a[entry], batches.b[entry], batches.start[entry]
+        for n in range(0, batches.lanes[entry], lane_count(x)):
+            dx, dy, dz = directions(x, a + n, b + n)
+            length = load(batches.values, 0, start + n)
+            d = sqrt(dx * dx + dy * dy + dz * dz)
+            strain = (d - length) / maximum(d, length * tiny)
+            store(work, 0, lead + n, strain * dx)
+            store(work, 1, lead + n, strain * dy)
+            store(work, 2, lead + n, strain * dz)
+        move_both(g, batches, entry, work)
 
 
 @kernel
-def move_both(x: Any, pulls: Any, entry: Any, work: Any) -> None:
+def move_both(x: Any, batches: Any, entry: Any, work: Any) -> None:
     """x_a += part_i w, x_b -= part_j w, in one go over the lanes from a on.
 
     work: [3, 2 · L] of which w is the second half, with zeros in front of it.
     """
-    a, start, lead = pulls.a[entry], pulls.start[entry], work.shape[1] // 2
-    shift = pulls.b[entry] - a
+    a, start, lead = batches.a[entry], batches.start[entry], work.shape[1] // 2
+    shift = batches.b[entry] - a
     for axis in range(3):
-        for n in range(0, pulls.lanes[entry], span(x)):
-            gain = get(pulls.values, 1, start + n) * get(work, axis, lead + n)
-            loss = get(pulls.values, 2, start + n - shift) * get(work, axis, lead + n - shift)
-            put(x, axis, a + n, get(x, axis, a + n) + (gain - loss))
-        for n in range(pulls.lanes[entry], pulls.lanes[entry] + shift, span(x)):
-            loss = get(pulls.values, 2, start + n - shift) * get(work, axis, lead + n - shift)
-            put(x, axis, a + n, get(x, axis, a + n) - loss)
+        for n in range(0, batches.lanes[entry], lane_count(x)):
+            gain = load(batches.values, 1, start + n) * load(work, axis, lead + n)
+            loss = load(batches.values, 2, start + n - shift) * load(work, axis, lead + n - shift)
+            store(x, axis, a + n, load(x, axis, a + n) + (gain - loss))
+        for n in range(batches.lanes[entry], batches.lanes[entry] + shift, lane_count(x)):
+            loss = load(batches.values, 2, start + n - shift) * load(work, axis, lead + n - shift)
+            store(x, axis, a + n, load(x, axis, a + n) - loss)
 
 
 @kernel
-def pull(x: Any, pulls: Any, begin: Any, end: Any, form: Any, work: Any) -> None:
+def solve_batches(x: Any, batches: Any, begin: Any, end: Any, form: Any, work: Any) -> None:
     """Entries begin..end: x_a += part_i e (x_b - x_a), x_b -= part_j e (x_b - x_a).
 
     e is the strain of XPBD's constraint, or of lengths over the longest only. work: see
@@ -96,24 +94,24 @@ def pull(x: Any, pulls: Any, begin: Any, end: Any, form: Any, work: Any) -> None
     """
     lead, none = work.shape[1] // 2, fill(x.dtype.type(0))
     for entry in range(begin, end):
-        a, b, start = pulls.a[entry], pulls.b[entry], pulls.start[entry]
-        crossing, held = pulls.crossing[entry], pulls.held[entry]
-        for n in range(0, pulls.lanes[entry], span(x)):
-            dx, dy, dz = ways(x, a + n, b + n)
-            length = get(pulls.values, 0, start + n)
+        a, b, start = batches.a[entry], batches.b[entry], batches.start[entry]
+        crossing, held = batches.crossing[entry], batches.held[entry]
+        for n in range(0, batches.lanes[entry], lane_count(x)):
+            dx, dy, dz = directions(x, a + n, b + n)
+            length = load(batches.values, 0, start + n)
             rest = length * length
-            square = larger(dx * dx + dy * dy + dz * dz, rest if form == LIMIT else none)
+            square = maximum(dx * dx + dy * dy + dz * dz, rest if form == LIMIT else none)
             e = (square - rest) / (square + rest)
             if crossing:
-                put(work, 0, lead + n, e * dx)
-                put(work, 1, lead + n, e * dy)
-                put(work, 2, lead + n, e * dz)
+                store(work, 0, lead + n, e * dx)
+                store(work, 1, lead + n, e * dy)
+                store(work, 2, lead + n, e * dz)
             else:
                 if not held:
-                    kernels.add(x, 0, a + n, get(pulls.values, 1, start + n) * e, dx, dy, dz)
-                kernels.add(x, 0, b + n, -get(pulls.values, 2, start + n) * e, dx, dy, dz)
+                    kernels.add(x, 0, a + n, load(batches.values, 1, start + n) * e, dx, dy, dz)
+                kernels.add(x, 0, b + n, -load(batches.values, 2, start + n) * e, dx, dy, dz)
         if crossing:
-            move_both(x, pulls, entry, work)
+            move_both(x, batches, entry, work)
 
 
 @kernel
@@ -139,7 +137,7 @@ def place(y: Any, sheet: Any, targets: Any, turn: Any, cloth: Any) -> None:
 
 
 @kernel
-def wind_room(sheet: Any, dtype: Any) -> Any:
+def wind_scratch(sheet: Any, dtype: Any) -> Any:
     """Arrays for `add_wind`."""
     samples = sheet.controls.size
     return (
@@ -166,13 +164,13 @@ def own_gusts(gusts: Any, cloth: Any, samples: Any) -> Any:
 
 @kernel
 def add_wind(
-    g: Any, y: Any, v: Any, sheet: Any, gusts: Any, number: Any, time: Any, dt: Any, room: Any
+    g: Any, y: Any, v: Any, sheet: Any, gusts: Any, number: Any, time: Any, dt: Any, scratch: Any
 ) -> None:
     """g += dt/m · F of one wind; see `kernels.add_wind_velocities`. v may be g.
 
-    room: at, wind and work of the samples, and work [6, width and two registers].
+    scratch: at, wind and work of the samples, and work [6, width and two registers].
     """
-    at, wind, samples_work, work = room
+    at, wind, samples_work, work = scratch
     for sample in range(sheet.controls.size):
         for axis in range(3):
             at[axis, sample] = y[axis, lane_of(sheet.controls[sample], sheet)]
@@ -189,13 +187,13 @@ def relative_wind(work: Any, v: Any, wind: Any, sheet: Any, row: Any) -> None:
     low, first = sheet.low[row], sheet.above[row] * sheet.across.shape[0]
     line, samples = row * sheet.width, sheet.across.shape[0]
     for axis in range(3):
-        for lane in range(0, sheet.width, span(v)):
-            flow = -get(v, axis, line + lane)
+        for lane in range(0, sheet.width, lane_count(v)):
+            flow = -load(v, axis, line + lane)
             for column in range(samples):
                 above = wind[axis, first + column]
                 below = wind[axis, first + samples + column]
-                flow = flow + (above + low * (below - above)) * get(sheet.across, column, lane)
-            put(work, axis, lane, flow)
+                flow = flow + (above + low * (below - above)) * load(sheet.across, column, lane)
+            store(work, axis, lane, flow)
 
 
 @kernel
@@ -204,24 +202,24 @@ def press(g: Any, y: Any, work: Any, sheet: Any, row: Any, pressure: Any) -> Non
 
     n: vector areas, a quarter of (right - left) x (above - below).
     """
-    line, last, edge = row * sheet.width, sheet.columns - 1, span(y)
+    line, last, edge = row * sheet.width, sheet.columns - 1, lane_count(y)
     up, down = max(row - 1, 0) * sheet.width, min(row + 1, sheet.rows - 1) * sheet.width
     for axis in range(3):
         # work[3:6] is the row with its ends doubled.
-        for lane in range(0, sheet.width, span(y)):
-            put(work, 3 + axis, edge + lane, get(y, axis, line + lane))
+        for lane in range(0, sheet.width, lane_count(y)):
+            store(work, 3 + axis, edge + lane, load(y, axis, line + lane))
         work[3 + axis, edge - 1] = y[axis, line]
         work[3 + axis, edge + last + 1] = y[axis, line + last]
     tiny, quarter = g.dtype.type(1e-30), g.dtype.type(0.25)
-    for lane in range(0, sheet.width, span(y)):
-        px = quarter * (get(work, 3, edge + lane + 1) - get(work, 3, edge + lane - 1))
-        py = quarter * (get(work, 4, edge + lane + 1) - get(work, 4, edge + lane - 1))
-        pz = quarter * (get(work, 5, edge + lane + 1) - get(work, 5, edge + lane - 1))
-        qx, qy, qz = ways(y, down + lane, up + lane)
+    for lane in range(0, sheet.width, lane_count(y)):
+        px = quarter * (load(work, 3, edge + lane + 1) - load(work, 3, edge + lane - 1))
+        py = quarter * (load(work, 4, edge + lane + 1) - load(work, 4, edge + lane - 1))
+        pz = quarter * (load(work, 5, edge + lane + 1) - load(work, 5, edge + lane - 1))
+        qx, qy, qz = directions(y, down + lane, up + lane)
         nx, ny, nz = py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx
-        head_on = nx * get(work, 0, lane) + ny * get(work, 1, lane) + nz * get(work, 2, lane)
-        area = root(nx * nx + ny * ny + nz * nz) + tiny
-        push = pressure * get(sheet.inv_mass, row, lane) * head_on / area
+        head_on = nx * load(work, 0, lane) + ny * load(work, 1, lane) + nz * load(work, 2, lane)
+        area = sqrt(nx * nx + ny * ny + nz * nz) + tiny
+        push = pressure * load(sheet.inv_mass, row, lane) * head_on / area
         kernels.add(g, 0, line + lane, push, nx, ny, nz)
 
 
@@ -239,18 +237,18 @@ def transform(out: Any, values: Any, matrix: Any, sheet: Any) -> None:
     width, none = sheet.width, fill(out.dtype.type(0))
     for row in range(sheet.rows):
         line = row * width
-        for lane in range(0, width, span(out)):
+        for lane in range(0, width, lane_count(out)):
             # Three axes and two halves of the sum: enough for the processor to do at once.
             x = y = z = none
             u = v = w = none
             for c in range(0, width, 2):
-                near, far = get(matrix, c, lane), get(matrix, c + 1, lane)
+                near, far = load(matrix, c, lane), load(matrix, c + 1, lane)
                 x, u = x + values[0, line + c] * near, u + values[0, line + c + 1] * far
                 y, v = y + values[1, line + c] * near, v + values[1, line + c + 1] * far
                 z, w = z + values[2, line + c] * near, w + values[2, line + c + 1] * far
-            put(out, 0, line + lane, x + u)
-            put(out, 1, line + lane, y + v)
-            put(out, 2, line + lane, z + w)
+            store(out, 0, line + lane, x + u)
+            store(out, 1, line + lane, y + v)
+            store(out, 2, line + lane, z + w)
 
 
 @kernel
@@ -258,32 +256,32 @@ def solve_columns(w: Any, filter: Any, sheet: Any) -> None:
     """Each wave's column by its band of two, in place: L, D and back by the transpose of L."""
     width, count = sheet.width, filter.inverse.shape[0]
     for r in range(1, count):
-        for lane in range(0, width, span(w)):
+        for lane in range(0, width, lane_count(w)):
             at = (filter.first + r) * width + lane
-            near, far = get(filter.near, r, lane), get(filter.far, r, lane)
+            near, far = load(filter.near, r, lane), load(filter.far, r, lane)
             for axis in range(3):
-                value = get(w, axis, at) - near * get(w, axis, at - width)
+                value = load(w, axis, at) - near * load(w, axis, at - width)
                 if r > 1:
-                    value = value - far * get(w, axis, at - 2 * width)
-                put(w, axis, at, value)
+                    value = value - far * load(w, axis, at - 2 * width)
+                store(w, axis, at, value)
     for r in range(count - 1, -1, -1):
-        for lane in range(0, width, span(w)):
+        for lane in range(0, width, lane_count(w)):
             at = (filter.first + r) * width + lane
             for axis in range(3):
-                value = get(w, axis, at) * get(filter.inverse, r, lane)
+                value = load(w, axis, at) * load(filter.inverse, r, lane)
                 if r < count - 1:
-                    value = value - get(filter.near, r + 1, lane) * get(w, axis, at + width)
+                    value = value - load(filter.near, r + 1, lane) * load(w, axis, at + width)
                 if r < count - 2:
-                    value = value - get(filter.far, r + 2, lane) * get(w, axis, at + 2 * width)
-                put(w, axis, at, value)
+                    value = value - load(filter.far, r + 2, lane) * load(w, axis, at + 2 * width)
+                store(w, axis, at, value)
 
 
 @kernel
 def filter_sheet(g: Any, other: Any, filter: Any, sheet: Any) -> None:
     """g = W g with pins at 0; see `filters.SheetFilter`. other is as large as g."""
     for axis in range(3):
-        for lane in range(0, sheet.size, span(g)):
-            put(g, axis, lane, get(g, axis, lane) * get(sheet.free, 0, lane))
+        for lane in range(0, sheet.size, lane_count(g)):
+            store(g, axis, lane, load(g, axis, lane) * load(sheet.free, 0, lane))
     transform(other, g, filter.into, sheet)
     solve_columns(other, filter, sheet)
     transform(g, other, filter.back, sheet)
@@ -293,8 +291,8 @@ def filter_sheet(g: Any, other: Any, filter: Any, sheet: Any) -> None:
     for p in range(filter.release.shape[0]):
         for axis in range(3):
             part = other[axis, p]
-            for lane in range(0, sheet.size, span(g)):
-                put(g, axis, lane, get(g, axis, lane) + part * get(filter.release, p, lane))
+            for lane in range(0, sheet.size, lane_count(g)):
+                store(g, axis, lane, load(g, axis, lane) + part * load(filter.release, p, lane))
 
 
 @kernel
@@ -306,8 +304,8 @@ def subtract_mean(g: Any, v: Any, mean: Any, sheet: Any) -> None:
             mean[axis] += v[axis, lane_of(sheet.pins[p], sheet)]
         mean[axis] /= v.dtype.type(max(1, sheet.pins.size))
         part = mean[axis]
-        for lane in range(0, sheet.size, span(g)):
-            put(g, axis, lane, get(v, axis, lane) - part)
+        for lane in range(0, sheet.size, lane_count(g)):
+            store(g, axis, lane, load(v, axis, lane) - part)
 
 
 @kernel
@@ -317,18 +315,18 @@ def fall(g: Any, mean: Any, sheet: Any, numbers: Any) -> None:
     slow = F(1 / (1 + numbers[0] * numbers[1]))
     for axis in range(3):
         gain = mean[axis] + F(numbers[0] * numbers[3 + axis])
-        for lane in range(0, sheet.size, span(g)):
-            put(g, axis, lane, (get(g, axis, lane) + gain) * slow * get(sheet.free, 0, lane))
+        for lane in range(0, sheet.size, lane_count(g)):
+            store(g, axis, lane, (load(g, axis, lane) + gain) * slow * load(sheet.free, 0, lane))
 
 
 @kernel
 def move(y: Any, g: Any, old: Any, dt: Any, sheet: Any) -> None:
     """old = y; y += dt g."""
     for axis in range(3):
-        for lane in range(0, sheet.size, span(g)):
-            here = get(y, axis, lane)
-            put(old, axis, lane, here)
-            put(y, axis, lane, here + dt * get(g, axis, lane))
+        for lane in range(0, sheet.size, lane_count(g)):
+            here = load(y, axis, lane)
+            store(old, axis, lane, here)
+            store(y, axis, lane, here + dt * load(g, axis, lane))
 
 
 @kernel
@@ -338,9 +336,9 @@ def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
     slow = F(1 / (1 + dt * numbers[1]))
     for axis in range(3):
         gain = F(dt * numbers[3 + axis])
-        for lane in range(0, sheet.size, span(v)):
-            speed = (get(v, axis, lane) + gain) * slow - gain
-            put(v, axis, lane, speed * get(sheet.free, 0, lane))
+        for lane in range(0, sheet.size, lane_count(v)):
+            speed = (load(v, axis, lane) + gain) * slow - gain
+            store(v, axis, lane, speed * load(sheet.free, 0, lane))
 
 
 @kernel
@@ -350,21 +348,21 @@ def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, substep: Any) -> N
     h = F(numbers[0])
     for axis in range(3):
         gain = F(numbers[0] * numbers[0] * numbers[3 + axis])
-        for lane in range(0, sheet.size, span(y)):
-            here = get(y, axis, lane)
-            way = h * get(v, axis, lane) if substep == 0 else here - get(old, axis, lane)
-            put(y, axis, lane, here + (way + gain) * get(sheet.free, 0, lane))
-            put(old, axis, lane, here)
+        for lane in range(0, sheet.size, lane_count(y)):
+            here = load(y, axis, lane)
+            motion = h * load(v, axis, lane) if substep == 0 else here - load(old, axis, lane)
+            store(y, axis, lane, here + (motion + gain) * load(sheet.free, 0, lane))
+            store(old, axis, lane, here)
 
 
 @kernel
 def set_velocities(v: Any, y: Any, old: Any, h: Any, sheet: Any) -> None:
-    """v = (y - old) / h, flushed to 0 below STILL."""
-    still, rate = y.dtype.type(STILL), y.dtype.type(1 / h)
+    """v = (y - old) / h, flushed to 0 below MIN_SPEED."""
+    still, rate = y.dtype.type(MIN_SPEED), y.dtype.type(1 / h)
     for axis in range(3):
-        for lane in range(0, sheet.size, span(y)):
-            speed = (get(y, axis, lane) - get(old, axis, lane)) * rate
-            put(v, axis, lane, flushed(speed, still))
+        for lane in range(0, sheet.size, lane_count(y)):
+            speed = (load(y, axis, lane) - load(old, axis, lane)) * rate
+            store(v, axis, lane, flush_denormals(speed, still))
 
 
 @kernel
@@ -372,6 +370,6 @@ def add_velocities(v: Any, y: Any, old: Any, dt: Any, sheet: Any) -> None:
     """v += (y - old) / dt."""
     rate = y.dtype.type(1 / dt)
     for axis in range(3):
-        for lane in range(0, sheet.size, span(y)):
-            gain = (get(y, axis, lane) - get(old, axis, lane)) * rate
-            put(v, axis, lane, get(v, axis, lane) + gain)
+        for lane in range(0, sheet.size, lane_count(y)):
+            gain = (load(y, axis, lane) - load(old, axis, lane)) * rate
+            store(v, axis, lane, load(v, axis, lane) + gain)

@@ -1,11 +1,12 @@
 """One fine grid as a plane of lanes.
 
-A batch fills the lanes of `kernels` with cloths; one cloth alone would leave them empty. So a fine
-grid is laid out as lanes itself, [3, lanes]: lane r · width + c is the particle in row r and
-column c, rows filled up to whole registers. A pull between particles some rows and columns apart
-joins lanes a constant shift apart, and one loop takes as many as share no particle: every second
-one of the whole plane, or, down the columns, a row after the other, which is exact Gauss-Seidel
-along a hanging cloth. Lanes beside the grid stay at the origin.
+A batch fills the lanes of `kernels` with cloths; one cloth alone would leave most lanes empty. So
+the particles of a fine grid become the lanes, [3, lanes]: lane r · width + c is the particle in
+row r and column c, and rows are padded to whole registers. A constraint between particles some
+rows and columns apart joins lanes a constant shift apart. One loop solves a batch of constraints
+that share no particle: every second one of the whole plane or, down the columns, one row after the
+other, which is exact Gauss-Seidel along a hanging cloth. Lanes beside the grid stay at the origin.
+`python -m benchmarks.sheets` measures what this is worth.
 """
 
 from collections.abc import Iterator, Sequence
@@ -19,19 +20,19 @@ from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces
 from drapery.mesh import Array
 
-LEAST_COLUMNS = 16
-"""Narrower grids are as fast as a batch of one."""
-MOST_PINS = 4
-"""Most pins beside a whole top row."""
+MIN_COLUMNS = 16
+"""Narrower grids gain nothing."""
+MAX_PINS = 4
+"""A grid with another pattern of pins than its top row may have so many."""
 REGISTER = 8
-"""Rows are filled up to a multiple of this, a register of 256 bits."""
-AT_ONCE = 0.75
-"""Part of the corrections along a sheet's rows, which are made at once."""
+"""Rows are padded to a multiple of this, a register of 256 bits."""
+RELAXATION = 0.75
+"""Part of the corrections that is applied along rows, where all are made at once."""
 LANES = 16
-"""Loops go on to a multiple of this, the most numbers that `simd` loads at once."""
+"""Loops run to a multiple of this, the greatest count of numbers that `simd` loads at once."""
 
 
-class Sheet(NamedTuple):
+class SheetLayout(NamedTuple):
     """Where a grid's particles are.
 
     rows, columns: of the grid. width: lanes a row. size: lanes of the grid. plane: lanes of the
@@ -58,12 +59,12 @@ class Sheet(NamedTuple):
     across: Array
 
 
-class Pulls(NamedTuple):
-    """Pulls between lanes a + n and b + n for n below their number of lanes, in order.
+class ConstraintBatches(NamedTuple):
+    """Constraints between lanes a + n and b + n for n below their number of lanes, in order.
 
     a, b, lanes, start: [E]; the values of entry e begin at start[e]. held: whether no a moves, [E].
     crossing: whether lanes may be both an a and a b, [E]. values: [3, V]; length [m], then the
-    parts of the difference that each end takes: 0 where there is no pull, and between entries.
+    parts of the difference that each end takes: 0 for none and between entries.
     """
 
     a: NDArray[np.int64]
@@ -84,8 +85,8 @@ class Pairs(NamedTuple):
     part_j: Array
 
 
-class Piece(NamedTuple):
-    """One entry of `Pulls`: its lanes, and values [3, count]."""
+class ConstraintBatch(NamedTuple):
+    """One entry of `ConstraintBatches`: its lanes, and values [3, count]."""
 
     a: int
     b: int
@@ -97,10 +98,10 @@ class Piece(NamedTuple):
 
 
 def is_sheet(cloth: Cloth) -> bool:
-    """Whether a cloth is better stepped as a plane of lanes."""
-    if cloth.grid_shape is None or cloth.grid_shape[1] < LEAST_COLUMNS:
+    """Whether a cloth is faster as a plane of lanes."""
+    if cloth.grid_shape is None or cloth.grid_shape[1] < MIN_COLUMNS:
         return False
-    return hangs(cloth) or int((cloth.inv_mass == 0).sum()) <= MOST_PINS
+    return hangs(cloth) or int((cloth.inv_mass == 0).sum()) <= MAX_PINS
 
 
 def hangs(cloth: Cloth) -> bool:
@@ -109,7 +110,7 @@ def hangs(cloth: Cloth) -> bool:
     return np.array_equal(np.flatnonzero(cloth.inv_mass == 0), np.arange(columns))
 
 
-def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> Sheet:
+def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> SheetLayout:
     """The layout of a grid."""
     assert cloth.grid_shape is not None
     rows, columns = cloth.grid_shape
@@ -123,7 +124,7 @@ def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> Sheet:
         sample = faces.controls[:columns, corner] % samples
         np.add.at(across, (sample, np.arange(columns)), faces.weights[:columns, corner])
     pins = np.flatnonzero(cloth.inv_mass == 0)
-    return Sheet(
+    return SheetLayout(
         rows=rows,
         columns=columns,
         width=width,
@@ -142,60 +143,60 @@ def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> Sheet:
     )
 
 
-def pulls(pieces: Sequence[Piece]) -> Pulls:
-    """Pieces in order. Those with the same values share them."""
+def constraint_batches(batches: Sequence[ConstraintBatch]) -> ConstraintBatches:
+    """Batches in order; batches with equal values share them."""
     starts: dict[bytes, int] = {}
-    reach = max((abs(p.b - p.a) for p in pieces if p.crosses), default=0)
-    gap = no_pulls(_whole(reach + LANES))
+    overlap = max((abs(p.b - p.a) for p in batches if p.crosses), default=0)
+    gap = no_constraints(_whole(overlap + LANES))
     values, size, at = [gap], gap.shape[1], []
-    for piece in pieces:
-        key = piece.values.tobytes()
+    for batch in batches:
+        key = batch.values.tobytes()
         if key not in starts:
             starts[key] = size
-            more = no_pulls(_whole(piece.values.shape[1]) + gap.shape[1])
-            more[:, : piece.values.shape[1]] = piece.values
+            more = no_constraints(_whole(batch.values.shape[1]) + gap.shape[1])
+            more[:, : batch.values.shape[1]] = batch.values
             size += more.shape[1]
             values.append(more)
         at.append(starts[key])
-    lanes = [(piece.a, piece.b, _whole(piece.values.shape[1])) for piece in pieces]
+    lanes = [(batch.a, batch.b, _whole(batch.values.shape[1])) for batch in batches]
     a, b, count = np.array(lanes, np.int64).reshape(-1, 3).T.copy()
     start = np.array(at, np.int64)
-    held = np.array([not p.values[1].any() for p in pieces], bool)
-    crossing = np.array([p.crosses for p in pieces], bool)
-    return Pulls(a, b, count, start, held, crossing, np.concatenate(values, axis=1))
+    held = np.array([not p.values[1].any() for p in batches], bool)
+    crossing = np.array([p.crosses for p in batches], bool)
+    return ConstraintBatches(a, b, count, start, held, crossing, np.concatenate(values, axis=1))
 
 
-def anchored(sheet: Sheet, pairs: Pairs) -> Iterator[Piece]:
-    """Pairs of a pin and a particle: one piece for each plane of anchors."""
+def anchored(sheet: SheetLayout, pairs: Pairs) -> Iterator[ConstraintBatch]:
+    """Pairs of a pin and a particle: one batch for each plane of anchors."""
     for number, anchor in enumerate(sheet.anchors):
         mine = slice(None) if anchor < 0 else pairs.pairs[:, 0] == anchor
-        values = no_pulls(sheet.size)
+        values = no_constraints(sheet.size)
         _put(values, sheet, pairs.pairs[mine, 1], *(part[mine] for part in pairs[1:]))
-        yield Piece((number + 1) * sheet.plane, 0, values)
+        yield ConstraintBatch((number + 1) * sheet.plane, 0, values)
 
 
-def limits(sheet: Sheet, cloth: Cloth, limit: float, sweeps: int) -> Pulls:
+def limits(sheet: SheetLayout, cloth: Cloth, limit: float, sweeps: int) -> ConstraintBatches:
     """`attachments.link_groups` in their order; those along rows are taken at once, in part."""
     groups = [Pairs(*group) for group in link_groups(cloth, limit, sweeps)]
-    pieces: list[Piece] = []
+    batches: list[ConstraintBatch] = []
     for group in groups:
         held = group is groups[0] or group is groups[-1]
-        pieces += anchored(sheet, group) if held else in_turn(sheet, group, AT_ONCE)
-    return pulls(pieces)
+        batches += anchored(sheet, group) if held else in_turn(sheet, group, RELAXATION)
+    return constraint_batches(batches)
 
 
-def together(sheet: Sheet, pairs: Pairs) -> Iterator[Piece]:
-    """Pairs of particles, a piece for each way between them; for sums, whose order is free."""
+def together(sheet: SheetLayout, pairs: Pairs) -> Iterator[ConstraintBatch]:
+    """Pairs of particles, a batch for each direction; for sums, whose order does not matter."""
     for shift, values in _by_shift(sheet, pairs):
-        yield Piece(0, shift, values)
+        yield ConstraintBatch(0, shift, values)
 
 
-def in_turn(sheet: Sheet, pairs: Pairs, part: float = 1.0) -> Iterator[Piece]:
-    """Pairs of particles in pieces of which none uses a particle twice.
+def in_turn(sheet: SheetLayout, pairs: Pairs, part: float = 1.0) -> Iterator[ConstraintBatch]:
+    """Pairs of particles in batches of which none uses a particle twice.
 
-    Straight down the columns these are rows from the top; on other ways every second pair. With
-    a part below 1, such pairs are taken at once instead, with that part of their pulls: all of
-    them would keep the shortest waves going.
+    Straight down the columns these are rows from the top; in other directions every second pair.
+    With a part below 1, such pairs are taken at once instead, with that part of their corrections:
+    the whole of them would keep the shortest waves going.
     """
     row, column = np.divmod(np.arange(sheet.size), sheet.width)
     for shift, values in _by_shift(sheet, pairs):
@@ -203,31 +204,31 @@ def in_turn(sheet: Sheet, pairs: Pairs, part: float = 1.0) -> Iterator[Piece]:
         if columns == 0:
             yield from _row_by_row(sheet, rows, values)
         elif part < 1:
-            yield Piece(0, shift, values * np.array([[1.0], [part], [part]]))
+            yield ConstraintBatch(0, shift, values * np.array([[1.0], [part], [part]]))
         else:
             turn = row // rows % 2 if rows else column // columns % 2
             for colour in (0, 1):
                 chosen = values.copy()
                 chosen[1:, turn != colour] = 0.0
                 if chosen[1:].any():
-                    yield Piece(0, shift, chosen)
+                    yield ConstraintBatch(0, shift, chosen)
 
 
-def _row_by_row(sheet: Sheet, rows: int, values: Array) -> Iterator[Piece]:
+def _row_by_row(sheet: SheetLayout, rows: int, values: Array) -> Iterator[ConstraintBatch]:
     """Pairs straight down some rows: as many rows at once as share no particle, from the top."""
     for top in range(0, sheet.rows - rows, rows):
         first, last = top * sheet.width, min(top + rows, sheet.rows - rows) * sheet.width
-        yield Piece(first, first + rows * sheet.width, values[:, first:last])
+        yield ConstraintBatch(first, first + rows * sheet.width, values[:, first:last])
 
 
-def _by_shift(sheet: Sheet, pairs: Pairs) -> Iterator[tuple[int, Array]]:
+def _by_shift(sheet: SheetLayout, pairs: Pairs) -> Iterator[tuple[int, Array]]:
     """For each shift of lanes, in the order of first use, the values of its pairs."""
     row, column = np.divmod(pairs.pairs.astype(np.int64), sheet.columns)
     lanes = row * sheet.width + column
     shifts = lanes[:, 1] - lanes[:, 0]
     _, first = np.unique(np.abs(shifts), return_index=True)
     for shift in np.abs(shifts[np.sort(first)]):
-        values = no_pulls(sheet.size)
+        values = no_constraints(sheet.size)
         for sign, start, end in ((1, 0, 1), (-1, 1, 0)):
             mine = shifts == sign * shift
             parts = pairs.part_i[mine], pairs.part_j[mine]
@@ -236,8 +237,8 @@ def _by_shift(sheet: Sheet, pairs: Pairs) -> Iterator[tuple[int, Array]]:
         yield int(shift), values
 
 
-def _rows_and_columns(sheet: Sheet, shift: int) -> tuple[int, int]:
-    """The way of a shift of lanes: rows down, and columns to the right or (below 0) to the left."""
+def _rows_and_columns(sheet: SheetLayout, shift: int) -> tuple[int, int]:
+    """A shift of lanes as rows down and columns to the right (below 0: to the left)."""
     rows = (shift + sheet.width // 2) // sheet.width if shift >= sheet.columns else 0
     return rows, shift - rows * sheet.width
 
@@ -246,14 +247,14 @@ def _whole(count: int) -> int:
     return -(-count // LANES) * LANES
 
 
-def no_pulls(count: int) -> Array:
-    """Values of no pulls: length 1 m, parts 0."""
+def no_constraints(count: int) -> Array:
+    """Values without constraints: length 1 m, parts 0."""
     values = np.zeros((3, count))
     values[0] = 1.0
     return values
 
 
-def _put(values: Array, sheet: Sheet, particles: NDArray[np.integer], *parts: Array) -> None:
+def _put(values: Array, sheet: SheetLayout, particles: NDArray[np.integer], *parts: Array) -> None:
     row, column = np.divmod(particles.astype(np.int64), sheet.columns)
     for line, part in zip(values, parts, strict=True):
         line[row * sheet.width + column] = part

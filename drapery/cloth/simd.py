@@ -1,9 +1,9 @@
 """Registers of lanes: one value in a kernel that holds many floating-point numbers.
 
-A loop over lanes that reads and writes several rows is only vectorised by the compiler after it
-has asked, each time, whether rows overlap; with many rows it gives up. Here a kernel says so
-itself: `load` 64 bytes of a row, calculate, `store`. Operators act on each number by itself, in
-strict IEEE arithmetic; a processor with narrower registers takes several.
+The compiler vectorises a loop over lanes of several rows only behind checks that no rows overlap,
+and gives up where there are many rows. So kernels are written with registers: `load` 64 bytes of a
+row, calculate, `store`. Operators act on each number by itself, in strict IEEE arithmetic. A
+processor with narrower registers uses several.
 """
 
 import operator
@@ -19,7 +19,7 @@ from numba.extending import intrinsic, lower_builtin, models, register_model, ty
 from drapery.jit import kernel
 
 BYTES = 64
-"""Of a register and of a cache line."""
+"""Size of a register and of a cache line."""
 
 _intrinsic: Any = intrinsic
 _cgutils: Any = cgutils
@@ -42,19 +42,19 @@ class _LanesModel(_Model):  # type: ignore[misc]
         super().__init__(manager, kind, ir.VectorType(one, kind.count))
 
 
-def lanes_of(dtype: Any) -> int:
+def lanes_per_register(dtype: Any) -> int:
     """Numbers in one register."""
     return BYTES // int(np.dtype(dtype).itemsize)
 
 
-def whole(count: int, dtype: Any) -> int:
-    """The least number of lanes in whole registers that is no less than `count`."""
-    return -(-count // lanes_of(dtype)) * lanes_of(dtype)
+def padded_count(count: int, dtype: Any) -> int:
+    """`count` rounded up to whole registers."""
+    return -(-count // lanes_per_register(dtype)) * lanes_per_register(dtype)
 
 
 @kernel
-def room(rows: Any, lanes: Any, like: Any) -> Any:
-    """Zeros [rows, lanes] of the type of an array, from the beginning of a cache line."""
+def empty_lanes(rows: Any, lanes: Any, like: Any) -> Any:
+    """Zeros [rows, lanes] of the type of an array, aligned to a cache line."""
     size = np.intp(rows) * np.intp(lanes)
     numbers = np.zeros(size + BYTES // like.itemsize, like.dtype)
     first = -numbers.ctypes.data % BYTES // like.itemsize
@@ -71,7 +71,7 @@ def _place(context: Any, builder: Any, kind: Any, array: Any, row: Any, lane: An
 
 
 @_intrinsic
-def span(typing: Any, array: Any) -> Any:
+def lane_count(typing: Any, array: Any) -> Any:
     """Numbers of an array's type in a register."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -135,7 +135,7 @@ def _call(builder: Any, name: str, value: Any) -> Any:
 
 
 @_intrinsic
-def root(typing: Any, value: Any) -> Any:
+def sqrt(typing: Any, value: Any) -> Any:
     """Square roots."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -145,8 +145,8 @@ def root(typing: Any, value: Any) -> Any:
 
 
 @_intrinsic
-def flushed(typing: Any, value: Any, least: Any) -> Any:
-    """0 where the size is below `least`, elsewhere the value."""
+def flush_denormals(typing: Any, value: Any, least: Any) -> Any:
+    """0 where the absolute value is below `least`, elsewhere the value."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         size = _call(builder, "fabs", args[0])
@@ -160,8 +160,8 @@ def flushed(typing: Any, value: Any, least: Any) -> Any:
 
 
 @_intrinsic
-def larger(typing: Any, a: Any, b: Any) -> Any:
-    """The larger of each two; b where they cannot be compared."""
+def maximum(typing: Any, a: Any, b: Any) -> Any:
+    """The larger of each pair; b where they cannot be compared."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return builder.select(builder.fcmp_ordered(">", *args), *args)
@@ -170,8 +170,8 @@ def larger(typing: Any, a: Any, b: Any) -> Any:
 
 
 @_intrinsic
-def smaller(typing: Any, a: Any, b: Any) -> Any:
-    """The smaller of each two; b where they cannot be compared."""
+def minimum(typing: Any, a: Any, b: Any) -> Any:
+    """The smaller of each pair; b where they cannot be compared."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return builder.select(builder.fcmp_ordered("<", *args), *args)

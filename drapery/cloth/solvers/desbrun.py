@@ -2,9 +2,9 @@
 
 A predictor-corrector of first order: the springs' linear part is integrated implicitly by a filter
 that is made once per cloth and step, the rest explicitly, and springs that are then too long are
-pulled back (Provot 1995). Stable for any stiffness and step; the filter damps, the more so the
-stiffer the springs. To be chosen for small hanging cloths, many of them. Not to be confused with
-implicit Euler (Baraff, Witkin 1998), which solves with the true Hessian at every step.
+pulled back (Provot 1995). It is stable for any stiffness and step. The filter damps motion, more
+with stiffer springs. Choose it for many small hanging cloths. It is not implicit Euler (Baraff,
+Witkin 1998), which solves with the true Hessian at every step.
 
 The paper's force (section 3.2) is printed with the wrong sign: a stretched spring pulls i towards
 j. Its implicit viscosity k dt (v_j - v_i) equals dt H v, and W dt² M⁻¹ H = W - I, so instead of
@@ -30,53 +30,56 @@ from drapery.cloth.filters import (
     sheet_filter,
 )
 from drapery.cloth.sheets import (
+    ConstraintBatches,
     Pairs,
-    Pulls,
-    Sheet,
+    SheetLayout,
+    constraint_batches,
     is_sheet,
     limits,
-    pulls,
     sheet_of,
     together,
 )
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
-    Body,
+    ClothBody,
+    KernelSolver,
     SolverState,
-    Stepped,
     body_of,
     check_common,
 )
 from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
 from drapery.jit import entry_point
 
-CELLS = 60
-"""A step is halved on grids with more cells than this one way, and so on: a gust must not carry a
-particle past several neighbours in one."""
+MAX_CELLS = 60
+"""A step has one substep for so many cells along the longer side of a grid: a gust must not carry a
+particle past several neighbours in one substep."""
 
 
-class Plan(NamedTuple):
-    body: Body
+class DesbrunPlan(NamedTuple):
+    body: ClothBody
     filter: Filter | BandFilter
     attachments: Attachments
     spin: Spin | NoSpin
 
 
-class SheetPlan(NamedTuple):
-    sheet: Sheet
-    springs: Pulls
-    attachments: Pulls
+class DesbrunSheetPlan(NamedTuple):
+    sheet: SheetLayout
+    springs: ConstraintBatches
+    attachments: ConstraintBatches
     filter: SheetFilter
 
 
 @dataclass(frozen=True)
-class SolverDesbrun(Stepped):
-    """See the module.
+class SolverDesbrun(KernelSolver):
+    """Desbrun's predictor-corrector (1999), the default; the module says when to choose it.
 
-    limit: a spring's longest length over its rest length. sweeps: of the correction, a step.
-    angular: how a free cloth's angular momentum is corrected, see `drapery.cloth.spin`.
-    substeps: of each step; None for more than one on very fine grids only. threads: None for as
-    many as there are processors.
+    limit: longest length of a structural spring over its rest length, 1 to 1e6.
+    sweeps: sweeps of the correction of long springs, a step, 0 to 1000; 0 corrects none.
+    angular: how the angular momentum of a cloth without pins is corrected: `exact`, `paper` or
+        `none`; see `drapery.cloth.spin`.
+    substeps: of each step, 1 to 1000; None takes one for every 60 cells of a grid's longer side.
+    threads: 1 to 1000; None uses every processor. The result does not depend on it.
+    Raises OptionError.
     """
 
     limit: float = 1.005
@@ -91,7 +94,7 @@ class SolverDesbrun(Stepped):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
-        substeps = self.substeps or -(-max(cloth.grid_shape or (1,)) // CELLS)
+        substeps = self.substeps or -(-max(cloth.grid_shape or (1,)) // MAX_CELLS)
         h = dt / substeps
         pinned = (cloth.inv_mass == 0).any()
         if is_sheet(cloth) and is_regular(cloth) and (pinned or self.angular == "none"):
@@ -99,19 +102,19 @@ class SolverDesbrun(Stepped):
             return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
         attachments = limited_links(cloth, self.limit, self.sweeps)
         spin = spin_correction(cloth, h, self.angular)
-        plan = Plan(body_of(cloth), cloth_filter(cloth, h), attachments, spin)
+        plan = DesbrunPlan(body_of(cloth), cloth_filter(cloth, h), attachments, spin)
         return SolverState(plan, dt, substeps, _advance)
 
 
-def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> SheetPlan:
+def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> DesbrunSheetPlan:
     """The plan of a fine grid, a plane of lanes."""
     sheet = sheet_of(cloth, *wind_faces(cloth))
     pairs = cloth.spring_pairs
     part_i, part_j = (dt * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
     springs = Pairs(pairs, cloth.spring_length, part_i, part_j)
-    return SheetPlan(
+    return DesbrunSheetPlan(
         sheet,
-        pulls(list(together(sheet, springs))),
+        constraint_batches(list(together(sheet, springs))),
         limits(sheet, cloth, limit, sweeps),
         sheet_filter(cloth, dt, sheet.width),
     )
@@ -123,17 +126,17 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     body, dtype = plan.body, batch.x.dtype
     dt = dtype.type(batch.numbers[0])
     rows, width = batch.x.shape[0], min(batch.width, last - first)
-    y, u = simd.room(rows, width, batch.x), simd.room(rows, width, batch.x)
-    both = simd.room(2 * rows, width, batch.x).reshape((2, rows, width))
-    old = simd.room(rows, width, batch.x)
-    g, mean = both[1], simd.room(3, width, batch.x)
-    wind = simd.room(3 * body.controls.size, width, batch.x)
-    work = simd.room(18, width, batch.x)
+    y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
+    both = simd.empty_lanes(2 * rows, width, batch.x).reshape((2, rows, width))
+    old = simd.empty_lanes(rows, width, batch.x)
+    g, mean = both[1], simd.empty_lanes(3, width, batch.x)
+    wind = simd.empty_lanes(3 * body.controls.size, width, batch.x)
+    work = simd.empty_lanes(18, width, batch.x)
     for block in range(first, last, width):
         # The last block overlaps the one before, so that all have one width.
         start = min(block, last - width)
-        kernels.take_lanes(y, batch.x, start)
-        kernels.take_lanes(u, batch.v, start)
+        kernels.load_lanes(y, batch.x, start)
+        kernels.load_lanes(u, batch.v, start)
         for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
             kernels.frame_velocity(mean, u, body.pins)
@@ -150,8 +153,8 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, dt)
-        kernels.give_lanes(batch.new_x, y, start)
-        kernels.give_lanes(batch.new_v, u, start)
+        kernels.store_lanes(batch.new_x, y, start)
+        kernels.store_lanes(batch.new_v, u, start)
 
 
 @entry_point
@@ -159,13 +162,13 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     """Steps of cloths first..last, one after another."""
     sheet, dtype = plan.sheet, batch.x.dtype
     dt, width = dtype.type(batch.numbers[0]), sheet.plane * (1 + sheet.anchors.size)
-    y, u = simd.room(3, width, batch.x), simd.room(3, sheet.plane, batch.x)
-    g, old = simd.room(3, sheet.plane, batch.x), simd.room(3, sheet.plane, batch.x)
-    work, mean = simd.room(3, 2 * sheet.plane, batch.x), np.empty(3, dtype)
-    room = sheet_kernels.wind_room(sheet, dtype)
+    y, u = simd.empty_lanes(3, width, batch.x), simd.empty_lanes(3, sheet.plane, batch.x)
+    g, old = simd.empty_lanes(3, sheet.plane, batch.x), simd.empty_lanes(3, sheet.plane, batch.x)
+    work, mean = simd.empty_lanes(3, 2 * sheet.plane, batch.x), np.empty(3, dtype)
+    scratch = sheet_kernels.wind_scratch(sheet, dtype)
     for cloth in range(first, last):
-        sheet_kernels.load(y, batch.x, cloth, sheet)
-        sheet_kernels.load(u, batch.v, cloth, sheet)
+        sheet_kernels.load_plane(y, batch.x, cloth, sheet)
+        sheet_kernels.load_plane(u, batch.v, cloth, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
         for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
@@ -173,14 +176,14 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             sheet_kernels.add_spring_velocities(g, y, plan.springs, work)
             sheet_kernels.filter_sheet(g, old, plan.filter, sheet)
             for number in range(gusts.seeds.size):
-                sheet_kernels.add_wind(g, y, u, sheet, gusts, number, time, dt, room)
+                sheet_kernels.add_wind(g, y, u, sheet, gusts, number, time, dt, scratch)
             sheet_kernels.add_push(g, sheet, batch.push, dt, cloth)
             sheet_kernels.fall(g, mean, sheet, batch.numbers)
             sheet_kernels.move(y, g, old, dt, sheet)
             sheet_kernels.place(y, sheet, batch.targets, step, cloth)
-            sheet_kernels.pull(
+            sheet_kernels.solve_batches(
                 y, plan.attachments, 0, plan.attachments.a.size, sheet_kernels.LIMIT, work
             )
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
-        sheet_kernels.store(batch.new_x, y, cloth, sheet)
-        sheet_kernels.store(batch.new_v, u, cloth, sheet)
+        sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
+        sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

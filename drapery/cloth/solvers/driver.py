@@ -24,7 +24,7 @@ from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 MAX_SUBSTEPS = MAX_SWEEPS = MAX_THREADS = 1000
-REACH = 0.3
+MAX_SWING = 0.3
 """Radians that the fastest spring may swing in a substep. Symplectic methods are stable up to 2;
 this leaves room for the limit on stretch, which gets a sweep or two a substep."""
 
@@ -37,7 +37,7 @@ class Springs(NamedTuple):
     stiffness: Array
 
 
-class Body(NamedTuple):
+class ClothBody(NamedTuple):
     """What every method knows of a cloth. controls: particles where the wind is sampled."""
 
     springs: Springs
@@ -48,7 +48,7 @@ class Body(NamedTuple):
 
 
 class Batch(NamedTuple):
-    """B cloths on the way through a kernel, lanes [3N, B].
+    """B cloths as a kernel reads and writes them, lanes [3N, B].
 
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
     targets: where pins go, substep by substep; push: custom accelerations; width: of a block.
@@ -96,13 +96,13 @@ def cast_all(plan: Any, dtype: Any) -> Any:
     return lanes.cast(type(plan)(*parts), dtype)
 
 
-def body_of(cloth: Cloth) -> Body:
+def body_of(cloth: Cloth) -> ClothBody:
     faces, controls = wind_faces(cloth)
     springs = Springs(cloth.spring_pairs, cloth.spring_length, cloth.spring_stiffness)
-    return Body(springs, faces, controls, cloth.inv_mass, np.flatnonzero(cloth.inv_mass == 0))
+    return ClothBody(springs, faces, controls, cloth.inv_mass, np.flatnonzero(cloth.inv_mass == 0))
 
 
-class Stepped:
+class KernelSolver:
     """The step that methods with a kernel share."""
 
     threads: int | None
@@ -188,8 +188,8 @@ def batch_of(
         x.copy() if solver_state.alone else np.empty_like(x),
         v.copy() if solver_state.alone else np.empty_like(v),
         loads.gusts._replace(
-            phases=lanes.filled(loads.gusts.phases, x.shape[1]),
-            origins=lanes.filled(loads.gusts.origins.astype(dtype), x.shape[1]),
+            phases=lanes.padded(loads.gusts.phases, x.shape[1]),
+            origins=lanes.padded(loads.gusts.origins.astype(dtype), x.shape[1]),
         ),
         np.array([h, loads.drag, state.time, *loads.gravity]),
         lanes.pin_targets(pins, state, h, steps * solver_state.substeps, count),
@@ -200,16 +200,16 @@ def batch_of(
 
 
 def explicit_substeps(cloth: Cloth, dt: float) -> int:
-    """Substeps of at most `REACH` radians of the fastest swing.
+    """Substeps of at most `MAX_SWING` radians of the fastest swing.
 
     Gershgorin's circles bound the squares of the frequencies: 2/m times a particle's stiffness.
     Raises OptionError past `MAX_SUBSTEPS`.
     """
-    grip = np.zeros(len(cloth.inv_mass))
+    stiffness = np.zeros(len(cloth.inv_mass))
     for end in range(2):
-        np.add.at(grip, cloth.spring_pairs[:, end], cloth.spring_stiffness)
-    fastest = float(np.sqrt((2 * grip * cloth.inv_mass).max(initial=0.0)))
-    substeps = max(1, int(np.ceil(dt * fastest / REACH)))
+        np.add.at(stiffness, cloth.spring_pairs[:, end], cloth.spring_stiffness)
+    fastest = float(np.sqrt((2 * stiffness * cloth.inv_mass).max(initial=0.0)))
+    substeps = max(1, int(np.ceil(dt * fastest / MAX_SWING)))
     if substeps > MAX_SUBSTEPS:
         raise OptionError(
             f"stiffness {cloth.spring_stiffness.max():g} N/m needs {substeps} substeps of an "
@@ -297,27 +297,27 @@ def fall(g: Any, inv_mass: Any, numbers: Any, push: Any, h: Any, start: Any) -> 
 def kick(
     u: Any, y: Any, g: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any, work: Any
 ) -> None:
-    """u += h · acceleration by springs and loads; g is room for a copy."""
-    kernels.take_lanes(g, u, 0)
+    """u += h · acceleration by springs and loads; g is overwritten."""
+    kernels.load_lanes(g, u, 0)
     kernels.add_spring_velocities(g, y, body.springs, body.inv_mass, h)
     add_loads(g, y, u, body, batch, wind, h, start, work)
-    kernels.take_lanes(u, g, 0)
+    kernels.load_lanes(u, g, 0)
 
 
 @kernel
-def take_block(batch: Any, body: Any, start: Any, last: Any) -> Any:
-    """Places, velocities, room for two like them, for all winds and for work, of a block."""
+def load_block(batch: Any, body: Any, start: Any, last: Any) -> Any:
+    """A block: positions, velocities, two arrays like them, one for all winds, one for work."""
     rows, width = batch.x.shape[0], min(batch.width, last - start)
-    y, u = simd.room(rows, width, batch.x), simd.room(rows, width, batch.x)
-    g, old = simd.room(rows, width, batch.x), simd.room(rows, width, batch.x)
-    wind = simd.room(3 * body.controls.size * batch.gusts.seeds.size, width, batch.x)
-    kernels.take_lanes(y, batch.x, start)
-    kernels.take_lanes(u, batch.v, start)
-    return y, u, g, old, wind, simd.room(18, width, batch.x)
+    y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
+    g, old = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
+    wind = simd.empty_lanes(3 * body.controls.size * batch.gusts.seeds.size, width, batch.x)
+    kernels.load_lanes(y, batch.x, start)
+    kernels.load_lanes(u, batch.v, start)
+    return y, u, g, old, wind, simd.empty_lanes(18, width, batch.x)
 
 
 @kernel
-def give_block(batch: Any, y: Any, u: Any, start: Any) -> None:
-    """A block's places and velocities into the batch's new ones."""
-    kernels.give_lanes(batch.new_x, y, start)
-    kernels.give_lanes(batch.new_v, u, start)
+def store_block(batch: Any, y: Any, u: Any, start: Any) -> None:
+    """Store the positions and velocities of a block in the batch's new ones."""
+    kernels.store_lanes(batch.new_x, y, start)
+    kernels.store_lanes(batch.new_v, u, start)

@@ -2,12 +2,12 @@
 
 Order 1. Each step solves (M - dt ∂f/∂v - dt² ∂f/∂x) Δv = dt (f + dt ∂f/∂x v) once, with the true
 Jacobian of every spring, by conjugate gradients with their constraint filter: a pinned particle's
-Δv is prescribed and takes no part in the search. Stable at any stiffness; it damps
-what swings faster than the step, and costs tens of products with the matrix a step. Their cloth is
-held by stiffness alone; here, as stiffness differs so much between cloths, `attachments`
-keep it from stretching, and sweeps=0 is the plain method. To be chosen where stiffness in N/m
-matters and steps are long. Not to be confused with desbrun, which replaces the Jacobian by a
-constant matrix that is inverted once.
+Δv is prescribed and takes no part in the search. It is stable at any stiffness, damps what swings
+faster than the step, and costs tens of products with the matrix a step. Their cloth is held by
+stiffness alone; here `attachments` also keep it from stretching, since stiffness differs much
+between cloths, and sweeps=0 is the plain method. Choose it where stiffness in N/m matters and
+steps are long. It is not desbrun, which replaces the Jacobian by a constant matrix that is
+inverted once.
 
 A compressed spring's Jacobian is indefinite; as in Choi and Ko, "Stable but responsive cloth"
 (SIGGRAPH 2002), the part across the spring is then left out, so the matrix is positive definite.
@@ -23,20 +23,20 @@ from drapery.cloth import kernels, simd
 from drapery.cloth.attachments import Attachments, limited_links
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.kernels import way
-from drapery.cloth.simd import fill, larger, load, root, span, store
+from drapery.cloth.kernels import direction
+from drapery.cloth.simd import fill, lane_count, load, maximum, sqrt, store
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
-    Body,
+    ClothBody,
+    KernelSolver,
     SolverState,
-    Stepped,
     add_loads,
     blow_all,
     body_of,
     check_common,
-    give_block,
-    take_block,
+    load_block,
+    store_block,
 )
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
@@ -44,25 +44,28 @@ from drapery.mesh import Array
 MAX_ITERATIONS = 10_000
 
 
-class Plan(NamedTuple):
+class ImplicitPlan(NamedTuple):
     """mass: [kg], [N]; 0 where a particle is pinned. damping: [s]."""
 
-    body: Body
+    body: ClothBody
     attachments: Attachments
     mass: Array
     damping: Array
 
 
 @dataclass(frozen=True)
-class SolverImplicit(Stepped):
-    """See the module.
+class SolverImplicit(KernelSolver):
+    """Baraff and Witkin's implicit Euler (1998); the module says when to choose it.
 
-    damping: of springs along their length, over their stiffness [s].
-    tolerance: of the conjugate gradients, residual over right-hand side.
-    iterations: of theirs, at most.
-    limit: longest length of a structural spring over its rest length. sweeps: of the links that
-        see to it; 0 for none. substeps: of a step.
-    threads: None for as many as there are processors.
+    damping: of springs along their length, over their stiffness [s], 0 to 1e6.
+    tolerance: residual over right-hand side at which the conjugate gradients stop, 1e-12 to 0.1.
+    iterations: most iterations of the conjugate gradients, 1 to 10,000. A step that needs more
+        warns and holds the residual in its message.
+    limit: longest length of a structural spring over its rest length, 1 to 1e6.
+    sweeps: sweeps of the attachments that keep the limit, a substep, 0 to 1000; 0 for none.
+    substeps: of each step, 1 to 1000.
+    threads: 1 to 1000; None uses every processor. The result does not depend on it.
+    Raises OptionError.
     """
 
     damping: float = 0.0
@@ -85,7 +88,7 @@ class SolverImplicit(Stepped):
         free = cloth.inv_mass > 0
         mass = np.where(free, 1 / np.where(free, cloth.inv_mass, 1), 0.0)
         attachments = limited_links(cloth, self.limit, self.sweeps)
-        plan = Plan(body_of(cloth), attachments, mass, np.array([self.damping]))
+        plan = ImplicitPlan(body_of(cloth), attachments, mass, np.array([self.damping]))
         return SolverState(plan, dt, self.substeps, _advance, (self.iterations, self.tolerance))
 
     def warn_unsolved(self, residual: float) -> None:
@@ -109,17 +112,17 @@ def linearise(blocks: Any, b: Any, y: Any, u: Any, springs: Any, damping: Any, h
     for s in range(springs.rest.size):
         i, j = 3 * np.intp(springs.pairs[s, 0]), 3 * np.intp(springs.pairs[s, 1])
         rest, k = springs.rest[s], springs.stiffness[s]
-        least = fill(rest * tiny)
-        for lane in range(0, y.shape[1], span(y)):
-            nx, ny, nz = way(y, i, j, lane)
-            d = root(nx * nx + ny * ny + nz * nz)
-            part = one / larger(d, least)
+        shortest = fill(rest * tiny)
+        for lane in range(0, y.shape[1], lane_count(y)):
+            nx, ny, nz = direction(y, i, j, lane)
+            d = sqrt(nx * nx + ny * ny + nz * nz)
+            part = one / maximum(d, shortest)
             nx, ny, nz = part * nx, part * ny, part * nz
-            across = h * h * k * larger(none, one - rest * part)
+            across = h * h * k * maximum(none, one - rest * part)
             along = h * h * k - across + h * k * damping
             for place, value in enumerate((nx, ny, nz, across, along)):
                 store(blocks, 5 * s + place, lane, value)
-            ux, uy, uz = way(u, i, j, lane)
+            ux, uy, uz = direction(u, i, j, lane)
             # h (f + h ∂f/∂x v): the spring pulls by its strain now, and by what it will gain.
             pull = h * k * (d - rest) + along * (nx * ux + ny * uy + nz * uz)
             fx, fy, fz = pull * nx + across * ux, pull * ny + across * uy, pull * nz + across * uz
@@ -168,11 +171,11 @@ def multiply(out: Any, p: Any, mass: Any, blocks: Any, springs: Any) -> None:
             out[row, lane] = mass[row // 3] * p[row, lane]
     for s in range(springs.rest.size):
         i, j = 3 * np.intp(springs.pairs[s, 0]), 3 * np.intp(springs.pairs[s, 1])
-        for lane in range(0, p.shape[1], span(p)):
+        for lane in range(0, p.shape[1], lane_count(p)):
             nx, ny = load(blocks, 5 * s, lane), load(blocks, 5 * s + 1, lane)
             nz = load(blocks, 5 * s + 2, lane)
             across, along = load(blocks, 5 * s + 3, lane), load(blocks, 5 * s + 4, lane)
-            px, py, pz = way(p, i, j, lane)
+            px, py, pz = direction(p, i, j, lane)
             part = along * (nx * px + ny * py + nz * pz)
             fx, fy, fz = across * px + part * nx, across * py + part * ny, across * pz + part * nz
             pull_together(out, i, j, lane, -fx, -fy, -fz)
@@ -209,17 +212,17 @@ def solve(
     iterations: Any,
     tolerance: Any,
     residuals: Any,
-    room: Any,
+    scratch: Any,
 ) -> None:
     """A dv = b by modified preconditioned conjugate gradients (Baraff, Witkin 1998).
 
     dv: the pins' prescribed changes on entry, 0 elsewhere. r: b on entry, overwritten.
     residuals: of lanes that have not converged, the larger of the value and the residual over the
-    tolerance, [L]. room: [4, 3N, L].
+    tolerance, [L]. scratch: [4, 3N, L].
     A lane that has converged moves no more, so lanes do not depend on each other.
     """
     F = dv.dtype.type
-    inverse, c, q, ones = room[0], room[1], room[2], room[3]
+    inverse, c, q, ones = scratch[0], scratch[1], scratch[2], scratch[3]
     lanes = dv.shape[1]
     goal, rho, old = np.empty(lanes), np.empty(lanes), np.empty(lanes)
     for row in range(dv.shape[0]):
@@ -312,24 +315,24 @@ def _advance(
     h, damping = dtype.type(batch.numbers[0]), plan.damping[0]
     rows, springs = batch.x.shape[0], plan.body.springs
     for start in range(first, last, batch.width):
-        y, u, g, old, wind, work = take_block(batch, body, start, last)
+        y, u, g, old, wind, work = load_block(batch, body, start, last)
         lanes = y.shape[1]
         residuals = batch.residuals[start : start + lanes]
-        b, dv = simd.room(rows, lanes, batch.x), simd.room(rows, lanes, batch.x)
-        room = simd.room(4 * rows, lanes, batch.x).reshape((4, rows, lanes))
-        blocks = simd.room(5 * springs.rest.size, lanes, batch.x)
+        b, dv = simd.empty_lanes(rows, lanes, batch.x), simd.empty_lanes(rows, lanes, batch.x)
+        scratch = simd.empty_lanes(4 * rows, lanes, batch.x).reshape((4, rows, lanes))
+        blocks = simd.empty_lanes(5 * springs.rest.size, lanes, batch.x)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
                 blow_all(wind, y, body, batch, start, time, work)
-            kernels.take_lanes(g, u, 0)
+            kernels.load_lanes(g, u, 0)
             add_loads(g, y, u, body, batch, wind, h, start, work)
             for row in range(rows):
                 for lane in range(lanes):
                     b[row, lane] = plan.mass[row // 3] * (g[row, lane] - u[row, lane])
             linearise(blocks, b, y, u, springs, damping, h)
             lead_pins(dv, y, u, body.pins, batch.targets, step, start, h)
-            solve(dv, b, plan.mass, blocks, springs, iterations, tolerance, residuals, room)
+            solve(dv, b, plan.mass, blocks, springs, iterations, tolerance, residuals, scratch)
             if body.pins.size == 0:
                 keep_momentum(dv, b, plan.mass)
             for row in range(rows):
@@ -339,4 +342,4 @@ def _advance(
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
-        give_block(batch, y, u, start)
+        store_block(batch, y, u, start)

@@ -1,14 +1,14 @@
 """Position based dynamics: move, then satisfy constraints by relaxation.
 
 Müller, Heidelberger, Hennix, Ratcliff, "Position based dynamics" (J. Vis. Commun. 18(2), 2007);
-before it Jakobsen, "Advanced character physics" (GDC 2001). On top, what a fine cloth needs to keep
-its size: small substeps (Macklin et al. 2019, "Small steps in physics simulation"), constraints in
-order from the pins outwards, and links of every length that may not grow (see `attachments`).
+before it Jakobsen, "Advanced character physics" (GDC 2001). Three things are added so that a fine
+cloth keeps its size: small substeps (Macklin et al. 2019, "Small steps in physics simulation"),
+constraints in order from the pins outwards, and attachments of every length (see `attachments`).
 
-Order 1. Stable for any step. Stiffness is not in N/m: a cloth is as stiff as its passes make it,
-and the springs' own stiffness is not read. To be chosen for cheap, hardly stretching cloth, and
-for pixel-art capes. Not to be confused with xpbd, whose compliance means the same at any dt, or
-with verlet, whose name this method often bears: there are no forces between particles here.
+The order is 1. It is stable for any step. Stiffness is not in N/m: the number of passes makes a
+cloth stiff, and the stiffness of its springs is not used. Choose it for cheap cloth that hardly
+stretches and for pixel-art capes. It is not xpbd, whose compliance means the same at any dt, and
+not verlet, although it is often called so: here no forces act between particles.
 """
 
 from dataclasses import dataclass
@@ -21,64 +21,70 @@ from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments, limited_links
 from drapery.cloth.checks import check_choice, check_count, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.kernels import add, way
+from drapery.cloth.kernels import add, direction
 from drapery.cloth.order import outwards, pin_distances, sweep_order
-from drapery.cloth.simd import fill, larger, load, root, smaller, span
+from drapery.cloth.simd import fill, lane_count, load, maximum, minimum, sqrt
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
-    Body,
+    ClothBody,
+    KernelSolver,
     SolverState,
-    Stepped,
     add_loads,
     blow_all,
     body_of,
     check_common,
-    give_block,
+    load_block,
     movable,
-    take_block,
+    store_block,
 )
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
-LET_BE = 1.005
-"""Links longer than this many times their longest length are worth another sweep."""
+TOLERATED = 1.005
+"""Pairs farther apart than this many times their longest length get another sweep."""
 BEYOND = 1e6
-"""No link grows to this many times its longest length."""
+"""No pair comes this many times its longest length apart."""
 
 
-class Constraints(NamedTuple):
-    """Distances between pairs [C, 2]: at least `least` and at most `most` [m], [C]; the part of a
+class PBDConstraints(NamedTuple):
+    """Distances between pairs [C, 2]: from `minimum` to `maximum` [m], [C]; the part of a
     correction that each end takes."""
 
     pairs: NDArray[np.int32]
-    least: Array
-    most: Array
+    minimum: Array
+    maximum: Array
     share_i: Array
     share_j: Array
 
 
-class Plan(NamedTuple):
-    body: Body
-    constraints: Constraints
+class PBDPlan(NamedTuple):
+    body: ClothBody
+    constraints: PBDConstraints
     attachments: Attachments
     springs: Attachments
     keep: Array
 
 
 @dataclass(frozen=True)
-class SolverPBD(Stepped):
-    """See the module.
+class SolverPBD(KernelSolver):
+    """Position based dynamics (2007); the module says when to choose it.
 
-    passes: of relaxation, a substep.
-    constraint: `equal` keeps distances as they are at rest; `at-most` lets them shrink: capes.
-    stiffness: part of a correction that one pass makes, for structural, shear and flexion springs.
-    order: `pins` outwards from the pins, or `given`, as the cloth lists its springs.
-    shares: `mass`, or `half`: each end that is not pinned moves half, even if the other is pinned.
-    limit: longest length of a structural spring over its rest length, seen to by `attachments`.
-    sweeps: over springs that are still too long, at most, a substep; 0 for no links.
-    damping: rate at which all velocities decay [1/s].
-    threads: None for as many as there are processors.
+    passes: passes of relaxation, a substep, 0 to 1000.
+    substeps: of each step, 1 to 1000.
+    constraint: `equal` keeps distances as they are at rest; `at-most` lets them shrink, for capes.
+    stiffness: part of a correction that one pass makes, for structural, shear and flexion springs,
+        0 to 1 each.
+    order: `pins` takes springs from the pins outwards, `given` as the cloth lists them.
+    shares: `mass` divides a correction by inverse mass; with `half` each end that is not pinned
+        moves half of it, even if the other end is pinned.
+    limit: longest length of a structural spring over its rest length, 1 to 1e6; `attachments`
+        keep it.
+    sweeps: most sweeps over springs that are still too long, a substep, 0 to 1000; 0 also leaves
+        out the attachments.
+    damping: rate at which all velocities decay [1/s], 0 to 1e6.
+    threads: 1 to 1000; None uses every processor. The result does not depend on it.
+    Raises OptionError.
     """
 
     passes: int = 1
@@ -132,7 +138,7 @@ class SolverPBD(Stepped):
         check_step(dt, 1)
         keep = np.array([1 / (1 + self.damping * dt / self.substeps)])
         attachments = limited_links(cloth, self.limit, min(self.sweeps, 1))
-        plan = Plan(
+        plan = PBDPlan(
             body_of(cloth),
             self._constraints(cloth),
             attachments,
@@ -141,7 +147,7 @@ class SolverPBD(Stepped):
         )
         return SolverState(plan, dt, self.substeps, _advance, (self.passes, self.sweeps))
 
-    def _constraints(self, cloth: Cloth) -> Constraints:
+    def _constraints(self, cloth: Cloth) -> PBDConstraints:
         stiffness = np.asarray(self.stiffness, float)[cloth.spring_kind]
         chosen = np.flatnonzero(movable(cloth) & (stiffness > 0))
         if self.order == "pins":
@@ -150,9 +156,9 @@ class SolverPBD(Stepped):
         half = self.shares == "half"
         shares = 0.5 * (cloth.inv_mass[pairs] > 0) if half else mass_shares(cloth, pairs)
         shares = shares * stiffness[chosen, None]
-        least = rest if self.constraint == "equal" else np.zeros_like(rest)
-        return Constraints(
-            np.ascontiguousarray(pairs), least, rest, shares[:, 0].copy(), shares[:, 1].copy()
+        shortest = rest if self.constraint == "equal" else np.zeros_like(rest)
+        return PBDConstraints(
+            np.ascontiguousarray(pairs), shortest, rest, shares[:, 0].copy(), shares[:, 1].copy()
         )
 
 
@@ -183,27 +189,26 @@ def mass_shares(cloth: Cloth, pairs: NDArray[np.integer]) -> Array:
 def relax(y: Any, constraints: Any) -> None:
     """One Gauss-Seidel pass: each pair in turn is moved to its distance."""
     tiny = fill(y.dtype.type(1e-30))
-    for s in range(constraints.most.size):
+    for s in range(constraints.maximum.size):
         i, j = 3 * np.intp(constraints.pairs[s, 0]), 3 * np.intp(constraints.pairs[s, 1])
-        least, most = fill(constraints.least[s]), fill(constraints.most[s])
+        shortest, longest = fill(constraints.minimum[s]), fill(constraints.maximum[s])
         part_i, part_j = constraints.share_i[s], -constraints.share_j[s]
-        for lane in range(0, y.shape[1], span(y)):
-            dx, dy, dz = way(y, i, j, lane)
-            d = root(dx * dx + dy * dy + dz * dz)
-            part = (d - smaller(larger(d, least), most)) / larger(d, tiny)
+        for lane in range(0, y.shape[1], lane_count(y)):
+            dx, dy, dz = direction(y, i, j, lane)
+            d = sqrt(dx * dx + dy * dy + dz * dz)
+            part = (d - minimum(maximum(d, shortest), longest)) / maximum(d, tiny)
             add(y, i, lane, part_i * part, dx, dy, dz)
             add(y, j, lane, part_j * part, dx, dy, dz)
 
 
 @kernel
-def tidy(y: Any, attachments: Any, sweeps: Any, most: Any) -> None:
-    """Sweeps over the lanes in which a link is too long, each lane until it has none.
+def shorten_too_long(y: Any, attachments: Any, sweeps: Any, factors: Any) -> None:
+    """Sweeps over the lanes in which a pair is too far apart, each lane until it has none.
 
-    most: room, in its first row, for the longest length over `longest` that is let be: all, once a
-    lane is done.
+    factors: scratch; its first row is the part of `longest` that a lane keeps to.
     """
     for _ in range(sweeps):
-        if not mark_too_long(most[0], y, attachments):
+        if not mark_too_long(factors[0], y, attachments):
             return
         for s in range(attachments.longest.size):
             i, j = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
@@ -212,24 +217,26 @@ def tidy(y: Any, attachments: Any, sweeps: Any, most: Any) -> None:
                 attachments.share_i[s],
                 -attachments.share_j[s],
             )
-            for lane in range(0, y.shape[1], span(y)):
-                dx, dy, dz = way(y, i, j, lane)
-                limit = load(most, 0, lane) * longest
-                d = larger(root(dx * dx + dy * dy + dz * dz), limit)
+            for lane in range(0, y.shape[1], lane_count(y)):
+                dx, dy, dz = direction(y, i, j, lane)
+                limit = load(factors, 0, lane) * longest
+                d = maximum(sqrt(dx * dx + dy * dy + dz * dz), limit)
                 excess = (d - limit) / d
                 add(y, i, lane, part_i * excess, dx, dy, dz)
                 add(y, j, lane, part_j * excess, dx, dy, dz)
 
 
 @kernel
-def mark_too_long(most: Any, y: Any, attachments: Any) -> Any:
-    """1 for lanes with a link over LET_BE times its longest length, else a number over all; whether
-    there is such a lane."""
+def mark_too_long(factors: Any, y: Any, attachments: Any) -> Any:
+    """Factors: 1 for lanes with a pair over TOLERATED times its longest length, else BEYOND.
+
+    Returns whether there is such a lane.
+    """
     F = y.dtype.type
-    slack = F(LET_BE * LET_BE)
+    slack = F(TOLERATED * TOLERATED)
     found = False
-    for lane in range(most.size):
-        most[lane] = F(BEYOND)
+    for lane in range(factors.size):
+        factors[lane] = F(BEYOND)
     for s in range(attachments.longest.size):
         i, j = 3 * attachments.pairs[s, 0], 3 * attachments.pairs[s, 1]
         square = slack * attachments.longest[s] * attachments.longest[s]
@@ -238,7 +245,7 @@ def mark_too_long(most: Any, y: Any, attachments: Any) -> Any:
             dy = y[j + 1, lane] - y[i + 1, lane]
             dz = y[j + 2, lane] - y[i + 2, lane]
             long = dx * dx + dy * dy + dz * dz > square
-            most[lane] = F(1) if long else most[lane]
+            factors[lane] = F(1) if long else factors[lane]
             found = found or long
     return found
 
@@ -265,12 +272,12 @@ def _advance(
     dtype, body = batch.x.dtype, plan.body
     h = dtype.type(batch.numbers[0])
     for start in range(first, last, batch.width):
-        y, u, g, old, wind, work = take_block(batch, body, start, last)
+        y, u, g, old, wind, work = load_block(batch, body, start, last)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
                 blow_all(wind, y, body, batch, start, time, work)
-            kernels.take_lanes(g, u, 0)
+            kernels.load_lanes(g, u, 0)
             damp(g, plan.keep[0])
             add_loads(g, y, u, body, batch, wind, h, start, work)
             kernels.move(y, g, old, h)
@@ -278,6 +285,6 @@ def _advance(
             for _ in range(passes):
                 relax(y, plan.constraints)
             kernels.shorten(y, plan.attachments)
-            tidy(y, plan.springs, sweeps, work)
+            shorten_too_long(y, plan.springs, sweeps, work)
             kernels.set_velocities(u, y, old, h)
-        give_block(batch, y, u, start)
+        store_block(batch, y, u, start)

@@ -17,34 +17,37 @@ from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import FLEXION, Cloth
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
-    Body,
+    ClothBody,
+    KernelSolver,
     SolverState,
-    Stepped,
     blow_all,
     body_of,
     check_common,
     chosen_substeps,
-    give_block,
     half_shares,
     kick,
+    load_block,
     movable,
-    take_block,
+    store_block,
 )
 from drapery.jit import entry_point
 
 
-class Plan(NamedTuple):
-    body: Body
+class ProvotPlan(NamedTuple):
+    body: ClothBody
     attachments: Attachments
 
 
 @dataclass(frozen=True)
-class SolverProvot(Stepped):
-    """See the module.
+class SolverProvot(KernelSolver):
+    """Provot's explicit method (1995); the module says when to choose it.
 
-    limit: longest length of a structural or shear spring over its rest length; Provot's 10 %.
-    sweeps: of the correction, a substep. substeps: None for as many as the stiffest spring needs.
-    threads: None for as many as there are processors.
+    limit: longest length of a structural or shear spring over its rest length, 1 to 1e6; Provot
+        allows 1.1.
+    sweeps: sweeps of the correction of long springs, a substep, 0 to 1000.
+    substeps: of each step, 1 to 1000; None takes as many as the stiffest spring needs.
+    threads: 1 to 1000; None uses every processor. The result does not depend on it.
+    Raises OptionError.
     """
 
     limit: float = 1.1
@@ -57,7 +60,7 @@ class SolverProvot(Stepped):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
-        plan = Plan(body_of(cloth), listed_links(cloth, self.limit))
+        plan = ProvotPlan(body_of(cloth), listed_links(cloth, self.limit))
         substeps = chosen_substeps(self.substeps, cloth, dt)
         return SolverState(plan, dt, substeps, _advance, (self.sweeps,))
 
@@ -78,7 +81,7 @@ def _advance(
     dtype, body = batch.x.dtype, plan.body
     h = dtype.type(batch.numbers[0])
     for start in range(first, last, batch.width):
-        y, u, g, old, wind, work = take_block(batch, body, start, last)
+        y, u, g, old, wind, work = load_block(batch, body, start, last)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -89,4 +92,4 @@ def _advance(
             for _ in range(sweeps):
                 kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
-        give_block(batch, y, u, start)
+        store_block(batch, y, u, start)

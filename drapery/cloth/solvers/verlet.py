@@ -20,42 +20,43 @@ from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.checks import check_number
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.kernels import add, way
-from drapery.cloth.simd import fill, larger, root, span
+from drapery.cloth.kernels import add, direction
+from drapery.cloth.simd import fill, lane_count, maximum, sqrt
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
-    Body,
+    ClothBody,
+    KernelSolver,
     SolverState,
-    Stepped,
     blow_all,
     body_of,
     check_common,
     chosen_substeps,
-    give_block,
     half_shares,
     kick,
+    load_block,
     movable,
-    take_block,
+    store_block,
 )
 from drapery.jit import entry_point, kernel
 
 
-class Plan(NamedTuple):
-    body: Body
+class VerletPlan(NamedTuple):
+    body: ClothBody
     attachments: Attachments
 
 
 @dataclass(frozen=True)
-class SolverVerlet(Stepped):
-    """See the module.
+class SolverVerlet(KernelSolver):
+    """Velocity Verlet with a limit on stretch; the module says when to choose it.
 
-    limit: longest length of a structural spring over its rest length; Provot's 10 %.
-    sweeps: of the correction, a substep. relaxation: the part of a sweep's summed corrections that
-        is applied. All of it, 1, is what the plain method does, and it explodes when neighbours
-        are over-long by turns: Verlet stays stable up to 2/3 (the sum moves a spring's ends up to
-        twice too far, and the velocity carries that on).
-    substeps: None for as many as the stiffest spring needs.
-    threads: None for as many as there are processors.
+    limit: longest length of a structural spring over its rest length, 1 to 1e6; Provot allows 1.1.
+    sweeps: sweeps of the correction of long springs, a substep, 0 to 1000.
+    relaxation: part of a sweep's summed corrections that is applied, 0 to 1. The plain method
+        applies all of it and explodes where neighbouring springs are too long by turns; up to 2/3
+        is stable (the sum moves a spring's ends up to twice too far, and the velocity keeps it).
+    substeps: of each step, 1 to 1000; None takes as many as the stiffest spring needs.
+    threads: 1 to 1000; None uses every processor. The result does not depend on it.
+    Raises OptionError.
     """
 
     limit: float = 1.1
@@ -70,7 +71,7 @@ class SolverVerlet(Stepped):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
-        plan = Plan(body_of(cloth), half_links(cloth, self.limit, self.relaxation))
+        plan = VerletPlan(body_of(cloth), half_links(cloth, self.limit, self.relaxation))
         substeps = chosen_substeps(self.substeps, cloth, dt)
         return SolverState(plan, dt, substeps, _advance, (self.sweeps,))
 
@@ -93,15 +94,15 @@ def shorten_together(y: Any, attachments: Any, sums: Any) -> None:
             sums[row, lane] = none
     for s in range(attachments.longest.size):
         i, j = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
-        most, part_i, part_j = (
+        longest, part_i, part_j = (
             fill(attachments.longest[s]),
             attachments.share_i[s],
             -attachments.share_j[s],
         )
-        for lane in range(0, y.shape[1], span(y)):
-            dx, dy, dz = way(y, i, j, lane)
-            d = larger(root(dx * dx + dy * dy + dz * dz), most)
-            excess = (d - most) / d
+        for lane in range(0, y.shape[1], lane_count(y)):
+            dx, dy, dz = direction(y, i, j, lane)
+            d = maximum(sqrt(dx * dx + dy * dy + dz * dz), longest)
+            excess = (d - longest) / d
             add(sums, i, lane, part_i * excess, dx, dy, dz)
             add(sums, j, lane, part_j * excess, dx, dy, dz)
     for row in range(y.shape[0]):
@@ -117,7 +118,7 @@ def _advance(
     dtype, body = batch.x.dtype, plan.body
     h, half = dtype.type(batch.numbers[0]), dtype.type(batch.numbers[0] / 2)
     for start in range(first, last, batch.width):
-        y, u, g, old, wind, work = take_block(batch, body, start, last)
+        y, u, g, old, wind, work = load_block(batch, body, start, last)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -129,4 +130,4 @@ def _advance(
                 shorten_together(y, plan.attachments, g)
             kernels.set_velocities(u, y, old, h)
             kick(u, y, g, body, batch, wind, half, start, work)
-        give_block(batch, y, u, start)
+        store_block(batch, y, u, start)

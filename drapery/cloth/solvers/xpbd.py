@@ -2,10 +2,9 @@
 
 Macklin, Müller, Chentanez, "XPBD: position-based simulation of compliant constrained dynamics"
 (MIG 2016), and Macklin et al., "Small steps in physics simulation" (SCA 2019): n substeps of one
-iteration are better than one step of n. First order. Stable at any stiffness; damps little, less
-with more substeps. To be chosen for cloth that hardly stretches, for fine grids, and wherever
-motion must stay lively. Not to be confused with position based dynamics (pbd), whose stiffness
-depends on the step.
+iteration are better than one step of n. The order is 1. It is stable at any stiffness and damps
+little, less with more substeps. Choose it for cloth that hardly stretches, for fine grids and for
+lively motion. It is not position based dynamics (pbd), whose stiffness depends on the step.
 
 A spring of rest length l is the constraint (d² - l²) / (d² + l²) · d = 0, which is d - l to second
 order and needs no square root (Jakobsen, "Advanced character physics", GDC 2001). With one
@@ -29,27 +28,27 @@ from drapery.cloth.attachments import Attachments, attachments
 from drapery.cloth.checks import check_flag, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.faces import wind_faces
-from drapery.cloth.kernels import add, way
+from drapery.cloth.kernels import add, direction
 from drapery.cloth.order import across_then_outwards, pin_distances
 from drapery.cloth.sheets import (
+    ConstraintBatch,
+    ConstraintBatches,
     Pairs,
-    Piece,
-    Pulls,
-    Sheet,
+    SheetLayout,
     anchored,
+    constraint_batches,
     in_turn,
     is_sheet,
     limits,
-    pulls,
     sheet_of,
 )
-from drapery.cloth.simd import fill, larger, load, span, store
+from drapery.cloth.simd import fill, lane_count, load, maximum, store
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
-    Body,
+    ClothBody,
+    KernelSolver,
     SolverState,
-    Stepped,
     body_of,
     check_stepping,
 )
@@ -57,22 +56,22 @@ from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 SLACK = 1.02
-"""Attachments reach this much farther than the cloth at rest, so they catch only what is over."""
+"""Attachments are this much longer than the cloth at rest, so they act on stretched cloth only."""
 NEAR = 2
-"""So many springs from a pin, particles need no attachment."""
+"""Particles at most so many springs from a pin need no attachment."""
 FINE = 30
-"""Sheets with more particles than this one way also have desbrun's limits, once a step."""
+"""Sheets with more particles along one side also have the limits of desbrun, once a step."""
 LIMIT, SWEEPS = 1.02, 1
-"""Of desbrun on them."""
-ENOUGH = 26
-"""Most substeps of such sheets: shorter steps, with places rounded, would shake cells so small."""
-EVERY = 2
+"""Settings of those limits."""
+MAX_FINE_SUBSTEPS = 26
+"""Most substeps of such sheets. In shorter steps rounded positions would shake cells so small."""
+INTERVAL = 2
 """Attachments take part in the last of so many substeps."""
-OFTEN = 3.0
+SOFT_RATE = 3.0
 """Soft springs take part this many times as often as an explicit step would need."""
 
 
-class Constraints(NamedTuple):
+class XPBDConstraints(NamedTuple):
     """Springs in the order in which they are solved; those of substep n are begin[n] ... .
 
     pairs: [K, 2]. square: rest lengths squared [m²], [K]. share_i, share_j: w / (w_i + w_j + α~).
@@ -86,31 +85,32 @@ class Constraints(NamedTuple):
     begin: NDArray[np.int64]
 
 
-class Plan(NamedTuple):
-    body: Body
-    constraints: Constraints
+class XPBDPlan(NamedTuple):
+    body: ClothBody
+    constraints: XPBDConstraints
     attachments: Attachments
 
 
-class SheetPlan(NamedTuple):
+class XPBDSheetPlan(NamedTuple):
     """begin: the first entry of each substep, [substeps + 1]."""
 
-    sheet: Sheet
-    constraints: Pulls
+    sheet: SheetLayout
+    constraints: ConstraintBatches
     begin: NDArray[np.int64]
-    attachments: Pulls
-    limits: Pulls
+    attachments: ConstraintBatches
+    limits: ConstraintBatches
 
 
 @dataclass(frozen=True)
-class SolverXPBD(Stepped):
-    """See the module.
+class SolverXPBD(KernelSolver):
+    """Extended position based dynamics (2016) in small steps; the module says when to choose it.
 
-    substeps: of each step; None for as many as the grid's fineness needs.
-    compliance: of structural, shear and flexion springs [m/N]; None is each spring's own, the
-        inverse of its stiffness. Structural ones do not stretch by default.
+    substeps: of each step, 1 to 1000; None takes as many as the fineness of the cloth needs.
+    compliance: of structural, shear and flexion springs [m/N], 0 to 1e12 each; None takes the
+        inverse of each spring's own stiffness. By default structural springs do not stretch.
     attach: whether long range attachments hold particles to their pins.
-    threads: None for as many as there are processors.
+    threads: 1 to 1000; None uses every processor. The result does not depend on it.
+    Raises OptionError.
     """
 
     substeps: int | None = None
@@ -134,7 +134,9 @@ class SolverXPBD(Stepped):
         if is_sheet(cloth):
             fine = sheet_plan(cloth, constraints, attachments)
             return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
-        return SolverState(Plan(body_of(cloth), constraints, attachments), dt, substeps, _advance)
+        return SolverState(
+            XPBDPlan(body_of(cloth), constraints, attachments), dt, substeps, _advance
+        )
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -144,11 +146,11 @@ class SolverXPBD(Stepped):
         return own
 
     def _links(self, cloth: Cloth) -> Attachments:
-        pairs, reach = attachments(cloth, SLACK)
+        pairs, max_distance = attachments(cloth, SLACK)
         own = cloth.spring_length[cloth.spring_kind == STRUCTURAL]
-        far = self.attach & (reach > (NEAR + 0.5) * SLACK * own.mean())
+        far = self.attach & (max_distance > (NEAR + 0.5) * SLACK * own.mean())
         ones = np.ones(int(far.sum()))
-        return Attachments(pairs[far], reach[far], 0 * ones, ones)
+        return Attachments(pairs[far], max_distance[far], 0 * ones, ones)
 
 
 def is_fine(cloth: Cloth) -> bool:
@@ -160,16 +162,16 @@ def enough_substeps(cloth: Cloth) -> int:
     """Substeps at which a hanging cloth stretches a few per cent at most in a strong wind: one for
     every two or three springs between it and its pins, or across a cloth without pins."""
     if is_fine(cloth):
-        return min(ENOUGH, -(-max(cloth.grid_shape or (1,)) * 10 // 25))
+        return min(MAX_FINE_SUBSTEPS, -(-max(cloth.grid_shape or (1,)) * 10 // 25))
     if cloth.grid_shape is not None:
         return max(4, -(-max(cloth.grid_shape) * 10 // 21))
     distances = pin_distances(cloth)
-    reach = distances[np.isfinite(distances)].max(initial=0.0)
-    springs = reach / cloth.spring_length[cloth.spring_kind == STRUCTURAL].mean()
+    max_distance = distances[np.isfinite(distances)].max(initial=0.0)
+    springs = max_distance / cloth.spring_length[cloth.spring_kind == STRUCTURAL].mean()
     return max(4, min(MAX_SUBSTEPS, int(np.ceil(springs / 2.1))))
 
 
-def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> Constraints:
+def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> XPBDConstraints:
     """Each substep's springs in order: all stiff ones, and those soft ones whose turn it is."""
     w = cloth.inv_mass[cloth.spring_pairs].sum(axis=1)
     times = turns_a_step(compliance, w, dt, substeps)
@@ -183,7 +185,7 @@ def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) ->
     order = np.concatenate(chosen)
     each = dt**2 / substeps / -(-substeps // (-(-substeps // times)))
     shares = cloth.inv_mass[cloth.spring_pairs] / (w + compliance / each + ~movable)[:, None]
-    return Constraints(
+    return XPBDConstraints(
         cloth.spring_pairs[order],
         cloth.spring_length[order] ** 2,
         shares[order, 0],
@@ -198,7 +200,7 @@ def turns_a_step(compliance: Array, w: Array, dt: float, substeps: int) -> NDArr
     The fewest that keep its swing, of frequency sqrt(w / α) and twice that among neighbours, well
     inside the limit of an explicit step, times it takes part.
     """
-    swing = OFTEN * dt * np.sqrt(w / np.maximum(compliance, 1e-30))
+    swing = SOFT_RATE * dt * np.sqrt(w / np.maximum(compliance, 1e-30))
     return np.clip(np.ceil(swing), 1, substeps).astype(np.int64)
 
 
@@ -207,19 +209,21 @@ def _first_turns(cloth: Cloth, soft: NDArray[np.bool_], substeps: int) -> NDArra
 
     A grid's springs of one direction are taken together.
     """
-    ways = cloth.spring_pairs[:, 1] - cloth.spring_pairs[:, 0]
+    shifts = cloth.spring_pairs[:, 1] - cloth.spring_pairs[:, 0]
     if cloth.grid_shape is None:
-        ways = np.arange(len(ways))
-    _, number = np.unique(ways[soft], return_inverse=True)
+        shifts = np.arange(len(shifts))
+    _, number = np.unique(shifts[soft], return_inverse=True)
     first = np.zeros(len(soft), np.int64)
     first[soft] = number.ravel() * substeps // max(1, int(number.max(initial=0)) + 1)
     return first
 
 
-def sheet_plan(cloth: Cloth, constraints: Constraints, attachments: Attachments) -> SheetPlan:
+def sheet_plan(
+    cloth: Cloth, constraints: XPBDConstraints, attachments: Attachments
+) -> XPBDSheetPlan:
     """The plan of a fine grid, a plane of lanes."""
     sheet = sheet_of(cloth, *wind_faces(cloth))
-    pieces: list[Piece] = []
+    batches: list[ConstraintBatch] = []
     begin = [0]
     for first, last in pairwise(constraints.begin):
         turn = slice(first, last)
@@ -229,12 +233,12 @@ def sheet_plan(cloth: Cloth, constraints: Constraints, attachments: Attachments)
             constraints.share_i[turn],
             constraints.share_j[turn],
         )
-        pieces += in_turn(sheet, due)
-        begin.append(len(pieces))
-    held = pulls(list(anchored(sheet, Pairs(*attachments))))
-    return SheetPlan(
+        batches += in_turn(sheet, due)
+        begin.append(len(batches))
+    held = constraint_batches(list(anchored(sheet, Pairs(*attachments))))
+    return XPBDSheetPlan(
         sheet,
-        pulls(pieces),
+        constraint_batches(batches),
         np.array(begin),
         held,
         limits(sheet, cloth, LIMIT, SWEEPS * is_fine(cloth)),
@@ -248,8 +252,8 @@ def solve(x: Any, constraints: Any, substep: Any) -> None:
         i, j = 3 * np.intp(constraints.pairs[s, 0]), 3 * np.intp(constraints.pairs[s, 1])
         rest = constraints.square[s]
         part_i, part_j = constraints.share_i[s], -constraints.share_j[s]
-        for lane in range(0, x.shape[1], span(x)):
-            dx, dy, dz = way(x, i, j, lane)
+        for lane in range(0, x.shape[1], lane_count(x)):
+            dx, dy, dz = direction(x, i, j, lane)
             square = dx * dx + dy * dy + dz * dz
             strain = (square - rest) / (square + rest)
             add(x, i, lane, part_i * strain, dx, dy, dz)
@@ -261,12 +265,12 @@ def hold(x: Any, attachments: Any) -> None:
     """Particles that are too far from their pins are pulled back; see the module for the form."""
     for s in range(attachments.longest.size):
         pin, i = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
-        most = attachments.longest[s] * attachments.longest[s]
-        least = fill(most)
-        for lane in range(0, x.shape[1], span(x)):
-            dx, dy, dz = way(x, pin, i, lane)
-            square = larger(dx * dx + dy * dy + dz * dz, least)
-            add(x, i, lane, (most - square) / (most + square), dx, dy, dz)
+        limit = attachments.longest[s] * attachments.longest[s]
+        minimum = fill(limit)
+        for lane in range(0, x.shape[1], lane_count(x)):
+            dx, dy, dz = direction(x, pin, i, lane)
+            square = maximum(dx * dx + dy * dy + dz * dz, minimum)
+            add(x, i, lane, (limit - square) / (limit + square), dx, dy, dz)
 
 
 @kernel
@@ -281,10 +285,10 @@ def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -
         if inv_mass[row // 3] == 0:
             continue
         fall = F(numbers[0] * numbers[0] * numbers[3 + row % 3])
-        for lane in range(0, x.shape[1], span(x)):
+        for lane in range(0, x.shape[1], lane_count(x)):
             here = load(x, row, lane)
-            way = h * load(v, row, lane) if substep == 0 else here - load(old, row, lane)
-            store(old, row, lane, here + (way + fall))
+            motion = h * load(v, row, lane) if substep == 0 else here - load(old, row, lane)
+            store(old, row, lane, here + (motion + fall))
 
 
 @kernel
@@ -301,7 +305,7 @@ def add_pushes(u: Any, inv_mass: Any, numbers: Any, push: Any, dt: Any, start: A
         if inv_mass[row // 3] == 0:
             continue
         fall = F(dt * numbers[3 + row % 3])
-        for lane in range(0, u.shape[1], span(u)):
+        for lane in range(0, u.shape[1], lane_count(u)):
             speed = load(u, row, lane)
             if push.size > 0:
                 speed = speed + dt * load(push, row, start + lane)
@@ -315,15 +319,15 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     h = dtype.type(batch.numbers[0])
     dt = dtype.type(batch.numbers[0] * substeps)
     rows, width = batch.x.shape[0], min(batch.width, last - first)
-    y, u = simd.room(rows, width, batch.x), simd.room(rows, width, batch.x)
-    old = simd.room(rows, width, batch.x)
-    wind = simd.room(3 * body.controls.size, width, batch.x)
-    work = simd.room(18, width, batch.x)
+    y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
+    old = simd.empty_lanes(rows, width, batch.x)
+    wind = simd.empty_lanes(3 * body.controls.size, width, batch.x)
+    work = simd.empty_lanes(18, width, batch.x)
     for block in range(first, last, width):
         # The last block overlaps the one before, so that all have one width.
         start = min(block, last - width)
-        kernels.take_lanes(y, batch.x, start)
-        kernels.take_lanes(u, batch.v, start)
+        kernels.load_lanes(y, batch.x, start)
+        kernels.load_lanes(u, batch.v, start)
         for step in range(steps):
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(batch.gusts.seeds.size):
@@ -337,11 +341,11 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
                 turn = step * substeps + substep
                 kernels.place_pins(y, old, body.pins, batch.targets, turn, start)
                 solve(y, plan.constraints, substep)
-                if (substeps - substep) % EVERY == 1:
+                if (substeps - substep) % INTERVAL == 1:
                     hold(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
-        kernels.give_lanes(batch.new_x, y, start)
-        kernels.give_lanes(batch.new_v, u, start)
+        kernels.store_lanes(batch.new_x, y, start)
+        kernels.store_lanes(batch.new_v, u, start)
 
 
 @entry_point
@@ -350,32 +354,41 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     sheet, dtype = plan.sheet, batch.x.dtype
     h = dtype.type(batch.numbers[0])
     dt = dtype.type(batch.numbers[0] * substeps)
-    y = simd.room(3, sheet.plane * (1 + sheet.anchors.size), batch.x)
-    u, old = simd.room(3, sheet.plane, batch.x), simd.room(3, sheet.plane, batch.x)
-    work, room = simd.room(3, 2 * sheet.plane, batch.x), sheet_kernels.wind_room(sheet, dtype)
+    y = simd.empty_lanes(3, sheet.plane * (1 + sheet.anchors.size), batch.x)
+    u, old = simd.empty_lanes(3, sheet.plane, batch.x), simd.empty_lanes(3, sheet.plane, batch.x)
+    work, scratch = (
+        simd.empty_lanes(3, 2 * sheet.plane, batch.x),
+        sheet_kernels.wind_scratch(sheet, dtype),
+    )
     for cloth in range(first, last):
-        sheet_kernels.load(y, batch.x, cloth, sheet)
-        sheet_kernels.load(u, batch.v, cloth, sheet)
+        sheet_kernels.load_plane(y, batch.x, cloth, sheet)
+        sheet_kernels.load_plane(u, batch.v, cloth, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
         for step in range(steps):
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(gusts.seeds.size):
-                sheet_kernels.add_wind(u, y, u, sheet, gusts, number, time, dt, room)
+                sheet_kernels.add_wind(u, y, u, sheet, gusts, number, time, dt, scratch)
             sheet_kernels.add_push(u, sheet, batch.push, dt, cloth)
             sheet_kernels.slow_down(u, sheet, batch.numbers, dt)
             for substep in range(substeps):
                 sheet_kernels.drift(y, old, u, sheet, batch.numbers, substep)
                 sheet_kernels.place(y, sheet, batch.targets, step * substeps + substep, cloth)
                 begin, end = plan.begin[substep], plan.begin[substep + 1]
-                sheet_kernels.pull(y, plan.constraints, begin, end, sheet_kernels.SOLVE, work)
-                if (substeps - substep) % EVERY == 1:
+                sheet_kernels.solve_batches(
+                    y, plan.constraints, begin, end, sheet_kernels.SOLVE, work
+                )
+                if (substeps - substep) % INTERVAL == 1:
                     last = plan.attachments.a.size
-                    sheet_kernels.pull(y, plan.attachments, 0, last, sheet_kernels.LIMIT, work)
+                    sheet_kernels.solve_batches(
+                        y, plan.attachments, 0, last, sheet_kernels.LIMIT, work
+                    )
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
                 last_limit = plan.limits.a.size
-                sheet_kernels.pull(y, plan.limits, 0, last_limit, sheet_kernels.LIMIT, work)
+                sheet_kernels.solve_batches(
+                    y, plan.limits, 0, last_limit, sheet_kernels.LIMIT, work
+                )
                 sheet_kernels.add_velocities(u, y, old, dt, sheet)
-        sheet_kernels.store(batch.new_x, y, cloth, sheet)
-        sheet_kernels.store(batch.new_v, u, cloth, sheet)
+        sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
+        sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)
