@@ -109,7 +109,7 @@ def test_absurd_stiffness_is_refused_or_runs(name, stiffness):
 
 
 @each
-def test_what_is_torn_apart_is_told(name):
+def test_what_is_torn_apart_is_an_error(name):
     try:
         end = moved(CLOTH, name, [Gravity(), Wind((1e4, 0.0, 0.0)), Push(1e30)], steps=60)
     except OptionError as refusal:

@@ -1,4 +1,4 @@
-"""What the wind presses on: the area that each particle carries, and where the wind is sampled."""
+"""Where wind acts: the area that belongs to each particle, and the samples of the wind."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ from drapery.cloth.cloth import Cloth
 from drapery.mesh import Array
 
 SAMPLE_SPACING = 1.25
-"""Most distance between samples of the wind on a grid [m]; gusts are wider."""
+"""Greatest distance between samples of the wind on a grid [m]; gusts are wider."""
 
 
 class Faces(NamedTuple):

@@ -1,7 +1,7 @@
 """Forces that act on every particle alike, and how any force reaches a solver.
 
-The known forces (Gravity, Drag, Wind) are lowered to a few numbers that the kernels read; any
-other object with an `acceleration` method is called once a step.
+Gravity, Drag and Wind become a few numbers that kernels read. Any other object with an
+`acceleration` method is called once a step.
 """
 
 from collections.abc import Sequence

@@ -488,7 +488,7 @@ def move(x: Any, u: Any, old: Any, dt: Any) -> None:
 
 @kernel
 def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any) -> None:
-    """Pins go where their path leads, [steps, 3P, B] or [steps, 3P, 1], or stay ([0, ...])."""
+    """Move pins to targets [steps, 3P, B] or [steps, 3P, 1]; for [0, ...] keep them."""
     for row in range(3 * pins.size):
         at = 3 * pins[row // 3] + row % 3
         for lane in range(x.shape[1]):

@@ -1,4 +1,4 @@
-"""Cloths of any shape: from triangles."""
+"""Cloths in the shape of a triangle mesh."""
 
 from typing import Any
 
@@ -52,7 +52,7 @@ def from_triangles(
     np.add.at(masses, faces.ravel(), np.repeat(fabric.density * areas / 3, 3))
     if not (masses > 0).all():
         alone = int(np.argmin(masses > 0))
-        raise OptionError(f"vertex {alone} is in no triangle with an area; remove it")
+        raise OptionError(f"vertex {alone} belongs to no triangle with an area; remove it")
     inv_mass = 1.0 / masses
     inv_mass[pinned_particles(pins, rest, None)] = 0.0
     edges, bends = mesh_springs(faces)

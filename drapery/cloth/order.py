@@ -1,7 +1,7 @@
 """In which order springs are corrected: from the pins outwards.
 
-A correction hands its error on to the next spring. Outwards from the pins, one sweep carries it
-from the top of a hanging cloth to its free edge; in any other order it goes about one spring.
+A correction moves an error to the next spring. Outwards from the pins, one sweep moves it from the
+top of a hanging cloth to the free edge; in any other order it moves about one spring.
 """
 
 import numpy as np

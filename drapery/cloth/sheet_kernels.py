@@ -20,13 +20,13 @@ LIMIT, SOLVE = 0, 1
 
 @kernel
 def lane_of(particle: Any, sheet: Any) -> Any:
-    """Where a particle is."""
+    """The lane of a particle."""
     return particle // sheet.columns * sheet.width + particle % sheet.columns
 
 
 @kernel
 def load_plane(y: Any, x: Any, cloth: Any, sheet: Any) -> None:
-    """One cloth of lanes x [3N, B] into y [3, lanes]."""
+    """Copy one cloth of x [3N, B] into the plane y [3, lanes]."""
     for particle in range(x.shape[0] // 3):
         for axis in range(3):
             y[axis, lane_of(particle, sheet)] = x[3 * particle + axis, cloth]
@@ -34,7 +34,7 @@ def load_plane(y: Any, x: Any, cloth: Any, sheet: Any) -> None:
 
 @kernel
 def store_plane(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
-    """y [3, lanes] into one cloth of lanes x [3N, B]."""
+    """Copy the plane y [3, lanes] into one cloth of x [3N, B]."""
     for particle in range(x.shape[0] // 3):
         for axis in range(3):
             x[3 * particle + axis, cloth] = y[axis, lane_of(particle, sheet)]
@@ -69,7 +69,7 @@ def add_spring_velocities(g: Any, x: Any, batches: Any, work: Any) -> None:
 
 @kernel
 def move_both(x: Any, batches: Any, entry: Any, work: Any) -> None:
-    """x_a += part_i w, x_b -= part_j w, in one go over the lanes from a on.
+    """x_a += part_i w, x_b -= part_j w, in one loop over the lanes from a.
 
     work: [3, 2 · L] of which w is the second half, with zeros in front of it.
     """
@@ -116,7 +116,7 @@ def solve_batches(x: Any, batches: Any, begin: Any, end: Any, form: Any, work: A
 
 @kernel
 def place(y: Any, sheet: Any, targets: Any, turn: Any, cloth: Any) -> None:
-    """Pins go where their path leads, or stay; then the planes of anchors are filled."""
+    """Move pins along their path, or keep them; then fill the planes of anchors."""
     for p in range(sheet.pins.size):
         if targets.shape[0] > 0:
             which = cloth if targets.shape[2] > 1 else 0
@@ -331,7 +331,7 @@ def move(y: Any, g: Any, old: Any, dt: Any, sheet: Any) -> None:
 
 @kernel
 def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
-    """Drag over dt of the speed that gravity is about to add to: see `xpbd.add_pushes`."""
+    """Drag over dt, before gravity is added: see `xpbd.add_pushes`."""
     F = v.dtype.type
     slow = F(1 / (1 + dt * numbers[1]))
     for axis in range(3):
@@ -343,7 +343,7 @@ def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
 
 @kernel
 def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, substep: Any) -> None:
-    """y goes on as fast as in the last substep, or at first with v, and falls; old is y before."""
+    """y moves as in the last substep, in the first one with v, and falls; old is y before."""
     F = y.dtype.type
     h = F(numbers[0])
     for axis in range(3):

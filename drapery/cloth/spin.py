@@ -1,4 +1,4 @@
-"""Desbrun's second correction (1999, section 3.3): the filter may not make a free cloth turn.
+"""Desbrun's second correction (1999, section 3.3): the filter must not turn a free cloth.
 
 Internal forces have no net torque, filtered ones have some. The paper takes dt/m in place of the
 inverse of the moment of inertia, which undoes part of it, and for hundreds of particles too much;
@@ -24,7 +24,7 @@ class Spin(NamedTuple):
 
 
 class NoSpin(NamedTuple):
-    """No correction; compiled away."""
+    """No correction."""
 
     unused: int = 0
 

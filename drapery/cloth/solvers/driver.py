@@ -1,6 +1,6 @@
-"""What the classic solvers share: from states to lanes, through a method's kernel, and back.
+"""What solvers share: from states to lanes, through the kernel of a method, and back to states.
 
-A method brings its plan (constant arrays) and its kernel, which steps the lanes first..last.
+A method provides its plan (constant arrays) and a kernel that steps the lanes first..last.
 """
 
 from collections.abc import Callable, Sequence
@@ -26,7 +26,7 @@ from drapery.mesh import Array
 MAX_SUBSTEPS = MAX_SWEEPS = MAX_THREADS = 1000
 MAX_SWING = 0.3
 """Radians that the fastest spring may swing in a substep. Symplectic methods are stable up to 2;
-this leaves room for the limit on stretch, which gets a sweep or two a substep."""
+the limit on stretch, with a sweep or two a substep, needs smaller substeps."""
 
 
 class Springs(NamedTuple):
@@ -38,7 +38,7 @@ class Springs(NamedTuple):
 
 
 class ClothBody(NamedTuple):
-    """What every method knows of a cloth. controls: particles where the wind is sampled."""
+    """What every method needs of a cloth. controls: particles where the wind is sampled, [C]."""
 
     springs: Springs
     faces: Faces
@@ -103,7 +103,7 @@ def body_of(cloth: Cloth) -> ClothBody:
 
 
 class KernelSolver:
-    """The step that methods with a kernel share."""
+    """The step of every method that has a kernel."""
 
     threads: int | None
 
@@ -123,7 +123,7 @@ class KernelSolver:
         check_state(cloth, state)
         if dt != solver_state.dt:
             raise OptionError(
-                f"dt {dt:g} is not the {solver_state.dt:g} of the memory; call init again"
+                f"dt {dt:g} is not the {solver_state.dt:g} of the solver state; call init again"
             )
         loads = lower_forces(forces, cloth, len(state.positions))
         at_once = 1 if loads.custom else steps

@@ -172,7 +172,7 @@ def enough_substeps(cloth: Cloth) -> int:
 
 
 def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> XPBDConstraints:
-    """Each substep's springs in order: all stiff ones, and those soft ones whose turn it is."""
+    """The springs of each substep in order: all stiff ones and the soft ones that are due."""
     w = cloth.inv_mass[cloth.spring_pairs].sum(axis=1)
     times = turns_a_step(compliance, w, dt, substeps)
     first = _first_turns(cloth, times < substeps, substeps)
@@ -247,7 +247,7 @@ def sheet_plan(
 
 @kernel
 def solve(x: Any, constraints: Any, substep: Any) -> None:
-    """One substep's constraints, one after another."""
+    """The constraints of one substep, one after another."""
     for s in range(constraints.begin[substep], constraints.begin[substep + 1]):
         i, j = 3 * np.intp(constraints.pairs[s, 0]), 3 * np.intp(constraints.pairs[s, 1])
         rest = constraints.square[s]
@@ -275,9 +275,9 @@ def hold(x: Any, attachments: Any) -> None:
 
 @kernel
 def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -> None:
-    """Where x goes, into old: on as fast as in the last substep, or at first with v, and falling.
+    """New positions, into old: x moves as in the last substep, in the first one with v, and falls.
 
-    Old places are lost: the two arrays then change their parts. Pins are left to `place_pins`.
+    The old positions are overwritten; the caller swaps the two arrays. Pins: see `place_pins`.
     """
     F = x.dtype.type
     h = F(numbers[0])
