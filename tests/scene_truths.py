@@ -9,15 +9,15 @@ from drapery.cloth.colliders import Collider
 from drapery.cloth.colliders.packing import distance
 from drapery.cloth.colliders.sample_points import sample_points
 from drapery.render.frame import Frame
-from drapery.scenes.catalogue import Shot, find
+from drapery.scenes.catalogue import Clip, find
 from drapery.scenes.drawing import scene_frames
 
 
 def still(name: str, frames: int = 1, fps: float = 20.0, **words: str) -> Frame:
-    """The last picture of a short, small shot."""
+    """The last picture of a short, small clip."""
     scene = find(name)
-    shot = Shot((160, 160), frames, fps)
-    return next(scene_frames(scene, scene.parameters(words), shot, "soft", last=True))
+    clip = Clip((160, 160), frames, fps)
+    return next(scene_frames(scene, scene.parameters(words), clip, "soft", last=True))
 
 
 def clearance(cloth: Cloth, state: State, colliders: Sequence[Collider], order: int = 2) -> float:

@@ -18,8 +18,8 @@ from drapery.render.soft import draw_scene
 from drapery.scenes.stager import still
 from drapery.settings import Kind, Settings
 from drapery.style.block import turn
+from drapery.style.figure import CAPE_SIZE
 from drapery.style.kinds import KINDS
-from drapery.style.kinds.cape import CAPE_SIZE
 from drapery.style.kinds.player import SHOULDERS
 from drapery.style.slot import BANNER_POSE, in_slot
 

@@ -5,22 +5,22 @@ import pytest
 
 from drapery.cloth import Gravity, SolverDesbrun, Wind, max_stretch
 from drapery.scenes import banner, flag, fold, hall, stress
-from drapery.scenes.banners import Stand, flag_cloth, hung
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.banners import BannerBlock, flag_cloth, flags_at_rest
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
 from drapery.style.block import FLAG_SIZE, sway_angle
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
 
-SHORT = Shot((64, 64), 6, 20.0)
+SHORT = Clip((64, 64), 6, 20.0)
 
 
 @pytest.mark.parametrize("facing", [0, 90, 180, 270])
 @pytest.mark.parametrize("placement", ["standing", "wall"])
 def test_a_flag_hangs_from_its_bar(placement, facing) -> None:
-    stands = [Stand((3, 0, -2), placement, facing)]
+    banner_blocks = [BannerBlock((3, 0, -2), placement, facing)]
     cloth = flag_cloth((3, 5))
-    rest = hung(cloth, stands).positions[0]
-    state = list(motion(cloth, SHORT, start=hung(cloth, stands), step=1 / 60))[-1]
+    rest = flags_at_rest(cloth, banner_blocks).positions[0]
+    state = list(motion(cloth, SHORT, start=flags_at_rest(cloth, banner_blocks), step=1 / 60))[-1]
     np.testing.assert_allclose(state.positions[0, :3], rest[:3], atol=1e-12)
     lower = state.positions[0, 3:].reshape(4, 3, 3)
     assert (np.diff(lower[..., 1], axis=0) < 0).all()
@@ -30,7 +30,7 @@ def test_a_flag_hangs_from_its_bar(placement, facing) -> None:
 def test_banners_wave_and_hardly_stretch() -> None:
     cloth = flag_cloth((5, 9))
     wind = Wind((1.75, 0, 4.7), gusts=0.5, period=banner.LOOP)
-    start = hung(cloth, banner.STANDS)
+    start = flags_at_rest(cloth, banner.BLOCKS)
     states = motion(cloth, SHORT, forces=(Gravity(), wind), start=start, settle=2, step=1 / 60)
     positions = np.stack([state.positions for state in states])
     assert max_stretch(positions, cloth) < 0.06
@@ -39,7 +39,7 @@ def test_banners_wave_and_hardly_stretch() -> None:
 
 
 def test_the_cube_holds_4913_banners_in_rows() -> None:
-    places = stress._places(stress.Parameters())
+    places = stress._places(stress.StressParameters())
     assert places.shape == (4913, 3)
     assert len(np.unique(places, axis=0)) == 4913
     worn = stress._bands(17)
@@ -47,20 +47,20 @@ def test_the_cube_holds_4913_banners_in_rows() -> None:
 
 
 def test_every_banner_of_the_cube_moves_by_itself() -> None:
-    parameters = stress.Parameters(side=3, settle=0.5)
-    shot = Shot((64, 64), 2, 20.0)
-    first, second = stress._motion(parameters, shot, stress._places(parameters))
+    parameters = stress.StressParameters(side=3, settle=0.5)
+    clip = Clip((64, 64), 2, 20.0)
+    first, second = stress._motion(parameters, clip, stress._places(parameters))
     moves = (second - first)[:, -1]
     assert len(np.unique(np.round(moves, 7), axis=0)) == 27
 
 
 def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
     cloth = flag_cloth((5, 9))
-    parameters, shot = hall.Parameters(), Shot((64, 64), 60, 20.0)
-    states = list(hall.blown(parameters, cloth, shot))
+    parameters, clip = hall.HallParameters(), Clip((64, 64), 60, 20.0)
+    states = list(hall.blown(parameters, cloth, clip))
     assert len(states[0].positions) == 32
     off = np.stack([abs(s.positions[:, -1, 0] - s.positions[:, 0, 0]) for s in states])
-    peak = off.argmax(axis=0) / shot.fps
+    peak = off.argmax(axis=0) / clip.fps
     near, middle = peak[:4].mean(), peak[16:20].mean()
     assert 16 / 11 * 0.7 < middle - near < 16 / 11 * 1.4  # 16 m at 11 m/s
     assert max(abs(s.positions[..., 0]).max() for s in states) < hall.WIDTH / 2
@@ -68,7 +68,7 @@ def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
 
 
 def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
-    parameters = flag.Parameters()
+    parameters = flag.FlagParameters()
     cloth = flag.banner_on_its_side(parameters.grid)
     for state in flag.flown(parameters, cloth, SHORT):
         hoist, fly = state.positions[0, :4], state.positions[0, -4:]
@@ -78,10 +78,10 @@ def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
 
 
 def test_the_printed_sign_folds_a_banner_and_the_right_one_does_not() -> None:
-    cloth, shot = flag_cloth((5, 9)), Shot((64, 64), 60, 20.0)
+    cloth, clip = flag_cloth((5, 9)), Clip((64, 64), 60, 20.0)
     fallen = {}
     for solver in (fold.SolverMisprinted(), SolverDesbrun()):
-        *_, last = fold.hanging(fold.Parameters(wind=0.5), cloth, solver, shot)
+        *_, last = fold.hanging(fold.FoldParameters(wind=0.5), cloth, solver, clip)
         edges = np.ptp(last.positions[0].reshape(9, 5, 3)[1:, :, 0], axis=1)
         fallen[type(solver)] = edges.min() / FLAG_SIZE[0]
     assert fallen[SolverDesbrun] > 0.9

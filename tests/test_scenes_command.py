@@ -31,8 +31,8 @@ def test_parameters_are_options(drapery, tmp_path) -> None:
     pictures = []
     for number, words in enumerate(ways):
         target = tmp_path / f"{number}.png"
-        shot = ("--seconds", "0.05", "--size", "64x32")
-        code, _, err = drapery("scene", "blocky", *words, *shot, "-o", target)
+        clip = ("--seconds", "0.05", "--size", "64x32")
+        code, _, err = drapery("scene", "blocky", *words, *clip, "-o", target)
         assert code == 0, err
         pictures.append(target.read_bytes())
     assert pictures[0] == pictures[1] == pictures[2]
@@ -41,8 +41,8 @@ def test_parameters_are_options(drapery, tmp_path) -> None:
 def test_a_sail_obeys_its_script(drapery, tmp_path) -> None:
     script = tmp_path / "wind.txt"
     script.write_text("0 strength 9\n0.2 direction 60\n")
-    shot = ("--seconds", "0.4", "--fps", "10", "--size", "48x48")
-    code, _, _ = drapery("scene", "sail", "--script", script, *shot, "-o", tmp_path / "sail.gif")
+    clip = ("--seconds", "0.4", "--fps", "10", "--size", "48x48")
+    code, _, _ = drapery("scene", "sail", "--script", script, *clip, "-o", tmp_path / "sail.gif")
     assert code == 0
     with Image.open(tmp_path / "sail.gif") as image:
         assert (image.n_frames, image.size) == (4, (48, 48))

@@ -8,15 +8,15 @@ from drapery.cloth import max_stretch
 from drapery.cloth.forces import Gravity
 from drapery.errors import OptionError
 from drapery.scenes import corners, freefall, sail
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.wind_script import parse_script, read_script
 from drapery.style.insect import beetle
 
-LONG = Shot((64, 64), 100, 20.0)
+LONG = Clip((64, 64), 100, 20.0)
 
 
 def swung(pins, **words):
-    parameters = corners.Parameters(**words)
+    parameters = corners.CornersParameters(**words)
     cloth = corners.level_cloth(pins, parameters)
     return cloth, list(corners.swung(cloth, parameters, LONG))
 
@@ -69,11 +69,11 @@ def test_two_corners_swing_like_a_curtain_and_lose_energy(shape) -> None:
 
 @pytest.mark.parametrize("direction", [0, 180])
 def test_a_sail_billows_where_the_wind_blows(direction) -> None:
-    parameters = sail.Parameters(gusts=0.0)
+    parameters = sail.SailParameters(gusts=0.0)
     script = f"0 direction {direction}\n0 strength 8\n1.5 off"
     cloth = sail.square_sail(parameters.grid)
     states = list(
-        sail.blown(parameters, tuple(parse_script(script)), cloth, Shot((64, 64), 50, 20.0))
+        sail.blown(parameters, tuple(parse_script(script)), cloth, Clip((64, 64), 50, 20.0))
     )
     assert len(states) == 50
     rest = cloth.rest_positions[:, 2].mean()
@@ -90,12 +90,12 @@ def test_a_sail_billows_where_the_wind_blows(direction) -> None:
 
 def test_a_sail_under_one_command_is_one_motion() -> None:
     """Nothing tells where one part of a script ends and the next begins."""
-    parameters, cloth = sail.Parameters(), sail.square_sail((6, 6))
-    shot = Shot((64, 64), 12, 20.0)
-    plain = sail.blown(parameters, tuple(parse_script("0 strength 6")), cloth, shot)
+    parameters, cloth = sail.SailParameters(), sail.square_sail((6, 6))
+    clip = Clip((64, 64), 12, 20.0)
+    plain = sail.blown(parameters, tuple(parse_script("0 strength 6")), cloth, clip)
     parts = "0 strength 6\n0.2 strength 6\n0.3 on\n0.41 strength 6"
     for one, other in zip(
-        plain, sail.blown(parameters, tuple(parse_script(parts)), cloth, shot), strict=True
+        plain, sail.blown(parameters, tuple(parse_script(parts)), cloth, clip), strict=True
     ):
         np.testing.assert_allclose(one.positions, other.positions, atol=1e-12)
 
@@ -131,7 +131,7 @@ def test_a_script_is_read_from_a_file(tmp_path) -> None:
 
 @pytest.mark.parametrize("on", ["beetle", "fox"])
 def test_falling_cloth_drapes_and_never_goes_through(on) -> None:
-    parameters = freefall.Parameters(grid=(14, 14))
+    parameters = freefall.FreefallParameters(grid=(14, 14))
     at = freefall.BEETLE_AT if on == "beetle" else freefall.FOX_AT
     cloth = freefall.sheet(parameters, at)
     met = (
@@ -139,7 +139,7 @@ def test_falling_cloth_drapes_and_never_goes_through(on) -> None:
         if on == "beetle"
         else freefall.fox_colliders(parameters)
     )
-    states = list(freefall.fall(parameters, cloth, met, Shot((64, 64), 60, 20.0)))
+    states = list(freefall.fall(parameters, cloth, met, Clip((64, 64), 60, 20.0)))
     for state in states[8::6]:
         assert clearance(cloth, state, met) > 0  # half the thickness may go in; the middle not
     last = states[-1]

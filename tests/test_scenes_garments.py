@@ -8,12 +8,12 @@ from drapery.cloth import max_stretch
 from drapery.errors import OptionError
 from drapery.mesh import vertex_normals
 from drapery.scenes import cape, scarf, skirt
-from drapery.scenes.catalogue import Shot, find
+from drapery.scenes.catalogue import Clip, find
 from drapery.scenes.gait import LEG, Gait
 from drapery.style.extrusion import boundary_edges
 from drapery.style.figure import PARTS, TEXEL
 
-STRIDE = Shot((64, 64), 16, 20.0)
+STRIDE = Clip((64, 64), 16, 20.0)
 
 
 def test_the_lower_foot_of_a_walk_stays_on_the_ground() -> None:
@@ -35,7 +35,7 @@ def test_a_foot_goes_back_as_far_as_the_ground() -> None:
 
 
 def test_a_cape_stays_on_and_out_of_the_body() -> None:
-    parameters, gait = cape.Parameters(), Gait()
+    parameters, gait = cape.CapeParameters(), Gait()
     cloth = cape.cape_cloth(parameters.grid)
     for state in cape.walk(parameters, cloth, gait, STRIDE):
         pins = gait.pins(cloth)(state.time)
@@ -46,8 +46,8 @@ def test_a_cape_stays_on_and_out_of_the_body() -> None:
 
 
 def test_a_walk_in_a_cape_ends_as_it_began() -> None:
-    cloth, loop = cape.cape_cloth((6, 9)), Shot((64, 64), 81, 20.0)
-    states = list(cape.walk(cape.Parameters(), cloth, Gait(), loop))
+    cloth, loop = cape.cape_cloth((6, 9)), Clip((64, 64), 81, 20.0)
+    states = list(cape.walk(cape.CapeParameters(), cloth, Gait(), loop))
     apart = np.abs(states[-1].positions - states[0].positions).max()
     step = np.abs(states[1].positions - states[0].positions).max()
     assert apart < step  # the seam of the loop is no wider than a step between frames
@@ -55,7 +55,7 @@ def test_a_walk_in_a_cape_ends_as_it_began() -> None:
 
 @pytest.mark.parametrize("place", [0, 1])
 def test_a_scarf_stays_on_and_out_of_the_body(place) -> None:
-    parameters, gait = scarf.Parameters(), Gait()
+    parameters, gait = scarf.ScarfParameters(), Gait()
     cloth = scarf.tail(*scarf.TAILS[place])
     for state in scarf.streaming(parameters, cloth, gait, STRIDE):
         pins = gait.pins(cloth)(state.time)
@@ -66,7 +66,7 @@ def test_a_scarf_stays_on_and_out_of_the_body(place) -> None:
 
 
 def test_a_skirt_stays_on_and_is_moved_by_the_legs_alone() -> None:
-    parameters, gait = skirt.Parameters(), Gait(2.0)
+    parameters, gait = skirt.SkirtParameters(), Gait(2.0)
     cloth = skirt.skirt_cloth(parameters)
     states = list(skirt.walk(parameters, cloth, gait, STRIDE))
     for state in states:
@@ -79,7 +79,7 @@ def test_a_skirt_stays_on_and_is_moved_by_the_legs_alone() -> None:
 
 
 def test_a_skirt_is_a_closed_ring_seen_from_outside() -> None:
-    cloth = skirt.skirt_cloth(skirt.Parameters())
+    cloth = skirt.skirt_cloth(skirt.SkirtParameters())
     assert len(boundary_edges(cloth.triangles)) == 2 * 12  # waist and hem
     outwards = vertex_normals(cloth.rest_positions, cloth.triangles)
     level = cloth.rest_positions * [1, 0, 1]

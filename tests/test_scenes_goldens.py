@@ -4,7 +4,7 @@ import pytest
 from scene_truths import still
 
 from drapery.render.frame import Frame
-from drapery.scenes.catalogue import Shot, find, names
+from drapery.scenes.catalogue import Clip, find, names
 from drapery.testing.plugin import Golden
 
 FRAMES = {
@@ -31,7 +31,7 @@ def test_a_scene_looks_as_it_did(name: str, golden: Golden) -> None:
 @pytest.mark.parametrize("size", [(96, 61), (33, 120)])
 def test_pictures_of_parts_are_of_the_size_asked_for(name: str, size: tuple[int, int]) -> None:
     scene = find(name)
-    first = next(scene.play(scene.parameters(), Shot(size, 1)))
+    first = next(scene.play(scene.parameters(), Clip(size, 1)))
     if isinstance(first, Frame):
         assert first.pixels.shape[:2] == (size[1], size[0])
     else:

@@ -7,13 +7,13 @@ import pytest
 
 from drapery.mesh import Array
 from drapery.scenes import cape_pixel, julia
-from drapery.scenes.catalogue import Shot, find
-from drapery.scenes.dots import Tweaks, dot_grid, step
+from drapery.scenes.catalogue import Clip, find
+from drapery.scenes.dots import CapeTweaks, dot_grid, step
 from drapery.style.block import FLAG_MAPPING, SCALE
 from drapery.style.blocky import pixelled, stepped
 from drapery.style.hero import LEGS, sprite
 
-NONE = Tweaks(False, False, False, False)
+NONE = CapeTweaks(False, False, False, False)
 
 
 def published(steps: int) -> list[list[tuple[float, float]]]:
@@ -48,7 +48,7 @@ def published(steps: int) -> list[list[tuple[float, float]]]:
 
 
 def test_the_curtain_moves_by_the_published_numbers() -> None:
-    parameters = julia.Parameters()
+    parameters = julia.JuliaParameters()
     states = islice(julia.steps(parameters), 1, 301)
     for state, dots in zip(states, published(300), strict=True):
         rows = state.positions[0].reshape(20, 25, 3)[::-1].reshape(-1, 3)
@@ -57,18 +57,20 @@ def test_the_curtain_moves_by_the_published_numbers() -> None:
 
 
 def test_the_curtain_plays_at_its_own_rate() -> None:
-    own = find("julia").shot
+    own = find("julia").clip
     assert (own.count, own.fps) == (300, 30.0)
-    assert find("banner").shot == Shot()
+    assert find("banner").clip == Clip()
 
 
-def cape(tweaks: Tweaks) -> tuple[Array, list[float]]:
+def cape(tweaks: CapeTweaks) -> tuple[Array, list[float]]:
     """Two loops of the dots from the hero's feet, [F, N, 2], and the times."""
-    frames = list(cape_pixel.flights(cape_pixel.Parameters(), tweaks, Shot((64, 64), 240, 60.0)))
+    frames = list(
+        cape_pixel.flights(cape_pixel.CapePixelParameters(), tweaks, Clip((64, 64), 240, 60.0))
+    )
     return np.stack([places for places, _ in frames]), [time for _, time in frames]
 
 
-@pytest.mark.parametrize("tweaks", [NONE, Tweaks()])
+@pytest.mark.parametrize("tweaks", [NONE, CapeTweaks()])
 def test_a_pixel_cape_stays_on_its_hooks_and_above_the_ground(tweaks) -> None:
     places, times = cape(tweaks)
     dots = dot_grid(3, 6, cape_pixel.ACROSS, cape_pixel.DOWN)
@@ -99,13 +101,15 @@ def test_each_tweak_does_what_it_is_for() -> None:
     def speed(places: Array) -> float:
         return float(np.linalg.norm(np.diff(places[:, end], axis=0), axis=-1).mean())
 
-    assert speed(cape(Tweaks(True, False, False, False))[0]) < 0.8 * speed(plain)
-    assert speed(cape(Tweaks(False, True, False, False))[0]) < 0.8 * speed(plain)
+    assert speed(cape(CapeTweaks(True, False, False, False))[0]) < 0.8 * speed(plain)
+    assert speed(cape(CapeTweaks(False, True, False, False))[0]) < 0.8 * speed(plain)
     runs = [cape_pixel.hero_at(time).velocity[0] > 0 for time in times]
-    behind = [cape(t)[0][runs][:, end, 0].mean() for t in (NONE, Tweaks(False, False, True, False))]
+    behind = [
+        cape(t)[0][runs][:, end, 0].mean() for t in (NONE, CapeTweaks(False, False, True, False))
+    ]
     assert behind[1] < behind[0] - 1  # pushed against the run
-    calm = Tweaks(hooks=False)
-    heights = [np.ptp(cape(t)[0][20:50, :, 1], axis=1).mean() for t in (calm, Tweaks())]
+    calm = CapeTweaks(hooks=False)
+    heights = [np.ptp(cape(t)[0][20:50, :, 1], axis=1).mean() for t in (calm, CapeTweaks())]
     assert heights[1] > heights[0]  # keeps volume while it streams
 
 
@@ -123,9 +127,9 @@ def test_the_hero_runs_jumps_and_lands_and_a_loop_has_no_seam() -> None:
 @pytest.mark.parametrize("debug", ["yes", "no"])
 def test_the_art_is_enlarged_by_a_whole_number(debug) -> None:
     scene = find("cape-pixel")
-    shot = Shot((288, 288), 1)
+    clip = Clip((288, 288), 1)
     words = {"compare": "no", "debug": debug}
-    (picture,) = next(scene.play(scene.parameters(words), shot)).pictures
+    (picture,) = next(scene.play(scene.parameters(words), clip)).pictures
     blocks = picture.pixels.reshape(96, 3, 96, 3, 4)
     flat = (blocks == blocks[:, :1, :, :1]).all()
     assert flat == (debug == "no")

@@ -350,12 +350,12 @@ def test_upright_viewers_stack_scenes_but_not_banners(shape: tuple[int, int]) ->
 
 def test_a_scene_comes_round_again() -> None:
     player = Player("fold", (96, 96))
-    player._shot = replace(player._shot, count=5)
+    player._clip = replace(player._clip, count=5)
     first = [player.step() for _ in range(5)]
     again = [player.step() for _ in range(5)]
     for one, other in zip(first, again, strict=True):
         assert one.panes[0].scene is other.panes[0].scene
-    pictures = islice(player.entry.play(player.parameters, player._shot), 5)
+    pictures = islice(player.entry.play(player.parameters, player._clip), 5)
     for shown, picture in zip(first, pictures, strict=True):
         parts = picture.pictures
         for pane, scene in zip(shown.panes, parts, strict=True):

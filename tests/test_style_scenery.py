@@ -63,9 +63,9 @@ def test_a_causeway_repeats() -> None:
         assert set(map(tuple, ahead)) == set(map(tuple, behind))
 
 
-def test_the_figure_is_two_blocks_tall_and_stands_on_the_ground() -> None:
+def test_the_figure_is_as_tall_as_the_games_players_and_stands_on_the_ground() -> None:
     mesh = figure_mesh({})
-    assert mesh.positions[:, 1].min() == 0 and mesh.positions[:, 1].max() == 2
+    assert mesh.positions[:, 1].min() == 0 and mesh.positions[:, 1].max() == 1.875
     assert len(mesh.triangles) == 12 * len(PARTS)
     for skin in ("traveller", "dancer", "cape"):
         assert figure_material(skin, PACKS).layers[0].texels.shape == (64, 64, 4)

@@ -9,7 +9,7 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
 
 if TYPE_CHECKING:
-    from drapery.scenes.catalogue import Entry
+    from drapery.scenes.catalogue import SceneEntry
 
 _PAGE = """<!doctype html>
 <html lang="en">
@@ -78,7 +78,7 @@ def run(
 
 
 def _play(
-    scene: "Entry", target: Path, size: tuple[int, int], seconds: float | None, backend: str
+    scene: "SceneEntry", target: Path, size: tuple[int, int], seconds: float | None, backend: str
 ) -> None:
     from dataclasses import replace
 
@@ -87,12 +87,12 @@ def _play(
     from drapery.settings import frame_count
 
     check_animation_target(target)
-    shot = replace(scene.shot, size=size)
+    clip = replace(scene.clip, size=size)
     if seconds is not None:
-        shot = replace(shot, count=frame_count(seconds, shot.fps))
-    with compile_notice(), progress(scene.name, shot.count) as tick:
-        frames = scene_frames(scene, scene.parameters(), shot, backend)
-        save_animation(frames, shot.fps, target, total=shot.count, progress=tick)
+        clip = replace(clip, count=frame_count(seconds, clip.fps))
+    with compile_notice(), progress(scene.name, clip.count) as tick:
+        frames = scene_frames(scene, scene.parameters(), clip, backend)
+        save_animation(frames, clip.fps, target, total=clip.count, progress=tick)
 
 
 def _rendered(entries: list[dict[str, str]]) -> str:

@@ -61,23 +61,23 @@ def _play(
     backend: str,
 ) -> None:
     from drapery.render.encode import check_animation_target, check_still_target, save_animation
-    from drapery.scenes.catalogue import Shot, find
+    from drapery.scenes.catalogue import Clip, find
     from drapery.scenes.drawing import scene_frames
     from drapery.settings import OPTIONS, frame_count
 
     scene, words = find(name), _words(parameters)
     is_still = out.lower().endswith(".png") and not out.lower().endswith(".sheet.png")
     (check_still_target if is_still else check_animation_target)(out)
-    own = scene.shot
+    own = scene.clip
     fps = own.fps if fps is None else fps
     length = own.count / own.fps if seconds is None else seconds
-    shot = Shot(OPTIONS["size"].parse(size), frame_count(length, fps), fps)
-    with compile_notice(), progress("frames", shot.count) as tick:
-        drawn = scene_frames(scene, scene.parameters(words), shot, backend, last=is_still)
+    clip = Clip(OPTIONS["size"].parse(size), frame_count(length, fps), fps)
+    with compile_notice(), progress("frames", clip.count) as tick:
+        drawn = scene_frames(scene, scene.parameters(words), clip, backend, last=is_still)
         if is_still:
             next(drawn).save(out)
         else:
-            save_animation(drawn, fps, out, total=shot.count, progress=tick)
+            save_animation(drawn, fps, out, total=clip.count, progress=tick)
 
 
 def _as_parameters(arguments: list[str]) -> list[str]:

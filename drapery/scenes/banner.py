@@ -11,66 +11,85 @@ from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.banners import (
-    Stand,
+    BannerBlock,
     flag_cloth,
     flag_materials,
+    flag_models,
     flag_shell,
-    flags,
-    hung,
-    wooden,
+    flags_at_rest,
+    wood_model,
 )
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
+from drapery.scenes.parameters import (
+    SceneParameters,
+    grid_parameter,
+    parameter,
+    seed_parameter,
+    thickness_parameter,
+    wind_parameter,
+)
 from drapery.style.block_world import blocks, plateau
 from drapery.style.scenery import SKY, shadow
 
 FRONT = View(azimuth=20, elevation=9, fov=28)
-STANDS = (Stand((-1.8, 0, -0.5)), Stand((-0.5, 0, -0.5)), Stand((0.8, 0, -0.5)))
+BLOCKS = (BannerBlock((-1.8, 0, -0.5)), BannerBlock((-0.5, 0, -0.5)), BannerBlock((0.8, 0, -0.5)))
 LOOP = 4.0
 """The wind repeats after this time [s], so a picture of 4 s has no seam."""
 SETTLING = 2 * LOOP
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """left, middle, right: designs. left_grid and so on: particles across and down each flag.
+class BannerParameters(SceneParameters):
+    """What can be set of the scene `banner`."""
 
-    wind: its mean speed [m/s]. thickness: of the cloth, in texels.
-    """
+    left: str = parameter("white creeper:lime border:black", "Design of the left banner")
+    middle: str = parameter(
+        "blue gradient_up:light_blue rhombus:yellow flower:white border:orange",
+        "Design of the middle banner",
+    )
+    right: str = parameter(
+        "red stripe_middle:white circle:white skull:black triangles_bottom:black",
+        "Design of the right banner",
+    )
+    left_grid: tuple[int, int] = grid_parameter((3, 5), "Particles across and down the left flag")
+    middle_grid: tuple[int, int] = grid_parameter((5, 9), "The same of the middle flag")
+    right_grid: tuple[int, int] = grid_parameter((7, 13), "The same of the right flag")
+    wind: float = wind_parameter(5.0)
+    thickness: float = thickness_parameter()
+    seed: int = seed_parameter()
 
-    left: str = "white creeper:lime border:black"
-    middle: str = "blue gradient_up:light_blue rhombus:yellow flower:white border:orange"
-    right: str = "red stripe_middle:white circle:white skull:black triangles_bottom:black"
-    left_grid: tuple[int, int] = (3, 5)
-    middle_grid: tuple[int, int] = (5, 9)
-    right_grid: tuple[int, int] = (7, 13)
-    wind: float = 5.0
-    thickness: float = 1.0
-    seed: int = 0
 
-
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: BannerParameters, clip: Clip) -> Iterator[Scene]:
     """Three banners on a piece of ground."""
     packs = open_packs(())
     ground = blocks(plateau(4, 2), packs)
-    still = (*ground, *(shadow((s.cell[0] + 0.5, 0), 0.42) for s in STANDS), wooden(STANDS, packs))
-    camera = frame_points(FRONT, _room(), shot.size[0] / shot.size[1], margin=0.04)
-    for waving in zip(*_flags(parameters, shot), strict=True):
-        yield Scene((*still, *waving), camera, shot.size, background=SKY, samples=4)
+    still = (
+        *ground,
+        *(shadow((s.cell[0] + 0.5, 0), 0.42) for s in BLOCKS),
+        wood_model(BLOCKS, packs),
+    )
+    camera = frame_points(FRONT, _room(), clip.size[0] / clip.size[1], margin=0.04)
+    for waving in zip(*_flags(parameters, clip), strict=True):
+        yield Scene((*still, *waving), camera, clip.size, background=SKY, samples=4)
 
 
-def _flags(parameters: Parameters, shot: Shot) -> list[Iterator[Model]]:
+def _flags(parameters: BannerParameters, clip: Clip) -> list[Iterator[Model]]:
     """Each flag at every frame; they differ in topology, so each is a motion of its own."""
     p = parameters
     designs, shapes = (p.left, p.middle, p.right), (p.left_grid, p.middle_grid, p.right_grid)
     return [
-        _flag(parameters, stand, design, shape, shot)
-        for stand, design, shape in zip(STANDS, designs, shapes, strict=True)
+        _flag(parameters, block, design, shape, clip)
+        for block, design, shape in zip(BLOCKS, designs, shapes, strict=True)
     ]
 
 
 def _flag(
-    parameters: Parameters, stand: Stand, design: str, shape: tuple[int, int], shot: Shot
+    parameters: BannerParameters,
+    block: BannerBlock,
+    design: str,
+    shape: tuple[int, int],
+    clip: Clip,
 ) -> Iterator[Model]:
     cloth = flag_cloth(shape)
     shell, materials = flag_shell(cloth), flag_materials((design,), open_packs(()))
@@ -78,13 +97,13 @@ def _flag(
     wind = Wind(velocity, gusts=0.5, seed=parameters.seed, period=LOOP)
     states = motion(
         cloth,
-        shot,
+        clip,
         forces=(Gravity(), wind),
-        start=hung(cloth, (stand,)),
+        start=flags_at_rest(cloth, (block,)),
         settle=SETTLING,
         step=1 / 60,
     )
-    return (flags(shell, state, materials, parameters.thickness) for state in states)
+    return (flag_models(shell, state, materials, parameters.thickness) for state in states)
 
 
 def _room() -> Array:

@@ -18,7 +18,7 @@ from drapery.style.tailoring import garment
 
 
 @dataclass(frozen=True)
-class Stand:
+class BannerBlock:
     """A banner block. cell: least corner of its block [m]; facing: degrees, 0 south, 90 west."""
 
     cell: tuple[float, float, float]
@@ -36,16 +36,16 @@ def flag_shell(cloth: Cloth) -> Shell:
     return make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING)
 
 
-def hung(cloth: Cloth, stands: Sequence[Stand]) -> State:
+def flags_at_rest(cloth: Cloth, banner_blocks: Sequence[BannerBlock]) -> State:
     """All flags at rest, each at its block, shape [B, N, 3]."""
-    sheets = [_at(_sheet(cloth, stand), stand).positions for stand in stands]
+    sheets = [_at(_sheet(cloth, block), block).positions for block in banner_blocks]
     positions = np.stack(sheets)
     return State(positions, np.zeros_like(positions))
 
 
-def wooden(stands: Sequence[Stand], packs: Packs) -> Model:
+def wood_model(banner_blocks: Sequence[BannerBlock], packs: Packs) -> Model:
     """Poles and bars, all blocks of one placement."""
-    meshes = [_at(wood(stand.placement), stand) for stand in stands]
+    meshes = [_at(wood(block.placement), block) for block in banner_blocks]
     mesh = Mesh(
         np.stack([mesh.positions for mesh in meshes]),
         np.stack([mesh.normals for mesh in meshes]),
@@ -60,7 +60,7 @@ def flag_materials(designs: Sequence[str], packs: Packs) -> tuple[Material, ...]
     return tuple(flag_material(Banner.parse(design), packs) for design in designs)
 
 
-def flags(
+def flag_models(
     shell: Shell, state: State, materials: tuple[Material, ...], thickness: float = 1.0
 ) -> Model:
     """The flags of a state; the looks go round. thickness: in texels.
@@ -71,11 +71,11 @@ def flags(
     return garment(shell, state.positions, thickness * SCALE, *materials, index=index)
 
 
-def _sheet(cloth: Cloth, stand: Stand) -> Mesh:
+def _sheet(cloth: Cloth, block: BannerBlock) -> Mesh:
     rest = cloth.rest_positions
     hanging = Mesh(rest, np.zeros_like(rest), cloth.triangles, cloth.uvs)
-    return moved(hanging, flag_origin(stand.placement))
+    return moved(hanging, flag_origin(block.placement))
 
 
-def _at(mesh: Mesh, stand: Stand) -> Mesh:
-    return moved(turn(mesh, stand.facing), np.array(stand.cell, float))
+def _at(mesh: Mesh, block: BannerBlock) -> Mesh:
+    return moved(turn(mesh, block.facing), np.array(block.cell, float))

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 from PIL import Image, ImageDraw
 
-from drapery.banner.dyes import DYES
+from drapery.banner.dyes import DYE_NAMES, DYES
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.frame import Frame, Pixels
-from drapery.scenes.catalogue import Shot
-from drapery.scenes.dots import STEP, Dots, Tweaks, dot_grid, step
-from drapery.scenes.panels import Panels, panel_size
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.dots import STEP, CapeTweaks, DotCloth, dot_grid, step
+from drapery.scenes.parameters import SceneParameters, parameter
+from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.style.hero import RUN, sprite
 from drapery.style.pixel import bounding_box, fill_polygon, outline
 
@@ -35,28 +36,25 @@ FRAMES_PER_SECOND = 10
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """air, turning, push, hooks: the tweaks; see `Tweaks`. compare: the plain method beside them.
+class CapePixelParameters(SceneParameters):
+    """What can be set of the scene `cape-pixel`."""
 
-    debug: shows dots (green), constraints (blue), pins (red) and the box that is scanned (orange).
-    dye: of the cape. hem: a second tone for its lower edge. grid: dots across and down.
-    passes: over all constraints, a step.
-    """
-
-    air: bool = True
-    turning: bool = True
-    push: bool = True
-    hooks: bool = True
-    compare: bool = True
-    debug: bool = False
-    dye: str = "red"
-    hem: bool = True
-    grid: tuple[int, int] = (3, 6)
-    passes: int = 3
+    air: bool = parameter(True, "Whether the air resists")
+    turning: bool = parameter(True, "Whether the cape's turning is damped")
+    push: bool = parameter(True, "Whether the cape is pushed against the hero's motion")
+    hooks: bool = parameter(True, "Whether the pins move with the hero's animation")
+    compare: bool = parameter(True, "Whether the plain method is shown too")
+    debug: bool = parameter(
+        False, "Shows dots green, constraints blue, pins red and the scanned box orange"
+    )
+    dye: str = parameter("red", "Dye of the cape", choices=DYE_NAMES)
+    hem: bool = parameter(True, "Whether the lower edge has a second tone")
+    grid: tuple[int, int] = parameter((3, 6), "DotCloth across and down the cape", (2, 32), "dots")
+    passes: int = parameter(3, "Passes over all constraints in a step", (0, 64))
 
 
 @dataclass(frozen=True)
-class Hero:
+class HeroState:
     """Where the hero is: its feet [pixels], how it moves [pixels/s], and its legs."""
 
     feet: Array
@@ -64,39 +62,41 @@ class Hero:
     legs: str
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
+def play(parameters: CapePixelParameters, clip: Clip) -> Iterator[PictureGrid]:
     """The camera runs along; with `compare` the plain method is above."""
     if parameters.dye not in DYES:
         raise OptionError(f"dye {parameters.dye!r} is not known; use one of: {', '.join(DYES)}")
-    tweaks = Tweaks(parameters.air, parameters.turning, parameters.push, parameters.hooks)
-    ways = {"as it is": Tweaks(False, False, False, False)} if parameters.compare else {}
+    tweaks = CapeTweaks(parameters.air, parameters.turning, parameters.push, parameters.hooks)
+    ways = {"as it is": CapeTweaks(False, False, False, False)} if parameters.compare else {}
     ways["tweaked"] = tweaks
-    size = panel_size(shot.size, 1, len(ways))
+    size = panel_size(clip.size, 1, len(ways))
     labels = tuple(ways) if parameters.compare else ("",)
-    rows = (_frames(parameters, way, size, shot) for way in ways.values())
+    rows = (_frames(parameters, way, size, clip) for way in ways.values())
     for pictures in zip(*rows, strict=True):
-        yield Panels(pictures, labels, columns=1)
+        yield PictureGrid(pictures, labels, columns=1)
 
 
-def flights(parameters: Parameters, tweaks: Tweaks, shot: Shot) -> Iterator[tuple[Array, float]]:
+def flights(
+    parameters: CapePixelParameters, tweaks: CapeTweaks, clip: Clip
+) -> Iterator[tuple[Array, float]]:
     """The dots [N, 2] at each frame, from the feet of the hero, and the time [s]."""
     dots = dot_grid(*parameters.grid, across=ACROSS, down=DOWN)
     steps = round(LOOP / STEP)
     now = before = _rest(dots, tweaks)
     places = [now]
     # One loop to settle, then what is asked for.
-    for number in range(1, steps + round((shot.count - 1) / shot.fps / STEP) + 1):
+    for number in range(1, steps + round((clip.count - 1) / clip.fps / STEP) + 1):
         hero = hero_at(number * STEP)
         hooks = hero.feet + hooks_of(dots, hero, tweaks)
         now, before = step(dots, now, before, hooks, hero.velocity, tweaks, parameters.passes), now
         np.minimum(now[:, 1], 0.0, out=now[:, 1])  # the ground is at 0, and y points down
         places.append(now)
-    for frame in range(shot.count):
-        number = steps + round(frame / shot.fps / STEP)
+    for frame in range(clip.count):
+        number = steps + round(frame / clip.fps / STEP)
         yield places[number] - hero_at(number * STEP).feet, number * STEP
 
 
-def hero_at(time: float) -> Hero:
+def hero_at(time: float) -> HeroState:
     """The hero at a time [s]."""
     rounds, moment = divmod(time + 1e-9, LOOP)
     spent = [min(max(moment - start, 0.0), end - start) for start, end in RUNNING]
@@ -109,10 +109,10 @@ def hero_at(time: float) -> Hero:
     climb = 4 * top * (1 - 2 * part) / (end - start) if flies else 0.0
     feet = np.array([DISTANCE * rounds + speed * sum(spent), -height])
     velocity = np.array([speed if runs else 0.0, -climb])
-    return Hero(feet, velocity, _legs(moment, runs, flies, climb))
+    return HeroState(feet, velocity, _legs(moment, runs, flies, climb))
 
 
-def hooks_of(dots: Dots, hero: Hero, tweaks: Tweaks) -> Array:
+def hooks_of(dots: DotCloth, hero: HeroState, tweaks: CapeTweaks) -> Array:
     """Where the top row is fastened, from the feet [pixels], shape [P, 2].
 
     Along the shoulders; while the hero runs or falls, `hooks` lowers those at the back, so that
@@ -127,7 +127,7 @@ def hooks_of(dots: Dots, hero: Hero, tweaks: Tweaks) -> Array:
     return places
 
 
-def _rest(dots: Dots, tweaks: Tweaks) -> Array:
+def _rest(dots: DotCloth, tweaks: CapeTweaks) -> Array:
     rows, columns = dots.shape
     hooks = hooks_of(dots, hero_at(0.0), tweaks)
     down = np.arange(rows)[:, None, None] * np.array([0.0, 2.0])
@@ -141,12 +141,12 @@ def _legs(moment: float, runs: bool, flies: bool, climb: float) -> str:
 
 
 def _frames(
-    parameters: Parameters, tweaks: Tweaks, size: tuple[int, int], shot: Shot
+    parameters: CapePixelParameters, tweaks: CapeTweaks, size: tuple[int, int], clip: Clip
 ) -> Iterator[Frame]:
     scale = max(1, size[0] // CANVAS_WIDTH)
     width, height = -(-size[0] // scale), -(-size[1] // scale)
     dots = dot_grid(*parameters.grid, across=ACROSS, down=DOWN)
-    for places, time in flights(parameters, tweaks, shot):
+    for places, time in flights(parameters, tweaks, clip):
         hero = hero_at(time)
         feet = np.round(np.array([width * 0.55, height - GROUND_HEIGHT + hero.feet[1]]))
         canvas = _landscape(width, height, hero.feet[0])
@@ -158,7 +158,9 @@ def _frames(
         yield Frame(np.ascontiguousarray(large))
 
 
-def _draw_cape(canvas: Pixels, parameters: Parameters, dots: Dots, places: Array) -> None:
+def _draw_cape(
+    canvas: Pixels, parameters: CapePixelParameters, dots: DotCloth, places: Array
+) -> None:
     """Fill the polygon of the edge dots, and its last row of cells in the second tone."""
     height, width = canvas.shape[:2]
     rgb = np.array(DYES[parameters.dye].rgb)
@@ -196,7 +198,7 @@ def _lay(canvas: Pixels, texels: Pixels, corner: Array) -> None:
     canvas[y[seen], x[seen]] = texels[rows[seen], columns[seen]]
 
 
-def _debug(pixels: Pixels, dots: Dots, places: Array, scale: int) -> Pixels:
+def _debug(pixels: Pixels, dots: DotCloth, places: Array, scale: int) -> Pixels:
     """The cape's works over its enlarged picture."""
     image = Image.fromarray(pixels)
     pen = ImageDraw.Draw(image)

@@ -1,29 +1,28 @@
-"""The ready-made scenes, found by name: one module each, which offers `Parameters` and `play`.
+"""The ready-made scenes by name: one module each, which offers `play(parameters, clip)`.
 
-`Parameters` is a frozen dataclass whose defaults are the scene's own values; `play(parameters,
-shot)` yields one picture for each frame of the shot. The module's first line says what is seen;
-its SHOT, where it has one, is its own length and frame rate.
+The type of `parameters` is a frozen dataclass, a `SceneParameters`, whose defaults are the scene's
+own values. `play` yields one picture for each frame of the clip. The first line of the module says
+what is seen; its CLIP, if it has one, is the scene's own length and frame rate.
 """
 
-import math
 import pkgutil
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
-from typing import Any
+from typing import get_type_hints
 
 import drapery.scenes
 from drapery.errors import OptionError
-from drapery.scenes.panels import Picture
+from drapery.option import shown
+from drapery.scenes.parameters import SceneParameters, read_parameters
+from drapery.scenes.picture_grid import Picture
 
 
 @dataclass(frozen=True)
-class Shot:
-    """What is asked of any scene.
-
-    size: width and height [pixels]. count: frames. fps: frames per second.
-    """
+class Clip:
+    """The size and length of a film. size: width and height [pixels]. count: frames.
+    fps: frames per second."""
 
     size: tuple[int, int] = (480, 480)
     count: int = 80
@@ -31,7 +30,7 @@ class Shot:
 
 
 @dataclass(frozen=True)
-class Entry:
+class SceneEntry:
     """One scene of the catalogue."""
 
     name: str
@@ -39,19 +38,20 @@ class Entry:
     module: ModuleType
 
     @property
-    def shot(self) -> Shot:
+    def clip(self) -> Clip:
         """The scene's own length and frame rate."""
-        own: Shot = getattr(self.module, "SHOT", Shot())
+        own: Clip = getattr(self.module, "CLIP", Clip())
         return own
 
-    def parameters(self, words: Mapping[str, str] | None = None) -> Any:
+    def parameters(self, words: Mapping[str, str] | None = None) -> SceneParameters:
         """The scene's parameters, some of them given as text. Raises OptionError."""
-        return _read(self.module.Parameters, words or {}, self.name)
+        kind: type[SceneParameters] = get_type_hints(self.module.play)["parameters"]
+        return read_parameters(kind, words or {}, self.name)
 
-    def play(self, parameters: Any, shot: Shot) -> Iterator[Picture]:
-        """One picture for each frame of the shot."""
-        pictures: Iterable[Picture] = self.module.play(parameters, shot)
-        return iter(pictures)
+    def play(self, parameters: SceneParameters, clip: Clip) -> Iterator[Picture]:
+        """One picture for each frame of the clip."""
+        pictures: Iterator[Picture] = self.module.play(parameters, clip)
+        return pictures
 
 
 def names() -> list[str]:
@@ -60,52 +60,15 @@ def names() -> list[str]:
     return sorted(name.replace("_", "-") for name in found if _is_scene(name))
 
 
-def find(name: str) -> Entry:
+def find(name: str) -> SceneEntry:
     """The scene of this name. Raises OptionError if there is none."""
     known = names()
     if name not in known:
-        raise OptionError(f"scene {name!r} is not known; use one of: {', '.join(known)}")
+        raise OptionError(f"scene {shown(name)} is not known; use one of: {', '.join(known)}")
     module = import_module(f"drapery.scenes.{name.replace('-', '_')}")
     summary = (module.__doc__ or "").strip().splitlines()[0]
-    return Entry(name, summary, module)
+    return SceneEntry(name, summary, module)
 
 
 def _is_scene(name: str) -> bool:
     return hasattr(import_module(f"drapery.scenes.{name}"), "play")
-
-
-def _read(kind: type[Any], words: Mapping[str, str], scene: str) -> Any:
-    known = {field.name: field for field in fields(kind)}
-    given = {}
-    for word, text in words.items():
-        field = known.get(word.replace("-", "_"))
-        if field is None:
-            raise OptionError(
-                f"scene {scene} has no parameter {word!r}; it has: {', '.join(known)}"
-            )
-        given[field.name] = _value(word, text, field.default)
-    return kind(**given)
-
-
-def _value(word: str, text: str, default: Any) -> Any:
-    """A parameter's text as the type of its default. Raises OptionError."""
-    try:
-        if isinstance(default, bool):
-            return {"yes": True, "true": True, "no": False, "false": False}[text.lower()]
-        if isinstance(default, tuple):
-            parts = text.replace("x", ",").split(",")
-            return tuple(_number(p, type(d)) for d, p in zip(default, parts, strict=True))
-        return text if isinstance(default, str) else _number(text, type(default))
-    except (KeyError, ValueError):
-        pass
-    example = ",".join(map(str, default)) if isinstance(default, tuple) else default
-    example = {True: "yes", False: "no"}[default] if isinstance(default, bool) else example
-    raise OptionError(f"parameter {word} = {text!r} does not fit; write it like {example}")
-
-
-def _number(text: str, kind: type[Any]) -> Any:
-    """A finite number. Raises ValueError."""
-    value = kind(text)
-    if not math.isfinite(value):
-        raise ValueError(text)
-    return value

@@ -14,8 +14,15 @@ from drapery.mesh import Array
 from drapery.render.scene import Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.views import View, frame_points
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion, placed
+from drapery.scenes.parameters import (
+    MAX_DRAG,
+    SceneParameters,
+    grid_parameter,
+    parameter,
+    thickness_in_metres,
+)
 from drapery.style.block_world import blocks, plateau
 from drapery.style.extrusion import make_shell
 from drapery.style.scenery import SKY, post
@@ -31,17 +38,16 @@ DRAG = 0.8
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """grid: particles across and down; the course's own is 10 x 10. limit: a spring's longest
-    length over its rest length. drag: [1/s]. thickness: [m]."""
+class CornersParameters(SceneParameters):
+    """What can be set of a cloth held at corners."""
 
-    grid: tuple[int, int] = (10, 10)
-    limit: float = 1.1
-    drag: float = DRAG
-    thickness: float = 0.05
+    grid: tuple[int, int] = grid_parameter((10, 10), "Particles across and down the cloth")
+    limit: float = parameter(1.1, "Longest length of a spring over its rest length", (1, 2))
+    drag: float = parameter(DRAG, "Drag of the air", (0, MAX_DRAG), "1/s")
+    thickness: float = thickness_in_metres(0.05)
 
 
-def show(pins: PinName, parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def show(pins: PinName, parameters: CornersParameters, clip: Clip) -> Iterator[Scene]:
     """The cloth between posts at its held corners."""
     packs = open_packs(())
     cloth = level_cloth(pins, parameters)
@@ -50,14 +56,14 @@ def show(pins: PinName, parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     held = cloth.rest_positions[cloth.inv_mass == 0]
     posts = tuple(post(place * np.array([1, 0, 1]), HEIGHT + 0.06, packs) for place in held)
     still = (*blocks(plateau(4, 4), packs), *posts)
-    camera = frame_points(CORNER_VIEW, _room(), shot.size[0] / shot.size[1], margin=0.03)
-    for state in swung(cloth, parameters, shot):
+    camera = frame_points(CORNER_VIEW, _room(), clip.size[0] / clip.size[1], margin=0.03)
+    for state in swung(cloth, parameters, clip):
         sheet = garment(shell, state.positions[0], parameters.thickness, wool)
         veil = contact_shadow((*posts, sheet), 0.0, reach=HEIGHT)
-        yield Scene((*still, veil, sheet), camera, shot.size, background=SKY, samples=4)
+        yield Scene((*still, veil, sheet), camera, clip.size, background=SKY, samples=4)
 
 
-def level_cloth(pins: PinName, parameters: Parameters) -> Cloth:
+def level_cloth(pins: PinName, parameters: CornersParameters) -> Cloth:
     """The cloth lying level in the air; its first row is at the back.
 
     One that is held at that row alone will swing, and has it over the middle of the ground.
@@ -68,10 +74,10 @@ def level_cloth(pins: PinName, parameters: Parameters) -> Cloth:
     return placed(cloth, np.array([0.0, HEIGHT, back]), turn)
 
 
-def swung(cloth: Cloth, parameters: Parameters, shot: Shot) -> Iterator[State]:
+def swung(cloth: Cloth, parameters: CornersParameters, clip: Clip) -> Iterator[State]:
     """The cloth at each frame after it has been let go."""
     forces = (Gravity(), Drag(parameters.drag))
-    return motion(cloth, shot, solver=SolverVerlet(limit=parameters.limit), forces=forces)
+    return motion(cloth, clip, solver=SolverVerlet(limit=parameters.limit), forces=forces)
 
 
 def _room() -> Array:

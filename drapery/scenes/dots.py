@@ -25,7 +25,7 @@ PUSH = 5.0
 
 
 @dataclass(frozen=True)
-class Tweaks:
+class CapeTweaks:
     """What is done beyond the plain method.
 
     air: air resistance. turning: damped angular momentum. push: a push opposite to the wearer's
@@ -39,7 +39,7 @@ class Tweaks:
 
 
 @dataclass(frozen=True)
-class Dots:
+class DotCloth:
     """The constant part. pairs: neighbours, shape [C, 2]; reach: how far they may be apart
     [pixels], shape [C]; pinned: dots that only the wearer moves, shape [P]."""
 
@@ -49,22 +49,22 @@ class Dots:
     pinned: NDArray[np.int32]
 
 
-def dot_grid(columns: int, rows: int, across: float, down: float) -> Dots:
+def dot_grid(columns: int, rows: int, across: float, down: float) -> DotCloth:
     """A cape of dots, its top row pinned; across, down: distances of neighbours [pixels]."""
     index = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
     sides = np.stack([index[:, :-1].ravel(), index[:, 1:].ravel()], axis=1)
     uprights = np.stack([index[:-1].ravel(), index[1:].ravel()], axis=1)
     reach = np.repeat([across, down], [len(sides), len(uprights)])
-    return Dots((rows, columns), np.concatenate([sides, uprights]), reach, index[0])
+    return DotCloth((rows, columns), np.concatenate([sides, uprights]), reach, index[0])
 
 
 def step(
-    dots: Dots,
+    dots: DotCloth,
     now: Array,
     before: Array,
     hooks: Array,
     velocity: Array,
-    tweaks: Tweaks,
+    tweaks: CapeTweaks,
     passes: int,
 ) -> Array:
     """Places [N, 2] one step later, from those now and a step before.
@@ -90,7 +90,7 @@ def _turning(arms: Array, motion: Array) -> Array:
     return turn
 
 
-def _draw_near(dots: Dots, places: Array) -> None:
+def _draw_near(dots: DotCloth, places: Array) -> None:
     """One pass: each pair that is too far apart, one after another, moves together again."""
     fixed = set(dots.pinned.tolist())
     for (i, j), reach in zip(dots.pairs.tolist(), dots.reach.tolist(), strict=True):

@@ -6,21 +6,21 @@ from typing import Any
 
 from drapery.render.backends import backend as backend_named
 from drapery.render.frame import Frame
-from drapery.scenes.catalogue import Entry, Shot
-from drapery.scenes.panels import drawn
+from drapery.scenes.catalogue import SceneEntry, Clip
+from drapery.scenes.picture_grid import drawn
 from drapery.settings import OPTIONS
 
 
 def scene_frames(
-    scene: Entry, parameters: Any, shot: Shot, backend: str = "auto", *, last: bool = False
+    scene: SceneEntry, parameters: Any, clip: Clip, backend: str = "auto", *, last: bool = False
 ) -> Iterator[Frame]:
     """The frames of a ready-made scene, or only its last, drawn one by one.
 
     Raises OptionError or BackendError.
     """
-    OPTIONS["size"].check(shot.size)
+    OPTIONS["size"].check(clip.size)
     draw_scene = backend_named(backend)
-    pictures = scene.play(parameters, shot)
+    pictures = scene.play(parameters, clip)
     if last:
         pictures = iter([*deque(pictures, maxlen=1)])
     return (drawn(picture, draw_scene) for picture in pictures)

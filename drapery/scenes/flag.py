@@ -11,8 +11,16 @@ from drapery.cloth.colliders import rotation_about
 from drapery.render.camera import Camera
 from drapery.render.scene import Scene
 from drapery.scenes.banners import flag_materials, flag_shell
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion, placed
+from drapery.scenes.parameters import (
+    SceneParameters,
+    grid_parameter,
+    parameter,
+    seed_parameter,
+    thickness_parameter,
+    wind_parameter,
+)
 from drapery.style.block import FLAG_SIZE, SCALE
 from drapery.style.block_world import Cell, blocks
 from drapery.style.scenery import SKY, post
@@ -31,26 +39,29 @@ FOOT = np.array([0.0, TOWER + 1.0, 0.0])
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """design: of a banner that lies on its side. wind: [m/s]. grid: across and along the flag."""
+class FlagParameters(SceneParameters):
+    """What can be set of the scene `flag`."""
 
-    design: str = "white stripe_left:red stripe_right:red rhombus:yellow circle:red"
-    wind: float = 9.0
-    grid: tuple[int, int] = (4, 7)
-    thickness: float = 1.0
-    seed: int = 0
+    design: str = parameter(
+        "white stripe_left:red stripe_right:red rhombus:yellow circle:red",
+        "Design of a banner that lies on its side",
+    )
+    wind: float = wind_parameter(9.0)
+    grid: tuple[int, int] = grid_parameter((4, 7), "Particles across and along the flag")
+    thickness: float = thickness_parameter()
+    seed: int = seed_parameter()
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: FlagParameters, clip: Clip) -> Iterator[Scene]:
     """The tower on its hill; only the flag moves."""
     packs = open_packs(())
     cloth = banner_on_its_side(parameters.grid)
     shell, materials = flag_shell(cloth), flag_materials((parameters.design,), packs)
     still = (*blocks(_hill(), packs), post(FOOT, POLE, packs, 0.12))
-    for state in flown(parameters, cloth, shot):
+    for state in flown(parameters, cloth, clip):
         sheet = state.positions[0]
         flag = garment(shell, sheet, parameters.thickness * SCALE * GROWN, *materials)
-        yield Scene((*still, flag), _camera(), shot.size, background=SKY, samples=4)
+        yield Scene((*still, flag), _camera(), clip.size, background=SKY, samples=4)
 
 
 def banner_on_its_side(shape: tuple[int, int]) -> Cloth:
@@ -61,14 +72,14 @@ def banner_on_its_side(shape: tuple[int, int]) -> Cloth:
     return placed(cloth, top, rotation_about((0, 0, 1), 90))
 
 
-def flown(parameters: Parameters, cloth: Cloth, shot: Shot) -> Iterator[State]:
+def flown(parameters: FlagParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
     """The flag at each frame, in a wind from the left."""
     velocity = (0.97 * parameters.wind, 0.0, 0.24 * parameters.wind)
     wind = Wind(velocity, gusts=0.7, gust_size=2.5, seed=parameters.seed, period=LOOP)
     # Friction in moving air, rate (wind - v), is a steady push and drag in still air.
     push = Gravity((FRICTION * velocity[0], 0.0, FRICTION * velocity[2]))
     forces = (Gravity(), wind, push, Drag(FRICTION))
-    return motion(cloth, shot, forces=forces, settle=LOOP)
+    return motion(cloth, clip, forces=forces, settle=LOOP)
 
 
 def _hill() -> dict[Cell, str]:

@@ -11,13 +11,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drapery.cloth import Cloth, Gravity, Solver, SolverDesbrun, State, Wind
+from drapery.cloth.sheets import is_sheet
 from drapery.cloth.solvers.driver import SolverState
 from drapery.render.scene import Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.banners import flag_cloth
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
-from drapery.scenes.panels import Panels, panel_size
+from drapery.scenes.parameters import (
+    SceneParameters,
+    grid_parameter,
+    seed_parameter,
+    wind_parameter,
+)
+from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
 from drapery.style.block import FLAG_SIZE
 
@@ -29,6 +36,10 @@ class SolverMisprinted(SolverDesbrun):
     """The method with the sign of its internal force as the paper prints it."""
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
+        # Fine grids have another plan, without this kernel's springs; without its shape no cloth is
+        # taken for one.
+        if is_sheet(cloth):
+            cloth = replace(cloth, grid_shape=None)
         solver_state = super().init(cloth, dt)
         body = solver_state.plan.body
         wrong = body.springs._replace(stiffness=-body.springs.stiffness)
@@ -38,22 +49,22 @@ class SolverMisprinted(SolverDesbrun):
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """grid: particles across and down. wind: [m/s]."""
+class FoldParameters(SceneParameters):
+    """What can be set of the scene `fold`."""
 
-    grid: tuple[int, int] = (5, 9)
-    wind: float = 3.0
-    seed: int = 0
+    grid: tuple[int, int] = grid_parameter((5, 9), "Particles across and down the flag")
+    wind: float = wind_parameter(3.0)
+    seed: int = seed_parameter()
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
+def play(parameters: FoldParameters, clip: Clip) -> Iterator[PictureGrid]:
     """The printed sign on the left."""
-    size, cloth = panel_size(shot.size, 2), flag_cloth(parameters.grid)
+    size, cloth = panel_size(clip.size, 2), flag_cloth(parameters.grid)
     high, wide = FLAG_SIZE[1], 0.75 * FLAG_SIZE[0]
     room = np.array([[x, y, z] for x in (-wide, wide) for y in (0.1, -high) for z in (-0.2, 0.5)])
     camera = frame_points(SIDE_ON, room, size[0] / size[1], margin=0.06)
     ways = ((SolverMisprinted(), WRONG), (SolverDesbrun(), RIGHT))
-    motions = [hanging(parameters, cloth, solver, shot) for solver, _ in ways]
+    motions = [hanging(parameters, cloth, solver, clip) for solver, _ in ways]
     for states in zip(*motions, strict=True):
         pictures = tuple(
             Scene(
@@ -66,11 +77,13 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
             )
             for state, (_, material) in zip(states, ways, strict=True)
         )
-        yield Panels(pictures, ("as printed", "right sign"))
+        yield PictureGrid(pictures, ("as printed", "right sign"))
 
 
-def hanging(parameters: Parameters, cloth: Cloth, solver: Solver, shot: Shot) -> Iterator[State]:
+def hanging(
+    parameters: FoldParameters, cloth: Cloth, solver: Solver, clip: Clip
+) -> Iterator[State]:
     """A flag from rest in a light wind."""
     velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
     forces = (Gravity(), Wind(velocity, seed=parameters.seed))
-    return motion(cloth, shot, solver=solver, forces=forces, step=1 / 60)
+    return motion(cloth, clip, solver=solver, forces=forces, step=1 / 60)

@@ -4,17 +4,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from drapery.render.scene import Scene
-from drapery.scenes import corners
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.corners import CornersParameters, show
+from drapery.scenes.parameters import MAX_DRAG, parameter
 
 
 @dataclass(frozen=True)
-class Parameters(corners.Parameters):
-    """More drag than the others have: it comes to rest while one looks."""
+class FourCornersParameters(CornersParameters):
+    """More drag than in the other scenes, so it comes to rest while one looks."""
 
-    drag: float = 2.0
+    drag: float = parameter(2.0, "Drag of the air", (0, MAX_DRAG), "1/s")
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: FourCornersParameters, clip: Clip) -> Iterator[Scene]:
     """From the moment when it is let go."""
-    return corners.show("four-corners", parameters, shot)
+    return show("four-corners", parameters, clip)

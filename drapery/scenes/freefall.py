@@ -21,8 +21,15 @@ from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.views import View, frame_points
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion, placed
+from drapery.scenes.parameters import (
+    MAX_DRAG,
+    SceneParameters,
+    grid_parameter,
+    parameter,
+    thickness_in_metres,
+)
 from drapery.style.block_world import blocks, plateau
 from drapery.style.creature import CUBE, cells_of, fox
 from drapery.style.extrusion import make_shell
@@ -39,18 +46,17 @@ SOFT = Fabric(stretch=8.0, shear=2.0, bend=0.15)
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """grid: particles across and down each cloth. side: of it [m]. drag: of the air [1/s].
-    thickness: [m]. friction: of the cloth on what it meets."""
+class FreefallParameters(SceneParameters):
+    """What can be set of the scene `freefall`."""
 
-    grid: tuple[int, int] = (20, 20)
-    side: float = 1.9
-    drag: float = 0.8
-    thickness: float = 0.04
-    friction: float = 0.4
+    grid: tuple[int, int] = grid_parameter((20, 20), "Particles across and down each cloth")
+    side: float = parameter(1.9, "Side of each cloth", (0.5, 4), "m")
+    drag: float = parameter(0.8, "Drag of the air", (0, MAX_DRAG), "1/s")
+    thickness: float = thickness_in_metres(0.04)
+    friction: float = parameter(0.4, "Friction of the cloth on what it meets", (0, 2))
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: FreefallParameters, clip: Clip) -> Iterator[Scene]:
     """From the moment when both are let go."""
     packs = open_packs(())
     insect, cubes = beetle(BEETLE_AT), blocks(fox(), packs)
@@ -61,17 +67,17 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     cloths = (sheet(parameters, BEETLE_AT), sheet(parameters, FOX_AT))
     met = (insect_colliders(parameters, insect), fox_colliders(parameters))
     shell = make_shell(cloths[0].triangles, cloths[0].uvs)
-    camera = frame_points(ABOVE, _room(), shot.size[0] / shot.size[1], margin=0.03)
-    motions = [fall(parameters, *pair, shot) for pair in zip(cloths, met, strict=True)]
+    camera = frame_points(ABOVE, _room(), clip.size[0] / clip.size[1], margin=0.03)
+    motions = [fall(parameters, *pair, clip) for pair in zip(cloths, met, strict=True)]
     for states in zip(*motions, strict=True):
         fallen = tuple(
             garment(shell, state.positions[0], parameters.thickness, material)
             for state, material in zip(states, materials, strict=True)
         )
-        yield Scene((*still, veil, *fallen), camera, shot.size, background=SKY, samples=4)
+        yield Scene((*still, veil, *fallen), camera, clip.size, background=SKY, samples=4)
 
 
-def sheet(parameters: Parameters, at: Array) -> Cloth:
+def sheet(parameters: FreefallParameters, at: Array) -> Cloth:
     """A level cloth over a place on the ground, turned a little."""
     cloth = grid(*parameters.grid, parameters.side, parameters.side, pins="none", fabric=SOFT)
     flat = placed(cloth, np.array([0, parameters.side / 2, 0]))
@@ -80,25 +86,25 @@ def sheet(parameters: Parameters, at: Array) -> Cloth:
 
 
 def fall(
-    parameters: Parameters, cloth: Cloth, met: tuple[Collider, ...], shot: Shot
+    parameters: FreefallParameters, cloth: Cloth, met: tuple[Collider, ...], clip: Clip
 ) -> Iterator[State]:
     """One cloth at each frame."""
     return motion(
         cloth,
-        shot,
+        clip,
         solver=SolverVerlet(),
         forces=(Gravity(), Drag(parameters.drag)),
         collisions=Collisions(met, parameters.thickness),
     )
 
 
-def insect_colliders(parameters: Parameters, insect: Beetle) -> tuple[Collider, ...]:
+def insect_colliders(parameters: FreefallParameters, insect: Beetle) -> tuple[Collider, ...]:
     """The beetle and the ground."""
     surface = mesh_collider(insect.vertices, insect.triangles)
     return Collider(surface, friction=parameters.friction), GROUND
 
 
-def fox_colliders(parameters: Parameters) -> tuple[Collider, ...]:
+def fox_colliders(parameters: FreefallParameters) -> tuple[Collider, ...]:
     """The fox and the ground."""
     place = Pose(FOX_AT - np.array([CUBE / 2, 0, 0]))
     cubes = Voxels(cells_of(fox()), CUBE)

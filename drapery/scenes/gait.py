@@ -16,6 +16,8 @@ from drapery.cloth.exact import sine_of_turns
 from drapery.mesh import Array
 from drapery.style.figure import PARTS, TEXEL, Placed, to_metres
 
+MAX_WALK = 10.0
+"""The fastest walk [m/s]."""
 LOOP = 4.0
 """After this time [s] a walk has come to a whole number of strides and of blocks."""
 LEG, HALF_FOOT = 12 * TEXEL, 2 * TEXEL

@@ -15,16 +15,23 @@ from drapery.render.camera import Camera
 from drapery.render.light import Light
 from drapery.render.scene import Scene
 from drapery.scenes.banners import (
-    Stand,
+    BannerBlock,
     flag_cloth,
     flag_materials,
+    flag_models,
     flag_shell,
-    flags,
-    hung,
-    wooden,
+    flags_at_rest,
+    wood_model,
 )
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
+from drapery.scenes.parameters import (
+    SceneParameters,
+    grid_parameter,
+    parameter,
+    seed_parameter,
+    wind_parameter,
+)
 from drapery.style.block import SCALE
 from drapery.style.block_world import Cell, blocks
 
@@ -70,45 +77,45 @@ class Gust:
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """breeze: along the hall [m/s]. gust: its strength [m/s²]. grid: of each flag."""
+class HallParameters(SceneParameters):
+    """What can be set of the scene `hall`."""
 
-    breeze: float = 1.5
-    gust: float = 6.0
-    grid: tuple[int, int] = (5, 9)
-    seed: int = 0
+    breeze: float = wind_parameter(1.5, "Mean speed of the wind along the hall")
+    gust: float = parameter(6.0, "Acceleration in the gust's middle", (0, 60), "m/s²")
+    grid: tuple[int, int] = grid_parameter((5, 9), "Particles across and down each flag")
+    seed: int = seed_parameter()
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: HallParameters, clip: Clip) -> Iterator[Scene]:
     """Seen from the door."""
     packs = open_packs(())
     cloth = flag_cloth(parameters.grid)
     shell, materials = flag_shell(cloth), flag_materials(DESIGNS, packs)
-    still = (*blocks(_walls(), packs), wooden(stands(), packs))
-    for state in blown(parameters, cloth, shot):
-        models = (*still, flags(shell, state, materials))
-        yield Scene(models, _camera(), shot.size, TORCHLIGHT, (206, 226, 246, 255), samples=4)
+    still = (*blocks(_walls(), packs), wood_model(banner_blocks(), packs))
+    for state in blown(parameters, cloth, clip):
+        models = (*still, flag_models(shell, state, materials))
+        yield Scene(models, _camera(), clip.size, TORCHLIGHT, (206, 226, 246, 255), samples=4)
 
 
-def blown(parameters: Parameters, cloth: Cloth, shot: Shot) -> Iterator[State]:
+def blown(parameters: HallParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
     """All flags at each frame."""
     breeze = Wind((0.0, 0.0, -parameters.breeze), gusts=0.5, seed=parameters.seed)
     return motion(
         cloth,
-        shot,
+        clip,
         forces=(Gravity(), breeze, Gust(strength=parameters.gust)),
-        start=hung(cloth, stands()),
+        start=flags_at_rest(cloth, banner_blocks()),
         collisions=Collisions(walls(), SCALE, order=1),
         step=1 / 60,
     )
 
 
-def stands() -> tuple[Stand, ...]:
+def banner_blocks() -> tuple[BannerBlock, ...]:
     """Every second block of both walls bears a banner that looks into the hall."""
     places = [(side, -BAY * bay - 1.0) for bay in range(BAYS) for side in (-1, 1)]
     half = WIDTH / 2
     return tuple(
-        Stand((-half if side < 0 else half - 1, 1.9, z), "wall", 270.0 if side < 0 else 90.0)
+        BannerBlock((-half if side < 0 else half - 1, 1.9, z), "wall", 270.0 if side < 0 else 90.0)
         for side, z in places
     )
 

@@ -16,9 +16,10 @@ from drapery.cloth.exact import sine_of_turns
 from drapery.cloth.solvers.pbd import SolverPBD
 from drapery.mesh import Array
 from drapery.render.frame import Frame
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.parameters import SceneParameters, grid_parameter, parameter
 
-SHOT = Shot(count=300, fps=30.0)
+CLIP = Clip(count=300, fps=30.0)
 STEPS_PER_SECOND = 30
 """Of the picture; the simulation's own step is shorter or longer."""
 FINER = 3
@@ -34,26 +35,23 @@ DOT, RIM, INK, LINES, PAPER = (
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """grid: particles across and down. spacing: [m]. dt: of a step [s]. passes: a step.
+class JuliaParameters(SceneParameters):
+    """What can be set of the scene `julia`."""
 
-    wind: amplitude [m/s²]; turn: of the wind's sine in a step [radians].
-    """
-
-    grid: tuple[int, int] = (25, 20)
-    spacing: float = 0.2
-    dt: float = 0.02
-    passes: int = 6
-    gravity: float = 9.8
-    wind: float = 2.0
-    turn: float = 0.05
+    grid: tuple[int, int] = grid_parameter((25, 20), "Particles across and down the curtain")
+    spacing: float = parameter(0.2, "Distance of neighbouring particles", (0.01, 1), "m")
+    dt: float = parameter(0.02, "Time step", (0.001, 0.1), "s")
+    passes: int = parameter(6, "Passes over all distances in a step", (1, 64))
+    gravity: float = parameter(9.8, "Acceleration downwards", (-100, 100), "m/s²")
+    wind: float = parameter(2.0, "Amplitude of the wind's acceleration", (-100, 100), "m/s²")
+    turn: float = parameter(0.05, "Phase of the wind's sine in a step", (-4, 4), "radians")
 
 
 @dataclass(frozen=True)
 class SineWind:
     """An acceleration along x that swings from step to step, the first of which is number 1."""
 
-    parameters: Parameters
+    parameters: JuliaParameters
 
     def acceleration(self, cloth: Cloth, state: State) -> Array:
         """[m/s²], shape [N, 3]."""
@@ -64,19 +62,19 @@ class SineWind:
         return push
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Frame]:
+def play(parameters: JuliaParameters, clip: Clip) -> Iterator[Frame]:
     """The dots after each step, as a plot."""
-    empty = _plot(shot.size)
-    wanted = [1 + round(k * STEPS_PER_SECOND / shot.fps) for k in range(shot.count)]
+    empty = _plot(clip.size)
+    wanted = [1 + round(k * STEPS_PER_SECOND / clip.fps) for k in range(clip.count)]
     states = enumerate(steps(parameters))
     number, state = next(states)
     for step in wanted:
         while number < step:
             number, state = next(states)
-        yield _with_dots(empty, state.positions[0], shot.size)
+        yield _with_dots(empty, state.positions[0], clip.size)
 
 
-def steps(parameters: Parameters) -> Iterator[State]:
+def steps(parameters: JuliaParameters) -> Iterator[State]:
     """The start, then the state after each step."""
     cloth = curtain(parameters)
     forces = (Gravity((0.0, -parameters.gravity, 0.0)), SineWind(parameters))
@@ -85,7 +83,7 @@ def steps(parameters: Parameters) -> Iterator[State]:
     return simulate(cloth, solver, forces, parameters.dt, start=start)
 
 
-def curtain(parameters: Parameters) -> Cloth:
+def curtain(parameters: JuliaParameters) -> Cloth:
     """The particles; their distances from the lowest row up, each one's right before its upper."""
     (columns, rows), spacing = parameters.grid, parameters.spacing
     cloth = grid(columns, rows, (columns - 1) * spacing, (rows - 1) * spacing)
@@ -116,7 +114,7 @@ def _with_dots(empty: Image.Image, positions: Array, size: tuple[int, int]) -> F
     radius = max(1.0, size[0] / 160) * FINER
     for x, y in _on_plot(positions[:, :2], size):
         pen.ellipse((x - radius, y - radius, x + radius, y + radius), DOT, RIM, width=FINER)
-    # Dots beyond the axes are not seen.
+    # DotCloth beyond the axes are not seen.
     (left, top), (right, low) = np.rint(
         _on_plot(np.array([(X_RANGE[0], Y_RANGE[1]), (X_RANGE[1], Y_RANGE[0])]), size)
     ).astype(int)

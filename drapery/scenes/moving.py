@@ -10,7 +10,7 @@ import numpy as np
 from drapery.cloth import Cloth, Force, Gravity, PinPath, Solver, State, rest_state, simulate
 from drapery.cloth.collisions import Collisions
 from drapery.mesh import Array
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 
 STEP = 1.0 / 120.0
 """The longest time step [s]; cloth that meets walking legs wants a short one."""
@@ -18,7 +18,7 @@ STEP = 1.0 / 120.0
 
 def motion(
     cloth: Cloth,
-    shot: Shot,
+    clip: Clip,
     *,
     solver: Solver | None = None,
     forces: Sequence[Force] = (Gravity(),),
@@ -28,24 +28,24 @@ def motion(
     settle: float = 0.0,
     step: float = STEP,
 ) -> Iterator[State]:
-    """The state at each frame of the shot; see `simulate`.
+    """The state at each frame of the clip; see `simulate`.
 
     start: the rest shape unless given. settle: time before the first frame [s], rounded to whole
     frames. step: the longest time step [s].
     """
-    steps = max(1, math.ceil(1 / (shot.fps * step) - 1e-9))
+    steps = max(1, math.ceil(1 / (clip.fps * step) - 1e-9))
     states = simulate(
         cloth,
         solver,
         forces,
-        1 / (shot.fps * steps),
+        1 / (clip.fps * steps),
         start=start or rest_state(cloth, dtype=np.float64),
         every=steps,
         pins=pins,
         collisions=collisions,
     )
-    first = round(settle * shot.fps)
-    return islice(states, first, first + shot.count)
+    first = round(settle * clip.fps)
+    return islice(states, first, first + clip.count)
 
 
 def placed(cloth: Cloth, position: Array, rotation: Array | None = None) -> Cloth:

@@ -16,9 +16,16 @@ from drapery.cloth.solvers.verlet import SolverVerlet
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion, placed
-from drapery.scenes.wind_script import Setting, parse_script, read_script
+from drapery.scenes.parameters import (
+    SceneParameters,
+    grid_parameter,
+    parameter,
+    seed_parameter,
+    thickness_in_metres,
+)
+from drapery.scenes.wind_script import WindSetting, parse_script, read_script
 from drapery.style.block_world import Cell, blocks
 from drapery.style.extrusion import make_shell
 from drapery.style.scenery import SKY, beam, post, sea
@@ -49,18 +56,17 @@ OWN = """
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """script: a file of commands to the wind; see `drapery.scenes.wind_script`. grid: particles
-    across and down. gusts: of the wind, over its speed. thickness: [m]."""
+class SailParameters(SceneParameters):
+    """What can be set of the scene `sail`."""
 
-    script: str = ""
-    grid: tuple[int, int] = (10, 10)
-    gusts: float = 0.3
-    thickness: float = 0.05
-    seed: int = 0
+    script: str = parameter("", "A file of commands to the wind")
+    grid: tuple[int, int] = grid_parameter((10, 10), "Particles across and down the sail")
+    gusts: float = parameter(0.3, "Gusts of the wind over its speed", (0, 2))
+    thickness: float = thickness_in_metres(0.05)
+    seed: int = seed_parameter()
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: SailParameters, clip: Clip) -> Iterator[Scene]:
     """From the moment when the first wind comes up."""
     packs = open_packs(())
     settings = script_of(parameters)
@@ -68,29 +74,29 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     shell = make_shell(cloth.triangles, cloth.uvs)
     canvas = checked(packs.texture("block/white_wool"), ("white", "red"), 2)
     ship = (sea(24, -0.7), *blocks(_raft(), packs), *_rigging(packs))
-    camera = frame_points(STERN, _room(), shot.size[0] / shot.size[1], margin=0.02)
-    for state in blown(parameters, settings, cloth, shot):
+    camera = frame_points(STERN, _room(), clip.size[0] / clip.size[1], margin=0.02)
+    for state in blown(parameters, settings, cloth, clip):
         sail = garment(shell, state.positions[0], parameters.thickness, canvas)
-        yield Scene((*ship, sail), camera, shot.size, background=SKY, samples=4)
+        yield Scene((*ship, sail), camera, clip.size, background=SKY, samples=4)
 
 
-def script_of(parameters: Parameters) -> tuple[Setting, ...]:
+def script_of(parameters: SailParameters) -> tuple[WindSetting, ...]:
     """The wind's settings. Raises OptionError."""
     return read_script(parameters.script) if parameters.script else tuple(parse_script(OWN))
 
 
 def blown(
-    parameters: Parameters, settings: Sequence[Setting], cloth: Cloth, shot: Shot
+    parameters: SailParameters, settings: Sequence[WindSetting], cloth: Cloth, clip: Clip
 ) -> Iterator[State]:
     """The sail at each frame. A command takes effect at the first frame not before it."""
     times = [setting.time - 1e-9 for setting in settings]
     collisions = Collisions(spars(), parameters.thickness, order=3)
     state = rest_state(cloth, dtype=np.float64)
-    last = range(shot.count - 1)
-    for number, frames in groupby(last, lambda frame: bisect_right(times, frame / shot.fps)):
+    last = range(clip.count - 1)
+    for number, frames in groupby(last, lambda frame: bisect_right(times, frame / clip.fps)):
         under_way = motion(
             cloth,
-            replace(shot, count=len(list(frames)) + 1),
+            replace(clip, count=len(list(frames)) + 1),
             solver=SolverVerlet(),
             forces=_forces(parameters, settings[number - 1]),
             collisions=collisions,
@@ -117,7 +123,7 @@ def square_sail(shape: tuple[int, int]) -> Cloth:
     return placed(cloth, np.array([0.0, LOW + 2 * HALF, 0.13]), SLACK * np.eye(3))
 
 
-def _forces(parameters: Parameters, setting: Setting) -> tuple[Force, ...]:
+def _forces(parameters: SailParameters, setting: WindSetting) -> tuple[Force, ...]:
     turns = setting.direction / 360
     along = np.array([sine_of_turns(turns), 0.0, sine_of_turns(turns + 0.25)]) * setting.speed
     wind = Wind((along[0], 0.0, along[2]), gusts=parameters.gusts, seed=parameters.seed)

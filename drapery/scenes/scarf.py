@@ -12,13 +12,20 @@ from drapery.cloth import Cloth, Fabric, Gravity, State, Wind, grid
 from drapery.cloth.colliders import rotation_about
 from drapery.cloth.collisions import Collisions
 from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
-from drapery.scenes.catalogue import Shot
-from drapery.scenes.gait import LOOP, Gait
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.gait import LOOP, MAX_WALK, Gait
 from drapery.scenes.moving import motion, placed
+from drapery.scenes.parameters import (
+    SceneParameters,
+    parameter,
+    seed_parameter,
+    thickness_parameter,
+    wind_parameter,
+)
 from drapery.scenes.stroll import camera, ground, walker
-from drapery.style.boxes import Box, box_mesh, upright
+from drapery.style.boxes import ModelBox, box_mesh, upright
 from drapery.style.extrusion import make_shell
-from drapery.style.figure import TEXEL, figure_material
+from drapery.style.figure import SKINS, TEXEL, figure_material
 from drapery.style.scenery import SKY, moved
 from drapery.style.tailoring import garment
 
@@ -28,23 +35,22 @@ ROWS_PER_SQUARE = 2
 TAILS = ((-2.2, 6), (2.2, 4))
 """Where each hangs from the nape, to the side [texels], and its squares."""
 BODY = ("head", "body", "right_arm", "left_arm", "right_leg", "left_leg")
-COLLAR = Box((-4.5, -25.5, -4.5), (9, 2.5, 9), (0, 0))
+COLLAR = ModelBox((-4.5, -25.5, -4.5), (9, 2.5, 9), (0, 0))
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """blocks: of the squares in turn, from the neck on; a dye stands for wool of it. skin: of the
-    figure. speed: of the walk [m/s]. wind: from ahead, besides [m/s]. thickness: in texels."""
+class ScarfParameters(SceneParameters):
+    """What can be set of the scene `scarf`."""
 
-    blocks: str = "orange yellow red"
-    skin: str = "traveller"
-    speed: float = 2.5
-    wind: float = 2.5
-    thickness: float = 0.5
-    seed: int = 0
+    blocks: str = parameter("orange yellow red", "Blocks of the squares, from the neck on, or dyes")
+    skin: str = parameter("traveller", "Skin of the figure", choices=SKINS)
+    speed: float = parameter(2.5, "Speed of the walk", (0, MAX_WALK), "m/s")
+    wind: float = wind_parameter(2.5, "Wind from ahead, added to that of the walk")
+    thickness: float = thickness_parameter(0.5)
+    seed: int = seed_parameter()
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: ScarfParameters, clip: Clip) -> Iterator[Scene]:
     """Seen from behind; the neck's turn is stiff, the tails are cloth."""
     packs, gait = open_packs(()), Gait(parameters.speed)
     squares = [_texels(name, packs) for name in parameters.blocks.split()] or [
@@ -57,8 +63,8 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
     cloths = [tail(*place) for place in TAILS]
     shells = [make_shell(cloth.triangles, cloth.uvs) for cloth in cloths]
     materials = [_material(squares, count) for _, count in TAILS]
-    motions = [streaming(parameters, cloth, gait, shot) for cloth in cloths]
-    view = camera(shot.size, tail=1.3)
+    motions = [streaming(parameters, cloth, gait, clip) for cloth in cloths]
+    view = camera(clip.size, tail=1.3)
     for states in zip(*motions, strict=True):
         time = states[0].time
         tails = (
@@ -67,7 +73,7 @@ def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
         )
         neck = moved((collar,), np.array([0, gait.lift(time), 0]))
         models = (*walker(gait, time, skin, causeway), *neck, *tails)
-        yield Scene(models, view, shot.size, background=SKY, samples=4)
+        yield Scene(models, view, clip.size, background=SKY, samples=4)
 
 
 def tail(aside: float, squares: int) -> Cloth:
@@ -78,13 +84,13 @@ def tail(aside: float, squares: int) -> Cloth:
     return placed(cloth, nape, rotation_about((0, 1, 0), 180))
 
 
-def streaming(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterator[State]:
+def streaming(parameters: ScarfParameters, cloth: Cloth, gait: Gait, clip: Clip) -> Iterator[State]:
     """One tail at each frame, in the figure's own frame."""
     speed = gait.speed + parameters.wind
     wind = Wind((0.0, 0.0, -speed), gusts=0.35, gust_size=1.0, seed=parameters.seed, period=LOOP)
     return motion(
         cloth,
-        shot,
+        clip,
         forces=(Gravity(), wind),
         collisions=Collisions(gait.colliders(BODY), parameters.thickness * TEXEL),
         pins=gait.pins(cloth),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.banner.dyes import DYES
+from drapery.banner.dyes import DYE_NAMES, DYES
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.sprites import tint
 from drapery.cloth import Cloth, Fabric, Gravity, State, Wind, from_triangles
@@ -15,12 +15,18 @@ from drapery.cloth.exact import sine_of_turns
 from drapery.errors import OptionError
 from drapery.mesh import vertex_normals
 from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
-from drapery.scenes.catalogue import Shot
-from drapery.scenes.gait import LOOP, Gait
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.gait import LOOP, MAX_WALK, Gait
 from drapery.scenes.moving import motion
+from drapery.scenes.parameters import (
+    SceneParameters,
+    parameter,
+    seed_parameter,
+    thickness_parameter,
+)
 from drapery.scenes.stroll import BEFORE, camera, ground, walker
 from drapery.style.extrusion import Shell, make_shell
-from drapery.style.figure import TEXEL, figure_material
+from drapery.style.figure import SKINS, TEXEL, figure_material
 from drapery.style.scenery import SKY
 from drapery.style.uv_mapping import BoxMapping
 
@@ -44,44 +50,40 @@ SKIN = BoxMapping(
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """panels: around the skirt. rows: of bend points from waist to hem. dye, lining, trim: colours.
+class SkirtParameters(SceneParameters):
+    """What can be set of the scene `skirt`."""
 
-    sides: which are textured, of outside, inside and hem; the others are not seen.
-    speed: of the walk [m/s]. thickness: in texels.
-    """
-
-    panels: int = 12
-    rows: int = 4
-    dye: str = "red"
-    lining: str = "pink"
-    trim: str = "white"
-    sides: str = "outside inside hem"
-    skin: str = "dancer"
-    speed: float = 2.0
-    thickness: float = 1.0
-    seed: int = 0
+    panels: int = parameter(12, "PictureGrid around the skirt", (4, 64))
+    rows: int = parameter(4, "Rows of bend points from waist to hem", (1, 32))
+    dye: str = parameter("red", "Dye of the outside", choices=DYE_NAMES)
+    lining: str = parameter("pink", "Dye of the inside", choices=DYE_NAMES)
+    trim: str = parameter("white", "Dye of the hem", choices=DYE_NAMES)
+    sides: str = parameter("outside inside hem", "Which sides are visible")
+    skin: str = parameter("dancer", "Skin of the figure", choices=SKINS)
+    speed: float = parameter(2.0, "Speed of the walk", (0, MAX_WALK), "m/s")
+    thickness: float = thickness_parameter()
+    seed: int = seed_parameter()
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: SkirtParameters, clip: Clip) -> Iterator[Scene]:
     """Seen from before."""
     packs, gait = open_packs(()), Gait(parameters.speed)
     cloth = skirt_cloth(parameters)
     shell, material = skirt_shell(parameters), skirt_material(parameters, packs)
     skin, causeway = figure_material(parameters.skin, packs), ground(packs)
-    view = camera(shot.size, BEFORE, tail=0.6)
-    for state in walk(parameters, cloth, gait, shot):
+    view = camera(clip.size, BEFORE, tail=0.6)
+    for state in walk(parameters, cloth, gait, clip):
         worn = dressed(parameters, cloth, shell, state, material)
         models = (*walker(gait, state.time, skin, causeway), worn)
-        yield Scene(models, view, shot.size, background=SKY, samples=4)
+        yield Scene(models, view, clip.size, background=SKY, samples=4)
 
 
-def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterator[State]:
+def walk(parameters: SkirtParameters, cloth: Cloth, gait: Gait, clip: Clip) -> Iterator[State]:
     """The skirt at each frame, in the figure's own frame."""
     wind = Wind((0.0, 0.0, -gait.speed), gusts=0.3, seed=parameters.seed, period=LOOP)
     return motion(
         cloth,
-        shot,
+        clip,
         forces=(Gravity(), wind),
         collisions=Collisions(gait.colliders(BODY), parameters.thickness * TEXEL, order=3),
         pins=gait.pins(cloth),
@@ -89,7 +91,7 @@ def walk(parameters: Parameters, cloth: Cloth, gait: Gait, shot: Shot) -> Iterat
     )
 
 
-def skirt_cloth(parameters: Parameters) -> Cloth:
+def skirt_cloth(parameters: SkirtParameters) -> Cloth:
     """The ring at rest: particles row by row from the waist, `panels` to a row. Its waist is held.
 
     Raises OptionError.
@@ -114,7 +116,7 @@ def skirt_cloth(parameters: Parameters) -> Cloth:
     )
 
 
-def skirt_shell(parameters: Parameters) -> Shell:
+def skirt_shell(parameters: SkirtParameters) -> Shell:
     """The thick skirt as it is drawn: cut open at the back, so that the texture can go around."""
     across, down = np.meshgrid(
         np.linspace(0, 1, parameters.panels + 1), np.linspace(0, 1, parameters.rows + 1)
@@ -124,7 +126,7 @@ def skirt_shell(parameters: Parameters) -> Shell:
 
 
 def dressed(
-    parameters: Parameters, cloth: Cloth, shell: Shell, state: State, material: Material
+    parameters: SkirtParameters, cloth: Cloth, shell: Shell, state: State, material: Material
 ) -> Model:
     """The skirt of a state. The normals are those of the closed ring, so the cut is not seen."""
     panels = parameters.panels
@@ -136,7 +138,7 @@ def dressed(
     return Model(thick, (material,))
 
 
-def skirt_material(parameters: Parameters, packs: Packs) -> Material:
+def skirt_material(parameters: SkirtParameters, packs: Packs) -> Material:
     """Pleats outside, a plain lining inside, a band of trim at the hem. Raises OptionError."""
     named = parameters.sides.split()
     for side in named:

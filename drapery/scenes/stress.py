@@ -14,7 +14,8 @@ from drapery.cloth import Gravity, Wind, grid, rest_state, simulate
 from drapery.mesh import Array
 from drapery.render.scene import Material, Model, Scene
 from drapery.render.views import View, frame_points
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.parameters import SceneParameters, parameter, seed_parameter, wind_parameter
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.crowds import cover_crowd
 from drapery.style.extrusion import make_shell
@@ -31,49 +32,48 @@ CORNER = View(azimuth=32, elevation=20, fov=32)
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """side: banners along each edge of the cube. spacing: between them [m]. wind: [m/s].
+class StressParameters(SceneParameters):
+    """What can be set of the scene `stress`."""
 
-    layers: patterns on each banner. settle: time before the first picture [s].
-    """
+    side: int = parameter(17, "Banners along each edge of the cube", (1, 24))
+    spacing: tuple[float, float, float] = parameter(
+        (1.9, 1.9, 1.9), "Distances of neighbouring banners", (0.1, 100), "m"
+    )
+    wind: float = wind_parameter(5.0)
+    layers: int = parameter(4, "Patterns on each banner", (1, 16))
+    settle: float = parameter(3.0, "Time before the first picture", (0, 60), "s")
+    seed: int = seed_parameter()
 
-    side: int = 17
-    spacing: tuple[float, float, float] = (1.9, 1.9, 1.9)
-    wind: float = 5.0
-    layers: int = 4
-    settle: float = 3.0
-    seed: int = 0
 
-
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: StressParameters, clip: Clip) -> Iterator[Scene]:
     """The cube in a wind whose gusts travel through it."""
     cloth = grid(5, 9, *FLAG_SIZE)
     places = _places(parameters)
     shell = make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING)
     materials = _materials(parameters)
     material_index = _bands(parameters.side)
-    camera = frame_points(CORNER, places[:, None] + _room(), shot.size[0] / shot.size[1])
-    for positions in _motion(parameters, shot, places):
-        hung = (positions + places[:, None]).astype(np.float32)
-        mesh = cover_crowd(shell, hung, SCALE)
+    camera = frame_points(CORNER, places[:, None] + _room(), clip.size[0] / clip.size[1])
+    for positions in _motion(parameters, clip, places):
+        placed = (positions + places[:, None]).astype(np.float32)
+        mesh = cover_crowd(shell, placed, SCALE)
         yield Scene(
-            (Model(mesh, materials, material_index),), camera, shot.size, background=SKY, samples=4
+            (Model(mesh, materials, material_index),), camera, clip.size, background=SKY, samples=4
         )
 
 
-def _motion(parameters: Parameters, shot: Shot, places: Array) -> Iterator[Array]:
+def _motion(parameters: StressParameters, clip: Clip, places: Array) -> Iterator[Array]:
     cloth = grid(5, 9, *FLAG_SIZE)
-    steps = max(1, round(60 / shot.fps))
+    steps = max(1, round(60 / clip.fps))
     wind = Wind((0.4 * parameters.wind, 0.0, parameters.wind), seed=parameters.seed, origins=places)
     start = rest_state(cloth, len(places), np.float32)
     states = simulate(
-        cloth, forces=(Gravity(), wind), dt=1 / (shot.fps * steps), every=steps, start=start
+        cloth, forces=(Gravity(), wind), dt=1 / (clip.fps * steps), every=steps, start=start
     )
-    first = round(parameters.settle * shot.fps)
-    return (state.positions for state in islice(states, first, first + shot.count))
+    first = round(parameters.settle * clip.fps)
+    return (state.positions for state in islice(states, first, first + clip.count))
 
 
-def _places(parameters: Parameters) -> Array:
+def _places(parameters: StressParameters) -> Array:
     """Middles of the top edges, shape [side³, 3]."""
     steps = np.arange(parameters.side) - (parameters.side - 1) / 2
     corners = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -95,7 +95,7 @@ def _bands(side: int) -> NDArray[np.int32]:
     return (VARIANTS * band + (x + 2 * y + z) % VARIANTS).astype(np.int32)
 
 
-def _materials(parameters: Parameters) -> tuple[Material, ...]:
+def _materials(parameters: StressParameters) -> tuple[Material, ...]:
     """VARIANTS looks in each colour of the rainbow."""
     random = np.random.default_rng(parameters.seed)
     packs = open_packs(())

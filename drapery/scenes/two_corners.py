@@ -3,12 +3,10 @@
 from collections.abc import Iterator
 
 from drapery.render.scene import Scene
-from drapery.scenes.catalogue import Shot
-from drapery.scenes.corners import Parameters, show
-
-__all__ = ["Parameters", "play"]
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.corners import CornersParameters, show
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: CornersParameters, clip: Clip) -> Iterator[Scene]:
     """From the moment when it is let go."""
-    return show("corners", parameters, shot)
+    return show("corners", parameters, clip)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.packs import Packs, open_packs
 from drapery.cloth import Gravity, Wind
 from drapery.mesh import Array
@@ -12,18 +13,19 @@ from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes import cape
 from drapery.scenes.banners import (
-    Stand,
+    BannerBlock,
     flag_cloth,
     flag_materials,
+    flag_models,
     flag_shell,
-    flags,
-    hung,
-    wooden,
+    flags_at_rest,
+    wood_model,
 )
-from drapery.scenes.catalogue import Shot
-from drapery.scenes.gait import LOOP, Gait
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.gait import LOOP, MAX_WALK, Gait
 from drapery.scenes.moving import motion
-from drapery.scenes.panels import Panels, panel_size
+from drapery.scenes.parameters import SceneParameters, parameter, seed_parameter, wind_parameter
+from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.block import stiff_flag
 from drapery.style.block_world import blocks, plateau
@@ -33,60 +35,67 @@ from drapery.style.scenery import SKY, shadow
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
 from drapery.style.tailoring import dyed
 
-STAND = Stand((-0.5, 0, -0.5))
+BLOCK = BannerBlock((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=38, elevation=10, fov=26)
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """design: of the banner. dye: of the cape. speed: of the walk [m/s]. wind: at the banner
-    [m/s]. block: where the banner stands in its world, for the phase of its sway."""
+class VanillaParameters(SceneParameters):
+    """What can be set of the scene `vanilla`."""
 
-    design: str = "white creeper:lime border:black"
-    dye: str = "red"
-    speed: float = 2.5
-    wind: float = 5.0
-    block: tuple[int, int, int] = (0, 0, 0)
-    seed: int = 0
+    design: str = parameter("white creeper:lime border:black", "Design of the banner")
+    dye: str = parameter("red", "Dye of the cape", choices=DYE_NAMES)
+    speed: float = parameter(2.5, "Speed of the walk", (0, MAX_WALK), "m/s")
+    wind: float = wind_parameter(5.0, "Mean speed of the wind at the banner")
+    block: tuple[int, int, int] = parameter(
+        (0, 0, 0),
+        "Block of the banner in its world, for its phase",
+        (-30_000_000, 30_000_000),
+    )
+    seed: int = seed_parameter()
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Panels]:
+def play(parameters: VanillaParameters, clip: Clip) -> Iterator[PictureGrid]:
     """Banners above, capes below; the game's on the left."""
     packs = open_packs(())
-    rows = (_banners(parameters, packs, shot), _capes(parameters, packs, shot))
+    rows = (_banners(parameters, packs, clip), _capes(parameters, packs, clip))
     for above, below in zip(*rows, strict=True):
-        yield Panels((*above, *below), ("the game's", "as cloth", "the game's", "as cloth"))
+        yield PictureGrid((*above, *below), ("the game's", "as cloth", "the game's", "as cloth"))
 
 
-def _banners(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple[Scene, Scene]]:
-    size = panel_size(shot.size, 2, 2)
-    still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wooden((STAND,), packs))
+def _banners(
+    parameters: VanillaParameters, packs: Packs, clip: Clip
+) -> Iterator[tuple[Scene, Scene]]:
+    size = panel_size(clip.size, 2, 2)
+    still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wood_model((BLOCK,), packs))
     cloth, materials = flag_cloth((5, 9)), flag_materials((parameters.design,), packs)
     shell = flag_shell(cloth)
     camera = frame_points(SIDE_ON, _banner_room(), size[0] / size[1], margin=0.06)
     velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
     forces = (Gravity(), Wind(velocity, gusts=0.5, seed=parameters.seed, period=LOOP))
-    start = hung(cloth, (STAND,))
-    states = motion(cloth, shot, forces=forces, start=start, settle=2 * LOOP, step=1 / 60)
+    start = flags_at_rest(cloth, (BLOCK,))
+    states = motion(cloth, clip, forces=forces, start=start, settle=2 * LOOP, step=1 / 60)
     for frame, state in enumerate(states):
-        board = stiff_flag("standing", sway_phase(parameters.block, frame / shot.fps))
-        stiff = Model(moved(board, np.array(STAND.cell)), materials)
-        soft = flags(shell, state, materials)
+        board = stiff_flag("standing", sway_phase(parameters.block, frame / clip.fps))
+        stiff = Model(moved(board, np.array(BLOCK.cell)), materials)
+        soft = flag_models(shell, state, materials)
         left, right = (
             Scene((*still, flag), camera, size, background=SKY, samples=4) for flag in (stiff, soft)
         )
         yield left, right
 
 
-def _capes(parameters: Parameters, packs: Packs, shot: Shot) -> Iterator[tuple[Scene, Scene]]:
-    size = panel_size(shot.size, 2, 2)
-    worn = cape.Parameters(dye=parameters.dye, speed=parameters.speed, seed=parameters.seed)
+def _capes(
+    parameters: VanillaParameters, packs: Packs, clip: Clip
+) -> Iterator[tuple[Scene, Scene]]:
+    size = panel_size(clip.size, 2, 2)
+    worn = cape.CapeParameters(dye=parameters.dye, speed=parameters.speed, seed=parameters.seed)
     gait, cloth = Gait(parameters.speed), cape.cape_cloth(worn.grid)
     shell, wool = cape.cape_shell(cloth), dyed(packs.texture("entity/player/cape"), worn.dye)
     skin, causeway = figure_material(worn.skin, packs), ground(packs)
     view = camera(size)
-    for frame, state in enumerate(cape.walk(worn, cloth, gait, shot)):
-        stiff = Model(stiff_cape(cape_lean(parameters.speed, frame / shot.fps)), (wool,))
+    for frame, state in enumerate(cape.walk(worn, cloth, gait, clip)):
+        stiff = Model(stiff_cape(cape_lean(parameters.speed, frame / clip.fps)), (wool,))
         lifted = moved(stiff.mesh, np.array([0, gait.lift(state.time), 0]))
         soft = cape.worn(shell, state, 1.0, wool)
         figure = walker(gait, state.time, skin, causeway)

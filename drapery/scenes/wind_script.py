@@ -14,13 +14,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from drapery.errors import OptionError
+from drapery.option import shown
 
 MAX_BYTES = 1 << 16
 LIMITS = {"strength": (0.0, 40.0), "direction": (-3600.0, 3600.0)}
 
 
 @dataclass(frozen=True)
-class Setting:
+class WindSetting:
     """The wind from a time on. time: [s]; direction: [degrees]; strength: [m/s]."""
 
     time: float = 0.0
@@ -34,25 +35,25 @@ class Setting:
         return self.strength if self.on else 0.0
 
 
-def read_script(path: str) -> tuple[Setting, ...]:
+def read_script(path: str) -> tuple[WindSetting, ...]:
     """The settings of a file, in order. Raises OptionError, naming the line."""
     try:
         with Path(path).open("rb") as file:
             data = file.read(MAX_BYTES + 1)
         text = data.decode()
-    except (OSError, UnicodeDecodeError) as fault:
-        reason = getattr(fault, "strerror", None) or "it is no text"
+    except (OSError, ValueError) as fault:
+        reason = getattr(fault, "strerror", None) or "it is not a text file"
         raise OptionError(
-            f"script {path} cannot be read ({reason}); give a file of commands"
+            f"script {shown(path)} cannot be read ({reason}); give a file of commands"
         ) from None
     if len(data) > MAX_BYTES:
-        raise OptionError(f"script {path} is over {MAX_BYTES} bytes; shorten it")
+        raise OptionError(f"script {shown(path)} is over {MAX_BYTES} bytes; shorten it")
     return tuple(parse_script(text, path))
 
 
-def parse_script(text: str, name: str = "script") -> Iterator[Setting]:
+def parse_script(text: str, name: str = "script") -> Iterator[WindSetting]:
     """The settings of a text of commands, the first at time 0. Raises OptionError."""
-    now = Setting()
+    now = WindSetting()
     yield now
     for number, line in enumerate(text.splitlines(), 1):
         words = line.partition("#")[0].split()
@@ -62,7 +63,7 @@ def parse_script(text: str, name: str = "script") -> Iterator[Setting]:
             now = later
 
 
-def _obeyed(now: Setting, words: list[str], place: str) -> Setting:
+def _obeyed(now: WindSetting, words: list[str], place: str) -> WindSetting:
     """The setting after one command."""
     match words:
         case [time, ("on" | "off") as switch]:
@@ -79,7 +80,7 @@ def _obeyed(now: Setting, words: list[str], place: str) -> Setting:
     raise OptionError(f"{place}: {said!r} is no command; write TIME on|off|direction N|strength N")
 
 
-def _time(text: str, now: Setting, place: str) -> float:
+def _time(text: str, now: WindSetting, place: str) -> float:
     time = _number(text, 0.0, 3600.0, place)
     if time < now.time:
         raise OptionError(f"{place}: {time:g} s is before {now.time:g} s; sort the commands")

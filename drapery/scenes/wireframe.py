@@ -10,8 +10,15 @@ from drapery.cloth import Cloth, Gravity, State, Wind
 from drapery.render.scene import Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.banners import flag_cloth
-from drapery.scenes.catalogue import Shot
+from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion, placed
+from drapery.scenes.parameters import (
+    SceneParameters,
+    grid_parameter,
+    parameter,
+    seed_parameter,
+    wind_parameter,
+)
 from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
 from drapery.style.block import FLAG_SIZE
 
@@ -23,38 +30,39 @@ SPACING = 1.1
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """left, right: particles across and down. wind: [m/s]. springs: all of them, by kind:
-    structural dark, shear orange, flexion green."""
+class WireframeParameters(SceneParameters):
+    """What can be set of the scene `wireframe`."""
 
-    left: tuple[int, int] = (9, 17)
-    right: tuple[int, int] = (17, 33)
-    wind: float = 6.0
-    springs: bool = False
-    seed: int = 0
+    left: tuple[int, int] = grid_parameter((9, 17), "Particles across and down the left flag")
+    right: tuple[int, int] = grid_parameter((17, 33), "The same of the right flag")
+    wind: float = wind_parameter(6.0)
+    springs: bool = parameter(
+        False, "All springs by kind: structural dark, shear orange, flexion green"
+    )
+    seed: int = seed_parameter()
 
 
-def play(parameters: Parameters, shot: Shot) -> Iterator[Scene]:
+def play(parameters: WireframeParameters, clip: Clip) -> Iterator[Scene]:
     """Two flags beside each other."""
     shapes = (parameters.left, parameters.right)
     cloths = [
         placed(flag_cloth(shape), np.array([SPACING * place, 0, 0]))
         for place, shape in enumerate(shapes)
     ]
-    motions = [_waving(parameters, cloth, shot) for cloth in cloths]
+    motions = [_waving(parameters, cloth, clip) for cloth in cloths]
     room = np.array(
         [[x, y, z] for x in (-0.6, 1.5) for y in (0.05, -FLAG_SIZE[1]) for z in (0, 0.75)]
     )
-    camera = frame_points(SIDE_ON, room, shot.size[0] / shot.size[1], margin=0.04)
+    camera = frame_points(SIDE_ON, room, clip.size[0] / clip.size[1], margin=0.04)
     for states in zip(*motions, strict=True):
         models = chain.from_iterable(
-            wired(cloth, state.positions[0], camera, shot.size[1], FILL, parameters.springs)
+            wired(cloth, state.positions[0], camera, clip.size[1], FILL, parameters.springs)
             for cloth, state in zip(cloths, states, strict=True)
         )
-        yield Scene(tuple(models), camera, shot.size, DAYLIGHT, PAPER, samples=4)
+        yield Scene(tuple(models), camera, clip.size, DAYLIGHT, PAPER, samples=4)
 
 
-def _waving(parameters: Parameters, cloth: Cloth, shot: Shot) -> Iterator[State]:
+def _waving(parameters: WireframeParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
     velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
     wind = Wind(velocity, gusts=0.5, gust_size=1.0, seed=parameters.seed, period=LOOP)
-    return motion(cloth, shot, forces=(Gravity(), wind), settle=2 * LOOP, step=1 / 60)
+    return motion(cloth, clip, forces=(Gravity(), wind), settle=2 * LOOP, step=1 / 60)

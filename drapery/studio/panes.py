@@ -10,7 +10,7 @@ from drapery.render.camera import Camera
 from drapery.render.frame import Frame
 from drapery.render.light import UNLIT
 from drapery.render.scene import Material, Model, Scene, TextureLayer
-from drapery.scenes.panels import Panels, Picture
+from drapery.scenes.picture_grid import Picture, PictureGrid
 
 Framing = Callable[[float], Camera]
 """The camera for a picture of width / height."""
@@ -49,7 +49,7 @@ class Shown:
 
 def shown_picture(picture: Picture) -> Shown:
     """A picture of a ready-made scene."""
-    if isinstance(picture, Panels):
+    if isinstance(picture, PictureGrid):
         panes = map(_pane, picture.pictures, picture.labels)
         return Shown(tuple(panes), picture.columns)
     return Shown((_pane(picture),))

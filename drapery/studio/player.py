@@ -5,8 +5,8 @@ from dataclasses import replace
 from typing import Any
 
 from drapery.render.scene import Scene
-from drapery.scenes.catalogue import Entry, Shot, find
-from drapery.scenes.panels import Panels, Picture
+from drapery.scenes.catalogue import Clip, SceneEntry, find
+from drapery.scenes.picture_grid import Picture, PictureGrid
 from drapery.studio.panes import Shown, shown_picture
 
 MAX_KEPT = 96 << 20
@@ -25,9 +25,9 @@ class Player:
     """
 
     def __init__(self, name: str, size: tuple[int, int] = (640, 480)) -> None:
-        self.entry: Entry = find(name)
+        self.entry: SceneEntry = find(name)
         self.parameters = self.entry.parameters(LIGHTER.get(name, {}))
-        self._shot: Shot = replace(self.entry.shot, size=_laid_out(size))
+        self._clip: Clip = replace(self.entry.clip, size=_laid_out(size))
         self._kept: list[Shown] | None = []
         self._room = MAX_KEPT
         self._known: set[int] = set()
@@ -38,7 +38,7 @@ class Player:
     @property
     def fps(self) -> float:
         """Moments a second."""
-        return self._shot.fps
+        return self._clip.fps
 
     def step(self) -> Shown:
         """The next moment; after the last the first again."""
@@ -46,19 +46,19 @@ class Player:
         if shown is None:
             self.restart()
             shown = next(self._coming)
-        self.now = replace(shown, cut=(self.entry.name, self._shot.size))
+        self.now = replace(shown, cut=(self.entry.name, self._clip.size))
         return self.now
 
     def restart(self) -> None:
         """From the first moment again."""
-        whole = self._kept is not None and len(self._kept) == self._shot.count
+        whole = self._kept is not None and len(self._kept) == self._clip.count
         self._coming = iter(self._kept or ()) if whole else self._played()
 
     def _played(self) -> Iterator[Shown]:
         """All moments, simulated; remembered where there is room."""
         self._kept, self._room = ([], MAX_KEPT) if self._kept is not None else (None, 0)
         self._known = set()
-        for picture in self.entry.play(self.parameters, self._shot):
+        for picture in self.entry.play(self.parameters, self._clip):
             shown = shown_picture(picture)
             self._keep(shown, picture)
             yield shown
@@ -83,7 +83,7 @@ class Player:
 
 
 def _arrays(picture: Picture) -> Iterator[Any]:
-    if isinstance(picture, Panels):
+    if isinstance(picture, PictureGrid):
         for part in picture.pictures:
             yield from _arrays(part)
     elif isinstance(picture, Scene):

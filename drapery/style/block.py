@@ -10,7 +10,7 @@ import numpy as np
 
 from drapery.mesh import Array, Mesh
 from drapery.style.board import moved, stiff_board, tilted
-from drapery.style.boxes import Box, box_mesh, join, upright
+from drapery.style.boxes import ModelBox, box_mesh, join, upright
 from drapery.style.uv_mapping import box_mapping
 
 Placement = Literal["standing", "wall"]
@@ -26,12 +26,12 @@ SWAY_PERIOD = 5.0
 """The game's own sway repeats after this time [s]: 100 ticks of 1/20 s."""
 
 
-_WOOD: dict[Placement, tuple[Box, ...]] = {
+_WOOD: dict[Placement, tuple[ModelBox, ...]] = {
     "standing": (
-        Box((-1, -42, -1), (2, 42, 2), (44, 0)),
-        Box((-10, -44, -1), (20, 2, 2), (0, 42)),
+        ModelBox((-1, -42, -1), (2, 42, 2), (44, 0)),
+        ModelBox((-10, -44, -1), (20, 2, 2), (0, 42)),
     ),
-    "wall": (Box((-10, -20.5, 9.5), (20, 2, 2), (0, 42)),),
+    "wall": (ModelBox((-10, -20.5, 9.5), (20, 2, 2), (0, 42)),),
 }
 _FLAG_PIVOT: dict[Placement, tuple[float, float, float]] = {
     "standing": (0, -44, 0),

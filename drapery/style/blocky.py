@@ -6,7 +6,7 @@ Both work on what has been simulated: the cloth itself knows nothing of them.
 import numpy as np
 
 from drapery.mesh import Array, Mesh
-from drapery.style.boxes import Box, box_mesh, upright
+from drapery.style.boxes import ModelBox, box_mesh, upright
 from drapery.style.uv_mapping import BoxMapping
 
 
@@ -57,7 +57,7 @@ def pixelled(
     shift = _middles(sheet.reshape(*shape, 3), size) - lattice
     shift[..., :2] = shift[..., :2].mean(axis=1, keepdims=True)
     snapped = (lattice + np.round(shift / texel) * texel).reshape(-1, 3)
-    cube = upright(box_mesh(Box((-0.5, -0.5, -0.5), (1, 1, 1), (0, 0))), texel, (0, 0, 0))
+    cube = upright(box_mesh(ModelBox((-0.5, -0.5, -0.5), (1, 1, 1), (0, 0))), texel, (0, 0, 0))
     count = len(snapped)
     firsts = len(cube.positions) * np.arange(count, dtype=np.int32)[:, None, None]
     return Mesh(

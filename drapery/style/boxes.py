@@ -13,7 +13,7 @@ from drapery.style.uv_mapping import BoxMapping, box_mapping
 
 
 @dataclass(frozen=True)
-class Box:
+class ModelBox:
     """A box of a model: its least corner and its size [texels], its unfolding's upper left corner.
 
     grown: how far each side is pushed out [texels]; the texture stays as it is.
@@ -25,7 +25,7 @@ class Box:
     grown: float = 0.0
 
 
-def box_mesh(box: Box, sheet: tuple[float, float] = (64, 64)) -> Mesh:
+def box_mesh(box: ModelBox, sheet: tuple[float, float] = (64, 64)) -> Mesh:
     """The six faces of a box, each with its own four corners and normal, in model units.
 
     Seen upright: the normals and the order of the corners are those of a model whose y and z have

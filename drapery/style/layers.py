@@ -33,28 +33,28 @@ def wood_material(packs: Packs) -> Material:
     return Material((TextureLayer(packs.base_sheet()),))
 
 
-def flag_dress(banner: Banner, packs: Packs, settings: Settings) -> MaterialAt:
+def flag_material_at(banner: Banner, packs: Packs, settings: Settings) -> MaterialAt:
     """What the flag wears at a time. Raises PackError where a texture cannot be used."""
     maps = design_maps(banner, packs, "banner") if settings.pbr else ()
-    return _dress(lambda time: flag_layers(banner, packs, time), settings.layers, maps)
+    return _material_at(lambda time: flag_layers(banner, packs, time), settings.layers, maps)
 
 
-def wood_dress(packs: Packs, settings: Settings) -> MaterialAt:
+def wood_material_at(packs: Packs, settings: Settings) -> MaterialAt:
     """What pole and bar wear at a time. Raises PackError."""
     maps = design_maps(Banner(), packs, "banner")[:1] if settings.pbr else ()
-    return _dress(lambda time: ((packs.base_sheet(time), WHITE),), "stacked", maps)
+    return _material_at(lambda time: ((packs.base_sheet(time), WHITE),), "stacked", maps)
 
 
-def plate_dress(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
+def plate_material_at(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
     """What a shield's plate wears; None is the shield without a design. Raises PackError."""
     maps = design_maps(design, packs, "shield") if settings.pbr else ()
-    return _dress(lambda time: shield_layers(design, packs, time), settings.layers, maps)
+    return _material_at(lambda time: shield_layers(design, packs, time), settings.layers, maps)
 
 
-def handle_dress(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
+def handle_material_at(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
     """What a shield's handle wears: the lowest sheet alone, as in the game. Raises PackError."""
     maps = design_maps(design, packs, "shield")[:1] if settings.pbr else ()
-    return _dress(lambda time: shield_layers(design, packs, time)[:1], "stacked", maps)
+    return _material_at(lambda time: shield_layers(design, packs, time)[:1], "stacked", maps)
 
 
 def textures_period(
@@ -65,7 +65,7 @@ def textures_period(
     return max((packs.period(name, kind) for name in names), default=0.0)
 
 
-def _dress(
+def _material_at(
     layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode, maps: tuple[Maps, ...] = ()
 ) -> MaterialAt:
     # The renderer knows what it has prepared by identity, so the same textures are the same look.

@@ -9,7 +9,7 @@ from drapery.banner.packs import Packs
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, Model, TextureLayer
 from drapery.style.block_world import Cell, blocks
-from drapery.style.boxes import Box, box_mesh, upright
+from drapery.style.boxes import ModelBox, box_mesh, upright
 from drapery.style.layers import wood_material
 
 SKY = (168, 204, 242, 255)
@@ -49,7 +49,7 @@ def moved(models: tuple[Model, ...], by: Array) -> tuple[Model, ...]:
 
 def post(foot: Array, height: float, packs: Packs, half: float = 0.06) -> Model:
     """A banner's pole of any height and half width [m], standing on `foot` [m], shape [3]."""
-    pole = box_mesh(Box((-1, -42, -1), (2, 42, 2), (44, 0)))
+    pole = box_mesh(ModelBox((-1, -42, -1), (2, 42, 2), (44, 0)))
     standing = upright(pole, 1.0, (0, 0, 0))
     scale = np.array([half, height / 42, half])
     mesh = replace(standing, positions=standing.positions * scale + foot)

@@ -15,7 +15,7 @@ from drapery.style.block import (
     wood,
 )
 from drapery.style.body import Body, Panel, Part
-from drapery.style.layers import flag_dress, textures_period, wood_dress
+from drapery.style.layers import flag_material_at, textures_period, wood_material_at
 from drapery.style.slot import BANNER_POSE, SLOT_LIGHT, in_slot, slot_camera
 
 
@@ -37,9 +37,9 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
         "top",
         lambda phase, thickness: stiff_flag(placement, phase, thickness),
         SWAY_PERIOD,
-        flag_dress(banner, packs, settings),
+        flag_material_at(banner, packs, settings),
     )
-    frame = Part(wood(placement), wood_dress(packs, settings))
+    frame = Part(wood(placement), wood_material_at(packs, settings))
     return Body((frame,), (flag,), textures_period(banner, packs, "banner"))
 
 
@@ -47,8 +47,8 @@ def _item(banner: Banner, packs: Packs, settings: Settings) -> Body:
     """As the game lays it into the inventory: stiff, at phase 0 of its sway."""
     flag = stiff_flag("standing", 0.0, settings.thickness)
     parts = (
-        Part(in_slot(wood("standing"), BANNER_POSE), wood_dress(packs, settings)),
-        Part(in_slot(flag, BANNER_POSE), flag_dress(banner, packs, settings)),
+        Part(in_slot(wood("standing"), BANNER_POSE), wood_material_at(packs, settings)),
+        Part(in_slot(flag, BANNER_POSE), flag_material_at(banner, packs, settings)),
     )
     period = textures_period(banner, packs, "banner")
     return Body(parts, (), period, SLOT_LIGHT, slot_camera(settings.size))

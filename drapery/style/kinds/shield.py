@@ -5,15 +5,15 @@ from drapery.banner.packs import Packs
 from drapery.mesh import Mesh
 from drapery.settings import Settings
 from drapery.style.body import Body, Part
-from drapery.style.boxes import Box, box_mesh, upright
-from drapery.style.layers import handle_dress, plate_dress, textures_period
+from drapery.style.boxes import ModelBox, box_mesh, upright
+from drapery.style.layers import handle_material_at, plate_material_at, textures_period
 from drapery.style.slot import SHIELD_POSE, SLOT_LIGHT, in_slot, slot_camera
 
 TEXEL = 1.0 / 16.0
 """Metres a texel."""
 
-_PLATE = Box((-6, -11, -2), (12, 22, 1), (0, 0))
-_HANDLE = Box((-1, -3, -1), (2, 6, 6), (26, 0))
+_PLATE = ModelBox((-6, -11, -2), (12, 22, 1), (0, 0))
+_HANDLE = ModelBox((-1, -3, -1), (2, 6, 6), (26, 0))
 _STANDING = (0.5, 11 * TEXEL, 0.5)
 """Where the model's origin is when the shield stands on the floor [m]."""
 
@@ -23,7 +23,7 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
 
     Raises PackError.
     """
-    worn = (plate_dress(design, packs, settings), handle_dress(design, packs, settings))
+    worn = (plate_material_at(design, packs, settings), handle_material_at(design, packs, settings))
     period = textures_period(design, packs, "shield")
     if settings.placement == "item":
         plate, handle = (in_slot(_hung(box, (0, 0, 0)), SHIELD_POSE) for box in (_PLATE, _HANDLE))
@@ -33,5 +33,5 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     return Body(tuple(map(Part, (plate, handle), worn)), (), period)
 
 
-def _hung(box: Box, origin: tuple[float, float, float]) -> Mesh:
+def _hung(box: ModelBox, origin: tuple[float, float, float]) -> Mesh:
     return upright(box_mesh(box), TEXEL, origin)

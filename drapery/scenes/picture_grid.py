@@ -14,7 +14,7 @@ INK, PAPER = (255, 255, 255), (24, 26, 34)
 
 
 @dataclass(frozen=True)
-class Panels:
+class PictureGrid:
     """Pictures in rows of `columns`, all of one size, each with a label in its lower left."""
 
     pictures: tuple[Scene | Frame, ...]
@@ -22,7 +22,7 @@ class Panels:
     columns: int = 2
 
 
-Picture = Scene | Frame | Panels
+Picture = Scene | Frame | PictureGrid
 
 
 def panel_size(size: tuple[int, int], columns: int, rows: int = 1) -> tuple[int, int]:
@@ -32,7 +32,7 @@ def panel_size(size: tuple[int, int], columns: int, rows: int = 1) -> tuple[int,
 
 def drawn(picture: Picture, draw_scene: Callable[[Scene], Frame]) -> Frame:
     """The picture as pixels."""
-    if isinstance(picture, Panels):
+    if isinstance(picture, PictureGrid):
         frames = [drawn(part, draw_scene) for part in picture.pictures]
         labelled = [_labelled(f, text) for f, text in zip(frames, picture.labels, strict=True)]
         rows = range(0, len(labelled), picture.columns)
