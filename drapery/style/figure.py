@@ -1,7 +1,7 @@
 """A walking figure of boxes: its parts, how it is posed, and what it wears.
 
-It stands on y = 0 at the origin, faces +z, and is 32 texels of 1/16 m tall, like the game's
-people; it wears any skin of their layout, 64 x 64 texels.
+It stands on y = 0 at the origin, faces +z, and is 32 texels tall, like the game's people, which is
+1.875 m; it wears any skin of their layout, 64 x 64 texels.
 """
 
 from collections.abc import Mapping
@@ -12,24 +12,29 @@ import numpy as np
 from drapery.banner.packs import Packs
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, TextureLayer
-from drapery.style.boxes import Box, box_mesh, join, upright
-from drapery.style.uv_mapping import box_mapping
+from drapery.style.boxes import ModelBox, box_mesh, join, upright
+from drapery.style.uv_mapping import BoxMapping, box_mapping
 
-TEXEL = 1.0 / 16.0
-"""Metres per texel of a figure's skin."""
-CAPE_MAPPING = box_mapping((0, 0), (10, 16, 1), (64, 64))
+TEXEL = 0.9375 / 16.0
+"""Metres per texel of a player and of what players wear: the game draws them at 15/16 of the size
+of blocks, whose texels are 1/16 m."""
+SKIN_SHEET = (64, 64)
+"""Width and height of our own textures of skins and capes [texels]."""
 CAPE_SIZE = (10 * TEXEL, 16 * TEXEL)
 """Width and length of a cape [m]; it is one texel thick."""
+
+SKINS = ("traveller", "dancer")
+"""Our own skins."""
 
 Placed = tuple[Array, Array]
 """A rigid pose: position [m], shape [3], and rotation matrix, shape [3, 3]."""
 
 
 @dataclass(frozen=True)
-class Part:
+class FigurePart:
     """A box of the figure [texels, y down, the ground at 0] and the joint that it turns about."""
 
-    box: Box
+    box: ModelBox
     joint: tuple[float, float, float]
 
     @property
@@ -43,19 +48,24 @@ class Part:
         return np.array(self.box.size) * TEXEL
 
 
+def cape_mapping(sheet: tuple[int, int]) -> BoxMapping:
+    """Where the sides of a cape lie on its texture of this width and height [texels]."""
+    return box_mapping((0, 0), (10, 16, 1), sheet)
+
+
 def to_metres(texels: Array) -> Array:
     """A place in the model [texels, y down, z back] in the world [m, y up, z to the front]."""
     metres: Array = texels * np.array([TEXEL, -TEXEL, -TEXEL])
     return metres
 
 
-PARTS: dict[str, Part] = {
-    "head": Part(Box((-4, -32, -4), (8, 8, 8), (0, 0)), (0, -24, 0)),
-    "body": Part(Box((-4, -24, -2), (8, 12, 4), (16, 16)), (0, -24, 0)),
-    "right_arm": Part(Box((-8, -24, -2), (4, 12, 4), (40, 16)), (-6, -22, 0)),
-    "left_arm": Part(Box((4, -24, -2), (4, 12, 4), (32, 48)), (6, -22, 0)),
-    "right_leg": Part(Box((-4, -12, -2), (4, 12, 4), (0, 16)), (-2, -12, 0)),
-    "left_leg": Part(Box((0, -12, -2), (4, 12, 4), (16, 48)), (2, -12, 0)),
+PARTS: dict[str, FigurePart] = {
+    "head": FigurePart(ModelBox((-4, -32, -4), (8, 8, 8), (0, 0)), (0, -24, 0)),
+    "body": FigurePart(ModelBox((-4, -24, -2), (8, 12, 4), (16, 16)), (0, -24, 0)),
+    "right_arm": FigurePart(ModelBox((-8, -24, -2), (4, 12, 4), (40, 16)), (-6, -22, 0)),
+    "left_arm": FigurePart(ModelBox((4, -24, -2), (4, 12, 4), (32, 48)), (6, -22, 0)),
+    "right_leg": FigurePart(ModelBox((-4, -12, -2), (4, 12, 4), (0, 16)), (-2, -12, 0)),
+    "left_leg": FigurePart(ModelBox((0, -12, -2), (4, 12, 4), (16, 48)), (2, -12, 0)),
 }
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from drapery.mesh import Mesh
 from drapery.style.board import moved, stiff_board, tilted
-from drapery.style.figure import CAPE_MAPPING, CAPE_SIZE, TEXEL
+from drapery.style.figure import CAPE_SIZE, SKIN_SHEET, TEXEL, cape_mapping
 
 TICKS_PER_SECOND = 20
 SWAY_TICKS = 100
@@ -36,7 +36,7 @@ def cape_lean(speed: float, time: float) -> float:
 
 def stiff_cape(lean: float) -> Mesh:
     """The game's cape on the back of our figure, its foot lifted by `lean` [degrees]."""
-    board = tilted(stiff_board(CAPE_SIZE, TEXEL, CAPE_MAPPING), -np.radians(lean))
+    board = tilted(stiff_board(CAPE_SIZE, TEXEL, cape_mapping(SKIN_SHEET)), -np.radians(lean))
     about = np.array([-1.0, 1.0, -1.0])
     turned = Mesh(board.positions * about, board.normals * about, board.triangles, board.uvs)
     return moved(turned, np.array([0.0, 24 * TEXEL, -2.5 * TEXEL]))

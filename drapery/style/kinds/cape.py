@@ -9,13 +9,10 @@ from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
 from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.body import Body, Panel
-from drapery.style.kinds.player import SHEET, SHOULDERS, TEXEL, back_texture
-from drapery.style.uv_mapping import box_mapping
+from drapery.style.figure import CAPE_SIZE, TEXEL, cape_mapping
+from drapery.style.kinds.player import SHEET, SHOULDERS, back_texture
 
-CAPE_SIZE = (10 * TEXEL, 16 * TEXEL)
-"""Width and height [m]."""
-
-CAPE_MAPPING = box_mapping((0, 0), (10, 16, 1), SHEET)
+CAPE_MAPPING = cape_mapping(SHEET)
 LEAN = 6.0
 """How far the game's stiff cape stands off the back of one who stands still [degrees]."""
 

@@ -11,10 +11,11 @@ from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
 from drapery.style.body import Body, Part
-from drapery.style.boxes import Box, box_mesh
-from drapery.style.kinds.player import SHEET, SHOULDERS, TEXEL, back_texture
+from drapery.style.boxes import ModelBox, box_mesh
+from drapery.style.figure import TEXEL
+from drapery.style.kinds.player import SHEET, SHOULDERS, back_texture
 
-_LEFT_WING = Box((-10, 0, 0), (10, 20, 2), (22, 0), grown=1.0)
+_LEFT_WING = ModelBox((-10, 0, 0), (10, 20, 2), (22, 0), grown=1.0)
 _ROOT = (5.0, 0.0, 0.0)
 """Where the left wing grows from the shoulders [texels]."""
 SPREAD = 15.0

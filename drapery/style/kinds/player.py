@@ -11,9 +11,7 @@ from drapery.banner.packs.png import Texels, read_png
 from drapery.banner.packs.stack import MAX_PNG
 from drapery.errors import OptionError
 from drapery.settings import Settings
-
-TEXEL = 0.9375 / 16.0
-"""Metres a texel: a player is drawn at 15/16 of the size of a block's texels."""
+from drapery.style.figure import TEXEL
 
 SHOULDERS = (0.5, 24 * TEXEL, 0.5)
 """The middle between the shoulders [m], over the middle of a block."""
