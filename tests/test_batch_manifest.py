@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 from conftest import Run
@@ -16,6 +17,7 @@ from drapery.banner.design import Banner, Layer
 from drapery.batch.jobs import plan
 from drapery.batch.manifest import ManifestError, PictureRequest, _numbered, read_manifest
 from drapery.errors import DraperyError, OptionError
+from drapery.packs import MemoryPack
 from drapery.render.encode.output import replacing
 from drapery.settings import Settings
 
@@ -231,6 +233,24 @@ def test_rows_may_be_given_in_memory(tmp_path: Path) -> None:
     with pytest.raises(ManifestError) as caught:
         read_manifest([{"design": "red", "wnd": 1}, ["red"], {"design": 3.5, "size": "8x8"}])
     assert [fault.place for fault in caught.value.faults] == ["job 1", "job 2", "job 3"]
+
+
+@pytest.mark.parametrize(
+    ("row", "reason"),
+    [
+        ({"packs": MemoryPack()}, "packs is an object"),
+        ({"packs": [MemoryPack()]}, "packs is an object"),
+        ({"texture": np.zeros((32, 64, 4), np.uint8)}, "texture is an object"),
+        ({"design": ["red"]}, r"design \['red'\] is not a text"),
+        ({"design": "x" * (1 << 20) + "x"}, "design has over 1048576 characters"),
+        ({"seconds": "long"}, "seconds 'long' is not a number"),
+        ({"out": "a.gif", "fps": True}, "fps True is not a number"),
+    ],
+)
+def test_values_that_no_worker_can_be_sent_are_faults(row, reason: str) -> None:
+    with pytest.raises(ManifestError, match=reason) as caught:
+        read_manifest([{"design": "red", **row}])
+    assert len(str(caught.value)) < 400
 
 
 def test_banners_of_a_world_with_alike_places_get_free_numbers() -> None:

@@ -7,21 +7,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
-
 from drapery.banner.design import Banner
 from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
-from drapery.options import NAMES, check_options, one_line, unknown
-from drapery.settings import Settings
+from drapery.option import shown
+from drapery.options import check_options, one_line, unknown
+from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 
 MAX_JOBS = 1_000_000
 STILLS = ("png",)
 EITHER = ("webp",)
 ANIMATIONS = ("gif", "apng", "mp4", "webm")
 ENDINGS = (*STILLS, *EITHER, *ANIMATIONS)
-SECONDS, FPS = 4.0, 20.0
-"""The length [s] and rate [frames/s] of an animation that names none."""
+TEXTS = ("design", "name", "out")
+"""The fields of a row that are texts; the others are options."""
+MAX_TEXT = 1 << 20
+"""The most characters of a text."""
 
 MAX_NAME = 230
 """Bytes of a file or folder name. File systems allow 255, of which partial files need some."""
@@ -39,12 +40,11 @@ class ManifestError(OptionError):
         super().__init__(f"{name}: {faults[0]}{count}")
 
 
-class RowFields(BaseModel):
+@dataclass(frozen=True)
+class RowFields:
     """What a row says beside the options of the picture."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, coerce_numbers_to_str=True)
-
-    design: str | None = Field(default=None, max_length=1 << 20)
+    design: str | None = None
     name: str | None = None
     out: str | None = None
     seconds: float | None = None
@@ -142,14 +142,12 @@ def _request(
     values = dict(row.values)
     if "pack" in values:
         values["packs"] = values.pop("pack")
-    options = {name: values.pop(name) for name in list(values) if name in NAMES}
-    known = frozenset(RowFields.model_fields) | NAMES
-    faults = [unknown(name, known) for name in values if name not in RowFields.model_fields]
-    fields, wrong = _fields({k: v for k, v in values.items() if k in RowFields.model_fields})
+    options = {name: values.pop(name) for name in list(values) if name in OPTIONS}
+    known = frozenset((*TEXTS, *LOOP_OPTIONS, *OPTIONS))
+    faults = [unknown(name, known) for name in values if name not in known]
+    fields = _fields(values, faults)
     settings = check_options(options, folder)
-    faults += [*wrong, *(settings if isinstance(settings, list) else [])]
-    if fields is None:
-        return faults
+    faults += settings if isinstance(settings, list) else _objects(settings, options)
     banner = row.banner or _design(fields.design, folder, faults)
     out = _out(fields, row, number, ending, faults)
     times = _times(out, fields, faults)
@@ -158,12 +156,41 @@ def _request(
     return PictureRequest(row.place, out, banner, settings, *times)
 
 
-def _fields(values: dict[str, Any]) -> tuple[RowFields | None, list[str]]:
-    try:
-        return RowFields.model_validate(values), []
-    except ValidationError as error:
-        faults = error.errors(include_url=False, include_input=False)
-        return None, [f"{'.'.join(map(str, f['loc']))}: {one_line(f['msg'])}" for f in faults]
+def _fields(values: Mapping[str, Any], faults: list[str]) -> RowFields:
+    """The fields of a row; those that are wrong are None."""
+    texts: dict[str, str] = {}
+    times: dict[str, float] = {}
+    for name, value in values.items():
+        if value is None:
+            continue
+        if name in LOOP_OPTIONS:
+            try:
+                times[name] = LOOP_OPTIONS[name].parse(value)
+            except OptionError as error:
+                faults.append(one_line(str(error)))
+        elif name in TEXTS:
+            # A name such as 7 is a number in JSON and YAML.
+            text = str(value) if isinstance(value, int | float) else value
+            if not isinstance(text, str):
+                faults.append(f"{name} {shown(value)} is not a text; put it in quotes")
+            elif len(text) > MAX_TEXT:
+                faults.append(f"{name} has over {MAX_TEXT} characters; write it shorter")
+            else:
+                texts[name] = text
+    return RowFields(**texts, **times)
+
+
+def _objects(settings: Settings, options: Mapping[str, Any]) -> list[str]:
+    """Values that are objects of Python: a worker is sent names and numbers only."""
+    values = {name: getattr(settings, name) for name in options}
+    return [
+        f"{name} is an object, which a batch cannot send to its workers; give its name or path"
+        for name, value in values.items()
+        if not all(
+            each is None or isinstance(each, str | int | float | Path)
+            for each in (value if isinstance(value, tuple) else (value,))
+        )
+    ]
 
 
 def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
@@ -229,8 +256,8 @@ def _times(out: str, fields: RowFields, faults: list[str]) -> tuple[float | None
     given = fields.seconds is not None or fields.fps is not None
     if _ending(out) in STILLS or (_ending(out) in EITHER and not given):
         return None, None
-    seconds = SECONDS if fields.seconds is None else fields.seconds
-    fps = FPS if fields.fps is None else fields.fps
+    seconds = LOOP_OPTIONS["seconds"].default if fields.seconds is None else fields.seconds
+    fps = LOOP_OPTIONS["fps"].default if fields.fps is None else fields.fps
     try:
         frame_count(seconds, fps)
     except OptionError as error:
