@@ -1,4 +1,4 @@
-"""What the page exports is what the command line writes; what is stopped leaves nothing."""
+"""Exports have the bytes of the command line; an export that is stopped leaves no file."""
 
 import threading
 import time
@@ -11,12 +11,12 @@ from drapery.banner.design import Banner, Layer
 from drapery.errors import DraperyError, OptionError
 from drapery.settings import Settings
 from drapery.studio import exports
-from drapery.studio.exports import Export, count_frames, exports_of, make, stem_of
+from drapery.studio.exports import Export, ExportSlots, count_frames, make, stem_of
 from drapery.studio.session import Session
 from drapery.studio.snippets import KINDS, Order, file_name
 
 BANNER = Banner("red", (Layer("creeper", "lime"), Layer("gradient", "blue")))
-LOOK = Settings(size=(40, 48), wind=5.0, samples=4, pixel=2, background="#302050", view="hero")
+PICTURE = Settings(size=(40, 48), wind=5.0, samples=4, pixel=2, background="#302050", view="hero")
 WORDS = (
     *("--size", "40x48", "--wind", "5", "--samples", "4", "--pixel", "2"),
     *("--background", "#302050", "--view", "hero"),
@@ -33,7 +33,7 @@ COMMANDS = {
 
 
 def order_of(kind: str) -> Order:
-    return Order(BANNER, LOOK, kind, seconds=0.5, fps=10.0, scale=5)
+    return Order(BANNER, PICTURE, kind, seconds=0.5, fps=10.0, scale=5)
 
 
 @pytest.mark.parametrize("kind", COMMANDS)
@@ -59,11 +59,11 @@ def test_every_kind_is_tested() -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_progress_goes_to_the_end(kind: str, tmp_path: Path) -> None:
-    order, told = order_of(kind), []
-    make(order, tmp_path / file_name(order), lambda done, total: told.append((done, total)))
+    order, events = order_of(kind), []
+    make(order, tmp_path / file_name(order), lambda done, total: events.append((done, total)))
     total = count_frames(order)
-    assert told[-1] == (total, total)
-    assert [done for done, _ in told] == sorted(done for done, _ in told)
+    assert events[-1] == (total, total)
+    assert [done for done, _ in events] == sorted(done for done, _ in events)
 
 
 def stop_after(frames: int) -> Callable[[int, int], None]:
@@ -91,7 +91,7 @@ def export(order: Order, folder: Path) -> Export:
     return Export(order, folder / file_name(order), file_name(order))
 
 
-def test_a_thread_makes_it_and_tells(tmp_path: Path) -> None:
+def test_a_thread_makes_it_and_reports_progress(tmp_path: Path) -> None:
     work = export(order_of("gif"), tmp_path)
     work.start()
     assert work.wait(30)
@@ -134,8 +134,8 @@ def test_an_unforeseen_error_ends_it_with_a_line_and_a_traceback_in_the_log(
 @pytest.mark.parametrize(
     "order",
     [
-        Order(BANNER, LOOK, "exe"),
-        Order(BANNER, LOOK, "../../x"),
+        Order(BANNER, PICTURE, "exe"),
+        Order(BANNER, PICTURE, "../../x"),
         Order(BANNER, Settings(view="nowhere")),
         Order(BANNER, Settings(), "gif", fps=0.0),
         Order(BANNER, Settings(), "gif", seconds=float("nan")),
@@ -163,7 +163,7 @@ LONG = Order(BANNER, Settings(size=(128, 128)), "apng", seconds=60.0)
 
 
 def test_a_second_export_takes_the_place_of_the_first(session: Session) -> None:
-    own = exports_of(session)
+    own = session.exports
     first = own.start(LONG)
     second = own.start(order_of("json"), "flag")
     assert first.wait(20) and second.wait(20)
@@ -176,29 +176,32 @@ def test_a_second_export_takes_the_place_of_the_first(session: Session) -> None:
 
 def test_a_tab_that_closes_stops_its_export() -> None:
     session = Session()
-    work, folder = exports_of(session).start(LONG), session.folder
+    work, folder = session.exports.start(LONG), session.folder
     session.close()
     assert work.wait(20) and not folder.exists()
 
 
-def test_so_many_at_once_and_no_more(session: Session) -> None:
-    others = [Session() for _ in range(exports.MAX_RUNNING)]
-    work = [exports_of(other).start(LONG) for other in others]
+def test_the_tabs_of_a_studio_share_its_slots() -> None:
+    slots = ExportSlots()
+    session = Session(slots=slots)
+    others = [Session(slots=slots) for _ in range(exports.MAX_RUNNING)]
+    work = [other.exports.start(LONG) for other in others]
     with pytest.raises(OptionError, match="under way"):
-        exports_of(session).start(order_of("json"))
-    # Whoever has one may have another instead of it.
-    work.append(exports_of(others[0]).start(LONG))
+        session.exports.start(order_of("json"))
+    # A tab that has one may replace it.
+    work.append(others[0].exports.start(LONG))
     for other in others:
         other.close()
     assert all(each.wait(20) for each in work)
-    assert exports_of(session).start(order_of("json")).wait(20)
+    assert session.exports.start(order_of("json")).wait(20)
+    session.close()
 
 
 @pytest.mark.parametrize("kind", ["exe", "../x", "png/../../x", ""])
 def test_no_order_names_a_file(session: Session, kind: str) -> None:
     with pytest.raises(OptionError):
-        exports_of(session).start(Order(BANNER, LOOK, kind))
-    assert exports_of(session).current is None
+        session.exports.start(Order(BANNER, PICTURE, kind))
+    assert session.exports.current is None
 
 
 @pytest.mark.parametrize(

@@ -15,15 +15,15 @@ from pack_maker import plain, png
 from drapery.banner.formats import parse_banner
 from drapery.errors import DesignError, DraperyError, OutputError
 from drapery.settings import Settings
-from drapery.studio.library import OURS, VERSION, Library, default_place
+from drapery.studio.library import APPLICATION_ID, VERSION, Library, default_place
 from drapery.studio.records import Design, checked_tags
 from drapery.studio.sketch import Sketch, Stroke, hide, sketch_of
 
-LOOK = Settings(view="iso", wind=7.5, grid=(9, 17))
+PICTURE = Settings(view="iso", wind=7.5, grid=(9, 17))
 
 
 def design(text: str = "white creeper:lime", title: str = "Lime", *tags: str) -> Design:
-    return Design(sketch_of(parse_banner(text), title), LOOK, tags, plain(1, 2, 3, 255, side=16))
+    return Design(sketch_of(parse_banner(text), title), PICTURE, tags, plain(1, 2, 3, 255, side=16))
 
 
 @pytest.fixture
@@ -40,14 +40,14 @@ def test_what_is_kept_comes_back_whole(library: Library) -> None:
     kept = replace(kept, sketch=hide(kept.sketch, 2))
     number = library.add(kept)
     got = library.get(number)
-    assert (got.sketch, got.look, got.tags) == (kept.sketch, LOOK, ("b", "a"))
+    assert (got.sketch, got.settings, got.tags) == (kept.sketch, PICTURE, ("b", "a"))
     assert got.thumbnail and Library(library.path).get(number) == got
 
 
 def test_files_and_packs_are_not_kept(library: Library) -> None:
-    own = replace(LOOK, packs=("/a/pack.zip",), texture="/a/cape.png", backend="soft")
-    number = library.add(replace(design(), look=own))
-    assert library.get(number).look == LOOK
+    own = replace(PICTURE, packs=("/a/pack.zip",), texture="/a/cape.png", backend="soft")
+    number = library.add(replace(design(), settings=own))
+    assert library.get(number).settings == PICTURE
     assert b"/a/" not in library.path.read_bytes()
 
 
@@ -69,7 +69,7 @@ def test_search_finds_by_title_tag_dye_and_pattern(library: Library) -> None:
 def test_pages_of_a_search(library: Library) -> None:
     for number in range(7):
         library.add(design(title=f"n{number}"))
-    page, count = library.search("n", first=2, most=3)
+    page, count = library.search("n", first=2, limit=3)
     assert [each.title for each in page] == ["n4", "n3", "n2"] and count == 7
 
 
@@ -195,7 +195,7 @@ def test_what_is_no_library_is_one_line(library: Library, data: bytes) -> None:
 def test_damaged_foreign_and_newer_files(tmp_path: Path) -> None:
     path = tmp_path / "x.sqlite"
     path.write_bytes(b"no database at all" * 100)
-    with pytest.raises(OutputError, match="damaged or no library"):
+    with pytest.raises(OutputError, match="damaged or not a library"):
         Library(path)
     path.unlink()
     with sqlite3.connect(path) as other:
@@ -206,9 +206,9 @@ def test_damaged_foreign_and_newer_files(tmp_path: Path) -> None:
     Library(path)
     with sqlite3.connect(path) as newer:
         newer.execute(f"PRAGMA user_version = {VERSION + 1}")
-    with pytest.raises(OutputError, match=rf"of version {VERSION + 1}"):
+    with pytest.raises(OutputError, match=rf"has version {VERSION + 1}"):
         Library(path)
-    assert sqlite3.connect(path).execute("PRAGMA application_id").fetchone() == (OURS,)
+    assert sqlite3.connect(path).execute("PRAGMA application_id").fetchone() == (APPLICATION_ID,)
 
 
 def test_a_file_cut_short(library: Library) -> None:
@@ -224,8 +224,8 @@ def test_a_file_cut_short(library: Library) -> None:
 def test_a_spoilt_row_does_not_hide_the_others(library: Library) -> None:
     library.add(design(title="a"))
     spoilt = library.add(design(title="b"))
-    with sqlite3.connect(library.path) as hand:
-        hand.execute("UPDATE designs SET tree = '[[[' WHERE number = ?", (spoilt,))
+    with sqlite3.connect(library.path) as connection:
+        connection.execute("UPDATE designs SET tree = '[[[' WHERE number = ?", (spoilt,))
     assert found(library) == ["a"]
     with pytest.raises(DesignError, match="is damaged; delete it"):
         library.get(spoilt)
@@ -240,13 +240,13 @@ def test_where_nothing_can_be_written(tmp_path: Path) -> None:
         assert "\n" not in str(fault.value)
 
 
-def test_a_locked_file(library: Library, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("drapery.studio.library.PATIENCE", 0.05)
-    hand = sqlite3.connect(library.path, isolation_level=None)
-    hand.execute("BEGIN EXCLUSIVE")
-    with pytest.raises(OutputError, match="another program holds it"):
+def test_a_locked_file(library: Library) -> None:
+    library = Library(library.path, lock_timeout=0.05)
+    connection = sqlite3.connect(library.path, isolation_level=None)
+    connection.execute("BEGIN EXCLUSIVE")
+    with pytest.raises(OutputError, match="another program uses it"):
         library.add(design())
-    hand.execute("ROLLBACK")
+    connection.execute("ROLLBACK")
     library.add(design())
 
 
@@ -268,11 +268,11 @@ for n in range(15):
 def test_two_processes_write_at_once(library: Library) -> None:
     # The file is new to both, so they also race to make the tables.
     path = library.path.with_name("shared.sqlite")
-    hands = [subprocess.Popen([sys.executable, "-c", WRITER, path, name]) for name in "ab"]
-    assert [hand.wait(60) for hand in hands] == [0, 0]
+    writers = [subprocess.Popen([sys.executable, "-c", WRITER, path, name]) for name in "ab"]
+    assert [writer.wait(60) for writer in writers] == [0, 0]
     both = Library(path)
     assert both.tags() == {"a": 15, "b": 15}
-    changes = [each.changed for each in both.search(most=100)[0]]
+    changes = [each.changed for each in both.search(limit=100)[0]]
     assert len(set(changes)) == 30
 
 

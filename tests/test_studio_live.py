@@ -22,12 +22,11 @@ from drapery.scenes.stager import STEP, ClothSpec, still
 from drapery.settings import Settings
 from drapery.studio.live import Live, Ray
 from drapery.studio.live_cloth import live_cloth
-from drapery.studio.messages import Told, pack, unpack
+from drapery.studio.messages import MessageEncoder, pack, unpack
 from drapery.studio.player import Player
-from drapery.studio.session import find_session, open_session
+from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import sketch_of
 from drapery.studio.stream import UNDER_WAY, UNKNOWN, WRONG, add_routes
-from drapery.studio.viewport import stage_of
 from drapery.studio.wind_controls import (
     WindControls,
     around,
@@ -259,10 +258,10 @@ def test_a_changed_wind_goes_on_where_it_was() -> None:
     )
 
 
-def told_positions(told: Told, live: Live, seen: dict[str, Any]) -> list[str]:
+def told_positions(encoder: MessageEncoder, live: Live, seen: dict[str, Any]) -> list[str]:
     """Take a moment's messages as a viewer does; their kinds."""
     kinds = []
-    for message in told.messages(live.shown()):
+    for message in encoder.messages(live.shown()):
         header, arrays = unpack(message)
         kinds.append(header["kind"])
         if header["kind"] == "scene":
@@ -282,9 +281,9 @@ def told_positions(told: Told, live: Live, seen: dict[str, Any]) -> list[str]:
 
 
 def test_messages_tell_what_is_drawn() -> None:
-    live, told, seen = a_live(), Told(), {}
+    live, encoder, seen = a_live(), MessageEncoder(), {}
     for number in range(4):
-        kinds = told_positions(told, live, seen)
+        kinds = told_positions(encoder, live, seen)
         assert kinds == (["scene", "moment"] if number == 0 else ["moment"])
         drawing = draw_list(live.shown().panes[0].scene.models)
         assert np.array_equal(seen["positions"], drawing.positions)
@@ -292,26 +291,26 @@ def test_messages_tell_what_is_drawn() -> None:
         assert np.array_equal(seen["triangles"].reshape(-1, 3), drawing.topology.triangles)
         live.step(3)
     live.update(Banner.parse("red"), open_packs(()), replace(SETTINGS, daylight=0.0))
-    assert told_positions(told, live, seen) == ["scene", "moment"]
+    assert told_positions(encoder, live, seen) == ["scene", "moment"]
     # Night falls on the wood too, which does not move.
     live.update(Banner.parse("red"), open_packs(()), replace(SETTINGS, block_light=9))
-    assert told_positions(told, live, seen) == ["moment"]
+    assert told_positions(encoder, live, seen) == ["moment"]
     live.step()
-    assert told_positions(told, live, seen) == ["moment"]
+    assert told_positions(encoder, live, seen) == ["moment"]
 
 
 def test_a_moment_is_as_long_as_what_moves() -> None:
-    live, told = a_live(), Told()
-    told.messages(live.shown())
+    live, encoder = a_live(), MessageEncoder()
+    encoder.messages(live.shown())
     live.step()
     shown = live.shown()
-    (message,) = told.messages(shown)
+    (message,) = encoder.messages(shown)
     header, arrays = unpack(message)
     vertices = 2 * 45 + 4 * 24  # two sheets of 5 x 9 particles and a rim of 24 edges
     assert [run[1] for run in header["runs"]] == [vertices]
     assert sum(array.nbytes for array in arrays.values()) == 16 * vertices
     assert len(message) < 16 * vertices + 512
-    (nothing,) = told.messages(shown)
+    (nothing,) = encoder.messages(shown)
     assert len(nothing) < 512
 
 
@@ -323,15 +322,15 @@ def test_pack_and_unpack_are_inverse() -> None:
 
 
 def test_a_camera_is_told_once_a_cut() -> None:
-    live, told = a_live(), Told()
-    told.reframe((200, 100))
-    first = [unpack(message)[0] for message in told.messages(live.shown())][-1]
+    live, encoder = a_live(), MessageEncoder()
+    encoder.reframe((200, 100))
+    first = [unpack(message)[0] for message in encoder.messages(live.shown())][-1]
     assert first["cameras"]["cut"] is True
     live.step()
-    (again,) = told.messages(live.shown())
+    (again,) = encoder.messages(live.shown())
     assert "cameras" not in unpack(again)[0]
     live.reframe()
-    (anew,) = told.messages(live.shown())
+    (anew,) = encoder.messages(live.shown())
     assert unpack(anew)[0]["cameras"]["cut"] is True
 
 
@@ -339,12 +338,12 @@ def test_a_camera_is_told_once_a_cut() -> None:
 def test_upright_viewers_stack_scenes_but_not_banners(shape: tuple[int, int]) -> None:
     live = a_live()
     live.update(DESIGN, open_packs(()), SETTINGS, open_packs(()), ("one", "other"))
-    banners, _ = unpack(Told("all", shape).messages(live.shown())[0])
+    banners, _ = unpack(MessageEncoder("all", shape).messages(live.shown())[0])
     assert banners["columns"] == 2
     assert [pane["label"] for pane in banners["panes"]] == ["one", "other"]
-    only, _ = unpack(Told("right", shape).messages(live.shown())[0])
+    only, _ = unpack(MessageEncoder("right", shape).messages(live.shown())[0])
     assert [pane["label"] for pane in only["panes"]] == ["other"]
-    scenes, _ = unpack(Told("all", shape).messages(Player("fold", shape).step())[0])
+    scenes, _ = unpack(MessageEncoder("all", shape).messages(Player("fold", shape).step())[0])
     assert scenes["columns"] == (2 if shape[0] > shape[1] else 1)
 
 
@@ -375,11 +374,18 @@ def test_a_finished_picture_is_hung_up_as_it_is() -> None:
     )
 
 
+SESSIONS = Sessions()
+
+
+def open_session(settings: Settings) -> Session:
+    return SESSIONS.open(settings, sketch_of(DESIGN))
+
+
 def an_app() -> Any:
     from fastapi import FastAPI
 
     app = FastAPI()
-    add_routes(app)
+    add_routes(app, SESSIONS)
     return app
 
 
@@ -403,26 +409,26 @@ def moments(socket: Any, count: int) -> list[dict[str, Any]]:
 
 
 def test_the_socket_streams_the_motion_of_pictures(client: Any) -> None:
-    session = open_session(SETTINGS, sketch_of(DESIGN))
+    session = open_session(SETTINGS)
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)
-        told = [m["positions"].reshape(-1, 3)[-186:] for m in moments(socket, 12)]
+        sent = [m["positions"].reshape(-1, 3)[-186:] for m in moments(socket, 12)]
     session.close()
     pictures = flags(400)
-    places = [place_of(flag, pictures) for flag in told]
+    places = [place_of(flag, pictures) for flag in sent]
     assert places == sorted(places) and len(set(places)) > 6
 
 
 def test_the_socket_waits_for_the_viewer(client: Any) -> None:
-    session = open_session(SETTINGS, sketch_of(DESIGN))
-    stage = stage_of(session)
+    session = open_session(SETTINGS)
+    viewport = session.viewport
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)
         first, _ = unpack(socket.receive_bytes())
         second, _ = unpack(socket.receive_bytes())
         assert [first["kind"], second["kind"]] == ["scene", "moment"]
-        version = stage.version
-        wait_for(lambda: stage.version > version + 30)
+        version = viewport.version
+        wait_for(lambda: viewport.version > version + 30)
         # All that has been sent meanwhile lies unread; the next moment skips what was not sent.
         socket.send_json({"drawn": UNDER_WAY})
         third = moments(socket, 1)[0]["positions"].reshape(-1, 3)[-186:]
@@ -460,7 +466,7 @@ def test_unknown_tabs_and_nonsense_are_turned_away(client: Any) -> None:
         with pytest.raises(WebSocketDisconnect) as caught:
             socket.receive_bytes()
         assert caught.value.code == UNKNOWN
-    session = open_session(SETTINGS, sketch_of(DESIGN))
+    session = open_session(SETTINGS)
     for nonsense in (
         "{",
         "[1]",
@@ -478,25 +484,25 @@ def test_unknown_tabs_and_nonsense_are_turned_away(client: Any) -> None:
             with pytest.raises(WebSocketDisconnect) as caught:
                 socket.receive_bytes()
             assert caught.value.code == WRONG, nonsense
-    wait_for(lambda: not stage_of(session).moving)
+    wait_for(lambda: not session.viewport.moving)
     session.close()
 
 
 def test_nothing_is_left_of_closed_sockets(client: Any) -> None:
-    session = open_session(SETTINGS, sketch_of(DESIGN))
+    session = open_session(SETTINGS)
     threads: list[int] = []
     for number in range(40):
         with client.websocket_connect(f"/live/{session.token}") as socket:
             socket.send_json(SHAPE)
             moments(socket, 2)
         if number in (9, 39):
-            wait_for(lambda: not stage_of(session).moving)
+            wait_for(lambda: not session.viewport.moving)
             threads.append(threading.active_count())
             assert live_tasks(client) == []
     assert threads[0] == threads[1]
-    assert stage_of(session).viewers == 0
+    assert session.viewport.viewers == 0
     session.close()
-    assert find_session(session.token) is None
+    assert SESSIONS.find(session.token) is None
 
 
 def live_tasks(client: Any) -> list[str]:
@@ -510,8 +516,8 @@ def live_tasks(client: Any) -> list[str]:
 
 
 def test_keys_and_hands_reach_the_cloth_over_the_socket(client: Any) -> None:
-    session = open_session(replace(SETTINGS, wind=2.0), sketch_of(DESIGN))
-    stage = stage_of(session)
+    session = open_session(replace(SETTINGS, wind=2.0))
+    viewport = session.viewport
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)
         moments(socket, 3)
@@ -521,7 +527,7 @@ def test_keys_and_hands_reach_the_cloth_over_the_socket(client: Any) -> None:
         wait_for(lambda: session.settings.wind >= 4.0)
         socket.send_json({"switch": 1})
         watch(socket, lambda moment: not moment["wind"][2])
-        assert not stage.wishes.on
+        assert not viewport.request.on
         goal = np.array([1.1, 1.0])
         socket.send_json({"grab": [0.6, 0.4, 5.0, 0, 0, -1, 0, 0, -1]})
         socket.send_json({"pull": [*goal, 5.0, 0, 0, -1, 0, 0, -1]})
@@ -546,36 +552,36 @@ def away_from(place: np.ndarray, moment: dict[str, Any]) -> float:
 
 
 def test_a_hidden_viewer_costs_nothing(client: Any) -> None:
-    session = open_session(SETTINGS, sketch_of(DESIGN))
-    stage = stage_of(session)
+    session = open_session(SETTINGS)
+    viewport = session.viewport
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)
         moments(socket, 2)
         socket.send_json({"hidden": True})
-        wait_for(lambda: not stage.moving)
+        wait_for(lambda: not viewport.moving)
         socket.send_json({"hidden": False})
-        wait_for(lambda: stage.moving)
+        wait_for(lambda: viewport.moving)
         moments(socket, 2)
 
 
 def test_a_tab_that_closes_ends_its_sockets(client: Any) -> None:
     from starlette.websockets import WebSocketDisconnect
 
-    session = open_session(SETTINGS, sketch_of(DESIGN))
-    stage = stage_of(session)
+    session = open_session(SETTINGS)
+    viewport = session.viewport
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)
         moments(socket, 2)
         session.close()
-        wait_for(lambda: not stage.moving)
+        wait_for(lambda: not viewport.moving)
         with pytest.raises(WebSocketDisconnect) as caught:
             moments(socket, 100)
         assert caught.value.code == UNKNOWN
 
 
 def test_cloth_that_blows_up_is_told_and_hangs_anew(client: Any) -> None:
-    session = open_session(SETTINGS, sketch_of(DESIGN))
-    stage = stage_of(session)
+    session = open_session(SETTINGS)
+    viewport = session.viewport
 
     def tear(live: Live) -> None:
         (cloth,) = live._cloths
@@ -585,7 +591,7 @@ def test_cloth_that_blows_up_is_told_and_hangs_anew(client: Any) -> None:
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)
         moments(socket, 3)
-        stage.do(tear)
+        viewport.do(tear)
         while "text" not in (said := socket.receive()):
             socket.send_json({"drawn": 1})
         assert "blew up" in json.loads(said["text"])["line"]

@@ -10,9 +10,15 @@ from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.png import read_png
 from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
-from drapery.studio.art import face_png, pattern_sheet
-from drapery.studio.downloads import CELL, COLUMNS, GAP, _rows
-from drapery.studio.panels.library import thumbnail
+from drapery.studio.art import (
+    CELL,
+    COLUMNS,
+    GAP,
+    face_png,
+    pattern_rows,
+    pattern_sheet,
+    thumbnail,
+)
 
 NAMES = ("creeper", "border", "gradient")
 
@@ -44,7 +50,7 @@ def test_cells_are_the_middles_of_the_whole_picture(packs: Packs) -> None:
 
 def test_rows_hold_the_cells_in_their_order(packs: Packs) -> None:
     sheet = pattern_sheet(packs, "white", "black")
-    line, page = read_png(sheet, "line"), read_png(_rows(sheet), "page")
+    line, page = read_png(sheet, "line"), read_png(pattern_rows(sheet), "page")
     width, height = CELL
     for place in range(len(packs.patterns())):
         top, left = place // COLUMNS * (height + GAP), place % COLUMNS * (width + GAP)

@@ -225,7 +225,7 @@ def drop(page: Any, name: str, data: bytes) -> None:
     page.execute_script(
         "const bytes = Uint8Array.from(atob(arguments[1]), (c) => c.charCodeAt(0));"
         "const data = new DataTransfer(); data.items.add(new File([bytes], arguments[0]));"
-        "document.querySelector('.stage').dispatchEvent("
+        "document.querySelector('.viewport').dispatchEvent("
         " new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));",
         name,
         base64.b64encode(data).decode(),

@@ -114,7 +114,7 @@ def test_a_picture_is_the_commands_to_the_byte(
     page.fill("export", "Height", "120")
     page.fill("export", "View", "iso")
     page.fill("export", "Background", "colour")
-    page.fill("export", "Its colour", "#204060")
+    page.fill("export", "Background colour", "#204060")
     page.fill("export", "Shadow", True)
     wait_until(lambda: "--shadow" in page.text("#as-command"))
     page.click("export", "Export the file")
@@ -142,7 +142,7 @@ def test_what_the_live_banner_has_alone_is_said() -> None:
 def test_no_wind_is_no_wind_in_the_file_too(page: Page) -> None:
     page.run(
         "[...document.querySelectorAll('#panel-motion .q-toggle')]"
-        ".find((each) => each.innerText.includes('It blows')).click()"
+        ".find((each) => each.innerText.includes('Wind on')).click()"
     )
     wait_until(lambda: "--wind 0" in page.text("#as-command"))
     assert not page.find("#panel-export .warning").is_displayed()
@@ -158,7 +158,7 @@ def test_an_animation_shows_progress_and_can_be_stopped(page: Page, downloads: P
     first = wait_until(lambda: page.run(shown), 20)
     assert wait_until(lambda: page.run(shown) > first, 20)
     page.click("export", "Stop the export")
-    page.notice("Stopped; nothing was kept")
+    page.notice("Stopped; no file was made")
     assert wait_until(lambda: not lying(page.studio.folder, "drapery-studio-*/*export*"))
     assert not downloads.exists() or not [*downloads.iterdir()]
 
@@ -173,8 +173,8 @@ def test_the_link_brings_the_design_back(page: Page) -> None:
     page.click("export", "Copy: Link to this design (packs stay here)")
     copied = "navigator.clipboard.readText().then(arguments[0])"
     assert wait_until(lambda: page.driver.execute_async_script(copied) == link)
-    sketch, look = read_link(link.partition("?d=")[2])
-    assert (sketch, look) == (DESIGN, Settings(view="hero"))
+    sketch, settings = read_link(link.partition("?d=")[2])
+    assert (sketch, settings) == (DESIGN, Settings(view="hero"))
     # The address follows, so a reload loses nothing.
     wait_until(lambda: page.driver.current_url == link)
     page.driver.refresh()
@@ -187,7 +187,7 @@ def test_the_link_brings_the_design_back(page: Page) -> None:
 
 def test_a_bad_link_is_told_and_the_page_goes_on(chromium: Any, studio: Studio) -> None:
     page = Page(chromium, studio, "?d=a<script>alert(1)</script>")
-    assert "holds letters that no link has" in page.notice("link")
+    assert "has letters that no link has" in page.notice("link")
     assert page.text("#as-command") == "drapery render white -o banner.png"
 
 
@@ -206,7 +206,7 @@ def sheet(page: Page) -> str:
 
 
 def drop(page: Page, panel: str, *paths: Path) -> None:
-    page.find(f"#panel-{panel} .drop input").send_keys("\n".join(map(str, paths)))
+    page.find(f"#panel-{panel} .file-field input").send_keys("\n".join(map(str, paths)))
 
 
 def test_packs_change_the_patterns(page: Page, tmp_path: Path) -> None:
@@ -236,7 +236,7 @@ const pack = new File([Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0
 const transfer = new DataTransfer();
 transfer.items.add(pack);
 const drop = new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true });
-document.querySelector(".stage").dispatchEvent(drop);
+document.querySelector(".viewport").dispatchEvent(drop);
 """
 
 
@@ -298,8 +298,8 @@ def test_a_broken_pack_is_one_line(page: Page, tmp_path: Path) -> None:
     drop(page, "packs", broken, odd)
     assert "neither a folder nor a complete zip" in page.notice("broken.zip")
     assert "is not a PNG file" in page.notice("odd.zip")
-    told = page.driver.find_elements("css selector", ".q-notification")
-    assert {each.get_attribute("role") for each in told} == {"alert"}
+    notices = page.driver.find_elements("css selector", ".q-notification")
+    assert {each.get_attribute("role") for each in notices} == {"alert"}
     assert sheet(page) == before
     assert wait_until(lambda: not sent(page))
 
@@ -354,7 +354,7 @@ def test_the_library_keeps_finds_and_opens(page: Page, downloads: Path, tmp_path
     )
     other.click("library", "Rename or tag Second")
     other.fill("", "Title", "Zweite")
-    other.click("library", "Keep title and tags")
+    other.click("library", "Save title and tags")
     wait_until(lambda: titles(other) == ["Zweite", "Lime Ghost"])
     other.click("library", "Delete Zweite")
     wait_until(lambda: titles(other) == ["Lime Ghost"])
@@ -367,7 +367,7 @@ def test_the_library_keeps_finds_and_opens(page: Page, downloads: Path, tmp_path
     other.notice("0 designs added, 2 were here already")
     (tmp_path / "broken.json").write_text("{")
     drop(other, "library", tmp_path / "broken.json")
-    other.notice("the file is no library")
+    other.notice("the file is not a library")
 
 
 def test_no_text_becomes_code(page: Page, tmp_path: Path) -> None:

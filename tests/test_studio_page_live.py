@@ -97,7 +97,7 @@ def test_keys_of_a_text_are_no_wind(page: Any) -> None:
     field = page.find_element(By.CSS_SELECTOR, "#panel-patterns input")
     field.send_keys("weak sea")
     assert field.get_attribute("value") == "weak sea"
-    assert ask(page, "wind") == wind and not ask(page, "hands.held.size")
+    assert ask(page, "wind") == wind and not ask(page, "input.heldKeys.size")
 
 
 def test_a_point_of_the_cloth_follows_the_mouse(page: Any) -> None:
@@ -114,10 +114,10 @@ def test_a_point_of_the_cloth_follows_the_mouse(page: Any) -> None:
     for _ in range(4):
         hand.move_by_offset(17, -20)
     hand.perform()
-    assert ask(page, "hands.pulling") is True
+    assert ask(page, "input.pulling") is True
     wait_until(lambda: gap(page, free) < 0.06)
     ActionChains(page).release().perform()
-    assert ask(page, "hands.pulling") is False
+    assert ask(page, "input.pulling") is False
     wait_until(lambda: gap(page, free) > 0.1)
 
 
@@ -127,7 +127,7 @@ def test_the_background_is_walked_round(page: Any) -> None:
     hand.move_to_element_with_offset(canvas(page), *from_middle(page, (20, 300)))
     hand.click_and_hold().move_by_offset(100, 0).release().perform()
     assert ask(page, "azimuth()") == pytest.approx(azimuth - math.degrees(0.75), abs=1)
-    assert ask(page, "hands.pulling") is False
+    assert ask(page, "input.pulling") is False
     hand.double_click().perform()
     assert ask(page, "azimuth()") == pytest.approx(azimuth, abs=0.1)
 
@@ -189,7 +189,7 @@ def test_it_looks_as_a_picture_does(page: Any, view: str) -> None:
         page.find_element(By.CSS_SELECTOR, f'[aria-label="{label}"]')
         for label in ("Back to rest", "Pause")
     )
-    page.find_element(By.CSS_SELECTOR, '[aria-label="A design by chance"]').click()
+    page.find_element(By.CSS_SELECTOR, '[aria-label="Random design"]').click()
     design = wait_until(lambda: page.execute_script(WRITTEN))
     wait_until(lambda: ask(page, "time") > 0.2)
     pause.click()

@@ -16,7 +16,7 @@ from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError
 from drapery.render.views import VIEWS
 from drapery.settings import Settings
-from drapery.studio.share import MAX_JSON, MAX_LINK, VERSION, begun, read_link, write_link
+from drapery.studio.share import MAX_JSON, MAX_LINK, VERSION, opened_link, read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
 
 patterns = st.one_of(
@@ -31,7 +31,7 @@ sketches = st.builds(
     st.sampled_from(("banner", "shield")),
     titles,
 )
-looks = st.builds(
+all_settings = st.builds(
     Settings,
     format=st.none() | st.integers(1, 99),
     pose=st.sampled_from(("cloth", "vanilla")),
@@ -57,11 +57,11 @@ FULL = Sketch(
 )
 
 
-@given(sketches, looks)
-def test_what_is_read_is_what_was_written(sketch: Sketch, look: Settings) -> None:
-    link = write_link(sketch, look)
+@given(sketches, all_settings)
+def test_what_is_read_is_what_was_written(sketch: Sketch, settings: Settings) -> None:
+    link = write_link(sketch, settings)
     assert len(link) <= MAX_LINK
-    assert read_link(link) == (sketch, look)
+    assert read_link(link) == (sketch, settings)
 
 
 def test_a_link_is_short_and_needs_no_quoting() -> None:
@@ -77,8 +77,8 @@ def test_strokes_are_numbered_anew() -> None:
 
 
 def test_files_stay_behind(tmp_path: Path) -> None:
-    look = Settings(packs=(tmp_path,), texture=tmp_path / "cape.png", backend="soft", wind=3.0)
-    link = write_link(FULL, look)
+    settings = Settings(packs=(tmp_path,), texture=tmp_path / "cape.png", backend="soft", wind=3.0)
+    link = write_link(FULL, settings)
     assert str(tmp_path).encode() not in zlib.decompress(urlsafe_b64decode(link[1:] + "=="))
     assert read_link(link)[1] == Settings(wind=3.0)
 
@@ -87,9 +87,9 @@ def test_a_link_is_laid_over_what_the_studio_was_started_with() -> None:
     own = Settings(packs=("a.zip",), format=46, wind=9.0, backend="soft")
     link = write_link(FULL, Settings(view="iso"))
     wanted = Settings(packs=("a.zip",), format=46, view="iso", backend="soft")
-    settings, sketch = begun(own, link)
-    assert settings == wanted and sketch.title == "Flag"
-    assert begun(own, write_link(FULL, Settings(format=4)))[0].format == 4
+    merged, sketch = opened_link(own, link)
+    assert merged == wanted and sketch.title == "Flag"
+    assert opened_link(own, write_link(FULL, Settings(format=4)))[0].format == 4
 
 
 def made(tree: Any) -> str:

@@ -13,18 +13,10 @@ from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError, OptionError, PackError
 from drapery.studio import sketch as edits
+from drapery.studio.descriptions import described
 from drapery.studio.history import LIMIT, History
-from drapery.studio.selection import desk_of
-from drapery.studio.session import (
-    MAX_SESSIONS,
-    Session,
-    close_all,
-    find_session,
-    open_count,
-    open_session,
-)
+from drapery.studio.session import MAX_SESSIONS, Session, Sessions
 from drapery.studio.sketch import Sketch, banner_of, sketch_of
-from drapery.studio.words import in_words
 
 LAYERS = st.builds(Layer, st.sampled_from(PATTERN_NAMES), st.sampled_from(DYE_NAMES))
 BANNERS = st.builds(
@@ -75,7 +67,7 @@ def test_a_stroke_is_changed_in_its_place() -> None:
     assert edits.clear(THREE) == replace(THREE, strokes=())
 
 
-def test_what_cannot_be_is_said() -> None:
+def test_impossible_edits_are_refused() -> None:
     full = sketch_of(Banner("white", (Layer("cross", "red"),) * MAX_LAYERS))
     for edit in (
         lambda: edits.add(full, "border", "red"),
@@ -90,7 +82,7 @@ def test_what_cannot_be_is_said() -> None:
 
 
 @given(st.integers(0, 2**32))
-def test_chance_is_the_same_for_the_same_seed(seed: int) -> None:
+def test_a_random_design_is_the_same_for_the_same_seed(seed: int) -> None:
     sketch = edits.random_sketch(seed)
     assert sketch == edits.random_sketch(seed)
     layers = [Layer("base", sketch.base), *banner_of(sketch).layers]
@@ -118,75 +110,76 @@ def test_history_is_bounded_and_an_equal_state_is_no_step() -> None:
     assert history.push(history.present) is history
 
 
-def test_a_session_tells_of_edits_and_forgets_nothing() -> None:
-    session, told = Session(), []
-    session.listen("sketch", lambda: told.append(session.sketch))
+def test_a_session_notifies_of_edits() -> None:
+    session, events = Session(), []
+    session.listen("sketch", lambda: events.append(session.sketch))
     session.edit(THREE)
     session.edit(THREE)
     session.undo()
     session.undo()
     session.redo()
-    assert told == [THREE, Sketch(), THREE]
+    assert events == [THREE, Sketch(), THREE]
 
 
-def test_settings_that_cannot_be_leave_those_that_are(tmp_path) -> None:
-    session, told = Session(), []
-    session.listen("settings", lambda: told.append("settings"))
-    session.listen("packs", lambda: told.append("packs"))
+def test_settings_out_of_bounds_change_nothing(tmp_path) -> None:
+    session, events = Session(), []
+    session.listen("settings", lambda: events.append("settings"))
+    session.listen("packs", lambda: events.append("packs"))
     with pytest.raises(OptionError):
         session.adjust(wind=-1)
     with pytest.raises(PackError):
         session.adjust(packs=(tmp_path / "none.zip",))
-    assert session.settings == Session().settings and not told
+    assert session.settings == Session().settings and not events
     session.adjust(wind=7.0)
     session.adjust(wind=7.0)
-    assert told == ["settings"]
+    assert events == ["settings"]
 
 
 def test_a_closed_session_leaves_nothing() -> None:
-    session, ended = open_session(Session().settings), []
-    assert find_session(session.token) is session
+    sessions, ended = Sessions(), []
+    session = sessions.open()
+    assert sessions.find(session.token) is session
     folder = session.folder
     (folder / "pack.zip").write_bytes(b"PK")
     session.on_close(lambda: ended.append(1))
-    desk_of(session)
     session.close()
     session.close()
-    assert ended == [1] and not folder.exists() and find_session(session.token) is None
+    assert ended == [1] and not folder.exists() and sessions.find(session.token) is None
     session.on_close(lambda: ended.append(2))
     assert ended == [1, 2]
 
 
 def test_of_too_many_sessions_the_oldest_ends() -> None:
-    close_all()
-    first, *rest = [open_session(Session().settings) for _ in range(MAX_SESSIONS + 1)]
+    sessions = Sessions()
+    first, *rest = [sessions.open() for _ in range(MAX_SESSIONS + 1)]
     assert first.closed and not any(session.closed for session in rest)
-    assert len({session.token for session in rest}) == open_count() == MAX_SESSIONS
-    close_all()
-    assert open_count() == 0
+    assert len({session.token for session in rest}) == len(sessions) == MAX_SESSIONS
+    sessions.close_all()
+    assert len(sessions) == 0
 
 
-def test_the_desk_dyes_what_is_chosen() -> None:
+def test_a_click_dyes_what_is_chosen() -> None:
     session = Session()
-    desk = desk_of(session)
-    desk.press_dye("blue")
-    desk.press_pattern("creeper")
-    desk.press_dye("red")
-    desk.press_pattern("border")
-    desk.choose(1)
-    desk.press_dye("lime")
+    selection = session.selection
+    selection.press_dye("blue")
+    selection.press_pattern("creeper")
+    selection.press_dye("red")
+    selection.press_pattern("border")
+    selection.choose(1)
+    selection.press_dye("lime")
     assert banner_of(session.sketch) == Banner.parse("blue creeper:lime border:red")
-    desk.set_swaps(True)
-    desk.press_pattern("skull")
-    desk.act_on_chosen("move", 1)
+    selection.set_swaps(True)
+    selection.press_pattern("skull")
+    selection.act_on_chosen("move", 1)
     assert banner_of(session.sketch) == Banner.parse("blue border:red skull:lime")
-    desk.act_on_chosen("remove")
-    assert desk.chosen is None and not desk.swaps
+    selection.act_on_chosen("remove")
+    assert selection.chosen is None and not selection.swaps
     session.close()
 
 
-def test_a_design_in_words() -> None:
+def test_a_design_is_described() -> None:
     assert (
-        in_words(THREE) == "White banner with lime Creeper Charge, black Bordure, red Flower Charge"
+        described(THREE)
+        == "White banner with lime Creeper Charge, black Bordure, red Flower Charge"
     )
-    assert in_words(Sketch("light_blue", kind="shield")) == "Light blue shield"
+    assert described(Sketch("light_blue", kind="shield")) == "Light blue shield"

@@ -1,20 +1,26 @@
-"""Files that are sent are measured as they come, lie under names of ours, and go with the tab."""
+"""Files that are sent: measured as they arrive, stored under safe names, removed with the tab."""
 
 import asyncio
+import threading
+import time
+import warnings
 import zipfile
 from collections.abc import AsyncIterator, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
 from pack_maker import BANNER, CREEPER, META, mcmeta, noise, plain, png, red, zip_pack
 
+from drapery.banner.design import Banner
 from drapery.errors import DesignError, DraperyError, PackError
 from drapery.settings import Settings
 from drapery.studio import uploads as module
-from drapery.studio.pack_store import PackStore, shelf_of
+from drapery.studio.pack_store import PackStore
 from drapery.studio.session import Session
-from drapery.studio.uploads import Purpose, Upload, Uploads, shown_name, uploads_of
+from drapery.studio.uploads import Purpose, Upload, shown_name
+from drapery.studio.warning_log import collected_warnings
 
 
 @pytest.fixture
@@ -30,7 +36,7 @@ async def pieces(data: bytes, size: int = 1 << 16) -> AsyncIterator[bytes]:
 
 
 def send(session: Session, data: bytes, name: str = "a.zip", purpose: str = "pack") -> Upload:
-    return asyncio.run(uploads_of(session).receive(pieces(data), purpose, name))
+    return asyncio.run(session.uploads.receive(pieces(data), purpose, name))
 
 
 def packed(tmp_path: Path, *reds: int) -> bytes:
@@ -39,12 +45,12 @@ def packed(tmp_path: Path, *reds: int) -> bytes:
 
 
 def test_what_comes_lies_in_the_sessions_folder(session: Session) -> None:
-    kept = send(session, b"x" * 100_000, "My Pack.zip")
-    assert kept.path.read_bytes() == b"x" * 100_000 and kept.size == 100_000
-    assert kept.path.parent == session.folder and kept.name == "My Pack.zip"
-    assert uploads_of(session).get(kept.number, "pack") is kept
+    upload = send(session, b"x" * 100_000, "My Pack.zip")
+    assert upload.path.read_bytes() == b"x" * 100_000 and upload.size == 100_000
+    assert upload.path.parent == session.folder and upload.name == "My Pack.zip"
+    assert session.uploads.get(upload.number, "pack") is upload
     session.close()
-    assert not kept.path.parent.exists()
+    assert not upload.path.parent.exists()
 
 
 @pytest.mark.parametrize(
@@ -52,10 +58,10 @@ def test_what_comes_lies_in_the_sessions_folder(session: Session) -> None:
     ["../../etc/passwd", "/etc/passwd", "C:\\x\\..\\passwd", "..", ".", "", "a\0b/\n", "x" * 5000],
 )
 def test_no_name_becomes_a_path(session: Session, name: str) -> None:
-    kept = send(session, b"x", name)
-    assert kept.path.parent == session.folder and kept.path.name == f"pack-{kept.number}"
-    assert kept.name.isprintable() and "/" not in kept.name and 0 < len(kept.name) <= 80
-    assert [*session.folder.iterdir()] == [kept.path]
+    upload = send(session, b"x", name)
+    assert upload.path.parent == session.folder and upload.path.name == f"pack-{upload.number}"
+    assert upload.name.isprintable() and "/" not in upload.name and 0 < len(upload.name) <= 80
+    assert [*session.folder.iterdir()] == [upload.path]
 
 
 def test_names_are_shown_short() -> None:
@@ -74,7 +80,7 @@ def test_too_long_stops_while_it_comes(session: Session, monkeypatch: pytest.Mon
             yield b"\0" * (1 << 16)
 
     with pytest.raises(DesignError, match=r"^big\.zip is over 1 MiB"):
-        asyncio.run(uploads_of(session).receive(endless(), "pack", "big.zip"))
+        asyncio.run(session.uploads.receive(endless(), "pack", "big.zip"))
     assert taken == 17 and [*session.folder.iterdir()] == []
 
 
@@ -88,14 +94,14 @@ def test_too_many_are_refused_also_at_once(
         yield b"x"
 
     async def five() -> list[object]:
-        own = uploads_of(session)
+        own = session.uploads
         return await asyncio.gather(
             *(own.receive(slow(), "pack", "a") for _ in range(5)), return_exceptions=True
         )
 
     results = asyncio.run(five())
     assert [isinstance(each, Upload) for each in results] == [True] * 3 + [False] * 2
-    uploads_of(session).remove(1)
+    session.uploads.remove(1)
     send(session, b"x")
     assert len([*session.folder.iterdir()]) == 3
 
@@ -113,12 +119,12 @@ def test_what_breaks_off_leaves_nothing(session: Session) -> None:
         yield b"x" * 1000
         raise ConnectionError
 
-    own = uploads_of(session)
+    own = session.uploads
     with pytest.raises(ConnectionError):
         asyncio.run(own.receive(torn(), "pack", "a"))
     with pytest.raises(DesignError, match="is empty"):
         send(session, b"")
-    assert [*session.folder.iterdir()] == [] and own._coming == {} and own._kept == {}
+    assert [*session.folder.iterdir()] == [] and own._arriving == {} and own._stored == {}
 
 
 def test_a_tab_that_goes_meanwhile(session: Session) -> None:
@@ -129,51 +135,51 @@ def test_a_tab_that_goes_meanwhile(session: Session) -> None:
 
     folder = session.folder
     with pytest.raises(DesignError, match="the page is gone"):
-        asyncio.run(uploads_of(session).receive(closing(), "pack", "a"))
+        asyncio.run(session.uploads.receive(closing(), "pack", "a"))
     assert not folder.exists()
 
 
 @pytest.mark.parametrize("number", [0, -1, 99, "1", None, [1], 1.0, "../x"])
 def test_only_numbers_of_ours_are_known(session: Session, number: object) -> None:
-    kept = send(session, b"x")
-    assert kept.number == 1
+    upload = send(session, b"x")
+    assert upload.number == 1
     with pytest.raises(DesignError):
-        uploads_of(session).get(number, "pack")
+        session.uploads.get(number, "pack")
     with pytest.raises(DesignError):
-        uploads_of(session).get(1, "library")
+        session.uploads.get(1, "library")
 
 
-def shelf_with(session: Session, *packs: bytes) -> PackStore:
-    shelf = shelf_of(session)
+def store_with(session: Session, *packs: bytes) -> PackStore:
+    pack_store = session.pack_store
     for number, pack in enumerate(packs):
-        kept = send(session, pack, f"{number}.zip")
-        shelf.adopt(kept.number, shelf.check(kept.number))
-    return shelf
+        upload = send(session, pack, f"{number}.zip")
+        pack_store.adopt(upload.number, pack_store.check(upload.number))
+    return pack_store
 
 
 def test_a_pack_counts_when_it_is_adopted(session: Session, tmp_path: Path) -> None:
-    told = []
-    session.listen("packs", lambda: told.append(1))
-    shelf = shelf_with(session, packed(tmp_path, 7), packed(tmp_path, 9))
-    assert [entry.summary for entry in shelf.entries] == ["1 pattern"] * 2
-    assert red(session.packs()) == 9 and len(told) == 2
-    shelf.move(shelf.entries[1].number, -1)
+    events = []
+    session.listen("packs", lambda: events.append(1))
+    pack_store = store_with(session, packed(tmp_path, 7), packed(tmp_path, 9))
+    assert [entry.summary for entry in pack_store.entries] == ["1 pattern"] * 2
+    assert red(session.packs()) == 9 and len(events) == 2
+    pack_store.move(pack_store.entries[1].number, -1)
     assert red(session.packs()) == 7
-    shelf.switch(shelf.entries[1].number)
+    pack_store.switch(pack_store.entries[1].number)
     assert red(session.packs()) == 9
     assert len(session.settings.packs) == 1
-    shelf.remove(shelf.entries[0].number)
-    assert len(shelf.entries) == 1 and session.settings.packs == ()
+    pack_store.remove(pack_store.entries[0].number)
+    assert len(pack_store.entries) == 1 and session.settings.packs == ()
     assert len([*session.folder.iterdir()]) == 1
 
 
 def test_packs_of_the_command_line_are_there(tmp_path: Path) -> None:
     given = zip_pack(tmp_path / "given.zip", {META: mcmeta(), CREEPER: plain(5, 0, 0, 255)})
     session = Session(Settings(packs=(given,)))
-    shelf = shelf_with(session, packed(tmp_path, 7))
-    assert [entry.name for entry in shelf.entries] == [str(given), "0.zip"]
-    assert shelf.called[str(shelf.entries[1].path)] == "0.zip"
-    shelf.remove(shelf.entries[0].number)
+    pack_store = store_with(session, packed(tmp_path, 7))
+    assert [entry.name for entry in pack_store.entries] == [str(given), "0.zip"]
+    assert pack_store.names[str(pack_store.entries[1].path)] == "0.zip"
+    pack_store.remove(pack_store.entries[0].number)
     assert given.exists() and red(session.packs()) == 7
     session.close()
 
@@ -204,25 +210,25 @@ def test_broken_packs_are_refused_by_their_own_name(session: Session, tmp_path: 
             tmp_path / "m.zip", {META: b"{", CREEPER: plain(1, 1, 1, 255)}
         ).read_bytes(),
     }
-    shelf = shelf_of(session)
+    pack_store = session.pack_store
     for name, data in cases.items():
-        kept = send(session, data, f"{name}.zip")
+        upload = send(session, data, f"{name}.zip")
         with pytest.raises(PackError) as fault:
-            shelf.check(kept.number)
+            pack_store.check(upload.number)
         line = str(fault.value)
         assert f"{name}.zip" in line and "\n" not in line and str(session.folder) not in line
-        shelf.refuse(kept.number)
-    assert shelf.entries == () and [*session.folder.iterdir()] == []
+        pack_store.refuse(upload.number)
+    assert pack_store.entries == () and [*session.folder.iterdir()] == []
 
 
 def test_a_pack_that_is_gone_changes_nothing(session: Session, tmp_path: Path) -> None:
-    shelf = shelf_with(session, packed(tmp_path, 7))
-    kept = send(session, packed(tmp_path, 9), "late.zip")
-    kept.path.unlink()
+    pack_store = store_with(session, packed(tmp_path, 7))
+    upload = send(session, packed(tmp_path, 9), "late.zip")
+    upload.path.unlink()
     with pytest.raises(PackError, match=r"late\.zip"):
-        shelf.adopt(kept.number)
-    assert len(shelf.entries) == 1 and red(session.packs()) == 7
-    for act in (shelf.remove, shelf.switch, shelf.path_of):
+        pack_store.adopt(upload.number)
+    assert len(pack_store.entries) == 1 and red(session.packs()) == 7
+    for act in (pack_store.remove, pack_store.switch, pack_store.path_of):
         with pytest.raises(DraperyError, match="not here any more"):
             act(99)
 
@@ -231,6 +237,89 @@ def test_sessions_do_not_see_each_others_files(session: Session) -> None:
     other = Session()
     send(session, b"x")
     with pytest.raises(DesignError):
-        uploads_of(other).get(1, "pack")
-    assert isinstance(uploads_of(other), Uploads)
+        other.uploads.get(1, "pack")
     other.close()
+
+
+def parts(text: str) -> AsyncIterator[bytes]:
+    """A body in two parts, between which other requests have their turn."""
+
+    async def body() -> AsyncIterator[bytes]:
+        half = len(text) // 2
+        yield text[:half].encode()
+        await asyncio.sleep(0.02)
+        yield text[half:].encode()
+
+    return body()
+
+
+def test_two_designs_that_arrive_at_once_do_not_mix(session: Session) -> None:
+    queue, read = session.upload_queue, []
+    queue.listen(lambda: read.append((queue.name, queue.line, [f.banner for f in queue.found])))
+    texts = {"a.txt": "red creeper:lime border:black", "b.txt": "blue skull:white"}
+
+    async def both() -> None:
+        await asyncio.gather(*(queue.receive(parts(text), name) for name, text in texts.items()))
+
+    asyncio.run(both())
+    wanted = [(name, "", [Banner.parse(text)]) for name, text in texts.items()]
+    assert sorted(read) == sorted(wanted)
+    assert [*session.folder.iterdir()] == []
+
+
+def test_a_design_that_is_too_long_is_one_line(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(module.PURPOSES, "design", Purpose(10, 3))
+    asyncio.run(session.upload_queue.receive(parts("white creeper:lime"), "../x/big.txt"))
+    assert session.upload_queue.line.startswith("big.txt is over 10 bytes")
+    assert session.upload_queue.found == () and [*session.folder.iterdir()] == []
+
+
+def test_each_thread_collects_its_own_warnings() -> None:
+    """`warnings.catch_warnings` takes those of all threads, or loses them."""
+    start = threading.Barrier(4)
+
+    def collect(name: str) -> list[str]:
+        start.wait()
+        with collected_warnings() as notes:
+            for number in range(200):
+                warnings.warn(f"{name} {number % 3}", stacklevel=1)
+                time.sleep(0)
+        return notes
+
+    with ThreadPoolExecutor(4) as pool:
+        found = [*pool.map(collect, "abcd")]
+    assert found == [[f"{name} {number % 3}" for number in range(200)] for name in "abcd"]
+
+
+def test_broken_lines_are_notes_each_time(session: Session) -> None:
+    good = "/give @p minecraft:white_banner"
+    for _ in range(2):
+        session.upload_queue.read_text(f"{good}\n/give @p minecraft:red_banner{{{{\n")
+        assert len(session.upload_queue.notes) == 1 and "line 2" in session.upload_queue.notes[0]
+
+
+def test_threads_that_ask_for_packs_while_they_change_get_one_or_the_other(
+    session: Session, tmp_path: Path
+) -> None:
+    store = store_with(session, packed(tmp_path, 7), packed(tmp_path, 9))
+    top, faults, seen = store.entries[1].number, [], set()
+    done = threading.Event()
+
+    def draw() -> None:
+        while not done.is_set():
+            try:
+                seen.add(red(session.packs()))
+            except Exception as error:
+                faults.append(error)
+
+    threads = [threading.Thread(target=draw) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for _ in range(40):
+        store.switch(top)
+    done.set()
+    for thread in threads:
+        thread.join()
+    assert faults == [] and seen <= {7, 9}

@@ -7,6 +7,7 @@ import numpy as np
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import Packs
+from drapery.banner.packs.png import read_png
 from drapery.banner.packs.resampling import resize
 from drapery.banner.sprites import (
     FLAG_REGIONS,
@@ -20,9 +21,14 @@ from drapery.banner.sprites import (
 from drapery.pictures import face_pixels
 from drapery.render.encode.png import png_bytes
 from drapery.render.frame import Pixels
-from drapery.studio.session import Session
+from drapery.studio.document import Document
 
 FACE_SCALE = 8
+COLUMNS = 9
+"""Patterns in a row of those that are compared."""
+CELL = (20, 40)
+"""Width and height of one pattern in a sheet of them [pixels]."""
+GAP = 2
 
 
 def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
@@ -49,12 +55,32 @@ def pattern_sheet(packs: Packs, base: str, dye: str) -> bytes:
 
     Cells of 20 x 40 pixels in the order of `pattern_names`. Raises PackError, DesignError.
     """
-    kept = _sheets.setdefault(packs, {})
-    if (base, dye) not in kept:
+    drawn = _sheets.setdefault(packs, {})
+    if (base, dye) not in drawn:
         banners = [Banner(base, (Layer(name, dye),)) for name in pattern_names(packs)]
         cells = [_cell(packs, banner) for banner in banners]
-        kept[base, dye] = png_bytes(np.concatenate(cells, axis=1))
-    return kept[base, dye]
+        drawn[base, dye] = png_bytes(np.concatenate(cells, axis=1))
+    return drawn[base, dye]
+
+
+def pattern_rows(sheet: bytes) -> bytes:
+    """A sheet of patterns side by side, in rows of COLUMNS, as a PNG file."""
+    texels = read_png(sheet, "the patterns")
+    width, height = CELL
+    cells = texels.reshape(height, -1, width, 4).swapaxes(0, 1)
+    rows = -(-len(cells) // COLUMNS)
+    page = np.zeros((rows * (height + GAP), COLUMNS * (width + GAP), 4), np.uint8)
+    for number, cell in enumerate(cells):
+        top, left = number // COLUMNS * (height + GAP), number % COLUMNS * (width + GAP)
+        page[top : top + height, left : left + width] = cell
+    return png_bytes(page)
+
+
+def thumbnail(banner: Banner, packs: Packs) -> bytes:
+    """The face at two pixels a texel, as a PNG file. Raises PackError."""
+    step = FACE_SCALE // 2
+    face = read_png(face_png(banner, packs), "the face")
+    return png_bytes(face[step // 2 :: step, step // 2 :: step].copy())
 
 
 def _cell(packs: Packs, banner: Banner) -> Pixels:
@@ -72,8 +98,8 @@ def _sampled(region: SheetRegion, sheet: Pixels, scale: int) -> Pixels:
     return np.ascontiguousarray(texels[down][:, across])
 
 
-def sheet_address(session: Session, dye: str) -> str:
-    """Where the page finds `pattern_sheet` for the session's packs and field, in a dye."""
-    settings = session.settings
+def sheet_address(document: Document, dye: str) -> str:
+    """The address of `pattern_sheet` for the tab's packs and field, in a dye."""
+    settings = document.settings
     mark = crc32(repr((settings.packs, settings.format)).encode())
-    return f"/patterns/{session.token}.png?base={session.sketch.base}&dye={dye}&packs={mark:x}"
+    return f"/patterns/{document.token}.png?base={document.sketch.base}&dye={dye}&packs={mark:x}"

@@ -1,4 +1,4 @@
-"""The page's own elements in the browser; each is a file of script beside this one."""
+"""The page's own elements in the browser; each has a JavaScript file beside this one."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ from nicegui.element import Element
 from nicegui.events import GenericEventArguments
 
 
-class _Shown(Element):
+class _VueElement(Element):
     def show(self, **props: Any) -> None:
         """Give the element other properties; nothing is sent where none has changed."""
         changed = {key: value for key, value in props.items() if self.props.get(key) != value}
@@ -15,15 +15,15 @@ class _Shown(Element):
             self.update()
 
 
-class Palette(_Shown, component="palette.js"):
+class Palette(_VueElement, component="palette.js"):
     """Dyes of which one is marked; emits `dye` with a name."""
 
 
-class PatternGrid(_Shown, component="patterns.js"):
+class PatternGrid(_VueElement, component="patterns.js"):
     """All patterns in the chosen dyes; emits `pattern` with a name, and `swaps`."""
 
 
-class LayerList(_Shown, component="layers.js"):
+class LayerList(_VueElement, component="layers.js"):
     """The layers, topmost first; emits `choose` with a number, and `act` with what to do."""
 
 

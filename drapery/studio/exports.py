@@ -1,4 +1,4 @@
-"""What is ordered becomes a file, by the code that the commands use; in a thread that can stop."""
+"""Exports: files made by the code that the commands use, each in a thread that can be stopped."""
 
 import logging
 import os
@@ -12,12 +12,14 @@ from typing import TypeVar
 
 from drapery.banner.design import Banner
 from drapery.errors import DraperyError, OptionError
-from drapery.studio.session import Session
+from drapery.studio.document import Document
 from drapery.studio.snippets import KINDS, LOOPS, Order, file_name, options_for
 
 MAX_PIXELS = 1 << 31
 """Of all frames together: 512 x 512 for six minutes at 20 frames/s."""
 MAX_SCALE = 256
+MAX_RUNNING = 4
+"""Exports of all tabs at once."""
 
 LOG = logging.getLogger(__name__)
 
@@ -38,11 +40,11 @@ def make(order: Order, path: Path, progress: Progress | None = None) -> None:
     BackendError or OutputError.
     """
     check(order)
-    tell = progress or (lambda done, total: None)
+    on_progress = progress or (lambda done, total: None)
     if order.kind in LOOPS:
-        _loop(order, path, tell)
+        _loop(order, path, on_progress)
         return
-    _ONCE[order.kind](order, path, tell)
+    _ONCE[order.kind](order, path, on_progress)
 
 
 def count_frames(order: Order) -> int:
@@ -69,57 +71,57 @@ def check(order: Order) -> None:
         )
 
 
-def _still(order: Order, path: Path, tell: Progress) -> None:
+def _still(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery.pictures import draw
 
-    tell(0, 1)
+    on_progress(0, 1)
     frame = draw(order.banner, options_for(order))
-    tell(1, 1)
+    on_progress(1, 1)
     frame.save(path)
 
 
-def _face(order: Order, path: Path, tell: Progress) -> None:
+def _face(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery.pictures import draw_face
 
-    tell(0, 1)
+    on_progress(0, 1)
     settings = options_for(order)
     banner = _banner(order)
     face = draw_face(banner, packs=settings.packs, format=settings.format, scale=order.scale)
-    tell(1, 1)
+    on_progress(1, 1)
     face.save(path)
 
 
-def _loop(order: Order, path: Path, tell: Progress) -> None:
+def _loop(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery.pictures import iter_frames
     from drapery.render.encode import check_animation_target, save_animation
 
     total = count_frames(order)
-    tell(0, total)
+    on_progress(0, total)
     check_animation_target(path)
     drawn = iter_frames(order.banner, options_for(order), seconds=order.seconds, fps=order.fps)
-    save_animation(_told(drawn, total, tell), order.fps, path, total=total)
+    save_animation(_counted(drawn, total, on_progress), order.fps, path, total=total)
 
 
-def _model(order: Order, path: Path, tell: Progress) -> None:
+def _model(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery.banner.packs import open_packs
     from drapery.render.export import check_model_target, save_model
     from drapery.scenes.stager import loop
 
     total, settings = count_frames(order), options_for(order)
-    tell(0, total)
+    on_progress(0, total)
     check_model_target(path)
     packs = open_packs(settings.packs, format=settings.format)
     scenes = loop(order.banner, packs, settings, total, order.fps)
-    save_model(_told(scenes, total, tell), path, fps=order.fps)
+    save_model(_counted(scenes, total, on_progress), path, fps=order.fps)
 
 
-def _design(order: Order, path: Path, tell: Progress) -> None:
+def _design(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery.banner.formats import write_banner
     from drapery.render.encode.output import replacing
 
     with replacing(path) as unfinished:
         unfinished.write_bytes(write_banner(_banner(order)).encode() + b"\n")
-    tell(1, 1)
+    on_progress(1, 1)
 
 
 _ONCE: dict[str, Callable[[Order, Path, Progress], None]] = {
@@ -136,10 +138,10 @@ def _banner(order: Order) -> Banner:
     return order.banner
 
 
-def _told(items: Iterable[Item], total: int, tell: Progress) -> Iterator[Item]:
+def _counted(items: Iterable[Item], total: int, on_progress: Progress) -> Iterator[Item]:
     for number, item in enumerate(items, 1):
         yield item
-        tell(number, total)
+        on_progress(number, total)
 
 
 @dataclass(eq=False)
@@ -174,15 +176,15 @@ class Export:
             self._thread.join(seconds)
         return self.state != "running"
 
-    def _tell(self, done: int, total: int) -> None:
+    def _progress(self, done: int, total: int) -> None:
         self.done, self.total = done, total
         if self._stop.is_set():
             raise StoppedError("the export was stopped")
 
     def _run(self) -> None:
-        _step_back()
+        _lower_priority()
         try:
-            make(self.order, self.path, self._tell)
+            make(self.order, self.path, self._progress)
         except StoppedError:
             self.state = "stopped"
         except DraperyError as error:
@@ -200,16 +202,36 @@ class Export:
             self.path.unlink(missing_ok=True)
 
 
+class ExportSlots:
+    """The exports that run at once, of all tabs. limit: how many may."""
+
+    def __init__(self, limit: int = MAX_RUNNING) -> None:
+        self._limit = limit
+        self._lock = threading.Lock()
+        self._running: list[Export] = []
+
+    def take(self, export: Export, instead_of: Export | None) -> None:
+        """Let an export run, in the place of another. Raises OptionError if no slot is free."""
+        with self._lock:
+            self._running = [each for each in self._running if each.state == "running"]
+            others = [each for each in self._running if each is not instead_of]
+            if len(others) >= self._limit:
+                raise OptionError(f"{self._limit} exports are under way; wait for one to end")
+            self._running.append(export)
+
+
 class Exports:
-    """The exports of one session: one at a time, and the last one's file.
+    """The exports of one tab: one at a time, and the last one's file.
 
     current: the one that was started last.
     """
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(self, document: Document, slots: ExportSlots) -> None:
+        self._document = document
+        self._slots = slots
         self.current: Export | None = None
         self._number = 0
+        document.on_close(self.clear)
 
     @property
     def number(self) -> int:
@@ -222,19 +244,15 @@ class Exports:
         Raises OptionError for an order out of bounds, or while too many are under way.
         """
         check(order)
-        with _COUNTING:
-            _RUNNING[:] = [export for export in _RUNNING if export.state == "running"]
-            busy = [export for export in _RUNNING if export is not self.current]
-            if len(busy) >= MAX_RUNNING:
-                raise OptionError(f"{MAX_RUNNING} exports are under way; wait for one to end")
-            self.clear()
-            self._number += 1
-            # A name of ours; only the ending comes from the order.
-            path = self._session.folder / f"export-{self._number}{Path(file_name(order)).suffix}"
-            self.current = Export(order, path, file_name(order, stem))
-            _RUNNING.append(self.current)
-        self.current.start()
-        return self.current
+        # Only the ending of the file's name comes from the order.
+        suffix = Path(file_name(order)).suffix
+        path = self._document.folder / f"export-{self._number + 1}{suffix}"
+        export = Export(order, path, file_name(order, stem))
+        self._slots.take(export, self.current)
+        self.clear()
+        self.current, self._number = export, self._number + 1
+        export.start()
+        return export
 
     def finished(self, number: int) -> Export | None:
         """The export of this number, if its file is there."""
@@ -250,29 +268,14 @@ class Exports:
             self.current = None
 
 
-def _step_back() -> None:
-    """Let the live cloth go first. On Linux a thread has its own niceness, and its threads too."""
+def _lower_priority() -> None:
+    """Let the live cloth go first. On Linux a thread has a niceness of its own."""
     if sys.platform == "linux":
         with suppress(OSError):
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 5)
 
 
-MAX_RUNNING = 4
-_RUNNING: list[Export] = []
-_COUNTING = threading.Lock()
-_EXPORTS: dict[str, Exports] = {}
-
-
-def exports_of(session: Session) -> Exports:
-    """The exports of a session; they end with it."""
-    if session.token not in _EXPORTS:
-        own = _EXPORTS[session.token] = Exports(session)
-        session.on_close(own.clear)
-        session.on_close(lambda: _EXPORTS.pop(session.token, None))
-    return _EXPORTS[session.token]
-
-
 def stem_of(title: str) -> str:
     """A file's name for a title: letters, digits and dashes."""
-    kept = "".join(letter if letter.isalnum() else " " for letter in title.lower())
-    return "-".join(kept.split())[:60] or "banner"
+    plain = "".join(letter if letter.isalnum() else " " for letter in title.lower())
+    return "-".join(plain.split())[:60] or "banner"

@@ -1,4 +1,4 @@
-"""What has been done and can be undone."""
+"""The steps that can be undone and repeated."""
 
 from dataclasses import dataclass
 from typing import Generic, TypeVar

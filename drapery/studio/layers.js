@@ -1,5 +1,5 @@
 // The layers, topmost first. Drag a row by mouse or finger, or move it by Alt and an arrow key.
-const START = 4; // How far the pointer goes before it drags [px].
+const DRAG_START = 4; // The pointer moves so far before a drag starts [px].
 
 export default {
   template: `
@@ -37,7 +37,7 @@ export default {
             <span class="row-dye"><i class="dot" :style="{ backgroundColor: field.colour }"></i>{{ field.dyeTitle }}</span></span>
         </button>
       </li>
-      <li v-if="!rows.length" class="hint">Choose the field's dye, then click a pattern to lay it on.</li>
+      <li v-if="!rows.length" class="hint">Choose the field's dye, then click a pattern to add it.</li>
     </ol>`,
   props: { rows: Array, field: Object, chosen: [Number, String], count: Number },
   emits: ["choose", "act"],
@@ -72,7 +72,7 @@ export default {
       };
     },
     pick(row) {
-      // The click that ends a drag is none.
+      // The click that ends a drag chooses nothing.
       if (!this.justDragged) this.$emit("choose", row.number);
     },
     act(what, row, place = 0) {
@@ -85,7 +85,7 @@ export default {
     index(row) {
       return [...this.$el.children].indexOf(row);
     },
-    // A row that moves in the page loses the focus, and one that is removed takes it along.
+    // A row that moves in the page loses the focus, and so does one that is removed.
     refocus() {
       if (!this.focused || document.activeElement !== document.body) return;
       const rows = [...this.$el.children];
@@ -117,7 +117,7 @@ export default {
       const from = event.clientY;
       this.justDragged = false;
       const go = (move) => {
-        if (this.dragged === null && Math.abs(move.clientY - from) < START) return;
+        if (this.dragged === null && Math.abs(move.clientY - from) < DRAG_START) return;
         move.preventDefault();
         this.dragged = row.number;
         this.justDragged = true;
@@ -125,17 +125,17 @@ export default {
       };
       const stop = (end) => this.drop(end.type === "pointerup");
       const escape = (press) => press.key === "Escape" && this.drop(false);
-      const ears = [["pointermove", go], ["pointerup", stop], ["pointercancel", stop], ["keydown", escape]];
-      for (const [name, call] of ears) window.addEventListener(name, call);
+      const listeners = [["pointermove", go], ["pointerup", stop], ["pointercancel", stop], ["keydown", escape]];
+      for (const [name, call] of listeners) window.addEventListener(name, call);
       this.drop = (done) => {
-        for (const [name, call] of ears) window.removeEventListener(name, call);
+        for (const [name, call] of listeners) window.removeEventListener(name, call);
         const place = this.order ? this.order.length - 1 - this.order.indexOf(row.number) : row.place;
         const moved = done && this.dragged !== null && place !== row.place;
         this.dragged = null;
         if (moved) this.act("move", row, place);
         else this.order = null;
         this.drop = null;
-        // After the click that the browser makes of this.
+        // After the click event that the browser sends for the drag.
         setTimeout(() => (this.justDragged = false));
       };
     },

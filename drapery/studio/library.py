@@ -1,8 +1,8 @@
-"""Designs that are kept: a file of SQLite, through SQLAlchemy.
+"""Saved designs: a file of SQLite, through SQLAlchemy.
 
 Every change is one transaction that takes the file's lock at its start, so that several studios
-may share a file. The file says that it is ours by its application id, and its version by its user
-version (SQLite, "Pragma statements").
+may share a file. The file's application id identifies it as a library, and its user version gives
+the version (SQLite, "Pragma statements").
 """
 
 import json
@@ -11,11 +11,10 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import ForeignKey, String, create_engine, event, func, select, text
+from sqlalchemy import URL, ForeignKey, String, create_engine, event, func, select, text
 from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column, relationship
 from sqlalchemy.pool import NullPool
@@ -34,13 +33,13 @@ from drapery.studio.records import (
 )
 from drapery.studio.share import checked_title, of_tree
 
-OURS = 0x44726170
-"""The application id: "Drap"."""
+APPLICATION_ID = 0x44726170
+""""Drap" in ASCII."""
 VERSION = 1
 FILE = "library.sqlite"
 
-PATIENCE = 10.0
-"""How long another studio's change is waited for [s]."""
+LOCK_TIMEOUT = 10.0
+"""How long to wait for another studio's change [s]."""
 
 
 class _Base(DeclarativeBase):
@@ -68,37 +67,39 @@ class _Tag(_Base):
 
 
 class Library:
-    """The designs in one file. Several hands may hold it, in this process and in others."""
+    """The designs in one file. Several threads and processes may have it open."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, lock_timeout: float = LOCK_TIMEOUT) -> None:
         """Open the file, or make it and its folder.
 
-        Raises OutputError for a file that is no library, of a newer version, damaged, locked or
-        where nothing may be written.
+        lock_timeout: how long to wait for another writer [s]. Raises OutputError for a file that
+        is not a library, has a newer version, is damaged, locked or cannot be written.
         """
         self.path = path
         make_folder(path.parent)
         self._engine = create_engine(
-            "sqlite://",
-            creator=partial(_connect, path),
+            URL.create("sqlite", database=str(path)),
+            # No transaction but those that are asked for.
+            connect_args={"timeout": lock_timeout, "isolation_level": None},
             poolclass=NullPool,  # threads come and go, and a connection belongs to one
         )
-        event.listen(self._engine, "begin", lambda hand: hand.exec_driver_sql("BEGIN IMMEDIATE"))
+        event.listen(self._engine, "connect", _set_pragmas)
+        event.listen(self._engine, "begin", lambda conn: conn.exec_driver_sql("BEGIN IMMEDIATE"))
         with self._change() as session:
             _prepare(session, path)
 
     def add(self, design: Design) -> int:
-        """Keep a design; its number. Raises DesignError or OutputError."""
-        kept = checked(design)
+        """Save a design; returns its number. Raises DesignError or OutputError."""
+        valid = checked(design)
         with self._change() as session:
             _check_room(session, 1)
-            return _insert(session, kept)
+            return _insert(session, valid)
 
     def change(self, design: Design) -> None:
-        """Keep a design in the place of that of its number. Raises DesignError, OutputError."""
-        kept = checked(design)
+        """Replace the design of its number. Raises DesignError, OutputError."""
+        valid = checked(design)
         with self._change() as session:
-            _fill(_found(session, design.number), kept, _next(session))
+            _fill(_found(session, design.number), valid, _next(session))
 
     def get(self, number: int) -> Design:
         """The design of a number. Raises DesignError, OutputError."""
@@ -123,18 +124,19 @@ class Library:
             return design
 
     def search(
-        self, words: str = "", tag: str | None = None, *, first: int = 0, most: int = 60
+        self, words: str = "", tag: str | None = None, *, first: int = 0, limit: int = 60
     ) -> tuple[list[Design], int]:
-        """Designs that have all the words in title, tags, dyes or patterns, and how many there are.
+        """The designs with all the words in title, tags, dyes or patterns, and their total number.
 
-        The latest change comes first. Raises OutputError.
+        first, limit: the part of the list that is returned; the latest change comes first. Raises
+        OutputError.
         """
         wanted = select(_Row)
         for word in words.lower().split()[:16]:
             wanted = wanted.where(_Row.words.contains(word[:80], autoescape=True))
         if tag is not None:
             wanted = wanted.where(_Row.tags.any(_Tag.name == tag))
-        page = wanted.order_by(_Row.changed.desc()).offset(first).limit(most)
+        page = wanted.order_by(_Row.changed.desc()).offset(first).limit(limit)
         with self._change() as session:
             count = session.scalar(select(func.count()).select_from(wanted.subquery()))
             return [*_readable(session.scalars(page))], count or 0
@@ -152,15 +154,15 @@ class Library:
             return write_designs(_design(row) for row in rows)
 
     def load(self, data: bytes) -> tuple[int, int]:
-        """Add all designs of another library's JSON: how many are new, how many were there.
+        """Add all designs of an export file; returns how many are new and how many were there.
 
-        Raises DesignError, with the place, where one of them is broken: then none is added.
+        Raises DesignError, with the place, if one of them is broken; then none is added.
         """
         designs = read_designs(data)
         with self._change() as session:
             known = {(row.tree, _names(row)) for row in session.scalars(select(_Row))}
             fresh = [design for design in designs if identity(design) not in known]
-            # The same twice in one file is once as well.
+            # The same design twice in one file counts once.
             unique = list({identity(design): design for design in fresh}.values())
             _check_room(session, len(unique))
             for design in unique:
@@ -169,7 +171,7 @@ class Library:
 
     @contextmanager
     def _change(self) -> Iterator[Session]:
-        """One transaction, done whole or not at all."""
+        """One transaction."""
         try:
             with Session(self._engine) as session, session.begin():
                 yield session
@@ -180,7 +182,7 @@ class Library:
 
 
 def default_place(environment: dict[str, str] | None = None) -> Path:
-    """Where a person's library lies: where the system keeps programs' data.
+    """The user's own library, in the system's folder for data of programs.
 
     On Linux that is XDG_DATA_HOME (XDG Base Directory Specification 0.8), if it is absolute.
     """
@@ -196,45 +198,42 @@ def default_place(environment: dict[str, str] | None = None) -> Path:
     return folder / "drapery" / FILE
 
 
-def _connect(path: Path) -> Any:
-    import sqlite3
-
-    # No transaction but those that are asked for.
-    hand = sqlite3.connect(path, timeout=PATIENCE, isolation_level=None)
-    hand.execute("PRAGMA foreign_keys = ON")
+def _set_pragmas(connection: Any, _record: object) -> None:
+    connection.execute("PRAGMA foreign_keys = ON")
     # Views and triggers of a file from elsewhere must call nothing.
-    hand.execute("PRAGMA trusted_schema = OFF")
-    return hand
+    connection.execute("PRAGMA trusted_schema = OFF")
 
 
 def _prepare(session: Session, path: Path) -> None:
-    """Make the tables in a new file; refuse a file that is not ours."""
-    ours = session.scalar(text("PRAGMA application_id"))
+    """Make the tables in a new file. Raises OutputError for a file that is not a library."""
+    found = session.scalar(text("PRAGMA application_id"))
     version = session.scalar(text("PRAGMA user_version")) or 0
     tables = session.scalar(text("SELECT count(*) FROM sqlite_master"))
-    if ours == OURS and version > VERSION:
+    if found == APPLICATION_ID and version > VERSION:
         raise OutputError(
-            f"library {path} is of version {version}, and {VERSION} is read;"
-            " bring Drapery up to date, or name another with --library"
+            f"library {path} has version {version}, and this Drapery reads {VERSION};"
+            " update Drapery, or name another file with --library"
         )
-    if ours == OURS:
+    if found == APPLICATION_ID:
         return
-    if tables or ours:
-        raise OutputError(f"library {path} is another program's file; name another with --library")
+    if tables or found:
+        raise OutputError(
+            f"library {path} is another program's file; name another file with --library"
+        )
     _Base.metadata.create_all(session.connection())
-    session.execute(text(f"PRAGMA application_id = {OURS}"))
+    session.execute(text(f"PRAGMA application_id = {APPLICATION_ID}"))
     session.execute(text(f"PRAGMA user_version = {VERSION}"))
 
 
 def _reason(error: DBAPIError) -> str:
     reason = str(error.orig)
     if "locked" in reason:
-        return "another program holds it; close that one, or name another with --library"
+        return "another program uses it; close that program, or name another file with --library"
     if "unable to open" in reason or "readonly" in reason:
-        return "it may not be written; mend that, or name another with --library"
+        return "it cannot be written; change its permissions, or name another file with --library"
     if "not a database" in reason or "malformed" in reason:
-        return "it is damaged or no library; put it aside, or name another with --library"
-    return f"{reason}; mend that, or name another with --library"
+        return "it is damaged or not a library; move it away, or name another file with --library"
+    return f"{reason}; name another file with --library"
 
 
 def _insert(session: Session, design: Design) -> int:
@@ -268,7 +267,7 @@ def _found(session: Session, number: int) -> _Row:
 
 
 def _readable(rows: Iterable[_Row]) -> Iterator[Design]:
-    """The designs of rows; one that was spoilt from outside must not hide the others."""
+    """The designs of rows; one that was damaged from outside must not hide the others."""
     for row in rows:
         with suppress(DesignError):
             yield _design(row)
@@ -276,10 +275,10 @@ def _readable(rows: Iterable[_Row]) -> Iterator[Design]:
 
 def _design(row: _Row) -> Design:
     try:
-        sketch, look = of_tree(json.loads(row.tree))
+        sketch, settings = of_tree(json.loads(row.tree))
     except (ValueError, RecursionError, DesignError):
         raise DesignError(f"design {row.number} of the library is damaged; delete it") from None
-    return Design(sketch, look, _names(row), row.thumbnail, row.number, row.changed)
+    return Design(sketch, settings, _names(row), row.thumbnail, row.number, row.changed)
 
 
 def _names(row: _Row) -> tuple[str, ...]:

@@ -1,11 +1,10 @@
-"""What the live cloth tells the page: a message of what stays, and one for each moment.
+"""Messages of the live cloth to the page: one for what stays, and one for each moment.
 
-A message is a header of JSON and arrays of numbers behind it, little-endian: its first four bytes
-are the header's length, which fills up to a multiple of four with blanks, as each array does with
-zeros. The header's `arrays` names each array, its type, its length and where it begins, counted
-from the end of the header.
+A message is a header of JSON with arrays of numbers behind it, little-endian. Its first four bytes
+are the header's length. Blanks fill the header up to a multiple of four, and zeros each array. The
+header's `arrays` gives each array's name, type, length and start, counted from the header's end.
 
-`scene`: panes, triangles, what they wear; everything that stays from one moment to the next.
+`scene`: panes, triangles, materials; everything that stays from one moment to the next.
 `moment`: positions and light of the vertices that have moved, and cameras that have changed.
 """
 
@@ -58,8 +57,8 @@ def unpack(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
 
 
 @dataclass
-class Told:
-    """What a viewer has been told, so that each moment says only what is new.
+class MessageEncoder:
+    """Encodes what one viewer does not know yet, so that each moment holds only what is new.
 
     which: all panes, or only the first or last. shape: width and height of the viewer.
     """
@@ -76,7 +75,7 @@ class Told:
     _recent: IdentityCache[Topology] = field(default_factory=lambda: IdentityCache(2))
 
     def forget(self) -> None:
-        """Tell everything again."""
+        """Send everything again."""
         self._topology = None
 
     def reframe(self, shape: tuple[int, int]) -> None:
@@ -85,12 +84,12 @@ class Told:
             self.shape, self._cut = shape, None
 
     def messages(self, shown: Shown) -> list[bytes]:
-        """What to tell of this moment: the scene too, where another is seen than before.
+        """The messages for this moment: the scene too, if it is another than before.
 
         Raises OptionError for what cannot be drawn.
         """
         shown = _arranged(shown, self.which, self.shape)
-        panes = [_Drawn(pane) for pane in shown.panes]
+        panes = [_DrawnPane(pane) for pane in shown.panes]
         constant = self._constant([model for pane in panes for model in pane.models])
         found = []
         if not self._knows(constant, shown, [len(pane.models) for pane in panes]):
@@ -100,7 +99,7 @@ class Told:
         return [*found, self._moment(constant, shown, panes)]
 
     def _constant(self, models: list[Model]) -> Topology:
-        """What stays of the models; the renderer's own memory is shared by all tabs."""
+        """What stays of the models, remembered here: the renderer's own cache serves all tabs."""
         arrays = tuple(
             part
             for model in models
@@ -118,23 +117,23 @@ class Told:
         labels = [(pane.label, pane.flat, pane.scene.background) for pane in shown.panes]
         samples = max(pane.scene.samples for pane in shown.panes)
         layout = (counts, labels, shown.columns, shown.grip, samples)
-        known = self._layout == layout and _same(self._topology, topology)
+        known = self._layout == layout and _equal(self._topology, topology)
         self._layout = layout
         if not known or self._topology is None:
             self._topology = topology
         return known
 
-    def _scene(self, topology: Topology, shown: Shown, panes: list["_Drawn"]) -> bytes:
+    def _scene(self, topology: Topology, shown: Shown, panes: list["_DrawnPane"]) -> bytes:
         starts, materials = topology.vertex_start, np.zeros(len(topology.uvs), np.int32)
         materials[topology.triangles] = topology.triangle_material[:, None]
-        worn = flattened(topology.material_tables)
-        kinds = np.stack([worn.material_alpha, worn.material_lit], axis=1)
+        tables = flattened(topology.material_tables)
+        kinds = np.stack([tables.material_alpha, tables.material_lit], axis=1)
         header = {
             "kind": "scene",
             "version": self._version,
             "columns": shown.columns,
             "vertices": len(topology.uvs),
-            "atlas": worn.atlas.shape[1::-1],
+            "atlas": tables.atlas.shape[1::-1],
             "samples": max(pane.scene.samples for pane in shown.panes),
             "panes": _pane_headers(topology, panes),
             "grip": [_run(starts, first + g) for first in _firsts(panes) for g in shown.grip],
@@ -142,15 +141,17 @@ class Told:
         arrays: dict[str, NDArray[Any]] = {
             "uvs": topology.uvs,
             "triangles": topology.triangles.astype(np.uint32),
-            "triangleLooks": topology.triangle_material,
-            "vertexLooks": materials,
-            "looks": np.concatenate([worn.material_layers, kinds], axis=1, dtype=np.int32),
-            "layers": np.concatenate([worn.layer_rects, worn.layer_tints], axis=1, dtype=np.int32),
-            "atlas": worn.atlas,
+            "triangleMaterials": topology.triangle_material,
+            "vertexMaterials": materials,
+            "materials": np.concatenate([tables.material_layers, kinds], axis=1, dtype=np.int32),
+            "layers": np.concatenate(
+                [tables.layer_rects, tables.layer_tints], axis=1, dtype=np.int32
+            ),
+            "atlas": tables.atlas,
         }
         return pack(header, arrays)
 
-    def _moment(self, constant: Topology, shown: Shown, panes: list["_Drawn"]) -> bytes:
+    def _moment(self, constant: Topology, shown: Shown, panes: list["_DrawnPane"]) -> bytes:
         models = [(model, pane.pane.scene.light) for pane in panes for model in pane.models]
         states = [(model.mesh.positions, model.mesh.normals, light) for model, light in models]
         new = [number for number, state in enumerate(states) if not self._is_known(number, state)]
@@ -183,7 +184,7 @@ class Told:
         return pack(header, arrays)
 
     def _lit(self, constant: Topology) -> NDArray[np.bool_]:
-        """On which vertices light falls, shape [V]."""
+        """Which vertices are lit, shape [V]."""
         if self._lit_of is None or self._lit_of[0] is not constant:
             shines = np.zeros(len(constant.uvs), np.bool_)
             shines[
@@ -201,7 +202,7 @@ class Told:
         return old[0] is state[0] and old[1] is state[1] and old[2] == state[2]
 
     def _views(self, shown: Shown) -> dict[str, Any] | None:
-        """The cameras, where they are others than before; `cut` where the viewer looks anew."""
+        """The cameras if they have changed; `cut`: the viewer's own view starts again."""
         cut = self._cut is None or self._cut != (shown.cut,)
         self._cut = (shown.cut,)
         # A live body is framed once for each cut, a scene may carry its camera about.
@@ -217,27 +218,27 @@ class Told:
 
 
 def _arranged(shown: Shown, which: str, shape: tuple[int, int]) -> Shown:
-    """The panes that a viewer shows; a row of scenes stands upright where the viewer does."""
+    """The panes that a viewer shows; a row of scenes becomes a column in an upright viewer."""
     count = len(shown.panes)
     if which != "all" and count > 1:
         return replace(
             shown, panes=shown.panes[:1] if which == "left" else shown.panes[-1:], columns=1
         )
-    # Banners are tall: of these two stand well beside each other in any viewer.
+    # Banners are tall: two of them fit side by side in any viewer.
     if count > 1 and shown.columns == count and not shown.live and shape[0] < shape[1]:
         return replace(shown, columns=1)
     return shown
 
 
-class _Drawn:
-    """A pane and its models as they are drawn, normal maps worked into their textures."""
+class _DrawnPane:
+    """A pane and its models as they are drawn: normal maps are applied to their textures."""
 
     def __init__(self, pane: Pane) -> None:
         self.pane = pane
         self.models: tuple[Model, ...] = relieved(pane.scene).models
 
 
-def _pane_headers(topology: Topology, panes: list[_Drawn]) -> list[dict[str, Any]]:
+def _pane_headers(topology: Topology, panes: list[_DrawnPane]) -> list[dict[str, Any]]:
     """Each pane's label, background and run of triangles."""
     firsts = [*_firsts(panes), sum(len(pane.models) for pane in panes)]
     owner = np.searchsorted(topology.vertex_start, topology.triangles[:, 0], "right") - 1
@@ -253,7 +254,7 @@ def _pane_headers(topology: Topology, panes: list[_Drawn]) -> list[dict[str, Any
     ]
 
 
-def _firsts(panes: list[_Drawn]) -> list[int]:
+def _firsts(panes: list[_DrawnPane]) -> list[int]:
     """The number of each pane's first model."""
     counts = [len(pane.models) for pane in panes]
     return [sum(counts[:number]) for number in range(len(counts))]
@@ -267,8 +268,8 @@ def _run(starts: NDArray[np.int64], model: int) -> Run:
     return int(starts[model]), int(starts[model + 1] - starts[model])
 
 
-def _same(a: Topology | None, b: Topology) -> bool:
-    """Whether two draw lists look alike but for where their vertices are."""
+def _equal(a: Topology | None, b: Topology) -> bool:
+    """Whether two draw lists are equal except for the positions of their vertices."""
     if a is None or a is b:
         return a is b
     pairs: list[tuple[NDArray[Any], NDArray[Any]]] = [
@@ -277,9 +278,11 @@ def _same(a: Topology | None, b: Topology) -> bool:
         (a.uvs, b.uvs),
         (a.vertex_start, b.vertex_start),
     ]
-    worn = (
+    names = (
         *("material_layers", "material_alpha", "material_lit"),
         *("layer_rects", "layer_tints", "atlas"),
     )
-    pairs += [(getattr(a.material_tables, name), getattr(b.material_tables, name)) for name in worn]
+    pairs += [
+        (getattr(a.material_tables, name), getattr(b.material_tables, name)) for name in names
+    ]
     return all(x is y or np.array_equal(x, y) for x, y in pairs)

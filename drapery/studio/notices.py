@@ -1,6 +1,5 @@
-"""What the page tells its user: faults of input, warnings, and that something is done."""
+"""Notices on the page for its user: errors of input, warnings, and that something is done."""
 
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Literal
@@ -23,8 +22,8 @@ _CLOSE: dict[Tone, list[dict[str, str | bool]]] = {
 }
 
 
-def tell(line: str, tone: Tone = "done") -> None:
-    """One line to the user, where a screen reader reads it too."""
+def show_notice(line: str, tone: Tone = "done") -> None:
+    """Show one line to the user; a screen reader reads it too."""
     ui.notify(
         line,
         type=_TYPES[tone],
@@ -37,13 +36,9 @@ def tell(line: str, tone: Tone = "done") -> None:
 
 
 @contextmanager
-def faults() -> Iterator[None]:
-    """Tell the user of a fault inside, and of what was warned of; the page goes on."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", UserWarning)
-        try:
-            yield
-        except DraperyError as error:
-            tell(str(error), "fault")
-    for line in dict.fromkeys(str(each.message) for each in caught[:5]):
-        tell(line, "warning")
+def errors_shown() -> Iterator[None]:
+    """Show the user a DraperyError of the block; the page goes on."""
+    try:
+        yield
+    except DraperyError as error:
+        show_notice(str(error), "fault")

@@ -1,4 +1,4 @@
-"""The packs of a tab: which there are, in which order, and which of them count."""
+"""The packs of a tab: which there are, in which order, and which of them are on."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -6,17 +6,17 @@ from pathlib import Path
 
 from drapery.banner.packs import open_packs
 from drapery.errors import DesignError, DraperyError, PackError
-from drapery.studio.session import Session
-from drapery.studio.uploads import uploads_of
+from drapery.studio.document import Document
+from drapery.studio.uploads import Uploads
 
 
 @dataclass(frozen=True)
-class Entry:
+class PackEntry:
     """One pack.
 
-    name: what the user calls it: the path that was given, or the name of the file that was sent.
-    upload: the number of the file that was sent, 0 where the studio was started with the pack.
-    on: whether it counts. summary: what it holds, in a few words.
+    name: the user's name for it: the path that was given, or the name of the uploaded file.
+    upload: the number of the uploaded file, 0 if the studio was started with the pack.
+    on: whether it is used. summary: what it holds, in a few words.
     """
 
     number: int
@@ -33,52 +33,53 @@ class Entry:
 
 
 class PackStore:
-    """The packs of one session, the lowest first; later ones win. It keeps `settings.packs`."""
+    """The packs of one tab, the lowest first; later ones win. It sets `settings.packs`."""
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(self, document: Document, uploads: Uploads) -> None:
+        self._document = document
+        self._uploads = uploads
         self._last = 0
-        self.entries: tuple[Entry, ...] = ()
-        for pack in session.settings.pack_paths:
-            entry = Entry(self._next(), str(pack), Path(pack))
+        self.entries: tuple[PackEntry, ...] = ()
+        for pack in document.settings.pack_paths:
+            entry = PackEntry(self._next(), str(pack), Path(pack))
             self.entries += (replace(entry, summary=_summary(entry)),)
 
     @property
-    def called(self) -> dict[str, str]:
-        """What packs are called, by their path."""
+    def names(self) -> dict[str, str]:
+        """The user's names of the packs, by their path."""
         return {str(entry.path): entry.name for entry in self.entries}
 
-    def in_plain_words(self, line: str) -> str:
-        """A line with the names that people know in place of paths of ours."""
+    def with_names(self, line: str) -> str:
+        """A line in which the user's names replace the paths of uploaded files."""
         for entry in self.entries:
             if entry.upload:
                 line = line.replace(str(entry.path), entry.name)
         return line
 
     def check(self, number: int) -> str:
-        """Read all of a file that was sent that a banner may need; what it holds, in words.
+        """Read everything in an uploaded file that a banner may need; says what it holds.
 
-        Raises PackError in the words that the commands use, by the name the user knows.
+        Raises PackError with the same line as the commands, under the user's name of the file.
         """
-        upload = uploads_of(self._session).get(number, "pack")
+        upload = self._uploads.get(number, "pack")
         try:
-            return _contents(upload.path, self._session.settings.format)
+            return _contents(upload.path, self._document.settings.format)
         except DraperyError as error:
             raise PackError(str(error).replace(str(upload.path), upload.name)) from None
 
-    def adopt(self, number: int, summary: str = "") -> Entry:
-        """Lay a file that was sent on top of the others. Raises DesignError or PackError."""
-        upload = uploads_of(self._session).get(number, "pack")
-        entry = Entry(self._next(), upload.name, upload.path, number, summary=summary)
-        self._keep((*self.entries, entry))
+    def adopt(self, number: int, summary: str = "") -> PackEntry:
+        """Put an uploaded file on top of the others. Raises DesignError or PackError."""
+        upload = self._uploads.get(number, "pack")
+        entry = PackEntry(self._next(), upload.name, upload.path, number, summary=summary)
+        self._replace((*self.entries, entry))
         return entry
 
     def refuse(self, number: int) -> None:
-        """Forget a file that was sent and is no pack."""
-        uploads_of(self._session).remove(number)
+        """Remove an uploaded file that is not a pack."""
+        self._uploads.remove(number)
 
     def switch(self, number: int) -> None:
-        """Let a pack count, or no longer. Raises PackError, DesignError."""
+        """Switch a pack on or off. Raises PackError, DesignError."""
         self._change(number, lambda entry: replace(entry, on=not entry.on))
 
     def move(self, number: int, by: int) -> None:
@@ -87,30 +88,30 @@ class PackStore:
         rest = [*self.entries]
         entry = rest.pop(place)
         rest.insert(max(0, min(len(rest), place + by)), entry)
-        self._keep(tuple(rest))
+        self._replace(tuple(rest))
 
     def remove(self, number: int) -> None:
-        """Take a pack away; a file that was sent goes. Raises PackError, DesignError."""
+        """Remove a pack, and its uploaded file. Raises PackError, DesignError."""
         gone = self.entries[self._place(number)]
-        self._keep(tuple(entry for entry in self.entries if entry is not gone))
+        self._replace(tuple(entry for entry in self.entries if entry is not gone))
         if gone.upload:
-            uploads_of(self._session).remove(gone.upload)
+            self._uploads.remove(gone.upload)
 
     def path_of(self, number: int) -> Path:
-        """Where a pack lies. Raises DesignError."""
+        """The path of a pack. Raises DesignError."""
         return self.entries[self._place(number)].path
 
-    def _change(self, number: int, change: Callable[[Entry], Entry]) -> None:
+    def _change(self, number: int, change: Callable[[PackEntry], PackEntry]) -> None:
         place = self._place(number)
         changed = change(self.entries[place])
-        self._keep((*self.entries[:place], changed, *self.entries[place + 1 :]))
+        self._replace((*self.entries[:place], changed, *self.entries[place + 1 :]))
 
-    def _keep(self, entries: tuple[Entry, ...]) -> None:
+    def _replace(self, entries: tuple[PackEntry, ...]) -> None:
         before, self.entries = self.entries, entries
         try:
-            self._session.adjust(packs=tuple(entry.path for entry in entries if entry.on))
+            self._document.adjust(packs=tuple(entry.path for entry in entries if entry.on))
         except DraperyError as error:
-            line = self.in_plain_words(str(error))
+            line = self.with_names(str(error))
             self.entries = before
             raise PackError(line) from None
 
@@ -125,18 +126,7 @@ class PackStore:
         return self._last
 
 
-_SHELVES: dict[str, PackStore] = {}
-
-
-def shelf_of(session: Session) -> PackStore:
-    """The packs of a session."""
-    if session.token not in _SHELVES:
-        _SHELVES[session.token] = PackStore(session)
-        session.on_close(lambda: _SHELVES.pop(session.token, None))
-    return _SHELVES[session.token]
-
-
-def _summary(entry: Entry) -> str:
+def _summary(entry: PackEntry) -> str:
     try:
         return _contents(entry.path, None)
     except DraperyError:

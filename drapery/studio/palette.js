@@ -1,4 +1,4 @@
-// The sixteen dyes: a group of which one is marked. Arrow keys go from dye to dye.
+// The sixteen dyes, one of them marked. Arrow keys move from dye to dye.
 export default {
   template: `
     <div>

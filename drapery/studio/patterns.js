@@ -1,4 +1,4 @@
-// All patterns as they look in the chosen dyes: cells of one picture. Arrow keys go about in it.
+// All patterns in the chosen dyes: cells of one picture. Arrow keys move the focus among them.
 export default {
   template: `
     <div class="patterns">
@@ -18,7 +18,7 @@ export default {
           <span class="cell" :style="cell(pattern.index)"></span>
         </button>
       </div>
-      <p v-if="!found.length" class="hint">No pattern is called so.</p>
+      <p v-if="!found.length" class="hint">No pattern has this name.</p>
       <p class="sr" role="status">{{ wanted ? found.length + ' patterns' : '' }}</p>
     </div>`,
   props: {

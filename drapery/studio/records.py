@@ -1,4 +1,4 @@
-"""A design as libraries keep it: what may be kept, what is searched, and its form outside."""
+"""Records of a library: what a design may hold, the text that is searched, the export file."""
 
 import json
 from base64 import b64decode, b64encode
@@ -14,7 +14,7 @@ from drapery.studio.share import as_tree, checked_title, of_tree
 from drapery.studio.sketch import Sketch
 
 VERSION = 1
-"""Of the form outside."""
+"""Of the export file."""
 MAX_DESIGNS = 20_000
 MAX_TAGS = 12
 MAX_TAG = 32
@@ -29,14 +29,14 @@ _MARK = "drapery_library"
 
 @dataclass(frozen=True)
 class Design:
-    """A design as it is kept.
+    """A design in a library.
 
-    number: names it in its library; 0 before it is kept. thumbnail: a PNG file, or nothing.
-    changed: grows with every change in the library, so it orders designs by their latest.
+    number: identifies it in its library; 0 before it is saved. thumbnail: a PNG file, or nothing.
+    changed: grows with every change in the library, so it orders designs by their last change.
     """
 
     sketch: Sketch
-    look: Settings
+    settings: Settings
     tags: tuple[str, ...] = ()
     thumbnail: bytes = b""
     number: int = 0
@@ -49,17 +49,17 @@ class Design:
 
 
 def tree_of(design: Design) -> str:
-    """Sketch and options as a text that is the same for the same design."""
-    return json.dumps(as_tree(design.sketch, design.look), ensure_ascii=False, sort_keys=True)
+    """Sketch and options as a text, equal for equal designs."""
+    return json.dumps(as_tree(design.sketch, design.settings), ensure_ascii=False, sort_keys=True)
 
 
 def identity(design: Design) -> tuple[str, tuple[str, ...]]:
-    """What two designs have in common that are one."""
+    """A key that is equal for two designs that count as one."""
     return tree_of(design), design.tags
 
 
 def words_of(design: Design) -> str:
-    """What `search` looks in: one text in small letters."""
+    """The text in which `search` looks, in small letters."""
     sketch = design.sketch
     shown = [PATTERNS[s.pattern].title for s in sketch.strokes if s.pattern in PATTERNS]
     named = [f"{stroke.pattern} {stroke.dye}" for stroke in sketch.strokes]
@@ -68,17 +68,17 @@ def words_of(design: Design) -> str:
 
 
 def checked(design: Design) -> Design:
-    """The design as it may be kept. Raises DesignError, or PackError for its picture."""
+    """The design as it may be saved. Raises DesignError, or PackError for its thumbnail."""
     title = checked_title(design.title)
-    # What is kept must be what is read again.
-    sketch, _ = of_tree(as_tree(replace(design.sketch, title=title), design.look))
+    # What is saved must be what is read again.
+    sketch, _ = of_tree(as_tree(replace(design.sketch, title=title), design.settings))
     return replace(
         design, sketch=sketch, tags=checked_tags(design.tags), thumbnail=_picture(design.thumbnail)
     )
 
 
 def checked_tags(tags: Iterable[object]) -> tuple[str, ...]:
-    """Tags in small letters, each once. Raises DesignError."""
+    """The tags in small letters, each once. Raises DesignError."""
     names = []
     for tag in tags:
         if not isinstance(tag, str) or len(tag) > MAX_TAG or not tag.isprintable() or "," in tag:
@@ -91,7 +91,7 @@ def checked_tags(tags: Iterable[object]) -> tuple[str, ...]:
 
 
 def _picture(data: bytes) -> bytes:
-    """A thumbnail drawn anew from its pixels, so that nothing else in it is kept."""
+    """The thumbnail written again from its pixels, so that nothing else in the file is saved."""
     from drapery.render.encode.png import png_bytes
 
     if not data:
@@ -105,13 +105,13 @@ def _picture(data: bytes) -> bytes:
 
 def write_designs(designs: Iterable[Design]) -> bytes:
     """Designs as one JSON file, which `read_designs` reads."""
-    whole = {_MARK: VERSION, "designs": [_outside(design) for design in designs]}
+    whole = {_MARK: VERSION, "designs": [_exported(design) for design in designs]}
     return json.dumps(whole, ensure_ascii=False, indent=1).encode()
 
 
-def _outside(design: Design) -> dict[str, Any]:
-    """A design as the exported library has it."""
-    return as_tree(design.sketch, design.look) | {
+def _exported(design: Design) -> dict[str, Any]:
+    """A design in the export file."""
+    return as_tree(design.sketch, design.settings) | {
         "tags": list(design.tags),
         "thumbnail": b64encode(design.thumbnail).decode(),
     }
@@ -120,29 +120,29 @@ def _outside(design: Design) -> dict[str, Any]:
 def read_designs(data: bytes) -> list[Design]:
     """All designs of such a file. Raises DesignError, naming the design that is broken."""
     if len(data) > MAX_IMPORT:
-        raise DesignError(f"the file is over {MAX_IMPORT >> 20} MiB; no library is that large")
+        raise DesignError(f"the file is over {MAX_IMPORT >> 20} MiB; a library is smaller")
     try:
         whole = json.loads(data)
     except (ValueError, RecursionError):
-        raise DesignError("the file is no library: choose one that was exported here") from None
+        raise DesignError("the file is not a library; choose one that was exported here") from None
     if not isinstance(whole, dict) or not isinstance(whole.get("designs"), list):
-        raise DesignError("the file is no library: choose one that was exported here")
+        raise DesignError("the file is not a library; choose one that was exported here")
     if whole.get(_MARK) != VERSION:
         raise DesignError(
-            f"the file's {_MARK} must be {VERSION}; bring Drapery up to date, or export it anew"
+            f"the file's {_MARK} must be {VERSION}; update Drapery, or export the library again"
         )
     if len(whole["designs"]) > MAX_DESIGNS:
         raise DesignError(f"the file has over {MAX_DESIGNS} designs; split it")
-    return [_inside(tree, f"design {n}") for n, tree in enumerate(whole["designs"], 1)]
+    return [_imported(tree, f"design {n}") for n, tree in enumerate(whole["designs"], 1)]
 
 
-def _inside(tree: object, at: str) -> Design:
+def _imported(tree: object, at: str) -> Design:
     try:
-        sketch, look = of_tree(tree)
+        sketch, settings = of_tree(tree)
         assert isinstance(tree, dict)  # else of_tree has refused it
         tags, picture = tree.get("tags", []), tree.get("thumbnail", "")
         if not isinstance(tags, list) or not isinstance(picture, str):
-            raise DesignError("tags must be a list, thumbnail a text; export the library anew")
-        return checked(Design(sketch, look, tuple(tags), b64decode(picture, validate=True)))
+            raise DesignError("tags must be a list, thumbnail a text; export the library again")
+        return checked(Design(sketch, settings, tuple(tags), b64decode(picture, validate=True)))
     except (DraperyError, ValueError) as error:
         raise DesignError(f"{at}: {error}") from None

@@ -1,11 +1,11 @@
-"""What lies ready to hand while one designs: which part is chosen, and the dye for the next."""
+"""What is chosen while one designs: a part of the design, and the dye for the next layer."""
 
 from collections.abc import Callable
 from typing import Literal
 
 from drapery.banner.dyes import DYES
 from drapery.studio import sketch as edits
-from drapery.studio.session import Session
+from drapery.studio.document import Document
 from drapery.studio.sketch import Sketch
 
 Chosen = int | Literal["field"] | None
@@ -13,23 +13,23 @@ Chosen = int | Literal["field"] | None
 
 
 class Selection:
-    """The hand that designs: its clicks become edits of the session's sketch.
+    """What is chosen in a document; clicks become edits of its sketch.
 
-    All methods that edit raise DesignError where the edit cannot be.
+    All methods that edit raise DesignError for an edit that is not possible.
     """
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(self, document: Document) -> None:
+        self._document = document
         self._listeners: list[Callable[[], None]] = []
         self.chosen: Chosen = "field"
         self.dye = "black"
         self.swaps = False
-        session.listen("sketch", self._forget_what_is_gone)
+        document.listen("sketch", self._drop_removed)
 
     @property
     def shown_dye(self) -> str:
-        """The dye that the palette marks: of what is chosen, or for the next layer."""
-        sketch = self._session.sketch
+        """The dye that the palette marks: that of the choice, or that for the next layer."""
+        sketch = self._document.sketch
         if self.chosen == "field":
             return sketch.base
         if self.chosen is None:
@@ -38,7 +38,7 @@ class Selection:
 
     @property
     def pattern_dye(self) -> str:
-        """The dye in which patterns would be laid on: never that of what is only the field."""
+        """The dye in which a pattern would be added; never that of the field."""
         return self.dye if self.chosen == "field" else self.shown_dye
 
     def listen(self, call: Callable[[], None]) -> None:
@@ -46,47 +46,43 @@ class Selection:
         self._listeners.append(call)
 
     def choose(self, chosen: Chosen) -> None:
-        """Turn to the field, a stroke or, with None, to the next layer; twice lets it go."""
+        """Choose the field, a stroke or, with None, the next layer; choosing it again clears it."""
         self.chosen = None if chosen == self.chosen else chosen
         if self.chosen is None:
             self.swaps = False
-        self._tell()
-
-    def choose_again(self) -> None:
-        """Tell those who listen, though nothing is chosen anew."""
-        self._tell()
+        self.notify()
 
     def press_dye(self, dye: str) -> None:
-        """Dye what is chosen, and keep the dye for the next layer unless it is the field's."""
+        """Dye what is chosen, and use the dye for the next layer too unless it is the field's."""
         if dye not in DYES:
             return
         if self.chosen == "field":
-            self._edit(edits.dye_field(self._session.sketch, dye))
+            self._edit(edits.dye_field(self._document.sketch, dye))
             return
         self.dye = dye
         if self.chosen is not None:
-            self._edit(edits.recolour(self._session.sketch, self.chosen, dye))
-        self._tell()
+            self._edit(edits.recolour(self._document.sketch, self.chosen, dye))
+        self.notify()
 
     def press_pattern(self, pattern: str) -> None:
-        """Lay a pattern on in the dye at hand; or change the chosen layer's, if it swaps."""
-        sketch = self._session.sketch
+        """Add a pattern in the present dye; or change the chosen layer's, if `swaps` is set."""
+        sketch = self._document.sketch
         if self.swaps and isinstance(self.chosen, int):
             self._edit(edits.repattern(sketch, self.chosen, pattern))
             return
         added = edits.add(sketch, pattern, self.pattern_dye)
         self.dye, self.chosen, self.swaps = self.pattern_dye, None, False
         self._edit(added)
-        self._tell()
+        self.notify()
 
     def set_swaps(self, swaps: bool) -> None:
-        """Whether a pattern that is pressed replaces the chosen layer's."""
+        """Choose whether a click on a pattern replaces the chosen layer's."""
         self.swaps = swaps
-        self._tell()
+        self.notify()
 
     def act(self, what: str, number: int, place: int = 0) -> None:
         """Move, hide, duplicate or remove a stroke."""
-        sketch = self._session.sketch
+        sketch = self._document.sketch
         if what == "move":
             self._edit(edits.move(sketch, number, place))
         elif what == "hide":
@@ -97,37 +93,27 @@ class Selection:
             self._edit(edits.remove(sketch, number))
 
     def act_on_chosen(self, what: str, step: int = 0) -> None:
-        """The same for the stroke that is chosen, if one is; `step` is upwards."""
+        """Do the same to the chosen stroke, if there is one; step: places upwards."""
         if isinstance(self.chosen, int):
-            place = edits.place_of(self._session.sketch, self.chosen)
+            place = edits.place_of(self._document.sketch, self.chosen)
             self.act(what, self.chosen, place + step)
 
     def lay_out(self, sketch: Sketch) -> None:
-        """Begin to work on another design, which can be undone."""
+        """Replace the design by another, which can be undone."""
         self.chosen, self.swaps = None, False
         self._edit(sketch)
-        self._tell()
+        self.notify()
 
     def _edit(self, sketch: Sketch) -> None:
-        self._session.edit(sketch)
+        self._document.edit(sketch)
 
-    def _forget_what_is_gone(self) -> None:
-        numbers = {stroke.number for stroke in self._session.sketch.strokes}
+    def _drop_removed(self) -> None:
+        numbers = {stroke.number for stroke in self._document.sketch.strokes}
         if isinstance(self.chosen, int) and self.chosen not in numbers:
             self.chosen, self.swaps = None, False
-        self._tell()
+        self.notify()
 
-    def _tell(self) -> None:
+    def notify(self) -> None:
+        """Call all listeners."""
         for call in self._listeners:
             call()
-
-
-_DESKS: dict[str, Selection] = {}
-
-
-def desk_of(session: Session) -> Selection:
-    """The desk of a session, cleared away with it."""
-    if session.token not in _DESKS:
-        _DESKS[session.token] = Selection(session)
-        session.on_close(lambda: _DESKS.pop(session.token, None))
-    return _DESKS[session.token]

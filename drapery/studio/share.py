@@ -1,8 +1,8 @@
-"""A sketch and the options of its picture as one word, which an address can carry.
+"""A sketch and the options of its picture as letters that an address can hold.
 
-The word is a letter for the version, then zlib's stream of the JSON that `as_tree` makes, in
-base64 for addresses (RFC 4648, section 5) without its padding. Nothing in it names a file: packs
-and textures stay behind.
+They are one letter for the version, then a zlib stream of the JSON of `as_tree` in base64 for
+addresses (RFC 4648, section 5) without padding. They never name a file: packs and textures are
+left out.
 """
 
 import json
@@ -23,71 +23,72 @@ MAX_LINK = 4096
 MAX_JSON = 16 << 10
 """What a link may unpack to [bytes]."""
 
-OWN = frozenset({"packs", "texture", "kind", "backend"})
-"""Options that name files, want one, or name what is installed: they stay on their machine."""
-SHARED = tuple(name for name in NAMED_OPTIONS if name not in OWN)
+LOCAL_OPTIONS = frozenset({"packs", "texture", "kind", "backend"})
+"""Options that a link leaves out: they name files, need one, or name what is installed."""
+SHARED = tuple(name for name in NAMED_OPTIONS if name not in LOCAL_OPTIONS)
 
 _LETTERS = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_")
 _REMEDY = "copy the whole link again"
 
 
-def write_link(sketch: Sketch, look: Settings) -> str:
-    """The sketch and the options that are off their default, as letters that an address may hold.
+def write_link(sketch: Sketch, settings: Settings) -> str:
+    """The sketch and the options that differ from their default, as letters of an address.
 
-    look: its packs, texture and backend are left out.
+    settings: its packs, texture and backend are left out.
     """
-    text = json.dumps(as_tree(sketch, look), separators=(",", ":"), ensure_ascii=False)
+    text = json.dumps(as_tree(sketch, settings), separators=(",", ":"), ensure_ascii=False)
     squeezed = zlib.compress(text.encode(), 9)
     return VERSION + urlsafe_b64encode(squeezed).decode().rstrip("=")
 
 
 def read_link(text: str) -> tuple[Sketch, Settings]:
-    """What `write_link` wrote. Raises DesignError for anything else, however it was made."""
+    """What `write_link` wrote. Raises DesignError for any other text."""
     word = text.strip()
     if len(word) > MAX_LINK:
         raise DesignError(f"the link has {len(word)} letters, over {MAX_LINK}; {_REMEDY}")
     if not word or not _LETTERS.issuperset(word):
-        raise DesignError(f"the link is empty or holds letters that no link has; {_REMEDY}")
+        raise DesignError(f"the link is empty or has letters that no link has; {_REMEDY}")
     if word[0] != VERSION:
         raise DesignError(
-            f"the link is of version {word[0]!r}, and {VERSION!r} is read; bring Drapery up to date"
+            f"the link has version {word[0]!r}; this Drapery reads {VERSION!r}; update Drapery"
         )
     return of_tree(_parsed(_inflated(word[1:])))
 
 
-def begun(own: Settings, word: str) -> tuple[Settings, Sketch]:
-    """What a page begins with whose address has this link: the studio's own settings and these.
+def opened_link(base: Settings, link: str) -> tuple[Settings, Sketch]:
+    """What a page with this link begins with: the studio's settings with those of the link.
 
     Raises DesignError.
     """
-    sketch, look = read_link(word)
-    return over(own, look), sketch
+    sketch, settings = read_link(link)
+    return with_shared(base, settings), sketch
 
 
-def over(own: Settings, look: Settings) -> Settings:
-    """The shared options of `look`; all others, and a format that it leaves open, are our own."""
-    chosen = {name: getattr(look, name) for name in SHARED}
-    if look.format is None:
-        chosen["format"] = own.format
-    return replace(own, **chosen)
+def with_shared(base: Settings, settings: Settings) -> Settings:
+    """`base` with the shared options of `settings`; a format that is None is left as it is."""
+    chosen = {name: getattr(settings, name) for name in SHARED}
+    if settings.format is None:
+        chosen["format"] = base.format
+    return replace(base, **chosen)
 
 
-def as_tree(sketch: Sketch, look: Settings) -> dict[str, Any]:
-    """The sketch and its options as JSON holds them: our own form of a design, and what is beside.
+def as_tree(sketch: Sketch, settings: Settings) -> dict[str, Any]:
+    """The sketch and its options as JSON: Drapery's form of a design with three more members.
 
-    `hidden` lists the places of hidden layers, from 0; `options` are those off their default.
+    `title`; `hidden`: the places of hidden layers, from 0; `options`: those that differ from their
+    default.
     """
     whole = replace(sketch, strokes=tuple(replace(s, hidden=False) for s in sketch.strokes))
     tree: dict[str, Any] = json.loads(own_json.write(banner_of(whole)))
     hidden = [place for place, stroke in enumerate(sketch.strokes) if stroke.hidden]
-    beside = {"title": sketch.title, "hidden": hidden, "options": options_of(look)}
-    return tree | {name: value for name, value in beside.items() if value}
+    more = {"title": sketch.title, "hidden": hidden, "options": options_of(settings)}
+    return tree | {name: value for name, value in more.items() if value}
 
 
-def options_of(look: Settings) -> dict[str, Any]:
-    """The shared options that are off their default, by name, as JSON holds them."""
+def options_of(settings: Settings) -> dict[str, Any]:
+    """The shared options that differ from their default, by name, as JSON."""
     plain = Settings()
-    chosen = {name: getattr(look, name) for name in SHARED}
+    chosen = {name: getattr(settings, name) for name in SHARED}
     return {
         name: list(value) if isinstance(value, tuple) else value
         for name, value in chosen.items()
@@ -96,25 +97,25 @@ def options_of(look: Settings) -> dict[str, Any]:
 
 
 def of_tree(tree: object) -> tuple[Sketch, Settings]:
-    """What `as_tree` made. Raises DesignError naming what is wrong in it."""
+    """What `as_tree` made. Raises DesignError that names the fault."""
     if not isinstance(tree, dict):
-        raise DesignError(f"the design is no JSON object; {_REMEDY}")
+        raise DesignError(f"the design is not a JSON object; {_REMEDY}")
     sketch = sketch_of(own_json.from_tree(tree))
     hidden = _places(tree.get("hidden", []), len(sketch.strokes))
     strokes = tuple(replace(s, hidden=n in hidden) for n, s in enumerate(sketch.strokes))
     title = checked_title(tree.get("title", ""))
-    return replace(sketch, strokes=strokes, title=title), look_of(tree.get("options", {}))
+    return replace(sketch, strokes=strokes, title=title), settings_of(tree.get("options", {}))
 
 
-def look_of(words: object) -> Settings:
-    """Checked options from what JSON held. Raises DesignError, also for options never shared."""
+def settings_of(words: object) -> Settings:
+    """The options of a JSON object. Raises DesignError, also for options that are not shared."""
     from drapery.options import check_options
 
     if not isinstance(words, dict):
-        raise DesignError(f"options: no JSON object; {_REMEDY}")
+        raise DesignError(f"options: not a JSON object; {_REMEDY}")
     for name in words:
         if name not in SHARED:
-            raise DesignError(f"options: {str(name)[:40]!r} is no option of a link; {_REMEDY}")
+            raise DesignError(f"options: {str(name)[:40]!r} is not an option of a link; {_REMEDY}")
     checked = check_options(words, Path())
     if isinstance(checked, list):
         raise DesignError(f"options: {checked[0]}")
@@ -122,7 +123,7 @@ def look_of(words: object) -> Settings:
 
 
 def checked_title(title: object) -> str:
-    """A title: one line that can be printed. Raises DesignError."""
+    """The title without blanks around it. Raises DesignError if it is not one printable line."""
     if not isinstance(title, str) or len(title) > MAX_TITLE or not title.isprintable():
         raise DesignError(f"the title must be a line of at most {MAX_TITLE} letters; shorten it")
     return title.strip()
@@ -144,9 +145,11 @@ def _inflated(letters: str) -> bytes:
     except (ValueError, zlib.error):
         raise DesignError(f"the link is damaged; {_REMEDY}") from None
     if len(data) > MAX_JSON:
-        raise DesignError(f"the link unpacks to over {MAX_JSON} bytes: no design is that long")
+        raise DesignError(
+            f"the link unpacks to over {MAX_JSON} bytes, more than any design has; {_REMEDY}"
+        )
     if not stream.eof or stream.unused_data:
-        raise DesignError(f"the link is cut short or has letters behind its end; {_REMEDY}")
+        raise DesignError(f"the link is cut short or has letters after its end; {_REMEDY}")
     return data
 
 
@@ -154,4 +157,4 @@ def _parsed(data: bytes) -> object:
     try:
         return json.loads(data)
     except (ValueError, RecursionError):
-        raise DesignError(f"the link holds no design; {_REMEDY}") from None
+        raise DesignError(f"the link does not hold a design; {_REMEDY}") from None

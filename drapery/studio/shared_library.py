@@ -1,6 +1,6 @@
 """The library that all tabs of a studio share."""
 
-from functools import lru_cache
+import threading
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -8,15 +8,22 @@ if TYPE_CHECKING:
     from drapery.studio.library import Library
 
 
-def library_at(path: Path | None) -> "Library":
-    """The library in a file, or a person's own; opened at first use. Raises OutputError."""
-    from drapery.studio.library import default_place
+class SharedLibrary:
+    """A library that is opened at first use: its database takes time to import.
 
-    return _opened(path or default_place())
+    path: its file; None is the user's own.
+    """
 
+    def __init__(self, path: Path | None) -> None:
+        self._path = path
+        self._lock = threading.Lock()
+        self._library: Library | None = None
 
-@lru_cache(maxsize=4)
-def _opened(path: Path) -> "Library":
-    from drapery.studio.library import Library
+    def open(self) -> "Library":
+        """The library, the same for all threads. Raises OutputError."""
+        from drapery.studio.library import Library, default_place
 
-    return Library(path)
+        with self._lock:
+            if self._library is None:
+                self._library = Library(self._path or default_place())
+            return self._library

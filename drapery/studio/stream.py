@@ -1,8 +1,8 @@
 """The socket between a viewer and the live cloth of its tab.
 
-The server sends `messages`; the viewer says when it has drawn one, and no more than two are under
-way, so a slow viewer sees fewer moments and nothing piles up. What the viewer says is a little
-JSON each; what does not fit ends the connection.
+The server sends `messages`; the viewer answers when it has drawn one, and at most two are under
+way, so a slow viewer sees fewer moments and nothing piles up. A viewer's message is a small JSON
+object; one that is not valid ends the connection.
 """
 
 import asyncio
@@ -17,60 +17,60 @@ from fastapi import FastAPI, WebSocket, WebSocketDisconnect
 
 from drapery.errors import DraperyError, OptionError
 from drapery.studio.live import Ray
-from drapery.studio.messages import Told
-from drapery.studio.session import find_session
-from drapery.studio.viewport import Viewport, in_thread, stage_of
+from drapery.studio.messages import MessageEncoder
+from drapery.studio.session import Sessions
+from drapery.studio.viewport import Viewport, in_thread
 from drapery.studio.wind_controls import KEYS
 
 UNDER_WAY = 2
-"""Messages that a viewer has not yet said to have drawn."""
+"""Messages that may be sent before the viewer answers that they are drawn."""
 MAX_TEXT = 2048
 MAX_VIEWERS = 8
 """Viewers of one tab at once."""
 UNKNOWN, ENOUGH, WRONG, BROKEN = 4404, 4429, 4400, 1011
-"""Why the server closes a socket: no such tab, too many viewers, a message that does not fit, a
-fault of its own."""
+"""Why the server closes a socket: no such tab, too many viewers, a message that is not valid, a
+fault in the program."""
 
 
-class Viewer:
-    """One connection's share: what it has been told and what it has drawn."""
+class ViewerConnection:
+    """The server's end of one viewer: what was sent to it and what it has drawn."""
 
-    def __init__(self, stage: Viewport, which: str) -> None:
-        self.stage = stage
-        self.told = Told(which)
+    def __init__(self, viewport: Viewport, which: str) -> None:
+        self.viewport = viewport
+        self.encoder = MessageEncoder(which)
         self.hidden = False
         self.sent = self.drawn = 0
         self._line = ""
         self._shaped = False
         self._ready = asyncio.Event()
 
-    def hear(self, said: dict[str, Any]) -> None:
-        """Take one message of the viewer. Raises ValueError for what does not fit."""
-        for word, value in said.items():
-            if word not in _HEARD:
-                raise ValueError(word)
-            _HEARD[word](self, value)
+    def receive(self, message: dict[str, Any]) -> None:
+        """Handle one message of the viewer. Raises ValueError if it is not valid."""
+        for name, value in message.items():
+            if name not in _HANDLERS:
+                raise ValueError(name)
+            _HANDLERS[name](self, value)
         self._ready.set()
 
-    async def talk(self, socket: WebSocket) -> None:
+    async def send_moments(self, socket: WebSocket) -> None:
         """Send each new moment as soon as the viewer is ready for it."""
         try:
-            await self._talk(socket)
+            await self._send(socket)
         except Exception:
-            # Of a viewer that has gone, or a fault of ours: then it may come back and see it anew.
+            # The viewer has gone, or the program has a fault: the viewer may connect again.
             with suppress(Exception):
                 await socket.close(BROKEN)
 
-    async def _talk(self, socket: WebSocket) -> None:
+    async def _send(self, socket: WebSocket) -> None:
         seen = -1
         while True:
-            await self._credit()
-            await self.stage.after(seen)
-            if self.stage.closed:
+            await self._until_ready()
+            await self.viewport.after(seen)
+            if self.viewport.closed:
                 await socket.close(UNKNOWN)
                 return
-            seen = self.stage.version
-            line = self.stage.fault or self.stage.note
+            seen = self.viewport.version
+            line = self.viewport.fault or self.viewport.note
             if line != self._line:
                 self._line = line
                 await socket.send_text(json.dumps({"line": line}))
@@ -78,137 +78,138 @@ class Viewer:
                 self.sent += 1
                 await socket.send_bytes(message)
 
-    async def _credit(self) -> None:
-        """Wait until the viewer is there, has said how large it is, and has drawn."""
+    async def _until_ready(self) -> None:
+        """Wait until the viewer is visible, has sent its size, and has drawn."""
         while self.hidden or not self._shaped or self.sent - self.drawn >= UNDER_WAY:
             self._ready.clear()
             await self._ready.wait()
 
     def _messages(self) -> list[bytes]:
-        shown = self.stage.shown()
+        shown = self.viewport.shown()
         try:
-            return [] if shown is None else self.told.messages(shown)
+            return [] if shown is None else self.encoder.messages(shown)
         except DraperyError as error:
-            self.stage.fault = str(error)
+            self.viewport.fault = str(error)
             return []
 
     def _drawn(self, value: Any) -> None:
         self.drawn = min(self.sent, self.drawn + int(_number(value, 0, 16)))
 
     def leave(self) -> None:
-        """The viewer has gone."""
+        """Handle the end of the connection."""
         if not self.hidden:
-            self.stage.leave()
+            self.viewport.leave()
         self.hidden = True
 
     def _hide(self, value: Any) -> None:
         if value and not self.hidden:
-            self.stage.leave()
+            self.viewport.leave()
         elif self.hidden and not value:
-            self.stage.enter()
+            self.viewport.enter()
         self.hidden = bool(value)
 
     def _shape(self, value: Any) -> None:
         columns, rows = (int(_number(side, 1, 16384)) for side in _list(value, 2))
-        self.stage.size = columns, rows
-        self.told.reframe((columns, rows))
+        self.viewport.size = columns, rows
+        self.encoder.reframe((columns, rows))
         self._shaped = True
-        self.stage.do(lambda live: None)  # seen anew, if time stands too
+        self.viewport.do(lambda live: None)  # draws it again, even if time stands still
 
     def _press(self, value: Any) -> None:
         keys, azimuth = _list(value, 2)
         held = tuple(key for key in KEYS if key in str(keys))
-        self.stage.press(held, _number(azimuth, -1e4, 1e4))
+        self.viewport.press(held, _number(azimuth, -1e4, 1e4))
 
     def _switch(self, value: Any) -> None:
-        self.stage.switch()
+        self.viewport.switch()
 
     def _grab(self, value: Any) -> None:
         ray = _ray(value)
-        self.stage.do(lambda live: live.grab(ray))
+        self.viewport.do(lambda live: live.grab(ray))
 
     def _pull(self, value: Any) -> None:
         ray = _ray(value)
-        self.stage.do(lambda live: live.pull(ray))
+        self.viewport.do(lambda live: live.pull(ray))
 
     def _drop(self, value: Any) -> None:
-        self.stage.do(lambda live: live.release())
+        self.viewport.do(lambda live: live.release())
 
 
-_HEARD: dict[str, Callable[[Viewer, Any], None]] = {
-    "drawn": Viewer._drawn,
-    "hidden": Viewer._hide,
-    "shape": Viewer._shape,
-    "keys": Viewer._press,
-    "switch": Viewer._switch,
-    "grab": Viewer._grab,
-    "pull": Viewer._pull,
-    "drop": Viewer._drop,
+_HANDLERS: dict[str, Callable[[ViewerConnection, Any], None]] = {
+    "drawn": ViewerConnection._drawn,
+    "hidden": ViewerConnection._hide,
+    "shape": ViewerConnection._shape,
+    "keys": ViewerConnection._press,
+    "switch": ViewerConnection._switch,
+    "grab": ViewerConnection._grab,
+    "pull": ViewerConnection._pull,
+    "drop": ViewerConnection._drop,
 }
 
 
-def add_routes(app: FastAPI) -> None:
-    """The live cloths of all sessions."""
-    app.add_api_websocket_route("/live/{token}", live_socket)
+def add_routes(app: FastAPI, sessions: Sessions) -> None:
+    """Serve the live cloths of all sessions."""
+
+    @app.websocket("/live/{token}")
+    async def live(socket: WebSocket, token: str, which: str = "all") -> None:
+        session = sessions.find(token)
+        await socket.accept()
+        if session is None:
+            await socket.close(UNKNOWN)
+        elif session.viewport.viewers >= MAX_VIEWERS:
+            await socket.close(ENOUGH)
+        else:
+            await _serve(socket, session.viewport, which if which in ("left", "right") else "all")
 
 
-async def live_socket(socket: WebSocket, token: str, which: str = "all") -> None:
+async def _serve(socket: WebSocket, viewport: Viewport, which: str) -> None:
     """Serve one viewer until it goes; then nothing of it is left."""
-    session = find_session(token)
-    await socket.accept()
-    if session is None:
-        await socket.close(UNKNOWN)
-        return
-    stage = stage_of(session)
-    if stage.viewers >= MAX_VIEWERS:
-        await socket.close(ENOUGH)
-        return
-    viewer = Viewer(stage, which if which in ("left", "right") else "all")
-    stage.viewers += 1
-    stage.enter()
-    talking = asyncio.create_task(viewer.talk(socket), name="live socket")
+    viewer = ViewerConnection(viewport, which)
+    viewport.viewers += 1
+    viewport.enter()
+    sending = asyncio.create_task(viewer.send_moments(socket), name="live socket")
     try:
         await _listen(socket, viewer)
     except (WebSocketDisconnect, RuntimeError):
-        pass  # it has gone
+        pass  # the viewer has gone
     except (ValueError, TypeError, OptionError):
         await socket.close(WRONG)
     finally:
-        # Without a pause in between: whoever cancels this task may not stop its end.
-        talking.cancel()
-        stage.do(lambda live: live.release())
-        stage.press((), 0.0)
-        stage.viewers -= 1
+        # No await before all is undone: whoever cancels this task may not interrupt that.
+        sending.cancel()
+        viewport.do(lambda live: live.release())
+        viewport.press((), 0.0)
+        viewport.viewers -= 1
         viewer.leave()
-        await asyncio.gather(talking, return_exceptions=True)
+        await asyncio.gather(sending, return_exceptions=True)
 
 
-async def _listen(socket: WebSocket, viewer: Viewer) -> None:
+async def _listen(socket: WebSocket, viewer: ViewerConnection) -> None:
     while True:
         text = await socket.receive_text()
         if len(text) > MAX_TEXT:
             raise ValueError("too long")
-        said = json.loads(text)
-        if not isinstance(said, dict):
-            raise ValueError("no object")
-        viewer.hear(said)
+        message = json.loads(text)
+        if not isinstance(message, dict):
+            raise ValueError("not an object")
+        viewer.receive(message)
 
 
 def _ray(value: Any) -> Ray:
     numbers = np.array([_number(x, -1e4, 1e4) for x in _list(value, 9)]).reshape(3, 3)
     if not (numbers[1:] ** 2).sum(axis=1).all():
-        raise ValueError("no direction")
+        raise ValueError("a direction is zero")
     return Ray(*numbers)
 
 
 def _list(value: Any, count: int) -> list[Any]:
     if not isinstance(value, list) or len(value) != count:
-        raise ValueError("no list")
+        raise ValueError("not a list of the right length")
     return value
 
 
-def _number(value: Any, least: float, most: float) -> float:
+def _number(value: Any, minimum: float, maximum: float) -> float:
     number = float(value)
-    if not (math.isfinite(number) and least <= number <= most):
+    if not (math.isfinite(number) and minimum <= number <= maximum):
         raise ValueError("out of range")
     return number

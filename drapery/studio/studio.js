@@ -1,4 +1,4 @@
-// What the page does by itself: tabs, theme, shortcuts, copying, and files dropped on it.
+// What the page does without the server: tabs, theme, shortcuts, copying, dropped files.
 const WIDE = window.matchMedia("(min-width: 1000px)");
 const root = () => document.querySelector(".studio");
 
@@ -8,21 +8,23 @@ const studio = (window.studio = {
   },
   copy,
   tab,
-  keep,
+  writeAddress,
 });
 
-// The design in the address. A browser takes only so many changes a second; the last one counts.
-let later;
-function keep(word) {
-  const put = () => history.replaceState(null, "", `?d=${word}`);
-  clearTimeout(later);
-  later = setTimeout(put, 500);
+// The design in the address. A browser limits the changes per second: the last one is repeated.
+let addressTimer;
+function writeAddress(link) {
+  const write = () => history.replaceState(null, "", `?d=${link}`);
+  clearTimeout(addressTimer);
+  addressTimer = setTimeout(write, 500);
   try {
-    put();
-  } catch {}
+    write();
+  } catch {
+    // Too many changes: the timer writes the last one.
+  }
 }
 
-// Tabs. On a wide window those of the left and under the stage are always seen.
+// Tabs. On a wide window the panels at the left and below the viewport are always visible.
 function tab(name) {
   for (const each of document.querySelectorAll(".tab")) {
     const chosen = each.dataset.panel === name;
@@ -32,29 +34,31 @@ function tab(name) {
   }
 }
 
-function seenTabs() {
+function visibleTabs() {
   return [...document.querySelectorAll(".tab")].filter((each) => each.offsetParent);
 }
 
 WIDE.addEventListener("change", () => {
   const chosen = document.querySelector('.tab[aria-selected="true"]');
-  if (!chosen?.offsetParent && seenTabs().length) tab(seenTabs()[0].dataset.panel);
+  if (!chosen?.offsetParent && visibleTabs().length) tab(visibleTabs()[0].dataset.panel);
 });
 
-// Theme: as the system has it, until one chooses.
+// Theme: the system's, until the user chooses.
 function theme(choice) {
   window.Quasar?.Dark.set(choice === "dark" ? true : choice === "light" ? false : "auto");
 }
 
-function turnTheme() {
+function toggleTheme() {
   const choice = document.body.classList.contains("body--dark") ? "light" : "dark";
   try {
     localStorage.setItem("drapery-theme", choice);
-  } catch {}
+  } catch {
+    // Without storage the choice lasts as long as the page.
+  }
   theme(choice);
 }
 
-// Copying. The clipboard proper is there only over https or on this machine.
+// Copying. Browsers offer the clipboard only over https or on the same machine.
 async function copy(text, from) {
   try {
     await navigator.clipboard.writeText(text);
@@ -66,16 +70,16 @@ async function copy(text, from) {
     area.remove();
   }
   if (!from) return;
-  const words = from.querySelector(".copy-words") ?? from;
-  const before = (words.dataset.before ??= words.textContent);
-  words.textContent = "Copied";
-  setTimeout(() => (words.textContent = before), 1500);
+  const label = from.querySelector(".copy-label") ?? from;
+  const before = (label.dataset.before ??= label.textContent);
+  label.textContent = "Copied";
+  setTimeout(() => (label.textContent = before), 1500);
 }
 
 // Shortcuts, while no field has the focus.
 const KEYS = {
   "ctrl+z": "undo", "ctrl+shift+z": "redo", "ctrl+y": "redo", "ctrl+d": "duplicate",
-  r: "chance", b: "kind", m: "mode", h: "hide", delete: "remove", backspace: "remove",
+  r: "random", b: "kind", m: "mode", h: "hide", delete: "remove", backspace: "remove",
   "alt+arrowup": "up", "alt+arrowdown": "down", escape: "none",
 };
 
@@ -114,7 +118,7 @@ document.addEventListener("keydown", (event) => {
   const here = event.target.closest?.(".tab");
   const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 1, ArrowUp: -1 }[event.key];
   if (!here || !step) return;
-  const tabs = seenTabs();
+  const tabs = visibleTabs();
   const next = tabs[(tabs.indexOf(here) + step + tabs.length) % tabs.length];
   tab(next.dataset.panel);
   next.focus();
@@ -127,7 +131,7 @@ document.addEventListener("click", (event) => {
   const copying = pressed("[data-copy]");
   if (copying) copy(document.getElementById(copying.dataset.copy).value, copying);
   else if (pressed(".tab")) tab(pressed(".tab").dataset.panel);
-  else if (pressed(".theme")) turnTheme();
+  else if (pressed(".theme")) toggleTheme();
   else if (pressed(".help")) document.getElementById("shortcuts").showModal();
   else if (pressed("#shortcuts .button") || event.target.id === "shortcuts") document.getElementById("shortcuts").close();
 });
@@ -148,24 +152,24 @@ studio.readFile = async (file) => {
   try {
     await send(file);
   } catch {
-    window.Quasar?.Notify.create({ type: "negative", position: "bottom", message: `${file.name}: it could not be sent; is the studio still running?` });
+    window.Quasar?.Notify.create({ type: "negative", position: "bottom", message: `${file.name}: it could not be sent; check that the studio is running` });
   }
 };
 
-const own = (event) => event.target.closest?.(".drop, .q-uploader");
+const hasOwnField = (event) => event.target.closest?.(".file-field, .q-uploader");
 const holdsFiles = (event) => event.dataTransfer?.types.includes("Files");
 
 document.addEventListener("dragover", (event) => {
   if (!holdsFiles(event)) return;
   event.preventDefault();
-  document.body.classList.toggle("dropping", !own(event));
+  document.body.classList.toggle("dropping", !hasOwnField(event));
 });
 document.addEventListener("dragleave", (event) => {
   if (!event.relatedTarget) document.body.classList.remove("dropping");
 });
 document.addEventListener("drop", (event) => {
   document.body.classList.remove("dropping");
-  if (!holdsFiles(event) || own(event)) return;
+  if (!holdsFiles(event) || hasOwnField(event)) return;
   event.preventDefault();
   const file = event.dataTransfer.files[0];
   if (file) studio.readFile(file);
@@ -176,18 +180,20 @@ document.addEventListener("change", (event) => {
   event.target.value = "";
 });
 
-// The page's elements come a moment after this script.
+// The page's elements are made a moment after this script runs.
 new MutationObserver((_, observer) => {
   if (!root() || !window.Quasar) return;
   observer.disconnect();
   let stored = null;
   try {
     stored = localStorage.getItem("drapery-theme");
-  } catch {}
+  } catch {
+    // Without storage the system's theme is used.
+  }
   if (stored) setTimeout(() => theme(stored));
 }).observe(document.documentElement, { childList: true, subtree: true });
 
-// The text field reads what is pasted into it at once, and by Ctrl+Enter.
+// A text pasted into the text field is read at once; Ctrl+Enter reads it too.
 function readText() {
   const area = document.getElementById("design-text");
   if (area.value.trim()) area.dispatchEvent(new CustomEvent("read", { detail: area.value }));

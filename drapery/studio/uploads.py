@@ -1,41 +1,52 @@
-"""Files that a tab sends: counted and measured while they stream in, and named by us.
+"""Files that a tab sends: counted and measured while they stream in, and named by the studio.
 
-They lie in the session's own folder and go with it. What the sender calls a file is only ever
-shown, never opened.
+They lie in the tab's own folder and are removed with it. The sender's name of a file is only
+shown, and chooses one of the purpose's endings; it is never opened.
 """
 
 from collections.abc import AsyncIterator
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
-from fastapi import FastAPI, Request
-from fastapi.responses import JSONResponse
-
-from drapery.errors import DesignError, DraperyError
-from drapery.studio.session import Session, find_session
+from drapery.errors import DesignError
+from drapery.studio.document import Document
 
 
 @dataclass(frozen=True)
 class Purpose:
-    """What files are sent for. most: bytes of one. count: how many may be kept at once."""
+    """What files are sent for.
 
-    most: int
-    count: int
+    max_bytes: of one file. max_count: files at once. endings: those that a stored file may have,
+    for readers that choose a form by it.
+    """
 
+    max_bytes: int
+    max_count: int
+    endings: frozenset[str] = frozenset()
+
+
+_DESIGN_ENDINGS = frozenset(
+    (
+        *(".json", ".mcfunction", ".snbt", ".txt"),
+        *(".dat", ".litematic", ".mca", ".mcstructure", ".nbt", ".schem", ".schematic"),
+    )
+)
 
 PURPOSES = {
     "pack": Purpose(256 << 20, 16),
     "library": Purpose(64 << 20, 1),
+    # A region file with all its chunks is about 16 MiB.
+    "design": Purpose(64 << 20, 8, _DESIGN_ENDINGS),
 }
 MAX_SESSION = 1 << 30
-"""Bytes that one session may keep."""
+"""Bytes of all files of one tab."""
 MAX_NAME = 80
 
 
 @dataclass(frozen=True)
 class Upload:
-    """A file that came in whole. name: what its sender calls it, fit to be shown."""
+    """A file that has arrived whole. name: the sender's name for it, safe to show."""
 
     number: int
     purpose: str
@@ -45,69 +56,79 @@ class Upload:
 
 
 class Uploads:
-    """The files of one session."""
+    """The files of one tab."""
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
-        self._folder = session.folder
-        self._kept: dict[int, Upload] = {}
-        self._coming: dict[int, tuple[str, int]] = {}
+    def __init__(self, document: Document) -> None:
+        self._document = document
+        self._stored: dict[int, Upload] = {}
+        self._arriving: dict[int, tuple[str, int]] = {}
         self._last = 0
 
     async def receive(self, chunks: AsyncIterator[bytes], purpose: str, name: str) -> Upload:
-        """Write a stream to a file. Raises DesignError for one beyond the limits; nothing stays."""
+        """Write a stream to a file of its own name.
+
+        Raises DesignError for one that exceeds the limits; nothing of it stays.
+        """
         shown = shown_name(name)
-        limit = self._begin(purpose, shown)
+        self._check_open(shown)
+        limit = self._check_count(purpose, shown)
         self._last += 1
         number = self._last
-        path = self._folder / f"{purpose}-{number}"
-        self._coming[number] = purpose, 0
+        ending = PurePosixPath(shown).suffix.lower()
+        stored = ending if ending in PURPOSES[purpose].endings else ""
+        path = self._document.folder / f"{purpose}-{number}{stored}"
+        self._arriving[number] = purpose, 0
         try:
             size = await self._write(chunks, path, number, limit, shown)
         except BaseException:
             path.unlink(missing_ok=True)
             raise
         finally:
-            del self._coming[number]
-        if self._session.closed:
+            del self._arriving[number]
+        if self._document.closed:
             path.unlink(missing_ok=True)
-            raise DesignError(f"{shown}: the page is gone; open it again")
-        self._kept[number] = Upload(number, purpose, shown, path, size)
-        return self._kept[number]
+        self._check_open(shown)
+        self._stored[number] = Upload(number, purpose, shown, path, size)
+        return self._stored[number]
 
     def get(self, number: object, purpose: str) -> Upload:
-        """The upload of a number, sent for this. Raises DesignError."""
-        kept = self._kept.get(number) if isinstance(number, int) else None
-        if kept is None or kept.purpose != purpose:
+        """The upload of a number, sent for this purpose. Raises DesignError."""
+        upload = self._stored.get(number) if isinstance(number, int) else None
+        if upload is None or upload.purpose != purpose:
             raise DesignError("the file is not here any more; send it again")
-        return kept
+        return upload
 
     def remove(self, number: int) -> None:
-        """Forget an upload, and its file."""
-        kept = self._kept.pop(number, None)
-        if kept is not None:
-            with suppress(OSError):  # one that a drawing still reads goes with the session
-                kept.path.unlink()
+        """Forget an upload, and delete its file."""
+        upload = self._stored.pop(number, None)
+        if upload is not None:
+            with suppress(OSError):  # if a drawing still reads it, it is removed with the tab
+                upload.path.unlink()
 
-    def _begin(self, purpose: str, name: str) -> int:
-        """The most bytes that may come now. Raises DesignError where nothing may."""
-        kept = [(upload.purpose, upload.size) for upload in self._kept.values()]
-        kept += self._coming.values()
+    def _check_open(self, name: str) -> None:
+        if self._document.closed:
+            raise DesignError(f"{name}: the page is gone; open it again")
+
+    def _check_count(self, purpose: str, name: str) -> int:
+        """The most bytes that may arrive now. Raises DesignError where there are too many files."""
+        present = [upload.purpose for upload in self._stored.values()]
+        present += [each for each, _ in self._arriving.values()]
         bounds = PURPOSES[purpose]
-        if sum(each == purpose for each, _ in kept) >= bounds.count:
+        if present.count(purpose) >= bounds.max_count:
             raise DesignError(
-                f"{name}: {bounds.count} files for a {purpose} are here already; remove one first"
+                f"{name}: {bounds.max_count} files for a {purpose} are here already;"
+                " remove one first"
             )
-        return bounds.most
+        return bounds.max_bytes
 
     async def _write(
         self, chunks: AsyncIterator[bytes], path: Path, number: int, limit: int, name: str
     ) -> int:
-        purpose, size = self._coming[number]
+        purpose, size = self._arriving[number]
         with path.open("xb") as file:
             async for chunk in chunks:
                 size += len(chunk)
-                self._coming[number] = purpose, size
+                self._arriving[number] = purpose, size
                 if size > limit:
                     raise DesignError(f"{name} is over {shown_bytes(limit)}; send a smaller one")
                 if self._total() > MAX_SESSION:
@@ -121,22 +142,12 @@ class Uploads:
         return size
 
     def _total(self) -> int:
-        return sum(u.size for u in self._kept.values()) + sum(n for _, n in self._coming.values())
-
-
-_UPLOADS: dict[str, Uploads] = {}
-
-
-def uploads_of(session: Session) -> Uploads:
-    """The files that a session was sent."""
-    if session.token not in _UPLOADS:
-        _UPLOADS[session.token] = Uploads(session)
-        session.on_close(lambda: _UPLOADS.pop(session.token, None))
-    return _UPLOADS[session.token]
+        stored = sum(upload.size for upload in self._stored.values())
+        return stored + sum(size for _, size in self._arriving.values())
 
 
 def shown_name(name: str) -> str:
-    """A file's name as its sender gave it, without folders and on one short line."""
+    """The sender's name of a file, without folders and on one short line."""
     last = name.replace("\\", "/").rsplit("/", 1)[-1].strip()
     plain = "".join(letter for letter in last if letter.isprintable())[:MAX_NAME]
     return plain if plain.strip(".") else "the file"
@@ -145,33 +156,3 @@ def shown_name(name: str) -> str:
 def shown_bytes(count: int) -> str:
     """`256 MiB`."""
     return f"{count >> 20} MiB" if count >= 1 << 20 else f"{count} bytes"
-
-
-def add_routes(app: FastAPI) -> None:
-    """`POST /upload/{token}/{purpose}?name=…` with the file as its body."""
-
-    @app.post("/upload/{token}/{purpose}")
-    async def upload(token: str, purpose: str, request: Request, name: str = "") -> JSONResponse:
-        session = find_session(token)
-        if session is None or purpose not in PURPOSES:
-            return _refusal("no such page any more: reload it", 404)
-        try:
-            _check_length(request, purpose, shown_name(name))
-            kept = await uploads_of(session).receive(request.stream(), purpose, name)
-        except DraperyError as error:
-            return _refusal(str(error), 413)
-        except OSError as error:
-            return _refusal(f"the file cannot be kept: {error.strerror}", 507)
-        return JSONResponse({"number": kept.number})
-
-
-def _refusal(line: str, status: int) -> JSONResponse:
-    # Else the server would go on to take in the rest of the body, if only to drop it.
-    return JSONResponse({"line": line}, status, {"Connection": "close"})
-
-
-def _check_length(request: Request, purpose: str, name: str) -> None:
-    """Refuse what says by itself that it is too long, before it comes; it may still lie."""
-    length, most = request.headers.get("content-length", ""), PURPOSES[purpose].most
-    if length.isdigit() and int(length[:20]) > most:
-        raise DesignError(f"{name} is over {shown_bytes(most)}; send a smaller one")

@@ -29,20 +29,20 @@ export default {
   mounted() {
     const prefix = window.path_prefix ?? "";
     const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}${prefix}${this.address}`;
-    const tell = (line) => (this.line = line);
-    const state = (news) => this.take(news);
+    const onStatus = (line) => (this.line = line);
+    const onState = (state) => this.update(state);
     try {
-      // Outside Vue's sight: it would make proxies of all that the viewer holds.
-      this.$el.viewer = new Viewer(this.$refs.canvas, this.$refs.labels, address, tell, state);
+      // Not in Vue's data: Vue would make proxies of everything in the viewer.
+      this.$el.viewer = new Viewer(this.$refs.canvas, this.$refs.labels, address, onStatus, onState);
     } catch (error) {
-      tell(`The live cloth cannot be drawn: ${error.message}`);
+      onStatus(`The live cloth cannot be drawn: ${error.message}`);
     }
   },
   beforeUnmount() {
     this.$el.viewer?.end();
   },
   methods: {
-    take({ wind, azimuth, rate }) {
+    update({ wind, azimuth, rate }) {
       if (rate !== undefined) this.rate = rate;
       else if (!this.ready) this.ready = true;
       if (wind === undefined) return;

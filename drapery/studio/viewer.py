@@ -15,11 +15,11 @@ LABEL = (
 )
 
 
-class Viewer(ui.element, component="viewer.js", esm={"drapery-viewer": "viewer"}):
+class ViewerElement(ui.element, component="viewer.js", esm={"drapery-viewer": "viewer"}):
     """A canvas on which a session's cloth moves.
 
-    which: of what is shown side by side, all, or only what stands on the left or right; viewers
-    of one session show the same motion.
+    which: of designs side by side: all, or only that on the left or right. All viewers of one
+    session show the same motion.
     """
 
     def __init__(self, session: Session, which: Which = "all", label: str = LABEL) -> None:

@@ -18,21 +18,21 @@ def button(label: str, press: Press, *, icon: str = "", text: str = "", key: str
         if icon:
             ui.icon(icon).props("aria-hidden=true")
         if text:
-            words(text)
+            text_element(text)
     return element.on("click", lambda: press())
 
 
-def words(text: str, tag: str = "span") -> ui.label:
-    """A piece of text in an element of its own; never read as HTML."""
+def text_element(text: str, tag: str = "span") -> ui.label:
+    """An element with this text, which is never read as HTML."""
     element = ui.label(text)
     element.tag = tag
     return element
 
 
-class Segments:
+class SegmentedControl:
     """Buttons side by side of which one is pressed.
 
-    options: what can be chosen, and its words. choose: takes what was pressed.
+    options: the choices by name, with their titles. choose: takes the name that was pressed.
     """
 
     def __init__(self, label: str, options: Mapping[str, str], choose: Callable[[str], Any]):
@@ -40,7 +40,7 @@ class Segments:
         with ui.element("div").classes("segments") as group:
             group.props("role=group").props.update({"aria-label": label})
             for name, title in options.items():
-                element = words(title, "button").props("type=button")
+                element = text_element(title, "button").props("type=button")
                 element.on("click", lambda name=name: choose(name))
                 self._buttons[name] = element
 

@@ -1,4 +1,4 @@
-"""The bar at the top: what is done to the whole design."""
+"""The bar at the top: actions on the whole design."""
 
 import secrets
 from collections.abc import Callable
@@ -8,31 +8,29 @@ from typing import Any, get_args
 from nicegui import ui
 
 from drapery.studio.components import value_of
-from drapery.studio.notices import faults
-from drapery.studio.selection import Selection, desk_of
+from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, Sketch, clear, random_sketch
-from drapery.studio.widgets import Segments, button, words
+from drapery.studio.widgets import SegmentedControl, button, text_element
 
 _KINDS = {"banner": "Banner", "shield": "Shield"}
 _MODES = {"survival": "Survival", "commands": "Commands"}
 
 
 def build(session: Session) -> None:
-    """Title, undo and redo, chance, banner or shield, survival or commands, theme, help."""
-    desk = desk_of(session)
-    words("Drapery Studio", "h1").classes("brand")
+    """Title, undo, redo, random design, banner or shield, survival or commands, theme, help."""
+    text_element("Drapery Studio", "h1").classes("brand")
     _title(session)
     with ui.element("div").classes("bar-group"):
         undo = button("Undo", session.undo, icon="undo", key="Ctrl+Z")
         redo = button("Redo", session.redo, icon="redo", key="Ctrl+Shift+Z")
     with ui.element("div").classes("bar-group bar-design"):
-        button("A design by chance", lambda: chance(session), icon="casino", key="R")
+        button("Random design", lambda: randomise(session), icon="casino", key="R")
         button(
             "Remove all layers", lambda: session.edit(clear(session.sketch)), icon="layers_clear"
         )
-    kind = Segments("What bears the design", _KINDS, lambda name: set_kind(session, name))
-    mode = Segments("Layers allowed", _MODES, lambda name: set_mode(session, name))
+    kind = SegmentedControl("Banner or shield", _KINDS, lambda name: set_kind(session, name))
+    mode = SegmentedControl("Layers allowed", _MODES, lambda name: set_mode(session, name))
     ui.element("div").classes("gap")
     button("Light or dark", lambda: None, icon="contrast").classes("theme")
     button("Keyboard shortcuts", lambda: None, icon="keyboard", key="?").classes("help")
@@ -45,7 +43,7 @@ def build(session: Session) -> None:
         mode.show("survival" if session.survival else "commands")
 
     show()
-    desk.listen(show)
+    session.selection.listen(show)
 
 
 def _title(session: Session) -> None:
@@ -68,10 +66,10 @@ def _title(session: Session) -> None:
     session.listen("sketch", show)
 
 
-def chance(session: Session) -> None:
-    """Another design by chance, of the same kind."""
+def randomise(session: Session) -> None:
+    """Replace the design by a random one of the same kind."""
     sketch = random_sketch(secrets.randbits(32))
-    desk_of(session).lay_out(replace(sketch, kind=session.sketch.kind))
+    session.selection.lay_out(replace(sketch, kind=session.sketch.kind))
 
 
 def set_kind(session: Session, name: str) -> None:
@@ -84,28 +82,29 @@ def set_kind(session: Session, name: str) -> None:
 
 
 def set_mode(session: Session, name: str) -> None:
-    """Warn of more layers than the loom makes, or not."""
+    """Choose whether to warn of more layers than a loom can make."""
     session.survival = name == "survival"
-    desk_of(session).choose_again()
+    session.selection.notify()
 
 
-def act(session: Session, desk: Selection, what: str) -> None:
-    """Do what a shortcut of `studio.js` asks for."""
-    deeds: dict[str, Callable[[], object]] = {
+def act(session: Session, what: str) -> None:
+    """Do the action of a shortcut of `studio.js`."""
+    selection = session.selection
+    actions: dict[str, Callable[[], object]] = {
         "undo": session.undo,
         "redo": session.redo,
-        "chance": lambda: chance(session),
+        "random": lambda: randomise(session),
         "kind": lambda: set_kind(
             session, "banner" if session.sketch.kind == "shield" else "shield"
         ),
         "mode": lambda: set_mode(session, "commands" if session.survival else "survival"),
-        "up": lambda: desk.act_on_chosen("move", 1),
-        "down": lambda: desk.act_on_chosen("move", -1),
-        "hide": lambda: desk.act_on_chosen("hide"),
-        "duplicate": lambda: desk.act_on_chosen("duplicate"),
-        "remove": lambda: desk.act_on_chosen("remove"),
-        "none": lambda: desk.choose(None),
+        "up": lambda: selection.act_on_chosen("move", 1),
+        "down": lambda: selection.act_on_chosen("move", -1),
+        "hide": lambda: selection.act_on_chosen("hide"),
+        "duplicate": lambda: selection.act_on_chosen("duplicate"),
+        "remove": lambda: selection.act_on_chosen("remove"),
+        "none": lambda: selection.choose(None),
     }
-    with faults():
-        if what in deeds:
-            deeds[what]()
+    with errors_shown():
+        if what in actions:
+            actions[what]()

@@ -1,7 +1,7 @@
 """Sliders, lists and buttons that show what the session holds and change it.
 
-A control asks for its value whenever the session tells of a change, so that undo, links and keys
-are seen in it too.
+A control reads its value again at each event of the session, so that it shows the effect of undo,
+links and keys too.
 """
 
 from collections.abc import Callable, Mapping
@@ -10,11 +10,10 @@ from typing import Any
 from nicegui import ui
 from nicegui.elements.mixins.value_element import ValueElement
 
-from drapery.studio.notices import faults
+from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
-from drapery.studio.viewport import stage_of
 
-LET_GO = "() => setTimeout(() => document.activeElement?.blur?.(), 60)"
+BLUR = "() => setTimeout(() => document.activeElement?.blur?.(), 60)"
 
 Get = Callable[[], Any]
 Set = Callable[[Any], object]
@@ -30,14 +29,14 @@ class Controls:
         self._quiet = False
 
     def follow(self) -> None:
-        """Show what the session holds from now on; call it once all controls are there."""
+        """Follow the session from now on; call this after all controls have been made."""
         self._session.listen("settings", self.refresh)
         self._session.listen("scene", self.refresh)
-        stage_of(self._session).listen(self.refresh)
+        self._session.viewport.listen(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
-        """Show what the session holds now."""
+        """Show the present values."""
         self._quiet = True
         try:
             for element, get in self._shown:
@@ -55,40 +54,42 @@ class Controls:
         bounds: tuple[float, float, float],
         get: Get,
         change: Set,
-        words: Callable[[Any], str] = "{:g}".format,
+        to_text: Callable[[Any], str] = "{:g}".format,
     ) -> None:
-        """A slider with its value beside its label. bounds: least, most, step."""
-        least, most, step = bounds
+        """A slider with its value beside its label. bounds: minimum, maximum, step."""
+        minimum, maximum, step = bounds
         with ui.element("div").classes("control"):
             with ui.element("div").classes("control-head"):
                 ui.label(label)
-                shown = ui.label(words(get())).classes("control-value").props('aria-hidden="true"')
-            element = ui.slider(min=least, max=most, step=step, value=get())
+                shown = (
+                    ui.label(to_text(get())).classes("control-value").props('aria-hidden="true"')
+                )
+            element = ui.slider(min=minimum, max=maximum, step=step, value=get())
             element.props(f'aria-label="{label}" dense')
-        element.on_value_change(lambda event: shown.set_text(words(event.value)))
+        element.on_value_change(lambda event: shown.set_text(to_text(event.value)))
         self._listen(element, get, change)
 
     def select(self, label: str, choices: Mapping[Any, str], get: Get, change: Set) -> ui.select:
-        """One of several."""
+        """A list of choices, by value, with their titles."""
         element = ui.select(dict(choices), label=label, value=get()).classes("control")
         element.props(f'dense outlined options-dense aria-label="{label}"')
-        # Left alone by its list it would keep the keys that steer the wind.
-        element.on("popup-hide", js_handler=LET_GO)
+        # With the focus on it, it would take the keys that steer the wind.
+        element.on("popup-hide", js_handler=BLUR)
         self._listen(element, get, change)
         return element
 
     def switch(self, label: str, get: Get, change: Set) -> None:
-        """On or off."""
+        """A switch."""
         element = ui.switch(label, value=get()).classes("control").props("dense")
         self._listen(element, get, change)
 
     def button(
         self, label: str, call: Callable[[], object], *, icon: str | None = None
     ) -> ui.button:
-        """Something done at once; an icon stands for its label."""
+        """A button for an action; an icon takes the place of its label."""
 
         def press() -> None:
-            with faults():
+            with errors_shown():
                 call()
             self.refresh()
 
@@ -100,7 +101,7 @@ class Controls:
         return button
 
     def pressed(self, button: ui.button, get: Callable[[], bool]) -> None:
-        """Show of a button whether it is pressed."""
+        """Show on a button whether it is pressed."""
 
         def show() -> None:
             button.props.update({"aria-pressed": str(get()).lower()})
@@ -110,10 +111,10 @@ class Controls:
 
     def _listen(self, element: ValueElement[Any], get: Get, change: Set) -> None:
         def changed(event: Any) -> None:
-            # What the session itself has made of a value is no wish of the user's.
+            # A value that the session has set is not the user's input.
             if self._quiet or event.value == get():
                 return
-            with faults():
+            with errors_shown():
                 change(event.value)
             self.refresh()
 

@@ -4,25 +4,25 @@ from itertools import count
 
 from nicegui import ui
 
+from drapery.studio.descriptions import described
 from drapery.studio.session import Session
-from drapery.studio.widgets import words
-from drapery.studio.words import in_words
+from drapery.studio.widgets import text_element
 
 
 def build(session: Session) -> None:
-    """The picture, drawn anew whenever the design or the packs change."""
+    """The picture, which follows the design and the packs."""
     version = count()
     picture = ui.element("img").classes("face")
-    # What has changed, for those who do not see it.
-    told = words("").classes("sr").props("role=status")
+    # The change in words, for screen readers.
+    announced = text_element("").classes("sr").props("role=status")
 
     def show() -> None:
-        # A new address for every state: the browser may not show an old one.
+        # Each state has a new address: the browser must not show an older picture.
         picture.props["src"] = f"/face/{session.token}.png?v={next(version)}"
-        picture.props["alt"] = in_words(session.sketch)
+        picture.props["alt"] = described(session.sketch)
         picture.props["data-kind"] = session.sketch.kind
         picture.update()
-        told.set_text(in_words(session.sketch))
+        announced.set_text(described(session.sketch))
 
     show()
     session.listen("sketch", show)

@@ -1,7 +1,7 @@
-"""Labelled fields: numbers, choices, colours, ticks and lines of text, by the browser's own.
+"""Labelled fields: numbers, choices, colours, check boxes and lines of text.
 
-A field shows what `get` says, and says it anew at every `refresh`; what the user makes of it goes
-to `change`, and a fault in that is told and taken back.
+A field shows the value of `get`, again at every `refresh`. The user's input goes to `change`; if
+that raises a DraperyError, the user sees it and the field returns to the value of `get`.
 """
 
 from collections.abc import Callable, Mapping
@@ -12,16 +12,16 @@ from nicegui import ui
 from nicegui.element import Element
 
 from drapery.studio.components import value_of
-from drapery.studio.notices import faults
+from drapery.studio.notices import errors_shown
 from drapery.studio.snippets import plain
-from drapery.studio.widgets import button, words
+from drapery.studio.widgets import button, text_element
 
 Get = Callable[[], Any]
 Change = Callable[[Any], object]
 
 
 @dataclass(frozen=True)
-class _Shown:
+class _BoundProp:
     element: Element
     prop: str
     get: Get
@@ -31,10 +31,10 @@ class Fields:
     """The fields of one form."""
 
     def __init__(self) -> None:
-        self._shown: list[_Shown] = []
+        self._shown: list[_BoundProp] = []
 
     def refresh(self) -> None:
-        """Show what is so now."""
+        """Show the present values."""
         for field in self._shown:
             value = field.get()
             if field.element.props.get(field.prop) != value:
@@ -44,9 +44,9 @@ class Fields:
     def number(
         self, label: str, bounds: tuple[float, float], get: Get, change: Change, step: str = "1"
     ) -> None:
-        """A number; an empty field is put back."""
-        least, most = bounds
-        kind = {"type": "number", "min": least, "max": most, "step": step}
+        """A number; an empty field returns to its value."""
+        minimum, maximum = bounds
+        kind = {"type": "number", "min": minimum, "max": maximum, "step": step}
 
         def changed(text: Any) -> None:
             if _is_number(text):
@@ -55,13 +55,13 @@ class Fields:
         self._field(label, "input", kind, "value", lambda: plain(get()), changed)
 
     def choice(self, label: str, options: Mapping[str, str], get: Get, change: Change) -> None:
-        """One of several, by their names."""
+        """A list of choices, by name, with their titles."""
         with self._field(label, "select", {}, "value", get, change):
             for name, title in options.items():
-                words(title, "option").props.update({"value": name})
+                text_element(title, "option").props.update({"value": name})
 
     def tick(self, label: str, get: Get, change: Change) -> None:
-        """Yes or no."""
+        """A check box."""
         kind = {"type": "checkbox"}
         field = self._field(label, "input", kind, "checked", get, change, "e.target.checked")
         field.classes(remove="field")
@@ -85,18 +85,18 @@ class Fields:
         value: str = "e.target.value",
     ) -> Element:
         def changed(event: Any) -> None:
-            # So much the browser shows already.
+            # The browser shows this value already.
             element.props[prop] = value_of(event)
-            with faults():
+            with errors_shown():
                 change(value_of(event))
             self.refresh()
 
         with ui.element("label").classes("option"):
-            words(label)
+            text_element(label)
             element = ui.element(tag).classes("field")
             element.props.update({**kind, prop: get()})
         element.on("change", changed, js_handler=f"(e) => emit({value})")
-        self._shown.append(_Shown(element, prop, get))
+        self._shown.append(_BoundProp(element, prop, get))
         return element
 
 
@@ -114,10 +114,10 @@ def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:
     """
     with ui.element("div").classes("copy"):
         with ui.element("div").classes("copy-head"):
-            words(label, "h3")
+            text_element(label, "h3")
             press = button(f"Copy: {label}", lambda: None, icon="content_copy")
             with press:
-                words("Copy").classes("copy-words")
+                text_element("Copy").classes("copy-label")
             press.props.update({"data-copy": name})
         area = ui.element("textarea").classes("field code").props("readonly")
         area.props.update({"id": name, "rows": rows, "aria-label": label, "spellcheck": "false"})

@@ -1,4 +1,4 @@
-"""What can be chosen of a file that is made: its kind, and the options that count for it."""
+"""The options of an export: the kind of file, and the options that this kind has."""
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -16,8 +16,8 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import LOOPS, Order
-from drapery.studio.viewport import ViewportRequest, stage_of
-from drapery.studio.widgets import words
+from drapery.studio.viewport import ViewportRequest
+from drapery.studio.widgets import text_element
 
 KINDS = {
     "png": "PNG, a still",
@@ -31,9 +31,9 @@ KINDS = {
 }
 HINTS = {
     "gif": "A GIF has no half transparency and at most 50 frames/s.",
-    "mp4": "A video has no transparency: without a background it lies on white.",
+    "mp4": "A video has no transparency: without a background it is white.",
     "glb": "The model has its own size and light; it loops in Blender and on the web.",
-    "face": "As banner sites show it, whatever the wind.",
+    "face": "As banner sites show it; the wind has no effect.",
 }
 PICTURES = frozenset({"png", *LOOPS})
 MOVING = frozenset({*LOOPS, "glb"})
@@ -45,8 +45,8 @@ SKY = "#a8c8e8"
 
 
 @dataclass
-class Choice:
-    """What is chosen here and is no option of a picture."""
+class FileChoice:
+    """The choices that are not options of a picture."""
 
     kind: str = "png"
     seconds: float = 4.0
@@ -56,19 +56,19 @@ class Choice:
     changed: list[Callable[[], None]] = field(default_factory=list)
 
     def set(self, **values: Any) -> None:
-        """Choose something else; tells who listens."""
+        """Change choices and call the listeners."""
         for name, value in values.items():
             setattr(self, name, value)
         for call in self.changed:
             call()
 
 
-def order_of(session: Session, choice: Choice) -> Order:
-    """What is ordered by the page as it stands. Raises DesignError."""
-    # A cape or elytra wears a texture, no design.
+def order_of(session: Session, choice: FileChoice) -> Order:
+    """The order for the present state of the page. Raises DesignError."""
+    # A cape or elytra has a texture instead of a design.
     banner = None if session.settings.texture is not None else banner_of(session.sketch)
     settings = session.settings
-    if not stage_of(session).wishes.on:
+    if not session.viewport.request.on:
         settings = replace(settings, wind=0.0)
     return Order(banner, settings, choice.kind, choice.seconds, choice.fps, choice.scale)
 
@@ -76,8 +76,8 @@ def order_of(session: Session, choice: Choice) -> Order:
 Groups = list[tuple[Element, Callable[[], bool]]]
 
 
-def build_options(session: Session, choice: Choice) -> Callable[[], None]:
-    """The kind of file and the options that count for it; the callable shows them anew."""
+def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
+    """The kind of file and the options of this kind; the callable updates them."""
     fields, groups = Fields(), Groups()
     with ui.element("div").classes("options"):
         fields.choice("File", KINDS, lambda: choice.kind, lambda kind: choice.set(kind=kind))
@@ -97,13 +97,13 @@ def build_options(session: Session, choice: Choice) -> Callable[[], None]:
             _pick(session, fields, "Pixel art", "pixel", PIXELS, int)
         _ground(session, choice, fields, groups)
 
-    hint = words("", "p").classes("hint")
-    differs = words("", "p").classes("warning")
+    hint = text_element("", "p").classes("hint")
+    differs = text_element("", "p").classes("warning")
 
     def fit() -> None:
         fields.refresh()
         hint.set_text(HINTS.get(choice.kind, ""))
-        line = difference(stage_of(session).wishes, choice.kind)
+        line = difference(session.viewport.request, choice.kind)
         differs.set_text(line)
         differs.set_visibility(bool(line))
         for group, counts in groups:
@@ -114,7 +114,7 @@ def build_options(session: Session, choice: Choice) -> Callable[[], None]:
 
 @contextmanager
 def _only(groups: Groups, counts: Callable[[], bool]) -> Iterator[None]:
-    """Options that are shown only where they count."""
+    """Options that are visible only while `counts` is true."""
     with ui.element("div").classes("option-group") as group:
         yield
     groups.append((group, counts))
@@ -134,13 +134,13 @@ def _sides(session: Session, fields: Fields) -> None:
         fields.number(label, (1, MAX_SIDE), get, partial(resize, place))
 
 
-def _times(choice: Choice, fields: Fields) -> None:
+def _times(choice: FileChoice, fields: Fields) -> None:
     _number(fields, "Seconds", choice, "seconds", (0.05, 3600), float)
     _number(fields, "Frames/s", choice, "fps", (1, 120), float)
 
 
 def _number(
-    fields: Fields, label: str, choice: Choice, name: str, bounds: Bounds, kind: Kind
+    fields: Fields, label: str, choice: FileChoice, name: str, bounds: Bounds, kind: Kind
 ) -> None:
     """A number of the file alone."""
 
@@ -181,7 +181,7 @@ def _pick(
     fields.choice(label, names, lambda: str(getattr(session.settings, option)), change)
 
 
-def _ground(session: Session, choice: Choice, fields: Fields, groups: Groups) -> None:
+def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups) -> None:
     """Background and shadow."""
 
     def plain() -> bool:
@@ -200,14 +200,14 @@ def _ground(session: Session, choice: Choice, fields: Fields, groups: Groups) ->
     with _only(groups, lambda: choice.kind in PICTURES):
         fields.choice("Background", GROUNDS, lambda: "transparent" if plain() else "colour", choose)
         with _only(groups, lambda: not plain()):
-            fields.colour("Its colour", colour, paint)
+            fields.colour("Background colour", colour, paint)
         fields.tick(
             "Shadow", lambda: session.settings.shadow, lambda on: session.adjust(shadow=bool(on))
         )
 
 
-def difference(wishes: ViewportRequest, kind: str) -> str:
-    """What of the live banner is not in the file."""
-    if kind in ("face", "json") or wishes.scene is None:
+def difference(request: ViewportRequest, kind: str) -> str:
+    """What the live banner shows and the file will not."""
+    if kind in ("face", "json") or request.scene is None:
         return ""
     return "The file shows your banner, not the scene."

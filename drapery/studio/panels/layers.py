@@ -1,4 +1,4 @@
-"""The layers in their order, and what can be done to each."""
+"""The layers in their order, with the actions on each."""
 
 from typing import Any
 
@@ -8,17 +8,14 @@ from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS
 from drapery.banner.dyes import DYES
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import LayerList, value_of
-from drapery.studio.notices import faults
-from drapery.studio.panels.palette import colour_of
-from drapery.studio.selection import Selection, desk_of
+from drapery.studio.descriptions import dye_colour, dye_title, pattern_title
+from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import Stroke
-from drapery.studio.words import dye_words, pattern_words
 
 
 def build(session: Session) -> None:
-    """The list with its count, and a warning of what the loom cannot make."""
-    desk = desk_of(session)
+    """The list with its count, and a warning if a loom cannot make it."""
     with ui.element("div").classes("heading-line"):
         ui.html("Layers", sanitize=False, tag="h2").classes("heading")
         count = ui.label().classes("count")
@@ -32,31 +29,37 @@ def build(session: Session) -> None:
         count.classes(add="over" if too_many else "", remove="" if too_many else "over")
         warning.set_text(_TOO_MANY if too_many else "")
         warning.set_visibility(too_many)
-        rows.show(**_shown(session, desk))
+        rows.show(**_shown(session))
 
-    def act(wish: Any) -> None:
-        with faults():
-            desk.act(str(wish["what"]), int(wish["number"]), int(wish.get("place", 0)))
+    def act(event: Any) -> None:
+        with errors_shown():
+            what, number = str(event["what"]), int(event["number"])
+            session.selection.act(what, number, int(event.get("place", 0)))
 
-    def choose(wish: Any) -> None:
-        desk.choose("field" if wish == "field" else int(wish))
+    def choose(chosen: Any) -> None:
+        session.selection.choose("field" if chosen == "field" else int(chosen))
 
     rows.on("act", lambda event: act(value_of(event)))
     rows.on("choose", lambda event: choose(value_of(event)))
     show()
-    desk.listen(show)
+    session.selection.listen(show)
     session.listen("packs", show)
 
 
-_TOO_MANY = f"A loom stops at {LOOM_LAYERS} layers. This needs a command."
+_TOO_MANY = f"A loom makes at most {LOOM_LAYERS} layers. This needs a command."
 
 
-def _shown(session: Session, desk: Selection) -> dict[str, Any]:
+def _shown(session: Session) -> dict[str, Any]:
     sketch = session.sketch
     names = pattern_names(session.packs())
     rows = [_row(session, names, place, each) for place, each in enumerate(sketch.strokes)]
-    field = {"dyeTitle": dye_words(sketch.base), "colour": colour_of(DYES[sketch.base])}
-    return {"rows": rows[::-1], "field": field, "chosen": desk.chosen, "count": len(names)}
+    field = {"dyeTitle": dye_title(sketch.base), "colour": dye_colour(DYES[sketch.base])}
+    return {
+        "rows": rows[::-1],
+        "field": field,
+        "chosen": session.selection.chosen,
+        "count": len(names),
+    }
 
 
 def _row(session: Session, names: tuple[str, ...], place: int, stroke: Stroke) -> dict[str, Any]:
@@ -64,9 +67,9 @@ def _row(session: Session, names: tuple[str, ...], place: int, stroke: Stroke) -
         "number": stroke.number,
         "place": place,
         "index": names.index(stroke.pattern) if stroke.pattern in names else 0,
-        "title": pattern_words(stroke.pattern),
-        "dyeTitle": dye_words(stroke.dye),
-        "colour": colour_of(DYES[stroke.dye]),
+        "title": pattern_title(stroke.pattern),
+        "dyeTitle": dye_title(stroke.dye),
+        "colour": dye_colour(DYES[stroke.dye]),
         "sheet": sheet_address(session, stroke.dye),
         "hidden": stroke.hidden,
     }

@@ -1,4 +1,4 @@
-"""The library: designs that are kept, found, opened and put away again."""
+"""The library: save, find, open and delete designs."""
 
 from base64 import b64encode
 from collections.abc import Callable
@@ -7,21 +7,16 @@ from typing import TYPE_CHECKING, TypeVar
 
 from nicegui import background_tasks, run, ui
 
-from drapery.banner.design import Banner
-from drapery.banner.packs import Packs
 from drapery.errors import DraperyError
-from drapery.studio import page
+from drapery.studio.art import thumbnail
 from drapery.studio.components import value_of
-from drapery.studio.drop import Drop
-from drapery.studio.notices import Tone, faults, tell
+from drapery.studio.file_field import FileField
+from drapery.studio.notices import Tone, errors_shown, show_notice
 from drapery.studio.panels.fields import Fields
-from drapery.studio.selection import desk_of
 from drapery.studio.session import Session
-from drapery.studio.share import SHARED, over
-from drapery.studio.shared_library import library_at
+from drapery.studio.share import SHARED, with_shared
 from drapery.studio.sketch import MAX_TITLE, banner_of
-from drapery.studio.uploads import uploads_of
-from drapery.studio.widgets import button, words
+from drapery.studio.widgets import button, text_element
 
 if TYPE_CHECKING:
     from drapery.studio.library import Library
@@ -32,45 +27,45 @@ T = TypeVar("T")
 PAGE = 24
 """Designs that are shown at first, and more by every More."""
 LATER = 1.2
-"""When the library is first read, after the page has been built [s]."""
+"""The library is first read so long after the page has been built [s]."""
 PAUSE = 0.25
-"""A search follows the typing at most so often [s]."""
+"""The shortest time between two searches while the user types [s]."""
 
 
 def build(session: Session) -> None:
-    """The form that keeps the design, the search, what it finds, and the whole library's door."""
-    Shelves(session)
+    """The form that saves the design, the search with its results, export and import."""
+    LibraryPanel(session)
 
 
-class Shelves:
+class LibraryPanel:
     """The panel of one tab."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
         self._client = ui.context.client
-        # The design that is being worked on, by its number; 0 for one that is not kept yet.
+        # The number of the present design in the library; 0 for one that is not saved yet.
         self._open = 0
         self._title = session.sketch.title
         self._tags = ""
         self._words = ""
         self._tag = ""
         self._names: dict[str, int] = {}
-        self._most = PAGE
+        self._limit = PAGE
         self._form()
         self._search()
         self._undo = ui.element("div").classes("line undo").props("role=status")
         self._undo.set_visibility(False)
         self._found = ui.element("ul").classes("designs").props("aria-label=Designs")
-        self._count = words("", "p").classes("hint").props("role=status")
+        self._count = text_element("", "p").classes("hint").props("role=status")
         self._more = button("More designs", self._show_more, text="More")
         self._more.set_visibility(False)
-        self._doors()
+        self._whole_library()
         session.listen("sketch", self._follow)
         # The database is not needed for the first picture.
         ui.timer(LATER, self._refresh, once=True)
 
     def _form(self) -> None:
-        words("Keep this design", "h2").classes("heading")
+        text_element("Save this design", "h2").classes("heading")
         self._fields = Fields()
         with ui.element("div").classes("options"):
             self._fields.line(
@@ -97,7 +92,7 @@ class Shelves:
         self._tags = self._tags if tags is None else tags
 
     def _search(self) -> None:
-        words("Find", "h2").classes("heading")
+        text_element("Find", "h2").classes("heading")
         with ui.element("div").classes("search"):
             field = ui.element("input").classes("field").props("type=search maxlength=200")
             label = "Title, tag, dye or pattern"
@@ -122,15 +117,17 @@ class Shelves:
     async def _search_for(self, *, words: str | None = None, tag: str | None = None) -> None:
         self._words = self._words if words is None else words
         self._tag = self._tag if tag is None else tag
-        self._most = PAGE
+        self._limit = PAGE
         await self._refresh()
 
-    def _doors(self) -> None:
-        words("The whole library", "h2").classes("heading")
+    def _whole_library(self) -> None:
+        text_element("The whole library", "h2").classes("heading")
         with ui.element("div").classes("line"):
-            export = words("Export it as a file", "a").props("download").classes("export-link")
+            export = (
+                text_element("Export it as a file", "a").props("download").classes("export-link")
+            )
             export.props["href"] = f"/library/{self._session.token}"
-        Drop(
+        FileField(
             self._session,
             "library",
             "Drop an exported library here, or choose it (.json)",
@@ -143,37 +140,37 @@ class Shelves:
             self._title = self._session.sketch.title
             self._fields.refresh()
 
-    def _tell(self, line: str, tone: Tone = "done") -> None:
-        # What was pressed may have gone with the cards that have been drawn anew.
+    def _notice(self, line: str, tone: Tone = "done") -> None:
+        # The pressed button may be gone: the cards have been replaced.
         with self._client:
-            tell(line, tone)
+            show_notice(line, tone)
 
     async def _do(self, act: "Callable[[Library], T]") -> T | None:
-        """What the library answers, in a thread; None where it refused, which the user is told."""
+        """The library's answer, in a thread; None after an error, which the user is shown."""
 
         def ask() -> T:
-            return act(library_at(page.house.library))
+            return act(self._session.library.open())
 
         try:
             return await run.io_bound(ask)
         except DraperyError as error:
-            self._tell(str(error), "fault")
+            self._notice(str(error), "fault")
             return None
 
     async def _refresh(self) -> None:
-        wanted, tag, most = self._words, self._tag or None, self._most
+        wanted, tag, limit = self._words, self._tag or None, self._limit
 
         def ask(library: "Library") -> "tuple[list[Design], int, dict[str, int]]":
-            return *library.search(wanted, tag, most=most), library.tags()
+            return *library.search(wanted, tag, limit=limit), library.tags()
 
         answer = await self._do(ask)
-        # A later search may have come back earlier.
-        stale = (wanted, tag, most) != (self._words, self._tag or None, self._most)
+        # The answer to a later search may have arrived earlier.
+        stale = (wanted, tag, limit) != (self._words, self._tag or None, self._limit)
         if answer is None or stale or self._session.closed:
             return
         designs, count, names = answer
         if tag is not None and tag not in names:
-            # The last design with this tag has gone.
+            # The last design with this tag is gone.
             self._tag = ""
             self._tag_choice.refresh()
             await self._refresh()
@@ -197,8 +194,8 @@ class Shelves:
         with opened:
             picture = ui.element("img").props('alt=""')
             picture.props["src"] = f"data:image/png;base64,{b64encode(design.thumbnail).decode()}"
-        words(name).classes("design-title").props.update({"title": name})
-        words(", ".join(design.tags)).classes("hint design-tags")
+        text_element(name).classes("design-title").props.update({"title": name})
+        text_element(", ".join(design.tags)).classes("hint design-tags")
         with ui.element("div").classes("design-acts"):
             edit = button(f"Rename or tag {name}", lambda: self._edit(design), icon="edit")
             gone = button(f"Delete {name}", lambda: self._remove(design.number), icon="delete")
@@ -206,35 +203,35 @@ class Shelves:
         gone.classes("small")
 
     async def _save_over(self) -> None:
-        await self._keep(self._open)
+        await self._store(self._open)
 
     async def _save_new(self) -> None:
-        await self._keep(0)
+        await self._store(0)
 
-    async def _keep(self, number: int) -> None:
+    async def _store(self, number: int) -> None:
         session = self._session
         sketch = replace(session.sketch, title=self._title.strip())
-        look, tags = session.settings, _split(self._tags)
+        settings, tags = session.settings, _split(self._tags)
 
-        def keep(library: "Library") -> "tuple[int, Design | None]":
+        def store(library: "Library") -> "tuple[int, Design | None]":
             from drapery.studio.records import Design
 
             picture = thumbnail(banner_of(sketch), session.packs())
-            design = Design(sketch, look, tags, picture, number)
+            design = Design(sketch, settings, tags, picture, number)
             if not number:
                 return library.add(design), None
             before = library.get(number)
             library.change(design)
             return number, before
 
-        kept = await self._do(keep)
-        if kept is None:
+        stored = await self._do(store)
+        if stored is None:
             return
         session.edit(sketch)
-        self._set_open(kept[0])
-        self._tell(f"Saved {sketch.title or 'without a title'}")
-        if kept[1] is not None:
-            self._offer(f"Changed {_title(kept[1])}", "Keep the old one too", kept[1])
+        self._set_open(stored[0])
+        self._notice(f"Saved {sketch.title or 'without a title'}")
+        if stored[1] is not None:
+            self._offer(f"Changed {_title(stored[1])}", "Keep the old one too", stored[1])
         await self._refresh()
 
     def _set_open(self, number: int) -> None:
@@ -248,15 +245,15 @@ class Shelves:
         if design is None:
             return
         session = self._session
-        chosen = over(session.settings, design.look)
-        with faults():
+        chosen = with_shared(session.settings, design.settings)
+        with errors_shown():
             session.adjust(**{name: getattr(chosen, name) for name in SHARED})
         self._take(title=design.title, tags=", ".join(design.tags))
-        desk_of(session).lay_out(design.sketch)
+        session.selection.lay_out(design.sketch)
         self._fields.refresh()
         self._set_open(number)
         self._undo.set_visibility(False)
-        self._tell(f"Opened {_title(design)}")
+        self._notice(f"Opened {_title(design)}")
 
     def _edit(self, design: "Design") -> None:
         """A dialog for title and tags."""
@@ -267,24 +264,24 @@ class Shelves:
             library.change(replace(design, sketch=sketch, tags=_split(wanted["tags"])))
             return True
 
-        async def keep() -> None:
+        async def save() -> None:
             if await self._do(change):
                 dialog.close()
                 await self._refresh()
 
-        def line(label: str, name: str, most: int) -> None:
+        def line(label: str, name: str, maximum: int) -> None:
             def take(text: object) -> None:
                 wanted[name] = str(text)
 
-            fields.line(label, lambda: wanted[name], take, maxlength=most)
+            fields.line(label, lambda: wanted[name], take, maxlength=maximum)
 
         with ui.dialog() as dialog, ui.element("div").classes("studio-dialog"):
-            words("Rename or tag", "h2").classes("heading")
+            text_element("Rename or tag", "h2").classes("heading")
             fields = Fields()
             line("Title", "title", MAX_TITLE)
             line("Tags, with commas between", "tags", 500)
             with ui.element("div").classes("line"):
-                button("Keep title and tags", keep, text="Keep").classes("primary")
+                button("Save title and tags", save, text="Save").classes("primary")
                 button("Change nothing", dialog.close, text="Cancel")
         dialog.on("hide", dialog.delete)
         dialog.open()
@@ -297,14 +294,14 @@ class Shelves:
             self._set_open(0)
         self._offer(f"Deleted {_title(gone)}", "Put it back", gone)
         await self._refresh()
-        # What was pressed is gone; whoever uses keys goes on from here.
+        # The pressed button is gone; the keyboard's focus goes on from here.
         self._client.run_javascript("document.querySelector('.undo button')?.focus()")
 
     def _offer(self, line: str, offer: str, design: "Design") -> None:
-        """What has just been done, and a way to have the design as it was."""
+        """Say what was done, with a button that restores the earlier design."""
         self._undo.clear()
         with self._undo:
-            words(line)
+            text_element(line)
             button(offer, lambda: self._put_back(design), text=offer)
         self._undo.set_visibility(True)
 
@@ -314,28 +311,19 @@ class Shelves:
             await self._refresh()
 
     async def _import(self, number: int) -> None:
-        upload = uploads_of(self._session).get(number, "library")
+        upload = self._session.uploads.get(number, "library")
         counts = await self._do(lambda library: library.load(upload.path.read_bytes()))
-        uploads_of(self._session).remove(number)
+        self._session.uploads.remove(number)
         if counts is not None:
             fresh, known = counts
-            self._tell(f"{fresh} designs added" + (f", {known} were here already" if known else ""))
+            self._notice(
+                f"{fresh} designs added" + (f", {known} were here already" if known else "")
+            )
             await self._refresh()
 
     async def _show_more(self) -> None:
-        self._most += PAGE
+        self._limit += PAGE
         await self._refresh()
-
-
-def thumbnail(banner: Banner, packs: Packs) -> bytes:
-    """The face at two pixels a texel, as a PNG file. Raises PackError."""
-    from drapery.banner.packs.png import read_png
-    from drapery.render.encode.png import png_bytes
-    from drapery.studio.art import FACE_SCALE, face_png
-
-    step = FACE_SCALE // 2
-    face = read_png(face_png(banner, packs), "the face")
-    return png_bytes(face[step // 2 :: step, step // 2 :: step].copy())
 
 
 def _split(text: str) -> tuple[str, ...]:
@@ -348,5 +336,5 @@ def _title(design: "Design") -> str:
 
 def _counted(count: int, searched: bool) -> str:
     if not count:
-        return "Nothing found" if searched else "Nothing is kept here yet"
+        return "Nothing found" if searched else "No design is saved yet"
     return "1 design" if count == 1 else f"{count} designs"

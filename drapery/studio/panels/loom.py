@@ -1,4 +1,4 @@
-"""The design as work at the loom: what to have at hand, and the steps."""
+"""The design as a recipe for the loom: the items that it needs, and the steps."""
 
 from collections import Counter
 from html import escape
@@ -9,21 +9,20 @@ from nicegui import ui
 from drapery.banner.design import LOOM_LAYERS, Banner
 from drapery.banner.loom import fits_loom, simplified, steps
 from drapery.errors import DraperyError
-from drapery.studio.notices import faults
-from drapery.studio.selection import desk_of
+from drapery.studio.descriptions import dye_title, pattern_title
+from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
-from drapery.studio.widgets import button, words
-from drapery.studio.words import dye_words, pattern_words
+from drapery.studio.widgets import button, text_element
 
 
 def build(session: Session) -> None:
-    """The recipe, and a way to leave out what nobody sees."""
+    """The recipe, and a button that leaves out layers which nobody can see."""
     version = count()
-    words("Loom recipe", "h2").classes("heading")
-    warning = words("", "p").classes("warning").props('role="status"')
+    text_element("Loom recipe", "h2").classes("heading")
+    warning = text_element("", "p").classes("warning").props('role="status"')
     with ui.element("div").classes("line") as spare:
-        hint = words("", "span").classes("hint grow")
+        hint = text_element("", "span").classes("hint grow")
         button("Leave out layers that change nothing", lambda: simplify(session), text="Leave out")
     recipe = ui.html("", sanitize=False).classes("recipe")
 
@@ -33,10 +32,12 @@ def build(session: Session) -> None:
             unseen = len(banner.layers) - len(simplified(banner, session.packs()).layers)
         except DraperyError:
             return
-        warning.set_text(f"A loom stops at {LOOM_LAYERS} layers; these are {len(banner.layers)}.")
+        warning.set_text(
+            f"A loom makes at most {LOOM_LAYERS} layers; the design has {len(banner.layers)}."
+        )
         warning.set_visibility(not fits_loom(banner))
         some = "one layer changes" if unseen == 1 else f"{unseen} layers change"
-        hint.set_text(f"{some.capitalize()} nothing that one sees.")
+        hint.set_text(f"{some.capitalize()} nothing that can be seen.")
         spare.set_visibility(unseen > 0)
         recipe.set_content(_recipe(banner, f"/steps/{session.token}", next(version)))
 
@@ -47,9 +48,9 @@ def build(session: Session) -> None:
 
 def simplify(session: Session) -> None:
     """Leave out the layers that change no texel."""
-    with faults():
+    with errors_shown():
         banner = simplified(banner_of(session.sketch), session.packs())
-        desk_of(session).lay_out(sketch_of(banner, session.sketch.title))
+        session.selection.lay_out(sketch_of(banner, session.sketch.title))
 
 
 def _recipe(banner: Banner, address: str, version: int) -> str:
@@ -61,13 +62,15 @@ def _recipe(banner: Banner, address: str, version: int) -> str:
     rows = "".join(
         _row(
             f"{address}/{number}.png?v={version}",
-            _did(step.layer.dye, step.layer.pattern),
+            _step_title(step.layer.dye, step.layer.pattern),
             step.item,
         )
         for number, step in enumerate(steps(banner), 1)
     )
-    return f'<h3>To have at hand</h3><ul class="goods">{items}</ul><h3>Steps</h3>' + (
-        f'<ol class="steps">{rows}</ol>' if rows else '<p class="hint">Nothing: it is plain.</p>'
+    return f'<h3>Items</h3><ul class="goods">{items}</ul><h3>Steps</h3>' + (
+        f'<ol class="steps">{rows}</ol>'
+        if rows
+        else '<p class="hint">None: the banner is plain.</p>'
     )
 
 
@@ -77,9 +80,9 @@ def _row(address: str, did: str, item: str | None) -> str:
     return f"<li>{picture}<span><b>{escape(did)}</b>{needs}</span></li>"
 
 
-def _did(dye: str, pattern: str) -> str:
-    return f"{dye_words(dye)} {pattern_words(pattern)}"
+def _step_title(dye: str, pattern: str) -> str:
+    return f"{dye_title(dye)} {pattern_title(pattern)}"
 
 
 def _lower(dye: str) -> str:
-    return dye_words(dye).lower()
+    return dye_title(dye).lower()

@@ -1,4 +1,4 @@
-"""What moves the live banner and how it hangs: wind, cloth, place and light."""
+"""Controls of the live banner: wind, cloth, placement and light."""
 
 import math
 from typing import get_args
@@ -9,7 +9,6 @@ from drapery.cloth import SOLVERS
 from drapery.settings import MAX_LIGHT, MAX_WIND, ROTATIONS, Facing, Placement
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
-from drapery.studio.viewport import stage_of
 from drapery.studio.wind_controls import wind_controls_of
 
 GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (17, 33), (25, 49), (33, 65))
@@ -45,7 +44,6 @@ def build(session: Session) -> None:
 
 
 def _wind(session: Session, controls: Controls) -> None:
-    stage = stage_of(session)
     controls.slider(
         "Speed",
         (0, MAX_WIND / 2, 0.1),
@@ -67,7 +65,11 @@ def _wind(session: Session, controls: Controls) -> None:
         lambda gusts: session.adjust(gusts=float(gusts)),
         "{:.2f}".format,
     )
-    controls.switch("It blows", lambda: stage.wishes.on, lambda on: stage.wish(on=bool(on)))
+    controls.switch(
+        "Wind on",
+        lambda: session.viewport.request.on,
+        lambda on: session.viewport.update(on=bool(on)),
+    )
 
 
 def _cloth(session: Session, controls: Controls) -> None:
@@ -77,7 +79,7 @@ def _cloth(session: Session, controls: Controls) -> None:
         lambda: session.settings.solver,
         lambda name: session.adjust(solver=name),
     )
-    # A list holds only what it offers; a link may bring another grid.
+    # The list must hold the present grid, which a link may have set.
     grids = dict.fromkeys((*GRIDS, tuple(session.settings.grid)))
     controls.select(
         "Grid",
@@ -127,12 +129,12 @@ def _place(session: Session, controls: Controls) -> None:
 
 
 def _rotation(session: Session) -> int:
-    """In sixteenths, of what stands and of what hangs on a wall alike."""
+    """In sixteenths of a turn, for standing and wall banners alike."""
     return round(session.settings.turned * ROTATIONS / 360)
 
 
 def _rotate(session: Session, number: int) -> None:
-    """Turn it; on a wall to the nearest of four sides."""
+    """Turn the banner; on a wall, to the nearest of four sides."""
     if session.settings.placement == "wall":
         sides = get_args(Facing)
         session.adjust(facing=sides[round(number / 4) % len(sides)])
@@ -144,7 +146,7 @@ def _light(session: Session, controls: Controls) -> None:
     chosen = [hour_of(session.settings.daylight)]
 
     def hour() -> float:
-        # Morning and evening have the same light: the hour that was chosen is kept beside it.
+        # Morning and evening have the same light: the chosen hour is stored beside it.
         daylight = session.settings.daylight
         return chosen[0] if daylight_at(chosen[0]) == daylight else hour_of(daylight)
 
@@ -178,12 +180,12 @@ def _level(session: Session, controls: Controls, label: str, option: str) -> Non
 
 
 def daylight_at(hour: float) -> float:
-    """How bright the sky is at an hour 0..24: 1 about noon, 0 in the night, in between at dusk."""
+    """The brightness of the sky at an hour 0..24: 1 about noon, 0 at night, between at dusk."""
     return min(1.0, max(0.0, 0.5 + 2 * math.cos(math.tau * (hour - NOON) / 24)))
 
 
 def hour_of(daylight: float) -> float:
-    """An hour from noon to midnight whose sky is so bright, in quarters of an hour."""
+    """The hour from noon to midnight whose sky has this brightness, in quarters of an hour."""
     if daylight >= 1.0:
         return NOON
     if daylight <= 0.0:

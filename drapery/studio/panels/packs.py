@@ -1,4 +1,4 @@
-"""Resource packs: dropped here, put in order, switched, and seen side by side."""
+"""Resource packs: add, order, switch and compare them."""
 
 from collections.abc import Callable
 from itertools import count
@@ -6,54 +6,55 @@ from itertools import count
 from nicegui import Client, run, ui
 
 from drapery.errors import DraperyError
-from drapery.studio.drop import Drop
-from drapery.studio.notices import faults, tell
-from drapery.studio.pack_store import Entry, PackStore, shelf_of
+from drapery.studio.file_field import FileField
+from drapery.studio.notices import errors_shown, show_notice
+from drapery.studio.pack_store import PackEntry, PackStore
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
-from drapery.studio.viewport import stage_of
-from drapery.studio.widgets import button, words
+from drapery.studio.widgets import button, text_element
 
-NOBODY = "nobody"
+NO_PACK = "none"
 OWN_ART = "Drapery's own art"
 
 
 def build(session: Session) -> None:
     """The field for files, the list of packs, and the comparison."""
-    shelf = shelf_of(session)
+    pack_store = session.pack_store
 
     async def take(number: int) -> None:
         reading.set_text("Reading all its patterns …")
         try:
-            summary = await run.io_bound(shelf.check, number) or ""
-            entry = shelf.adopt(number, summary)
+            summary = await run.io_bound(pack_store.check, number) or ""
+            entry = pack_store.adopt(number, summary)
         except DraperyError as error:
-            shelf.refuse(number)
-            tell(str(error), "fault")
+            pack_store.refuse(number)
+            show_notice(str(error), "fault")
         else:
-            tell(f"{entry.name}: {summary}")
+            show_notice(f"{entry.name}: {summary}")
         finally:
             reading.set_text("")
 
-    words("Resource packs", "h2").classes("heading")
+    text_element("Resource packs", "h2").classes("heading")
     label = "Drop packs here, or choose them (.zip, .jar)"
     endings = ".zip,.jar,application/zip"
-    Drop(session, "pack", label, take, endings=endings, multiple=True, tab="packs")
-    reading = words("", "p").classes("hint").props("role=status")
-    _list(session, shelf)
-    words("Side by side", "h2").classes("heading")
-    _comparison(session, shelf)
+    FileField(session, "pack", label, take, endings=endings, multiple=True, tab="packs")
+    reading = text_element("", "p").classes("hint").props("role=status")
+    _list(session)
+    text_element("Side by side", "h2").classes("heading")
+    _comparison(session)
 
 
-def _list(session: Session, shelf: PackStore) -> None:
+def _list(session: Session) -> None:
+    pack_store = session.pack_store
+
     @ui.refreshable
     def entries() -> None:
         with ui.element("ol").classes("packs").props('aria-label="Packs, the one that wins first"'):
-            for entry in reversed(shelf.entries):
+            for entry in reversed(pack_store.entries):
                 with ui.element("li").classes("pack").props(f"data-pack={entry.number}"):
-                    _row(session, shelf, entry)
+                    _row(session, entry)
             with ui.element("li").classes("pack"):
-                _name(OWN_ART, OWN_ART, "beneath all others")
+                _name(OWN_ART, OWN_ART, "below all others")
 
     entries()
     session.listen("packs", entries.refresh)
@@ -61,29 +62,29 @@ def _list(session: Session, shelf: PackStore) -> None:
 
 def _name(title: str, name: str, summary: str) -> None:
     with ui.element("div").classes("pack-name"):
-        words(title).props.update({"title": name})
-        words(summary).classes("hint")
+        text_element(title).props.update({"title": name})
+        text_element(summary).classes("hint")
 
 
-def _row(session: Session, shelf: PackStore, entry: Entry) -> None:
-    client = ui.context.client
+def _row(session: Session, entry: PackEntry) -> None:
+    client, pack_store = ui.context.client, session.pack_store
 
     def act(call: Callable[[], None]) -> None:
         before = session.settings.packs
-        with client, faults():
+        with client, errors_shown():
             call()
-        # The order of packs that are off is nobody else's business, so nobody has told of it.
+        # A change among packs that are off changes no option, so no event has announced it.
         if session.settings.packs == before:
-            session.tell("packs")
+            session.notify("packs")
 
     switch = ui.element("input").props("type=checkbox")
     switch.props.update({"checked": entry.on, "aria-label": f"Use {entry.title}"})
-    switch.on("change", lambda: act(lambda: shelf.switch(entry.number)))
+    switch.on("change", lambda: act(lambda: pack_store.switch(entry.number)))
     _name(entry.title, entry.name, entry.summary)
     acts: tuple[tuple[str, str, Callable[[], None]], ...] = (
-        ("arrow_upward", "Higher", lambda: shelf.move(entry.number, 1)),
-        ("arrow_downward", "Lower", lambda: shelf.move(entry.number, -1)),
-        ("close", "Remove", lambda: shelf.remove(entry.number)),
+        ("arrow_upward", "Higher", lambda: pack_store.move(entry.number, 1)),
+        ("arrow_downward", "Lower", lambda: pack_store.move(entry.number, -1)),
+        ("close", "Remove", lambda: pack_store.remove(entry.number)),
     )
     for icon, label, call in acts:
 
@@ -95,22 +96,22 @@ def _row(session: Session, shelf: PackStore, entry: Entry) -> None:
 
 
 def _focus(client: Client, selector: str) -> None:
-    """Back to what was pressed, which has been drawn anew."""
+    """Give the focus back to the pressed button, which has been replaced."""
     client.run_javascript(f"setTimeout(() => document.querySelector(`{selector}`)?.focus(), 60)")
 
 
-def _comparison(session: Session, shelf: PackStore) -> None:
-    version, other = count(), NOBODY
+def _comparison(session: Session) -> None:
+    version, other, pack_store = count(), NO_PACK, session.pack_store
 
     def choices() -> dict[str, str]:
-        packs = {str(entry.number): entry.title for entry in reversed(shelf.entries)}
-        return {NOBODY: "nothing", "own": OWN_ART} | packs
+        packs = {str(entry.number): entry.title for entry in reversed(pack_store.entries)}
+        return {NO_PACK: "nothing", "own": OWN_ART} | packs
 
     def choose(name: str) -> None:
         nonlocal other
-        other = name if name in choices() else NOBODY
-        with faults():
-            stage_of(session).wish(beside=_paths(shelf, other))
+        other = name if name in choices() else NO_PACK
+        with errors_shown():
+            session.viewport.update(beside=_paths(pack_store, other))
         pictures.refresh()
 
     @ui.refreshable
@@ -119,15 +120,15 @@ def _comparison(session: Session, shelf: PackStore) -> None:
 
     @ui.refreshable
     def pictures() -> None:
-        if other != NOBODY:
+        if other != NO_PACK:
             with ui.element("div").classes("versus"):
                 _side(session, "now", "Your packs in their order", next(version))
                 _side(session, other, choices()[other], next(version))
 
     def follow() -> None:
         chooser.refresh()
-        # What is compared with may be gone, or be another file now.
-        if other != NOBODY:
+        # The pack on the other side may be gone, or be another file now.
+        if other != NO_PACK:
             choose(other)
 
     chooser()
@@ -136,11 +137,11 @@ def _comparison(session: Session, shelf: PackStore) -> None:
     session.listen("sketch", pictures.refresh)
 
 
-def _paths(shelf: PackStore, other: str) -> tuple[str, ...] | None:
-    """What is laid over our own art on the right; None where nothing is compared."""
+def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
+    """The packs of the right side, over Drapery's own art; None if nothing is compared."""
     if other == "own":
         return ()
-    return (str(shelf.path_of(int(other))),) if other.isdigit() else None
+    return (str(pack_store.path_of(int(other))),) if other.isdigit() else None
 
 
 def _side(session: Session, which: str, caption: str, version: int) -> None:
@@ -150,7 +151,7 @@ def _side(session: Session, which: str, caption: str, version: int) -> None:
     field = next(each for each in (sketch.base, "white", "black") if each != dye)
     address = f"/compare/{session.token}/{which}"
     with ui.element("figure").classes("versus-side"):
-        words(caption, "figcaption")
+        text_element(caption, "figcaption")
         for what, query in (("face", ""), ("patterns", f"&base={field}&dye={dye}")):
             picture = ui.element("img").classes(f"versus-{what}")
             title = "Design" if what == "face" else "Patterns"

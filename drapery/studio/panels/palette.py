@@ -1,53 +1,46 @@
-"""The sixteen dyes, for what is chosen or for the next layer."""
+"""The sixteen dyes, for the chosen layer or for the next one."""
 
 from drapery.banner.dyes import DYES, Dye
 from drapery.studio.components import Palette, value_of
-from drapery.studio.notices import faults
-from drapery.studio.selection import Selection, desk_of
+from drapery.studio.descriptions import dye_colour, dye_title, pattern_title
+from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
-from drapery.studio.words import dye_words, pattern_words
 
 
 def build(session: Session) -> None:
-    """The palette, whose heading says what a click dyes."""
-    desk = desk_of(session)
+    """The palette; its heading says what a click dyes."""
     palette = Palette()
 
     def show() -> None:
-        palette.show(chosen=desk.shown_dye, heading=_heading(session, desk))
+        palette.show(chosen=session.selection.shown_dye, heading=_heading(session))
 
     def press(dye: object) -> None:
-        with faults():
-            desk.press_dye(str(dye))
+        with errors_shown():
+            session.selection.press_dye(str(dye))
 
     palette.show(dyes=[_swatch(dye) for dye in DYES.values()])
     palette.on("dye", lambda event: press(value_of(event)))
     show()
-    desk.listen(show)
+    session.selection.listen(show)
 
 
-def _heading(session: Session, desk: Selection) -> str:
-    if desk.chosen == "field":
+def _heading(session: Session) -> str:
+    if session.selection.chosen == "field":
         return "Dye of the field"
-    if desk.chosen is None:
+    if session.selection.chosen is None:
         return "Dye of the next layer"
-    place = place_of(session.sketch, desk.chosen)
-    return f"Dye of layer {place + 1}: {pattern_words(session.sketch.strokes[place].pattern)}"
+    place = place_of(session.sketch, session.selection.chosen)
+    return f"Dye of layer {place + 1}: {pattern_title(session.sketch.strokes[place].pattern)}"
 
 
 def _swatch(dye: Dye) -> dict[str, str]:
     return {
         "name": dye.name,
-        "title": dye_words(dye.name),
-        "colour": colour_of(dye),
+        "title": dye_title(dye.name),
+        "colour": dye_colour(dye),
         "ink": "#000" if _luminance(dye) > 0.18 else "#fff",
     }
-
-
-def colour_of(dye: Dye) -> str:
-    """The dye as CSS writes it."""
-    return "#{:02x}{:02x}{:02x}".format(*dye.rgb)
 
 
 def _luminance(dye: Dye) -> float:

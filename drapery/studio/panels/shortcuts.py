@@ -1,4 +1,4 @@
-"""The list of shortcuts, as `studio.js` and the viewer know them."""
+"""The list of the shortcuts of `studio.js` and of the viewer."""
 
 from html import escape
 
@@ -8,10 +8,10 @@ _KEYS = {
     "Design": (
         ("Ctrl+Z", "undo"),
         ("Ctrl+Shift+Z, Ctrl+Y", "redo"),
-        ("R", "a design by chance"),
+        ("R", "random design"),
         ("B", "banner or shield"),
         ("M", "survival or commands"),
-        ("/", "find a pattern; Enter lays it on"),
+        ("/", "find a pattern; Enter adds it"),
         ("Ctrl+V", "read a design from the clipboard"),
     ),
     "The chosen layer": (
@@ -19,19 +19,19 @@ _KEYS = {
         ("H", "hide or show it"),
         ("Ctrl+D", "duplicate it"),
         ("Delete", "remove it"),
-        ("Escape", "let it go: dyes are for the next layer"),
+        ("Escape", "clear the choice: dyes are for the next layer"),
     ),
     "The wind": (
-        ("W A S D, arrows", "where it blows to"),
+        ("W A S D, arrows", "direction"),
         ("Q, E", "weaker, stronger"),
         ("Space", "on or off"),
     ),
     "The live banner, when it has the focus": (
-        ("Shift+arrows", "walk round it"),
-        ("+, -", "nearer, further off"),
-        ("Home", "as it was"),
+        ("Shift+arrows", "turn the view"),
+        ("+, -", "zoom in, zoom out"),
+        ("Home", "reset the view"),
     ),
-    "The page": (("Tab, Shift+Tab", "from part to part"), ("?", "this list")),
+    "The page": (("Tab, Shift+Tab", "next part, part before"), ("?", "this list")),
 }
 
 

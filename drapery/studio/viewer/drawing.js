@@ -1,18 +1,18 @@
-// Draws a scene as the software renderer does: nearest texels, layers laid over one another in
-// straight alpha, light by vertex in sRGB, what blends last and from far to near.
+// Draws a scene as the software renderer does: nearest texels, layers composited in straight
+// alpha, light by vertex in sRGB, blended triangles last and from far to near.
 
 const VERTEX = `#version 300 es
 in vec3 position;
 in float light;
 in vec2 uv;
-in int look;
+in int material;
 uniform mat4 clip;
 out vec3 uvLight;
-flat out int worn;
+flat out int materialIndex;
 void main() {
   gl_Position = clip * vec4(position, 1.0);
   uvLight = vec3(uv, light);
-  worn = look;
+  materialIndex = material;
 }`;
 
 const FRAGMENT = `#version 300 es
@@ -20,9 +20,9 @@ precision highp float;
 precision highp int;
 precision highp isampler2D;
 in vec3 uvLight;
-flat in int worn;
+flat in int materialIndex;
 uniform sampler2D atlas;
-uniform isampler2D looks;
+uniform isampler2D materials;
 uniform isampler2D layers;
 uniform vec3 tint;
 out vec4 colour; // premultiplied
@@ -45,16 +45,16 @@ vec4 layer(int number) {
 }
 
 void main() {
-  ivec4 look = row(looks, worn); // first layer, how many, alpha mode, lit
-  vec4 seen = layer(look.x);
-  if (look.z == CUTOUT && seen.a < 0.5) discard;
-  if (look.z != BLEND) seen.a = 1.0;
-  for (int upper = 1; upper < look.y; upper++) {
-    vec4 top = layer(look.x + upper);
+  ivec4 material = row(materials, materialIndex); // first layer, number of layers, alpha mode, lit
+  vec4 seen = layer(material.x);
+  if (material.z == CUTOUT && seen.a < 0.5) discard;
+  if (material.z != BLEND) seen.a = 1.0;
+  for (int upper = 1; upper < material.y; upper++) {
+    vec4 top = layer(material.x + upper);
     float share = seen.a * (1.0 - top.a), total = top.a + share;
     if (total > 0.0) seen = vec4(rounded((top.rgb * top.a + seen.rgb * share) / total), total);
   }
-  if (look.w != 0) seen.rgb = rounded(seen.rgb * uvLight.z * tint);
+  if (material.w != 0) seen.rgb = rounded(seen.rgb * uvLight.z * tint);
   colour = vec4(seen.rgb * seen.a, seen.a);
 }`;
 
@@ -67,7 +67,7 @@ export class Drawing {
     this.scene = null;
     this.program = link(gl);
     this.at = Object.fromEntries(
-      ["clip", "atlas", "looks", "layers", "tint"].map((name) => [name, gl.getUniformLocation(this.program, name)])
+      ["clip", "atlas", "materials", "layers", "tint"].map((name) => [name, gl.getUniformLocation(this.program, name)])
     );
     this.vertexArray = gl.createVertexArray();
     this.textures = {};
@@ -84,11 +84,11 @@ export class Drawing {
     this.attribute("position", 3, this.scene.positions, gl.DYNAMIC_DRAW);
     this.attribute("light", 1, this.scene.light, gl.DYNAMIC_DRAW);
     this.attribute("uv", 2, arrays.uvs, gl.STATIC_DRAW);
-    this.attribute("look", 1, arrays.vertexLooks, gl.STATIC_DRAW, true);
+    this.attribute("material", 1, arrays.vertexMaterials, gl.STATIC_DRAW, true);
     this.indices = this.filled("indices", gl.ELEMENT_ARRAY_BUFFER, allIndices(this.scene.panes), gl.DYNAMIC_DRAW);
     const [width, height] = header.atlas;
     this.texture("atlas", gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, width, height, arrays.atlas);
-    this.table("looks", arrays.looks, 4);
+    this.table("materials", arrays.materials, 4);
     this.table("layers", widened(arrays.layers), 4);
   }
 
@@ -121,7 +121,7 @@ export class Drawing {
     if (!this.scene || !this.tints) return;
     gl.useProgram(this.program);
     gl.bindVertexArray(this.vertexArray);
-    ["atlas", "looks", "layers"].forEach((name, place) => {
+    ["atlas", "materials", "layers"].forEach((name, place) => {
       gl.activeTexture(gl.TEXTURE0 + place);
       gl.bindTexture(gl.TEXTURE_2D, this.textures[name]);
       gl.uniform1i(this.at[name], place);
@@ -218,12 +218,12 @@ function link(gl) {
 }
 
 // A pane's triangles: those that are solid, and those that blend.
-function splitPane(pane, { triangles, triangleLooks, looks }) {
+function splitPane(pane, { triangles, triangleMaterials, materials }) {
   const [first, count] = pane.triangles;
   const solid = [];
   const blend = [];
   for (let t = first; t < first + count; t++) {
-    const list = looks[4 * triangleLooks[t] + 2] === BLEND ? blend : solid;
+    const list = materials[4 * triangleMaterials[t] + 2] === BLEND ? blend : solid;
     list.push(triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]);
   }
   return { ...pane, solid: Uint32Array.from(solid), blend: Uint32Array.from(blend), start: 0 };

@@ -1,41 +1,44 @@
-// The live cloth on a canvas: what the server streams, seen from where the user has walked to.
+// The live cloth on a canvas: what the server streams, seen by the user's own camera.
 
 import { Drawing } from "./drawing.js";
-import { Hands } from "./input.js";
-import { clipMatrix, readCamera, sight } from "./matrices.js";
+import { InputHandler } from "./input.js";
+import { clipMatrix, readCamera, sightRay } from "./matrices.js";
 import { azimuth, Orbit } from "./orbit.js";
 import { meetsCloth } from "./picking.js";
 import { Stream } from "./stream.js";
 
-const SLOW = 40; // milliseconds for a picture
+const SLOW = 40; // time to draw a picture [ms]
 const NO_WEBGL =
-  "The live cloth needs WebGL 2, which this browser does not offer: turn on its hardware acceleration, or use another.";
+  "The live cloth needs WebGL 2, which this browser does not offer: turn on its hardware acceleration, or use another browser.";
 
 export class Viewer {
-  // tell: takes a line for the user; labels: an element for the panes' labels; state: takes what
-  // the wind does and how many pictures a second are drawn.
-  constructor(canvas, labels, address, tell, state) {
-    Object.assign(this, { canvas, labels, tell, state });
+  // onStatus: takes a line for the user; labels: an element for the panes' labels; onState: takes
+  // the wind and the number of pictures drawn per second.
+  constructor(canvas, labels, address, onStatus, onState) {
+    Object.assign(this, { canvas, labels, onStatus, onState });
     this.orbit = new Orbit();
     this.cameras = [];
     this.undrawn = 0;
     this.drawn = 0;
     const gl = canvas.getContext("webgl2", { alpha: true, antialias: false, premultipliedAlpha: true });
-    if (!gl) return void tell(NO_WEBGL);
+    if (!gl) {
+      onStatus(NO_WEBGL);
+      return;
+    }
     this.gl = gl;
     this.drawing = new Drawing(gl);
-    this.stream = new Stream(address, (message) => this.hear(message), tell);
-    this.hands = new Hands(this);
+    this.stream = new Stream(address, (message) => this.receive(message), onStatus);
+    this.input = new InputHandler(this);
     this.watch();
   }
 
   watch() {
-    this.ears = [
+    this.listeners = [
       [this.canvas, "webglcontextlost", (event) => this.lose(event)],
       [this.canvas, "webglcontextrestored", () => this.restore()],
       [document, "visibilitychange", () => this.hide()],
     ];
-    for (const [target, name, call] of this.ears) target.addEventListener(name, call);
+    for (const [target, name, call] of this.listeners) target.addEventListener(name, call);
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(this.canvas);
     this.seeing = new IntersectionObserver(([entry]) => {
@@ -52,30 +55,30 @@ export class Viewer {
     cancelAnimationFrame(this.frame);
     this.resizing?.disconnect();
     this.seeing?.disconnect();
-    for (const [target, name, call] of this.ears ?? []) target.removeEventListener(name, call);
-    this.hands?.end();
+    for (const [target, name, call] of this.listeners ?? []) target.removeEventListener(name, call);
+    this.input?.end();
     this.stream?.end();
     this.drawing?.free();
   }
 
-  hear({ header, arrays }) {
+  receive({ header, arrays }) {
     this.undrawn++;
     if (header.kind === "scene") {
       this.sceneMessage = { header, arrays };
       this.drawing.setScene(header, arrays);
-      this.untried = header.samples > 1 && !this.coarse;
+      this.untimed = header.samples > 1 && !this.tooSlow;
       this.resize();
       this.label(header);
     } else if (header.version === this.drawing.scene?.header.version) {
       this.drawing.setMoment(header, arrays);
       this.wind = header.wind ?? null;
       this.time = header.time;
-      if (header.cameras) this.look(header.cameras);
+      if (header.cameras) this.setCameras(header.cameras);
     }
     this.redraw();
   }
 
-  look({ cut, list }) {
+  setCameras({ cut, list }) {
     if (cut) this.orbit.reset();
     this.cameras = list.map(readCamera);
   }
@@ -99,7 +102,7 @@ export class Viewer {
       this.frame = null;
       this.draw();
       if (this.undrawn) {
-        this.stream.say({ drawn: this.undrawn });
+        this.stream.send({ drawn: this.undrawn });
         this.drawn++;
         this.undrawn = 0;
       }
@@ -113,17 +116,17 @@ export class Viewer {
     const matrices = rects.map(([, , width, height], number) => clipMatrix(this.camera(number), width / height));
     const start = performance.now();
     this.drawing.draw(rects, matrices);
-    if (this.untried) this.judge(start);
-    if (this.wind) this.state({ wind: this.wind, azimuth: this.azimuth() });
-    else this.state({ wind: null });
+    if (this.untimed) this.measure(start);
+    if (this.wind) this.onState({ wind: this.wind, azimuth: this.azimuth() });
+    else this.onState({ wind: null });
   }
 
-  // Where a picture takes too long, one sample a pixel must do.
-  judge(start) {
-    this.untried = false;
+  // If a picture takes too long, it is drawn with one sample a pixel.
+  measure(start) {
+    this.untimed = false;
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
-    this.coarse = performance.now() - start > SLOW;
-    if (this.coarse) this.resize();
+    this.tooSlow = performance.now() - start > SLOW;
+    if (this.tooSlow) this.resize();
   }
 
   camera(number) {
@@ -143,29 +146,29 @@ export class Viewer {
   }
 
   // The pane at a point of the canvas [CSS pixels], and the line of sight through that point.
-  sightAt(x, y) {
+  rayAt(x, y) {
     if (!this.cameras.length) return null;
     const { clientWidth, clientHeight } = this.canvas;
     const up = clientHeight - y;
     const rects = this.rects(clientWidth, clientHeight);
     const number = rects.findIndex(([l, b, w, h]) => x >= l && x < l + w && up >= b && up < b + h);
-    // A drag may leave its pane and the canvas; the line of sight is then that of its pane.
-    const pane = this.hands?.pulling && this.pane !== undefined ? this.pane : number;
+    // A drag may leave its pane and the canvas; it still uses the camera of its pane.
+    const pane = this.input?.pulling && this.pane !== undefined ? this.pane : number;
     if (pane < 0 || !this.cameras[pane]) return null;
     const [left, bottom, width, height] = rects[pane];
     const [cx, cy] = [(2 * (x - left)) / width - 1, (2 * (up - bottom)) / height - 1];
-    return { pane, ray: sight(this.camera(pane), width / height, cx, cy) };
+    return { pane, ray: sightRay(this.camera(pane), width / height, cx, cy) };
   }
 
-  grips(x, y) {
-    const found = this.sightAt(x, y);
+  hitsCloth(x, y) {
+    const found = this.rayAt(x, y);
     if (!found || !this.drawing.scene.header.grip.length) return false;
     this.pane = found.pane;
     return meetsCloth(this.drawing.scene, found.pane, found.ray);
   }
 
   ray(x, y) {
-    const { ray } = this.sightAt(x, y);
+    const { ray } = this.rayAt(x, y);
     return [...ray.origin, ...ray.along, ...ray.facing];
   }
 
@@ -173,42 +176,42 @@ export class Viewer {
     return this.cameras.length ? azimuth(this.camera(0)) : 0;
   }
 
-  say(words) {
-    this.stream.say(words);
+  send(message) {
+    this.stream.send(message);
   }
 
   resize() {
     const { clientWidth, clientHeight } = this.canvas;
     if (!clientWidth || !clientHeight) return this.hide();
-    // More samples a pixel are drawn as a larger picture, which the browser makes smaller.
+    // Several samples a pixel: a larger picture, which the browser scales down.
     const ratio = window.devicePixelRatio || 1;
-    const finer = (this.drawing.scene?.header.samples ?? 1) > 1 && ratio < 1.5 && !this.coarse ? 2 : 1;
+    const finer = (this.drawing.scene?.header.samples ?? 1) > 1 && ratio < 1.5 && !this.tooSlow ? 2 : 1;
     const [width, height] = [clientWidth, clientHeight].map((side) => Math.round(side * ratio * finer));
     if (this.canvas.width !== width || this.canvas.height !== height) {
       Object.assign(this.canvas, { width, height });
       this.redraw();
     }
     const shape = `${clientWidth}x${clientHeight}`;
-    if (shape !== this.shape) this.stream.say({ shape: [clientWidth, clientHeight] }, true);
+    if (shape !== this.shape) this.stream.send({ shape: [clientWidth, clientHeight] }, true);
     this.shape = shape;
     this.hide();
   }
 
-  // What nobody sees need not move.
+  // A viewer that is not visible needs no motion.
   hide() {
     const hidden = document.hidden || this.away || !this.canvas.clientWidth;
-    if (hidden !== this.hidden) this.stream?.say({ hidden }, true);
-    if (hidden) this.hands?.release();
+    if (hidden !== this.hidden) this.stream?.send({ hidden }, true);
+    if (hidden) this.input?.release();
     this.hidden = hidden;
   }
 
   lose(event) {
     event.preventDefault();
-    this.tell("The graphics card has been lost; waiting for it.");
+    this.onStatus("The graphics card has been reset; waiting for it.");
   }
 
   restore() {
-    this.tell("");
+    this.onStatus("");
     const { positions, light } = this.drawing.scene ?? {};
     const { tints } = this.drawing;
     this.drawing = new Drawing(this.gl);
@@ -219,7 +222,7 @@ export class Viewer {
   }
 
   count() {
-    this.state({ rate: this.drawn });
+    this.onState({ rate: this.drawn });
     this.drawn = 0;
   }
 

@@ -1,4 +1,4 @@
-// Mouse, touch and keys on the viewer: walk round it, come nearer, pull the cloth, steer the wind.
+// Mouse, touch and keys on the viewer: turn the view, zoom, pull the cloth, steer the wind.
 
 const TURN = 0.0075; // radians a pixel
 const STEP = Math.PI / 24;
@@ -6,19 +6,19 @@ const STEERING = {
   KeyW: "w", KeyA: "a", KeyS: "s", KeyD: "d", KeyQ: "q", KeyE: "e",
   ArrowUp: "w", ArrowLeft: "a", ArrowDown: "s", ArrowRight: "d",
 };
-const WRITING =
+const TEXT_FIELDS =
   "input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=''],"
   + " [contenteditable=true], [role=textbox], [role=combobox], [role=listbox]";
-const BEFORE = "dialog[open], .q-dialog, .q-menu"; // what lies over the page has the keys
+const OVERLAYS = "dialog[open], .q-dialog, .q-menu"; // while one is open, it has the keys
 
 const viewers = new Set();
 
-export class Hands {
-  // viewer: has canvas, orbit, redraw(), ray(x, y), grips(x, y), say(words), azimuth().
+export class InputHandler {
+  // viewer: has canvas, orbit, redraw(), ray(x, y), hitsCloth(x, y), send(message), azimuth().
   constructor(viewer) {
     this.viewer = viewer;
     this.pointers = new Map();
-    this.held = new Set();
+    this.heldKeys = new Set();
     this.pulling = false;
     const { canvas } = viewer;
     this.listen(canvas, "pointerdown", (event) => this.down(event));
@@ -35,14 +35,14 @@ export class Hands {
   }
 
   listen(target, name, call) {
-    this.ears ??= [];
-    this.ears.push([target, name, call]);
+    this.listeners ??= [];
+    this.listeners.push([target, name, call]);
     target.addEventListener(name, call, { passive: false });
   }
 
   end() {
     this.release();
-    for (const [target, name, call] of this.ears) target.removeEventListener(name, call);
+    for (const [target, name, call] of this.listeners) target.removeEventListener(name, call);
     viewers.delete(this);
   }
 
@@ -58,9 +58,9 @@ export class Hands {
     this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
     this.shifting = event.shiftKey || event.button === 2;
     if (this.pointers.size > 1) this.drop();
-    else if (event.button === 0 && !event.shiftKey && this.viewer.grips(event.offsetX, event.offsetY)) {
+    else if (event.button === 0 && !event.shiftKey && this.viewer.hitsCloth(event.offsetX, event.offsetY)) {
       this.pulling = true;
-      this.viewer.say({ grab: this.viewer.ray(event.offsetX, event.offsetY) });
+      this.viewer.send({ grab: this.viewer.ray(event.offsetX, event.offsetY) });
     }
     this.cursor(event);
   }
@@ -72,10 +72,10 @@ export class Hands {
     const spread = this.spread();
     this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
     const { orbit, canvas } = this.viewer;
-    if (this.pulling) this.viewer.say({ pull: this.viewer.ray(event.offsetX, event.offsetY) });
+    if (this.pulling) this.viewer.send({ pull: this.viewer.ray(event.offsetX, event.offsetY) });
     else if (this.pointers.size === 2)
       this.change(() => {
-        if (spread) orbit.approach(spread / Math.max(1, this.spread()));
+        if (spread) orbit.dolly(spread / Math.max(1, this.spread()));
         orbit.shift(dx / 2 / canvas.clientHeight, -dy / 2 / canvas.clientHeight);
       });
     else if (this.shifting) this.change(() => orbit.shift(dx / canvas.clientHeight, -dy / canvas.clientHeight));
@@ -89,11 +89,11 @@ export class Hands {
   }
 
   drop() {
-    if (this.pulling) this.viewer.say({ drop: 1 });
+    if (this.pulling) this.viewer.send({ drop: 1 });
     this.pulling = false;
   }
 
-  // How far two fingers are apart.
+  // The distance between two fingers.
   spread() {
     const [a, b] = [...this.pointers.values()];
     return b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0;
@@ -105,7 +105,7 @@ export class Hands {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
-      const over = !this.pointers.size && this.viewer.grips(event.offsetX, event.offsetY);
+      const over = !this.pointers.size && this.viewer.hitsCloth(event.offsetX, event.offsetY);
       canvas.style.cursor = this.pulling ? "grabbing" : over ? "grab" : "move";
     });
   }
@@ -113,53 +113,53 @@ export class Hands {
   wheel(event) {
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 30 : 1;
-    this.change(() => this.viewer.orbit.approach(Math.exp(Math.min(120, Math.max(-120, event.deltaY * lines)) * 0.0015)));
+    this.change(() => this.viewer.orbit.dolly(Math.exp(Math.min(120, Math.max(-120, event.deltaY * lines)) * 0.0015)));
   }
 
-  // With the viewer in focus Shift and arrows walk round, + and - zoom, Home looks anew.
+  // With the focus on the viewer, Shift with arrows turns the view, + and - zoom, Home resets it.
   key(event, down) {
     const inside = event.target === this.viewer.canvas;
-    if (inside && down && this.walk(event)) return event.preventDefault();
+    if (inside && down && this.moveCamera(event)) return event.preventDefault();
     if ([...viewers][0] !== this && !inside) return;
     if ([...viewers].some((other) => other !== this && other.viewer.canvas === event.target)) return;
     if (down && (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey)) return;
     const key = STEERING[event.code];
     if (!down) {
-      if (key && this.held.delete(key)) this.steer();
+      if (key && this.heldKeys.delete(key)) this.steer();
       return;
     }
-    if (event.defaultPrevented || event.target.closest?.(WRITING) || document.querySelector(BEFORE)) return;
+    if (event.defaultPrevented || event.target.closest?.(TEXT_FIELDS) || document.querySelector(OVERLAYS)) return;
     const elsewhere = !inside && event.target !== document.body;
     if (elsewhere && (event.code === "Space" || event.code.startsWith("Arrow"))) return;
     if (event.code === "Space") {
       event.preventDefault();
-      if (!event.repeat) this.viewer.say({ switch: 1 });
+      if (!event.repeat) this.viewer.send({ switch: 1 });
     } else if (key) {
       event.preventDefault();
-      if (!this.held.has(key)) this.steer(this.held.add(key));
+      if (!this.heldKeys.has(key)) this.steer(this.heldKeys.add(key));
     }
   }
 
-  walk(event) {
+  moveCamera(event) {
     const { orbit } = this.viewer;
     const turns = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, STEP], ArrowDown: [0, -STEP] };
     if (event.shiftKey && turns[event.key]) this.change(() => orbit.turn(...turns[event.key]));
-    else if (event.key === "+" || event.key === "=") this.change(() => orbit.approach(0.9));
-    else if (event.key === "-") this.change(() => orbit.approach(1 / 0.9));
+    else if (event.key === "+" || event.key === "=") this.change(() => orbit.dolly(0.9));
+    else if (event.key === "-") this.change(() => orbit.dolly(1 / 0.9));
     else if (event.key === "Home") this.change(() => orbit.reset());
     else return false;
     return true;
   }
 
   steer() {
-    this.viewer.say({ keys: [[...this.held].join(""), this.viewer.azimuth()] });
+    this.viewer.send({ keys: [[...this.heldKeys].join(""), this.viewer.azimuth()] });
   }
 
   release() {
     this.drop();
     this.pointers.clear();
-    if (this.held.size) {
-      this.held.clear();
+    if (this.heldKeys.size) {
+      this.heldKeys.clear();
       this.steer();
     }
   }

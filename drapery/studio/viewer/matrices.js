@@ -1,4 +1,4 @@
-// Cameras as the server names them: [position, target, up, fov, height, near, far], and the
+// Cameras as the server sends them: [position, target, up, fov, height, near, far], and the
 // matrices of drapery.render.camera. Vectors are arrays of three; matrices are stored by columns.
 
 export const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
@@ -49,7 +49,7 @@ export function clipMatrix(camera, aspect) {
 }
 
 // The line of sight through a point of the picture, x and y in -1..1.
-export function sight(camera, aspect, x, y) {
+export function sightRay(camera, aspect, x, y) {
   const { right, up, back } = axes(camera);
   const facing = scale(back, -1);
   const half = camera.height === null ? Math.tan((camera.fov * Math.PI) / 360) : camera.height / 2;

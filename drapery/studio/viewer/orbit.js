@@ -1,4 +1,4 @@
-// How far the viewer has walked from where the server's camera stands.
+// The user's turns, zoom and shifts, applied to the server's camera.
 
 import { add, axes, cross, dot, length, scale, subtract, unit } from "./matrices.js";
 
@@ -11,36 +11,36 @@ export class Orbit {
   }
 
   reset() {
-    this.around = 0;
-    this.over = 0;
+    this.azimuth = 0;
+    this.elevation = 0;
     this.zoom = 1;
-    this.aside = [0, 0];
+    this.offset = [0, 0];
   }
 
-  turn(around, over) {
-    this.around += around;
-    this.over += over;
+  turn(azimuth, elevation) {
+    this.azimuth += azimuth;
+    this.elevation += elevation;
   }
 
-  approach(factor) {
+  dolly(factor) {
     this.zoom = Math.min(8, Math.max(0.05, this.zoom * factor));
   }
 
-  // By parts of the picture's height.
+  // In parts of the picture's height.
   shift(right, up) {
     const near = (value) => Math.min(2, Math.max(-2, value));
-    this.aside = [near(this.aside[0] + right), near(this.aside[1] + up)];
+    this.offset = [near(this.offset[0] + right), near(this.offset[1] + up)];
   }
 
-  // The camera, walked round its target.
+  // The server's camera after the user's moves.
   camera(base) {
     const away = subtract(base.position, base.target);
     const distance = length(away);
     const lifted = Math.asin(away[1] / distance);
-    const over = Math.min(STEEPEST, Math.max(-STEEPEST, lifted + this.over));
-    if (Math.abs(lifted) <= STEEPEST) this.over = over - lifted;
-    const still = this.around === 0 && this.over === 0;
-    const heading = Math.atan2(away[0], away[2]) + this.around;
+    const over = Math.min(STEEPEST, Math.max(-STEEPEST, lifted + this.elevation));
+    if (Math.abs(lifted) <= STEEPEST) this.elevation = over - lifted;
+    const still = this.azimuth === 0 && this.elevation === 0;
+    const heading = Math.atan2(away[0], away[2]) + this.azimuth;
     const back = still
       ? scale(away, 1 / distance)
       : [Math.sin(heading) * Math.cos(over), Math.sin(over), Math.cos(heading) * Math.cos(over)];
@@ -49,24 +49,24 @@ export class Orbit {
     const height = base.height === null ? null : base.height * this.zoom;
     const tall = height ?? 2 * far * Math.tan((base.fov * Math.PI) / 360);
     const right = unit(cross(up, back));
-    const shift = add(scale(right, -this.aside[0] * tall), scale(cross(back, right), -this.aside[1] * tall));
+    const shift = add(scale(right, -this.offset[0] * tall), scale(cross(back, right), -this.offset[1] * tall));
     const target = add(base.target, shift);
     const camera = { ...base, target, position: add(target, scale(back, far)), up, height };
     return still && this.zoom === 1 ? camera : { ...camera, ...planes(base, distance, far) };
   }
 }
 
-// Whoever walks round wants neither the near nor the far plane to cut what is seen.
+// From a new place, neither the near nor the far plane may cut what was visible.
 function planes(base, distance, far) {
   const deep = 2 * Math.max(distance, base.far - distance);
   if (base.height !== null) return { near: base.near - deep, far: base.far + deep };
   return { near: Math.min(base.near, 0.02 * far), far: far + deep };
 }
 
-// Where a camera stands about its target [degrees from +z towards +x].
+// The direction from a camera's target to the camera [degrees from +z towards +x].
 export function azimuth(camera) {
   const { back, up } = axes(camera);
-  // From straight above, what is up in the picture is away from the viewer.
+  // Seen from straight above, up in the picture points away from the viewer.
   const level = Math.hypot(back[0], back[2]) > 1e-3 ? back : scale(up, -Math.sign(dot(back, UPRIGHT)));
   return (Math.atan2(level[0], level[2]) * 180) / Math.PI;
 }

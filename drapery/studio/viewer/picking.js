@@ -1,10 +1,10 @@
-// Whether a line of sight meets cloth that a hand can take.
+// Whether a ray meets first a cloth that can be grabbed.
 
 import { cross, dot, subtract } from "./matrices.js";
 
 export function meetsCloth(scene, number, ray) {
   const [first, count] = scene.header.panes[number].triangles;
-  const inGrip = (vertex) => scene.header.grip.some(([start, size]) => vertex >= start && vertex < start + size);
+  const canGrab = (vertex) => scene.header.grip.some(([start, size]) => vertex >= start && vertex < start + size);
   const at = (vertex) => scene.positions.subarray(3 * vertex, 3 * vertex + 3);
   let nearest = Infinity;
   let cloth = false;
@@ -13,7 +13,7 @@ export function meetsCloth(scene, number, ray) {
     const distance = meets(ray, at(corners[0]), at(corners[1]), at(corners[2]));
     if (distance < nearest) {
       nearest = distance;
-      cloth = inGrip(corners[0]);
+      cloth = canGrab(corners[0]);
     }
   }
   return cloth;

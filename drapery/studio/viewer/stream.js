@@ -1,4 +1,4 @@
-// The socket to the live cloth: it says what has been drawn, and comes back when it has been lost.
+// The socket to the live cloth: it reports what has been drawn, and reconnects when it is lost.
 
 import { unpack } from "./messages.js";
 
@@ -7,12 +7,12 @@ const UNKNOWN = 4404;
 const ENOUGH = 4429;
 
 export class Stream {
-  // hear: takes each message; tell: takes a line for the user, "" when all is well again.
-  constructor(address, hear, tell) {
+  // onMessage: takes each message; onStatus: takes a line for the user, "" when all works again.
+  constructor(address, onMessage, onStatus) {
     this.address = address;
-    this.hear = hear;
-    this.tell = tell;
-    this.first = {};
+    this.onMessage = onMessage;
+    this.onStatus = onStatus;
+    this.initial = {};
     this.lost = 0;
     this.open();
   }
@@ -22,30 +22,30 @@ export class Stream {
     this.socket.binaryType = "arraybuffer";
     this.socket.onopen = () => {
       this.lost = 0;
-      this.tell("");
-      if (Object.keys(this.first).length) this.socket.send(JSON.stringify(this.first));
+      this.onStatus("");
+      if (Object.keys(this.initial).length) this.socket.send(JSON.stringify(this.initial));
     };
     this.socket.onmessage = ({ data }) => {
-      if (typeof data === "string") this.tell(JSON.parse(data).line ?? "");
-      else this.hear(unpack(data));
+      if (typeof data === "string") this.onStatus(JSON.parse(data).line ?? "");
+      else this.onMessage(unpack(data));
     };
     this.socket.onclose = (event) => this.closed(event);
   }
 
   closed(event) {
     if (this.ended) return;
-    if (event.code === UNKNOWN) this.tell("This tab's work has ended: reload the page.");
-    else if (event.code === ENOUGH) this.tell("This tab shows too many live cloths: close one.");
+    if (event.code === UNKNOWN) this.onStatus("This tab's session has ended: reload the page.");
+    else if (event.code === ENOUGH) this.onStatus("This tab shows too many live cloths: close one.");
     else {
-      this.tell(this.lost > 1 ? "The studio does not answer; waiting for it." : "");
+      this.onStatus(this.lost > 1 ? "The studio does not answer; waiting for it." : "");
       this.timer = setTimeout(() => this.open(), WAITS[Math.min(this.lost++, WAITS.length - 1)]);
     }
   }
 
-  // Say something now; `keep` says it again after a reconnection.
-  say(words, keep = false) {
-    if (keep) Object.assign(this.first, words);
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(words));
+  // Send a message now; `repeat` sends it again after a reconnection.
+  send(message, repeat = false) {
+    if (repeat) Object.assign(this.initial, message);
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
   end() {

@@ -1,19 +1,19 @@
 // A field for files: choose them, or drop them on it. Each is sent as the plain body of a POST.
 export default {
   template: `
-    <div :class="['drop', { 'drop-over': over }]"
+    <div :class="['file-field', { 'file-field-over': over }]"
          @dragover.prevent="over = true" @dragleave="over = false" @drop.prevent="drop">
-      <label class="drop-label">
-        <input type="file" class="drop-input" :accept="accept" :multiple="multiple"
+      <label class="file-field-label">
+        <input type="file" class="file-field-input" :accept="accept" :multiple="multiple"
                :disabled="busy" @change="choose" />
         <span>{{ busy ? "Sending " + sending : label }}</span>
       </label>
-      <progress v-if="busy" class="drop-progress" max="1" :value="share"
+      <progress v-if="busy" class="file-field-progress" max="1" :value="share"
                 :aria-label="'Sending ' + sending"></progress>
     </div>`,
   props: {
-    address: String, label: String, accept: String, multiple: Boolean, most: Number,
-    // The tab to turn to where files of these endings are dropped elsewhere on the page.
+    address: String, label: String, accept: String, multiple: Boolean, maxBytes: Number,
+    // The tab to open when files of these endings are dropped elsewhere on the page.
     tab: String,
   },
   data() {
@@ -32,7 +32,7 @@ export default {
       const files = [...(event.dataTransfer?.files ?? [])];
       const endings = this.accept.split(",").filter((each) => each.startsWith("."));
       const wanted = files.filter((file) => endings.some((each) => file.name.toLowerCase().endsWith(each)));
-      if (!wanted.length || event.target.closest?.(".drop")) return;
+      if (!wanted.length || event.target.closest?.(".file-field")) return;
       event.preventDefault();
       event.stopPropagation();
       document.body.classList.remove("dropping");
@@ -57,8 +57,8 @@ export default {
     },
     post(file) {
       const name = file.name.slice(0, 200);
-      if (file.size > this.most) {
-        return { line: `${name} is over ${Math.floor(this.most / 1048576)} MiB; send a smaller one` };
+      if (file.size > this.maxBytes) {
+        return { line: `${name} is over ${Math.floor(this.maxBytes / 1048576)} MiB; send a smaller one` };
       }
       this.sending = name;
       this.share = 0;

@@ -1,4 +1,4 @@
-"""A field of the page that takes files, chosen or dropped on it, and sends them to `uploads`."""
+"""A field of the page that takes files, chosen or dropped on it, and sends them to the server."""
 
 from collections.abc import Awaitable, Callable
 from typing import Any
@@ -6,17 +6,17 @@ from typing import Any
 from nicegui import ui
 
 from drapery.errors import DraperyError
-from drapery.studio.notices import tell
+from drapery.studio.notices import show_notice
 from drapery.studio.session import Session
 from drapery.studio.uploads import PURPOSES
 
 
-class Drop(ui.element, component="drop.js"):
+class FileField(ui.element, component="file_field.js"):
     """A field that can be clicked, reached by Tab and dropped on.
 
-    purpose: one of PURPOSES. take: is called with the number of each file that came in whole;
-    what was refused is told to the user here. endings: as `.zip,.jar`; "" is any. tab: the
-    panel to turn to for files of these endings that are dropped anywhere; "" leaves them alone.
+    purpose: one of PURPOSES. take: is called with the number of each file that has arrived; the
+    user is shown why another was refused. endings: as `.zip,.jar`; "" is any. tab: the panel to
+    open for files of these endings that are dropped anywhere on the page; "" ignores them.
     """
 
     def __init__(
@@ -36,17 +36,17 @@ class Drop(ui.element, component="drop.js"):
         self._props["accept"] = endings
         self._props["multiple"] = multiple
         self._props["tab"] = tab
-        self._props["most"] = PURPOSES[purpose].most
+        self._props["maxBytes"] = PURPOSES[purpose].max_bytes
 
         async def sent(event: Any) -> None:
             answer = event.args if isinstance(event.args, dict) else {}
             number, line = answer.get("number"), answer.get("line")
             if not isinstance(number, int):
-                tell(str(line or "the file could not be sent; send it again")[:400], "fault")
+                show_notice(str(line or "the file could not be sent; send it again")[:400], "fault")
                 return
             try:
                 await take(number)
             except DraperyError as error:
-                tell(str(error), "fault")
+                show_notice(str(error), "fault")
 
         self.on("sent", sent)

@@ -1,28 +1,34 @@
-"""A design and its parts in plain words, for labels, tooltips and screen readers."""
+"""Designs, dyes and patterns for labels, tooltips and screen readers."""
 
+from drapery.banner.dyes import Dye
 from drapery.banner.patterns import PATTERNS
 from drapery.studio.sketch import Sketch
 
 
-def dye_words(dye: str) -> str:
+def dye_title(dye: str) -> str:
     """`light_blue` is "Light blue"."""
     return dye.replace("_", " ").capitalize()
 
 
-def pattern_words(pattern: str) -> str:
-    """The pattern's name in the game; of a data pack's pattern the end of its path."""
+def dye_colour(dye: Dye) -> str:
+    """The dye as a colour of CSS."""
+    return "#{:02x}{:02x}{:02x}".format(*dye.rgb)
+
+
+def pattern_title(pattern: str) -> str:
+    """The pattern's name in the game; for a pattern of a data pack, the end of its path."""
     known = PATTERNS.get(pattern)
     if known is not None:
         return known.title
     return pattern.partition(":")[2].rpartition("/")[2].replace("_", " ").capitalize() or pattern
 
 
-def in_words(sketch: Sketch) -> str:
+def described(sketch: Sketch) -> str:
     """The design in one sentence, lowest layer first."""
     layers = [
-        f"{dye_words(stroke.dye).lower()} {pattern_words(stroke.pattern)}"
+        f"{dye_title(stroke.dye).lower()} {pattern_title(stroke.pattern)}"
         for stroke in sketch.strokes
         if not stroke.hidden
     ]
-    field = f"{dye_words(sketch.base)} {sketch.kind}"
+    field = f"{dye_title(sketch.base)} {sketch.kind}"
     return f"{field} with {', '.join(layers)}" if layers else field

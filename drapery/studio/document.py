@@ -1,0 +1,124 @@
+"""The work of one tab: its design with what can be undone, its options, packs and files."""
+
+import secrets
+import shutil
+import tempfile
+import threading
+from collections import defaultdict
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Literal
+
+from drapery.banner.packs import Packs, open_packs
+from drapery.settings import Settings
+from drapery.studio.history import History
+from drapery.studio.sketch import Sketch
+
+Event = Literal["sketch", "settings", "packs", "scene"]
+
+
+class Document:
+    """What one tab works on. A change calls the listeners of its event in the order they came.
+
+    token: identifies the tab to the server; nobody can guess it.
+    survival: whether the six layers of a loom should be enough.
+    """
+
+    def __init__(self, settings: Settings | None = None, sketch: Sketch | None = None) -> None:
+        self.token = secrets.token_urlsafe(24)
+        self.history: History[Sketch] = History(sketch or Sketch())
+        self.settings = settings or Settings()
+        self.survival = True
+        self.closed = False
+        self._folder: Path | None = None
+        self._packs: tuple[object, Packs] | None = None
+        # Pictures are drawn in threads, which ask for the packs while the page changes them.
+        self._lock = threading.Lock()
+        self._listeners: defaultdict[str, list[Callable[[], object]]] = defaultdict(list)
+        self._at_close: list[Callable[[], object]] = []
+
+    @property
+    def sketch(self) -> Sketch:
+        """The present design."""
+        return self.history.present
+
+    @property
+    def folder(self) -> Path:
+        """The tab's own folder, made at first use and removed when the tab closes."""
+        if self._folder is None:
+            self._folder = Path(tempfile.mkdtemp(prefix="drapery-studio-"))
+        return self._folder
+
+    def packs(self) -> Packs:
+        """The packs of the settings, opened once while they stay the same. Raises PackError."""
+        return self._opened(self.settings)
+
+    def _opened(self, settings: Settings) -> Packs:
+        key = settings.packs, settings.format
+        with self._lock:
+            if self._packs is None or self._packs[0] != key:
+                self._packs = key, open_packs(settings.packs, format=settings.format)
+            return self._packs[1]
+
+    def edit(self, sketch: Sketch) -> None:
+        """Make this the present design, as a step that can be undone; notifies "sketch"."""
+        self._go(self.history.push(sketch))
+
+    def undo(self) -> None:
+        """Go one step back, if there is one; notifies "sketch"."""
+        self._go(self.history.undo())
+
+    def redo(self) -> None:
+        """Repeat one undone step, if there is one; notifies "sketch"."""
+        self._go(self.history.redo())
+
+    def _go(self, history: History[Sketch]) -> None:
+        if history is not self.history:
+            self.history = history
+            self.notify("sketch")
+
+    def adjust(self, **options: Any) -> None:
+        """Change options of the picture; notifies "settings", and "packs" if those changed.
+
+        Raises OptionError, or PackError for packs that cannot be opened; nothing has changed then.
+        """
+        before, after = self.settings, replace(self.settings, **options)
+        new_packs = (after.packs, after.format) != (before.packs, before.format)
+        if new_packs:
+            self._opened(after)
+        self.settings = after
+        if new_packs:
+            self.notify("packs")
+        if after != before:
+            self.notify("settings")
+
+    def listen(self, event: Event, call: Callable[[], object]) -> None:
+        """Call this at each event of this name."""
+        self._listeners[event].append(call)
+
+    def notify(self, event: Event) -> None:
+        """Call all listeners of an event."""
+        for call in [*self._listeners[event]]:
+            call()
+
+    def on_close(self, call: Callable[[], object]) -> None:
+        """Call this when the tab closes; at once if it is already closed."""
+        if self.closed:
+            call()
+        else:
+            self._at_close.append(call)
+
+    def close(self) -> None:
+        """Stop what the tab had running and remove its files. A second call does nothing."""
+        if self.closed:
+            return
+        self.closed = True
+        for call in reversed(self._at_close):
+            with suppress(Exception):
+                call()
+        self._at_close.clear()
+        self._listeners.clear()
+        if self._folder is not None:
+            shutil.rmtree(self._folder, ignore_errors=True)

@@ -1,0 +1,171 @@
+"""What a tab fetches and sends over HTTP: pictures, files and designs.
+
+Every address holds the token of an open session; nothing else in it ever names a file.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from urllib.parse import quote
+
+from fastapi import FastAPI, HTTPException, Request, Response
+from fastapi.responses import FileResponse, JSONResponse
+
+from drapery.banner.packs import Packs, open_packs
+from drapery.errors import DesignError, DraperyError
+from drapery.studio.art import face_png, pattern_rows, pattern_sheet
+from drapery.studio.session import Session, Sessions
+from drapery.studio.sketch import banner_of
+from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name
+
+MEDIA_TYPES = {
+    ".png": "image/png",
+    ".apng": "image/apng",
+    ".gif": "image/gif",
+    ".webp": "image/webp",
+    ".mp4": "video/mp4",
+    ".glb": "model/gltf-binary",
+    ".json": "application/json",
+}
+
+
+def add_routes(app: FastAPI, sessions: Sessions) -> None:
+    """Serve the open sessions; an unknown token is 404."""
+
+    def session_of(token: str) -> Session:
+        session = sessions.find(token)
+        if session is None:
+            raise HTTPException(404, "no such session: reload the page")
+        return session
+
+    _add_pictures(app, session_of)
+    _add_downloads(app, session_of)
+    _add_uploads(app, session_of)
+
+
+SessionOf = Callable[[str], Session]
+"""The session of a token; raises HTTPException."""
+
+
+def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
+    @app.get("/face/{token}.png")
+    def face(token: str) -> Response:
+        session = session_of(token)
+        return _picture(session, lambda: face_png(banner_of(session.sketch), session.packs()))
+
+    @app.get("/steps/{token}/{count}.png")
+    def step(token: str, count: int) -> Response:
+        session = session_of(token)
+        whole = banner_of(session.sketch)
+        part = replace(whole, layers=whole.layers[: max(0, count)])
+        return _picture(session, lambda: face_png(part, session.packs(), 2))
+
+    @app.get("/found/{token}/{number}.png")
+    def found(token: str, number: int) -> Response:
+        session = session_of(token)
+        banners = session.upload_queue.found
+        if not 0 <= number < len(banners):
+            raise HTTPException(404, "no such banner")
+        return _picture(session, lambda: face_png(banners[number].banner, session.packs(), 2))
+
+    @app.get("/patterns/{token}.png")
+    def patterns(token: str, base: str, dye: str) -> Response:
+        session = session_of(token)
+        caching = "private, max-age=3600"  # its address changes with all that it shows
+        return _picture(session, lambda: pattern_sheet(session.packs(), base, dye), caching)
+
+    @app.get("/compare/{token}/{pack}/{what}.png")
+    def compare(
+        token: str, pack: str, what: str, base: str = "white", dye: str = "black"
+    ) -> Response:
+        session = session_of(token)
+        if what == "face":
+            return _picture(
+                session, lambda: face_png(banner_of(session.sketch), _packs(session, pack))
+            )
+        if what == "patterns":
+            return _picture(
+                session, lambda: pattern_rows(pattern_sheet(_packs(session, pack), base, dye))
+            )
+        raise HTTPException(404, "no such picture")
+
+
+def _picture(session: Session, draw: Callable[[], bytes], caching: str = "no-store") -> Response:
+    try:
+        return Response(draw(), media_type="image/png", headers={"Cache-Control": caching})
+    except DraperyError as error:
+        raise HTTPException(422, session.pack_store.with_names(str(error))) from None
+
+
+def _packs(session: Session, pack: str) -> Packs:
+    """`now`: all packs of the tab; `own`: only the art of Drapery; a number: that pack alone."""
+    if pack == "now":
+        return session.packs()
+    paths = [] if pack == "own" else [session.pack_store.path_of(_number(pack))]
+    return open_packs(paths, format=session.settings.format)
+
+
+def _number(text: str) -> int:
+    return int(text) if text.isascii() and text.isdigit() and len(text) < 9 else -1
+
+
+def _add_downloads(app: FastAPI, session_of: SessionOf) -> None:
+    @app.get("/export/{token}/{number}")
+    def export(token: str, number: int) -> Response:
+        export = session_of(token).exports.finished(number)
+        if export is None:
+            raise HTTPException(404, "no such export: make it again")
+        media_type = MEDIA_TYPES[export.path.suffix]
+        return FileResponse(export.path, media_type=media_type, headers=_attachment(export.name))
+
+    @app.get("/library/{token}")
+    def library(token: str) -> Response:
+        session = session_of(token)
+        try:
+            data = session.library.open().dump()
+        except DraperyError as error:
+            raise HTTPException(409, str(error)) from None
+        headers = _attachment("drapery-library.json")
+        return Response(data, media_type=MEDIA_TYPES[".json"], headers=headers)
+
+
+def _attachment(name: str) -> dict[str, str]:
+    disposition = f"attachment; filename*=UTF-8''{quote(name, safe='')}"
+    return {"Content-Disposition": disposition, "Cache-Control": "no-store"}
+
+
+def _add_uploads(app: FastAPI, session_of: SessionOf) -> None:
+    @app.post("/upload/{token}/{purpose}")
+    async def upload(token: str, purpose: str, request: Request, name: str = "") -> JSONResponse:
+        try:
+            session = session_of(token)
+            if purpose not in PURPOSES:
+                raise HTTPException(404, "no such purpose")
+            _check_length(request, purpose, shown_name(name))
+            upload = await session.uploads.receive(request.stream(), purpose, name)
+        except HTTPException as error:
+            return _refusal(error.detail, error.status_code)
+        except DraperyError as error:
+            return _refusal(str(error), 413)
+        except OSError as error:
+            return _refusal(f"the file cannot be stored: {error.strerror}", 507)
+        return JSONResponse({"number": upload.number})
+
+    @app.post("/designs/{token}")
+    async def designs(token: str, request: Request, name: str = "") -> Response:
+        try:
+            await session_of(token).upload_queue.receive(request.stream(), name)
+        except OSError as error:
+            return _refusal(f"the file cannot be stored: {error.strerror}", 507)
+        return Response(status_code=204)
+
+
+def _refusal(line: str, status: int) -> JSONResponse:
+    # Without this the server would read the rest of the body, only to discard it.
+    return JSONResponse({"line": line}, status, {"Connection": "close"})
+
+
+def _check_length(request: Request, purpose: str, name: str) -> None:
+    """Refuse a body whose own header says that it is too long. Raises DesignError."""
+    length, maximum = request.headers.get("content-length", ""), PURPOSES[purpose].max_bytes
+    if length.isdigit() and int(length[:20]) > maximum:
+        raise DesignError(f"{name} is over {shown_bytes(maximum)}; send a smaller one")
