@@ -1,0 +1,29 @@
+// ESLint for the page's JavaScript; `npm run lint` runs it from the root of the repository.
+import js from "@eslint/js";
+import globals from "globals";
+
+export default [
+  js.configs.recommended,
+  {
+    files: ["drapery/studio/**/*.js"],
+    languageOptions: { sourceType: "module", globals: globals.browser },
+    rules: {
+      eqeqeq: "error",
+      "no-var": "error",
+      "prefer-const": "error",
+    },
+  },
+  {
+    // Scripts that Selenium runs as the body of a function.
+    files: ["tests/page_*.js"],
+    languageOptions: {
+      sourceType: "script",
+      globals: globals.browser,
+      parserOptions: { ecmaFeatures: { globalReturn: true } },
+    },
+  },
+  {
+    files: ["tests/js/**/*.js"],
+    languageOptions: { sourceType: "module", globals: globals.node },
+  },
+];
