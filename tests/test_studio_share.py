@@ -14,8 +14,7 @@ from hypothesis import strategies as st
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError
-from drapery.render.views import VIEWS
-from drapery.settings import Settings
+from drapery.settings import OPTIONS, Settings
 from drapery.studio.share import MAX_JSON, MAX_LINK, VERSION, opened_link, read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
 
@@ -36,7 +35,7 @@ all_settings = st.builds(
     format=st.none() | st.integers(1, 99),
     pose=st.sampled_from(("cloth", "vanilla")),
     rotation=st.integers(0, 15),
-    view=st.sampled_from(sorted(VIEWS)),
+    view=st.sampled_from(OPTIONS["view"].choices),
     size=st.tuples(st.integers(1, 256), st.integers(1, 256)).map(lambda s: (s[0] * 4, s[1] * 4)),
     grid=st.tuples(st.integers(2, 129), st.integers(2, 129)),
     solver=st.sampled_from(("desbrun", "xpbd", "implicit")),

@@ -1,7 +1,10 @@
 """Designs, dyes and patterns for labels, tooltips and screen readers."""
 
+from typing import Any
+
 from drapery.banner.dyes import Dye
 from drapery.banner.patterns import PATTERNS
+from drapery.option import Option
 from drapery.studio.sketch import Sketch
 
 
@@ -21,6 +24,24 @@ def pattern_title(pattern: str) -> str:
     if known is not None:
         return known.title
     return pattern.partition(":")[2].rpartition("/")[2].replace("_", " ").capitalize() or pattern
+
+
+def view_title(view: str) -> str:
+    """The name of a camera's view on the page."""
+    return {"iso": "Corner", "gui": "Item"}.get(view, view.capitalize())
+
+
+def with_unit(option: Option, value: float) -> str:
+    """A number with the unit of its option, as `1 texel`."""
+    is_symbol = len(option.unit) < 4  # such as m/s, which has no plural
+    unit = option.unit if is_symbol or value != 1 else option.unit.removesuffix("s")
+    return f"{value:g} {unit}".rstrip()
+
+
+def choice_titles(option: Option) -> dict[Any, str]:
+    """The choices of an option with their titles; None too, if the option may be None."""
+    titles: dict[Any, str] = {name: str(name).replace("-", " ") for name in option.choices}
+    return titles if option.default is not None else {None: option.default_text} | titles
 
 
 def described(sketch: Sketch) -> str:

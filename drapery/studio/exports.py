@@ -12,12 +12,13 @@ from typing import TypeVar
 
 from drapery.banner.design import Banner
 from drapery.errors import DraperyError, OptionError
+from drapery.option import one_of
+from drapery.settings import frame_count
 from drapery.studio.document import Document
-from drapery.studio.snippets import KINDS, LOOPS, Order, file_name, options_for
+from drapery.studio.snippets import KINDS, LOOPS, SCALE, Order, file_name, options_for
 
 MAX_PIXELS = 1 << 31
 """Of all frames together: 512 x 512 for six minutes at 20 frames/s."""
-MAX_SCALE = 256
 MAX_RUNNING = 4
 """Exports of all tabs at once."""
 
@@ -49,19 +50,13 @@ def make(order: Order, path: Path, progress: Progress | None = None) -> None:
 
 def count_frames(order: Order) -> int:
     """How many frames the file has; 1 for what does not move. Raises OptionError."""
-    from drapery.settings import frame_count
-
     return frame_count(order.seconds, order.fps) if order.kind in (*LOOPS, "glb") else 1
 
 
 def check(order: Order) -> None:
     """Raise OptionError for an order that is out of bounds, before anything is drawn."""
-    from drapery.render.views import VIEWS
-    from drapery.settings import one_of, whole
-
     one_of("kind", order.kind, KINDS)
-    one_of("view", order.settings.view, tuple(VIEWS))
-    whole("scale", order.scale, 1, MAX_SCALE, "pixels a texel")
+    SCALE.check(order.scale)
     width, height = order.settings.size
     frames = count_frames(order)
     if order.kind in LOOPS and width * height * frames > MAX_PIXELS:

@@ -14,6 +14,7 @@ from typing import Any
 
 from drapery.banner.formats import own_json
 from drapery.errors import DesignError
+from drapery.options import check_options
 from drapery.settings import NAMED_OPTIONS, Settings
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
 
@@ -87,12 +88,11 @@ def as_tree(sketch: Sketch, settings: Settings) -> dict[str, Any]:
 
 def options_of(settings: Settings) -> dict[str, Any]:
     """The shared options that differ from their default, by name, as JSON."""
-    plain = Settings()
     chosen = {name: getattr(settings, name) for name in SHARED}
     return {
         name: list(value) if isinstance(value, tuple) else value
         for name, value in chosen.items()
-        if value != getattr(plain, name)
+        if value != NAMED_OPTIONS[name].default
     }
 
 
@@ -109,8 +109,6 @@ def of_tree(tree: object) -> tuple[Sketch, Settings]:
 
 def settings_of(words: object) -> Settings:
     """The options of a JSON object. Raises DesignError, also for options that are not shared."""
-    from drapery.options import check_options
-
     if not isinstance(words, dict):
         raise DesignError(f"options: not a JSON object; {_REMEDY}")
     for name in words:

@@ -1,4 +1,4 @@
-"""A picture as the command, or the lines of Python, that make the very same file."""
+"""The command, or the lines of Python, that make the same file as an export."""
 
 import json
 import shlex
@@ -8,7 +8,8 @@ from typing import Any
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import shorthand
-from drapery.settings import NAMED_OPTIONS, Settings
+from drapery.option import Option
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Settings
 
 STILLS = ("png",)
 LOOPS = ("gif", "apng", "webp", "mp4")
@@ -16,6 +17,8 @@ KINDS = (*STILLS, "face", *LOOPS, "glb", "json")
 """What can be made: `face` is the plain flat face, `json` the design itself."""
 
 PICTURE_OPTIONS = tuple(NAMED_OPTIONS)
+SCALE = Option("scale", "Pixels of a texel", int, 8, bounds=(1, 256), unit="pixels")
+"""The option of `drapery flat`."""
 MODEL_OPTIONS = (
     *("packs", "format", "kind", "texture", "pose", "placement", "rotation", "facing"),
     *("view", "grid", "solver", "pins", "wind", "direction", "gusts", "time", "seed"),
@@ -37,9 +40,9 @@ class Order:
     banner: Banner | None
     settings: Settings
     kind: str = "png"
-    seconds: float = 4.0
-    fps: float = 20.0
-    scale: int = 8
+    seconds: float = LOOP_OPTIONS["seconds"].default
+    fps: float = LOOP_OPTIONS["fps"].default
+    scale: int = SCALE.default
 
 
 def file_name(order: Order, stem: str = "banner") -> str:
@@ -48,7 +51,7 @@ def file_name(order: Order, stem: str = "banner") -> str:
 
 
 def options_for(order: Order) -> Settings:
-    """The options that count for this kind of file; the others are at their default."""
+    """The options of this kind of file; the others have their default."""
     settings = order.settings
     return Settings(**{name: getattr(settings, name) for name in _names(order)})
 
@@ -56,7 +59,7 @@ def options_for(order: Order) -> Settings:
 def as_command(order: Order, called: Mapping[str, str] | None = None, stem: str = "banner") -> str:
     """The command that writes the file, quoted for a shell.
 
-    called: what packs are called where their path says nothing to a person.
+    called: the user's names of packs, by their path.
     """
     design = [] if order.banner is None else [_quoted(shorthand.write(order.banner))]
     out = _quoted(file_name(order, stem))
@@ -89,12 +92,10 @@ def _names(order: Order) -> tuple[str, ...]:
 
 
 def _changed(order: Order, called: Mapping[str, str]) -> dict[str, Any]:
-    """This kind of file's options that are off their default, packs as they are called."""
-    plain, chosen = Settings(), options_for(order)
+    """This kind of file's options that differ from their default, packs by the user's names."""
+    values = {name: getattr(order.settings, name) for name in _names(order)}
     changed = {
-        name: getattr(chosen, name)
-        for name in _names(order)
-        if getattr(chosen, name) != getattr(plain, name)
+        name: value for name, value in values.items() if value != NAMED_OPTIONS[name].default
     }
     if "packs" in changed:
         changed["packs"] = [called.get(str(pack), str(pack)) for pack in changed["packs"]]
@@ -105,42 +106,40 @@ def _changed(order: Order, called: Mapping[str, str]) -> dict[str, Any]:
 
 def _timing(order: Order) -> dict[str, Any]:
     if order.kind == "face":
-        return {} if order.scale == 8 else {"scale": order.scale}
+        return {} if order.scale == SCALE.default else {"scale": order.scale}
     if order.kind in STILLS:
         return {}
-    plain = Order(None, order.settings)
     chosen = {"seconds": order.seconds, "fps": order.fps}
-    return {name: value for name, value in chosen.items() if value != getattr(plain, name)}
+    return {name: value for name, value in chosen.items() if value != LOOP_OPTIONS[name].default}
 
 
 def _flags(order: Order, called: Mapping[str, str]) -> Iterator[str]:
     for name, value in (_timing(order) | _changed(order, called)).items():
-        flag = "--" + name.replace("_", "-")
-        if name == "packs":
-            for pack in value:
-                yield from ("--pack", pack)
+        option = {**NAMED_OPTIONS, **LOOP_OPTIONS, "scale": SCALE}[name]
+        flag = option.command_flag
+        if option.several:
+            for each in value:
+                yield from (flag, each)
         elif value is True:
             yield flag
-        elif isinstance(value, tuple):
-            yield from (flag, "x".join(map(str, value)))
         else:
-            yield from (flag, plain(value))
+            yield from (flag, option.to_text(value) if option.parts else plain(value))
 
 
 def plain(value: object) -> str:
-    """The value as a person writes it: 4.0 is 4, and nothing is rounded."""
+    """The value as a person writes it: 4 for 4.0; nothing is rounded."""
     return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
 
 
 def _quoted(word: str) -> str:
-    """The word for a shell; in double quotes where those suffice, since Windows knows no other."""
+    """The word for a shell; in double quotes if possible, the only ones of Windows."""
     if word and _SAFE.issuperset(word):
         return f'"{word}"' if {" ", "#"}.intersection(word) else word
     return shlex.quote(word)
 
 
 def _text(value: object) -> str:
-    """The value as Python writes it, texts in double quotes."""
+    """The value in Python, texts in double quotes."""
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)
 
 
@@ -160,7 +159,7 @@ class _Listed(list[str]):
 
 
 def _imports(names: list[str]) -> list[str]:
-    """Import lines of full names, those of a module in one line."""
+    """Import lines for full names, one line for each module."""
     homes: dict[str, list[str]] = {}
     for name in sorted(names):
         home, _, short = name.rpartition(".")
@@ -169,7 +168,7 @@ def _imports(names: list[str]) -> list[str]:
 
 
 _Code = tuple[list[str], list[str]]
-"""Full names to be imported, and the lines that use them."""
+"""The full names to import, and the lines that use them."""
 
 
 def _still(order: Order, banner: list[str], named: list[str], out: str) -> _Code:

@@ -5,11 +5,14 @@ links and keys too.
 """
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from nicegui import ui
 from nicegui.elements.mixins.value_element import ValueElement
 
+from drapery.settings import OPTIONS
+from drapery.studio.descriptions import choice_titles, with_unit
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 
@@ -55,6 +58,7 @@ class Controls:
         get: Get,
         change: Set,
         to_text: Callable[[Any], str] = "{:g}".format,
+        help: str = "",
     ) -> None:
         """A slider with its value beside its label. bounds: minimum, maximum, step."""
         minimum, maximum, step = bounds
@@ -65,9 +69,39 @@ class Controls:
                     ui.label(to_text(get())).classes("control-value").props('aria-hidden="true"')
                 )
             element = ui.slider(min=minimum, max=maximum, step=step, value=get())
-            element.props(f'aria-label="{label}" dense')
+            element.props("dense").props.update({"aria-label": label, "title": help})
         element.on_value_change(lambda event: shown.set_text(to_text(event.value)))
         self._listen(element, get, change)
+
+    def number(self, name: str, label: str, step: float) -> None:
+        """A slider for a number of the table of options."""
+        option, get = OPTIONS[name], self._getter(name)
+        assert option.bounds is not None and option.type in (int, float)
+
+        def change(value: Any) -> None:
+            self._session.adjust(**{name: value if option.type is float else int(value)})
+
+        to_text = partial(with_unit, option)
+        self.slider(label, (*option.bounds, step), get, change, to_text, option.describe())
+
+    def choice(self, name: str, label: str, **also: Any) -> None:
+        """A list for an option with few choices; also: other options that change with it."""
+        option = OPTIONS[name]
+        element = self.select(
+            label,
+            choice_titles(option),
+            self._getter(name),
+            lambda value: self._session.adjust(**{name: value}, **also),
+        )
+        element.props.update({"title": option.describe()})
+
+    def flag(self, name: str, label: str) -> None:
+        """A switch for an option that is on or off."""
+        get = self._getter(name)
+        self.switch(label, get, lambda on: self._session.adjust(**{name: bool(on)}))
+
+    def _getter(self, name: str) -> Get:
+        return lambda: getattr(self._session.settings, name)
 
     def select(self, label: str, choices: Mapping[Any, str], get: Get, change: Set) -> ui.select:
         """A list of choices, by value, with their titles."""

@@ -11,6 +11,7 @@ from typing import Any
 from nicegui import ui
 from nicegui.element import Element
 
+from drapery.option import Option
 from drapery.studio.components import value_of
 from drapery.studio.notices import errors_shown
 from drapery.studio.snippets import plain
@@ -41,16 +42,17 @@ class Fields:
                 field.element.props[field.prop] = value
                 field.element.update()
 
-    def number(
-        self, label: str, bounds: tuple[float, float], get: Get, change: Change, step: str = "1"
-    ) -> None:
-        """A number; an empty field returns to its value."""
-        minimum, maximum = bounds
+    def number(self, label: str, option: Option, get: Get, change: Change) -> None:
+        """A number with the bounds and help of an option; an empty field returns to its value."""
+        assert option.bounds is not None
+        minimum, maximum = option.bounds
+        step = "1" if option.type is int else "any"
         kind = {"type": "number", "min": minimum, "max": maximum, "step": step}
+        kind["title"] = option.describe()
 
         def changed(text: Any) -> None:
             if _is_number(text):
-                change(float(text))
+                change(int(float(text)) if option.type is int else float(text))
 
         self._field(label, "input", kind, "value", lambda: plain(get()), changed)
 

@@ -9,13 +9,13 @@ from typing import Any
 from nicegui import ui
 from nicegui.element import Element
 
-from drapery.render.views import VIEWS
-from drapery.settings import MAX_SIDE
-from drapery.studio.exports import MAX_SCALE
+from drapery.option import Option
+from drapery.settings import LOOP_OPTIONS, OPTIONS
+from drapery.studio.descriptions import view_title
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
-from drapery.studio.snippets import LOOPS, Order
+from drapery.studio.snippets import LOOPS, SCALE, Order
 from drapery.studio.viewport import ViewportRequest
 from drapery.studio.widgets import text_element
 
@@ -37,9 +37,6 @@ HINTS = {
 }
 PICTURES = frozenset({"png", *LOOPS})
 MOVING = frozenset({*LOOPS, "glb"})
-VIEW_WORDS = {name: name.capitalize() for name in VIEWS} | {"gui": "Item", "iso": "Corner"}
-SAMPLES = {"1": "hard", "4": "smooth", "16": "smoothest"}
-PIXELS = {"1": "off"} | {str(size): f"{size} × {size}" for size in (2, 4, 8, 16)}
 GROUNDS = {"transparent": "transparent", "colour": "one colour"}
 SKY = "#a8c8e8"
 
@@ -49,9 +46,9 @@ class FileChoice:
     """The choices that are not options of a picture."""
 
     kind: str = "png"
-    seconds: float = 4.0
-    fps: float = 20.0
-    scale: int = 8
+    seconds: float = LOOP_OPTIONS["seconds"].default
+    fps: float = LOOP_OPTIONS["fps"].default
+    scale: int = SCALE.default
     colour: str = SKY
     changed: list[Callable[[], None]] = field(default_factory=list)
 
@@ -86,15 +83,17 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
         with _only(groups, lambda: choice.kind in MOVING):
             _times(choice, fields)
         with _only(groups, lambda: choice.kind == "face"):
-            _number(fields, "Pixels a texel", choice, "scale", (1, MAX_SCALE), int)
+            _choice_number(fields, "Pixels a texel", choice, SCALE)
         with _only(groups, lambda: choice.kind in PICTURES | {"glb"}):
-            _pick(session, fields, "View", "view", VIEW_WORDS, str)
-            _own(session, fields, "Gusts (seed)", "seed", (0, 2**32 - 1), int)
+            views = {str(name): view_title(str(name)) for name in OPTIONS["view"].choices}
+            _pick(session, fields, "View", "view", views)
+            _number(session, fields, "Gusts (seed)", "seed")
         with _only(groups, lambda: choice.kind == "png"):
-            _own(session, fields, "Seconds in the wind", "time", (0, 3600), float)
+            _number(session, fields, "Seconds in the wind", "time")
         with _only(groups, lambda: choice.kind in PICTURES):
-            _pick(session, fields, "Edges", "samples", SAMPLES, int)
-            _pick(session, fields, "Pixel art", "pixel", PIXELS, int)
+            samples = {str(name): str(name) for name in OPTIONS["samples"].choices}
+            _pick(session, fields, "Samples a pixel", "samples", samples)
+            _number(session, fields, "Enlarge pixels by", "pixel")
         _ground(session, choice, fields, groups)
 
     hint = text_element("", "p").classes("hint")
@@ -120,10 +119,6 @@ def _only(groups: Groups, counts: Callable[[], bool]) -> Iterator[None]:
     groups.append((group, counts))
 
 
-Bounds = tuple[float, float]
-Kind = type[int] | type[float]
-
-
 def _sides(session: Session, fields: Fields) -> None:
     def resize(place: int, side: float) -> None:
         width, height = session.settings.size
@@ -131,54 +126,40 @@ def _sides(session: Session, fields: Fields) -> None:
 
     for place, label in enumerate(("Width", "Height")):
         get = partial(lambda place: session.settings.size[place], place)
-        fields.number(label, (1, MAX_SIDE), get, partial(resize, place))
+        fields.number(label, OPTIONS["size"], get, partial(resize, place))
 
 
 def _times(choice: FileChoice, fields: Fields) -> None:
-    _number(fields, "Seconds", choice, "seconds", (0.05, 3600), float)
-    _number(fields, "Frames/s", choice, "fps", (1, 120), float)
+    _choice_number(fields, "Seconds", choice, LOOP_OPTIONS["seconds"])
+    _choice_number(fields, "Frames/s", choice, LOOP_OPTIONS["fps"])
 
 
-def _number(
-    fields: Fields, label: str, choice: FileChoice, name: str, bounds: Bounds, kind: Kind
-) -> None:
+def _choice_number(fields: Fields, label: str, choice: FileChoice, option: Option) -> None:
     """A number of the file alone."""
-
-    def change(number: float) -> None:
-        choice.set(**{name: kind(number)})
-
-    fields.number(label, bounds, partial(getattr, choice, name), change, _step(kind))
+    get = partial(getattr, choice, option.name)
+    fields.number(label, option, get, lambda number: choice.set(**{option.name: number}))
 
 
-def _own(
-    session: Session, fields: Fields, label: str, option: str, bounds: Bounds, kind: Kind
-) -> None:
+def _number(session: Session, fields: Fields, label: str, name: str) -> None:
     """A number that is an option of the picture."""
-
-    def change(number: float) -> None:
-        session.adjust(**{option: kind(number)})
-
-    fields.number(label, bounds, lambda: getattr(session.settings, option), change, _step(kind))
-
-
-def _step(kind: Kind) -> str:
-    return "1" if kind is int else "any"
+    get = partial(_value, session, name)
+    fields.number(label, OPTIONS[name], get, lambda number: session.adjust(**{name: number}))
 
 
 def _pick(
-    session: Session,
-    fields: Fields,
-    label: str,
-    option: str,
-    names: Mapping[str, str],
-    kind: type[int] | type[str],
+    session: Session, fields: Fields, label: str, name: str, titles: Mapping[str, str]
 ) -> None:
     """An option of the picture that is one of several."""
+    fields.choice(
+        label,
+        titles,
+        lambda: str(_value(session, name)),
+        lambda text: session.adjust(**{name: OPTIONS[name].parse(text)}),
+    )
 
-    def change(name: str) -> None:
-        session.adjust(**{option: kind(name)})
 
-    fields.choice(label, names, lambda: str(getattr(session.settings, option)), change)
+def _value(session: Session, name: str) -> Any:
+    return getattr(session.settings, name)
 
 
 def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups) -> None:

@@ -4,8 +4,9 @@ from functools import cache
 
 from nicegui import ui
 
-from drapery.render.views import VIEWS
 from drapery.scenes import catalogue
+from drapery.settings import OPTIONS
+from drapery.studio.descriptions import view_title
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
 from drapery.studio.viewer import ViewerElement
@@ -15,7 +16,6 @@ OWN = "your banner"
 """The choice that shows no scene but the design."""
 LATER = 1.5
 """The scenes are listed so long after the page has been built [s]."""
-VIEW_WORDS = {"front": "Front", "back": "Back", "iso": "Corner", "gui": "Item", "hero": "Hero"}
 
 
 def build(session: Session) -> None:
@@ -30,8 +30,8 @@ def build(session: Session) -> None:
                 .classes("live-views")
                 .props('role="group" aria-label="Views of the banner"')
             ):
-                for name in VIEWS:
-                    _view(session, controls, name)
+                for name in OPTIONS["view"].choices:
+                    _view(session, controls, str(name))
             pause = controls.button(
                 "Pause", lambda: viewport.update(paused=not viewport.request.paused), icon="pause"
             )
@@ -59,8 +59,8 @@ def _view(session: Session, controls: Controls, name: str) -> None:
         session.adjust(view=name)
         session.viewport.look_anew()
 
-    button = controls.button(VIEW_WORDS.get(name, name), choose)
-    button.props(f'aria-label="View: {VIEW_WORDS.get(name, name)}"')
+    button = controls.button(view_title(name), choose)
+    button.props(f'aria-label="View: {view_title(name)}"')
     controls.pressed(button, lambda: session.settings.view == name)
 
 

@@ -1,25 +1,15 @@
 """Controls of the live banner: wind, cloth, placement and light."""
 
 import math
-from typing import get_args
 
 from nicegui import ui
 
-from drapery.cloth import SOLVERS
-from drapery.settings import MAX_LIGHT, MAX_WIND, ROTATIONS, Facing, Placement
+from drapery.settings import OPTIONS, ROTATIONS
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
 from drapery.studio.wind_controls import wind_controls_of
 
 GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (17, 33), (25, 49), (33, 65))
-PINS = {
-    None: "its own",
-    "top": "top",
-    "corners": "2 corners",
-    "three-corners": "3 corners",
-    "four-corners": "4 corners",
-    "none": "nothing",
-}
 NOON = 12.0
 
 
@@ -30,7 +20,7 @@ def build(session: Session) -> None:
         for title, draw in (
             ("Wind", _wind),
             ("Cloth", _cloth),
-            ("Place", _place),
+            ("Placement", _placement),
             ("Light", _light),
         ):
             with (
@@ -44,88 +34,47 @@ def build(session: Session) -> None:
 
 
 def _wind(session: Session, controls: Controls) -> None:
-    controls.slider(
-        "Speed",
-        (0, MAX_WIND / 2, 0.1),
-        lambda: session.settings.wind,
-        lambda speed: session.adjust(wind=float(speed)),
-        "{:.1f} m/s".format,
-    )
+    controls.number("wind", "Speed", 0.1)
     controls.slider(
         "Direction",
         (-180, 180, 1),
         lambda: round(wind_controls_of(session.settings).heading),
         lambda heading: session.adjust(direction=float(heading)),
         "{:.0f}°".format,
+        OPTIONS["direction"].describe(),
     )
-    controls.slider(
-        "Gusts",
-        (0, 1.5, 0.05),
-        lambda: session.settings.gusts,
-        lambda gusts: session.adjust(gusts=float(gusts)),
-        "{:.2f}".format,
-    )
-    controls.switch(
-        "Wind on",
-        lambda: session.viewport.request.on,
-        lambda on: session.viewport.update(on=bool(on)),
-    )
+    controls.number("gusts", "Gusts", 0.05)
+    viewport = session.viewport
+    controls.switch("Wind on", lambda: viewport.request.on, lambda on: viewport.update(on=bool(on)))
 
 
 def _cloth(session: Session, controls: Controls) -> None:
-    controls.select(
-        "Solver",
-        {name: name for name in SOLVERS},
-        lambda: session.settings.solver,
-        lambda name: session.adjust(solver=name),
-    )
+    controls.choice("solver", "Solver")
     # The list must hold the present grid, which a link may have set.
     grids = dict.fromkeys((*GRIDS, tuple(session.settings.grid)))
+    option = OPTIONS["grid"]
     controls.select(
         "Grid",
-        {f"{columns}x{rows}": f"{columns} × {rows}" for columns, rows in sorted(grids)},
-        lambda: "{}x{}".format(*session.settings.grid),
-        lambda text: session.adjust(grid=tuple(map(int, text.split("x")))),
+        {option.to_text(grid): " × ".join(map(str, grid)) for grid in sorted(grids)},
+        lambda: option.to_text(session.settings.grid),
+        lambda text: session.adjust(grid=option.parse(text)),
     )
-    controls.select(
-        "Held at",
-        PINS,
-        lambda: session.settings.pins,
-        lambda pins: session.adjust(pins=pins),
-    )
-    controls.slider(
-        "Thickness",
-        (0, 4, 0.25),
-        lambda: session.settings.thickness,
-        lambda texels: session.adjust(thickness=float(texels)),
-        lambda texels: f"{texels:g} texel" + "s" * (texels != 1),
-    )
+    controls.choice("pins", "Held at")
+    controls.number("thickness", "Thickness", 0.25)
 
 
-def _place(session: Session, controls: Controls) -> None:
-    words = {"standing": "pole", "wall": "wall", "item": "item slot"}
-    controls.select(
-        "Placement",
-        {name: words[name] for name in get_args(Placement)},
-        lambda: session.settings.placement,
-        lambda name: session.adjust(placement=name, rotation=0, facing=None),
-    )
+def _placement(session: Session, controls: Controls) -> None:
+    controls.choice("placement", "Placement", rotation=0, facing=None)
     controls.slider(
         "Rotation",
         (0, ROTATIONS - 1, 1),
         lambda: _rotation(session),
         lambda number: _rotate(session, int(number)),
         lambda number: f"{number * 360 / ROTATIONS:g}°",
+        OPTIONS["rotation"].describe(),
     )
-    controls.select(
-        "Flag",
-        {"cloth": "cloth", "vanilla": "the game's"},
-        lambda: session.settings.pose,
-        lambda pose: session.adjust(pose=pose),
-    )
-    controls.switch(
-        "Shadow", lambda: session.settings.shadow, lambda on: session.adjust(shadow=bool(on))
-    )
+    controls.choice("pose", "Flag")
+    controls.flag("shadow", "Shadow")
 
 
 def _rotation(session: Session) -> int:
@@ -136,7 +85,7 @@ def _rotation(session: Session) -> int:
 def _rotate(session: Session, number: int) -> None:
     """Turn the banner; on a wall, to the nearest of four sides."""
     if session.settings.placement == "wall":
-        sides = get_args(Facing)
+        sides = OPTIONS["facing"].choices
         session.adjust(facing=sides[round(number / 4) % len(sides)])
     else:
         session.adjust(rotation=number)
@@ -160,22 +109,14 @@ def _light(session: Session, controls: Controls) -> None:
         hour,
         choose,
         lambda hour: f"{int(hour)}:{int(hour % 1 * 60):02d}",
+        OPTIONS["daylight"].describe(),
     )
-    _level(session, controls, "Sky light", "sky_light")
-    _level(session, controls, "Torch light", "block_light")
+    controls.number("sky_light", "Sky light", 1)
+    controls.number("block_light", "Torch light", 1)
     controls.switch(
         "Shaded",
         lambda: session.settings.light == "game",
         lambda on: session.adjust(light="game" if on else "flat"),
-    )
-
-
-def _level(session: Session, controls: Controls, label: str, option: str) -> None:
-    controls.slider(
-        label,
-        (0, MAX_LIGHT, 1),
-        lambda: getattr(session.settings, option),
-        lambda level: session.adjust(**{option: int(level)}),
     )
 
 
