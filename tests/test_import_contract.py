@@ -56,8 +56,8 @@ LAW: dict[str, set[str]] = {
         *("errors", "option", "options", "settings", "banner", "style", "batch"),
     },
     "drapery.studio": {
-        *("errors", "mesh", "settings", "cloth", "banner", "render", "style", "scenes"),
-        *("options", "pictures", "comparison", "sheets"),
+        *("errors", "mesh", "option", "options", "settings"),
+        *("cloth", "banner", "packs", "render", "style", "scenes", "pictures"),
     },
 }
 NOT_INSTALLED = ROOT / "assets" / "drawing"

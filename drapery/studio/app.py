@@ -56,9 +56,9 @@ def run(
     token: str | None,
     ready: Callable[[str], None],
 ) -> None:
-    """Serve until the process is told to stop. Raises OutputError for a port that is taken.
+    """Serve until the process is stopped. Raises OutputError for a port that is in use.
 
-    ready: takes the page's address as soon as it answers.
+    ready: is called with the page's address as soon as the server answers.
     """
     local = host in LOOPBACK
     guarded = make_app(studio, hosts=LOOPBACK if local else None, token=token)

@@ -6,7 +6,6 @@ from zlib import crc32
 import numpy as np
 
 from drapery.banner.design import Banner, Layer
-from drapery.banner.packs import Packs
 from drapery.banner.packs.png import read_png
 from drapery.banner.packs.resampling import resize
 from drapery.banner.sprites import (
@@ -18,6 +17,7 @@ from drapery.banner.sprites import (
     flag_layers,
     shield_layers,
 )
+from drapery.packs import Packs
 from drapery.pictures import face_pixels
 from drapery.render.encode.png import png_bytes
 from drapery.render.frame import Pixels
@@ -40,7 +40,7 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
 
 
 def pattern_names(packs: Packs) -> tuple[str, ...]:
-    """`packs.patterns()`, asked once for as long as they are open."""
+    """`packs.patterns()`, listed once for each opened stack of packs."""
     if packs not in _names:
         _names[packs] = packs.patterns()
     return _names[packs]
@@ -84,7 +84,7 @@ def thumbnail(banner: Banner, packs: Packs) -> bytes:
 
 
 def _cell(packs: Packs, banner: Banner) -> Pixels:
-    # Sampled before they are laid over each other: fine packs have 256 times the texels.
+    # Sampled before compositing: the textures of fine packs have 256 times the texels.
     layers = [(resize(texels, UNITS), rgb) for texels, rgb in flag_layers(banner, packs)]
     return _sampled(FLAG_REGIONS["front"], composite(layers), 1)
 

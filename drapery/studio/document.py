@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
-from drapery.banner.packs import Packs, open_packs
+from drapery.packs import Packs, open_packs
 from drapery.settings import Settings
 from drapery.studio.history import History
 from drapery.studio.sketch import Sketch
@@ -22,7 +22,7 @@ Event = Literal["sketch", "settings", "packs", "scene"]
 class Document:
     """What one tab works on. A change calls the listeners of its event in the order they came.
 
-    token: identifies the tab to the server; nobody can guess it.
+    token: identifies the tab to the server; it cannot be guessed.
     survival: whether the six layers of a loom should be enough.
     """
 

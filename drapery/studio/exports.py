@@ -31,7 +31,7 @@ Item = TypeVar("Item")
 
 
 class StoppedError(DraperyError):
-    """The export was stopped by whoever ordered it."""
+    """The export was stopped by its user."""
 
 
 def make(order: Order, path: Path, progress: Progress | None = None) -> None:
@@ -88,7 +88,8 @@ def _face(order: Order, path: Path, on_progress: Progress) -> None:
 
 def _loop(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery.pictures import iter_frames
-    from drapery.render.encode import check_animation_target, save_animation
+    from drapery.render import save_animation
+    from drapery.render.encode import check_animation_target
 
     total = count_frames(order)
     on_progress(0, total)
@@ -98,8 +99,9 @@ def _loop(order: Order, path: Path, on_progress: Progress) -> None:
 
 
 def _model(order: Order, path: Path, on_progress: Progress) -> None:
-    from drapery.banner.packs import open_packs
-    from drapery.render.export import check_model_target, save_model
+    from drapery.packs import open_packs
+    from drapery.render import save_model
+    from drapery.render.export import check_model_target
     from drapery.scenes.stager import loop
 
     total, settings = count_frames(order), options_for(order)
@@ -112,11 +114,10 @@ def _model(order: Order, path: Path, on_progress: Progress) -> None:
 
 def _design(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery.banner.formats import write_banner
-    from drapery.render.encode.output import replacing
 
-    with replacing(path) as unfinished:
-        unfinished.write_bytes(write_banner(_banner(order)).encode() + b"\n")
+    text = write_banner(_banner(order)) + "\n"
     on_progress(1, 1)
+    path.write_bytes(text.encode())
 
 
 _ONCE: dict[str, Callable[[Order, Path, Progress], None]] = {

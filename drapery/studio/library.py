@@ -20,7 +20,6 @@ from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column, rela
 from sqlalchemy.pool import NullPool
 
 from drapery.errors import DesignError, OutputError
-from drapery.render.encode.output import make_folder
 from drapery.studio.records import (
     MAX_DESIGNS,
     Design,
@@ -76,7 +75,11 @@ class Library:
         is not a library, has a newer version, is damaged, locked or cannot be written.
         """
         self.path = path
-        make_folder(path.parent)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            reason = f"{error.strerror}; name another file with --library"
+            raise OutputError(f"library {path}: {reason}") from None
         self._engine = create_engine(
             URL.create("sqlite", database=str(path)),
             # No transaction but those that are asked for.

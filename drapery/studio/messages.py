@@ -17,13 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.mesh import Array
-from drapery.render.camera import Camera
+from drapery.render import Camera, Light, Model
 from drapery.render.drawlist import Topology, topology
 from drapery.render.flatten import flattened
 from drapery.render.identity_cache import IdentityCache
-from drapery.render.light import Light
 from drapery.render.relief import relieved
-from drapery.render.scene import Model
 from drapery.studio.panes import Pane, Shown
 
 TYPES = {"float32": "<f4", "uint32": "<u4", "int32": "<i4", "uint8": "|u1"}

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from drapery.banner.packs import open_packs
 from drapery.errors import DesignError, DraperyError, PackError
+from drapery.packs import open_packs
 from drapery.studio.document import Document
 from drapery.studio.uploads import Uploads
 

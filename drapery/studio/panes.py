@@ -1,27 +1,23 @@
-"""What the viewer shows at a moment: one picture, or several beside each other."""
+"""What the viewer shows at a moment: one picture, or several side by side."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.mesh import Mesh
-from drapery.render.camera import Camera
-from drapery.render.frame import Frame
-from drapery.render.light import UNLIT
-from drapery.render.scene import Material, Model, Scene, TextureLayer
+from drapery.render import UNLIT, Camera, Frame, Material, Mesh, Model, Scene, TextureLayer
 from drapery.scenes.picture_grid import Picture, PictureGrid
 
 Framing = Callable[[float], Camera]
 """The camera for a picture of width / height."""
 
 Wind = tuple[float, float, bool]
-"""Speed [m/s], where it blows to in the world [degrees from +z towards +x], whether it blows."""
+"""Speed [m/s], heading in the world [degrees from +z towards +x], whether it blows."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pane:
-    """One picture. flat: a finished picture, which nobody walks around."""
+    """One picture. flat: a finished picture, which has no other sides."""
 
     scene: Scene
     framing: Framing
@@ -31,11 +27,11 @@ class Pane:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """All that is seen.
+    """Everything that the viewer shows.
 
-    columns: panes in a row. grip: the models of each pane that a hand can take. live: whether it is
-    the body that is being designed. wind: None where nothing can be steered. cut: another value
-    than before asks the viewer to look anew. time: how long the cloth has moved [s].
+    columns: panes in a row. grip: the models of each pane that can be grabbed. live: whether it is
+    the design, not a scene. wind: None if keys cannot steer it. cut: when its value changes, the
+    viewer resets its view. time: how long the cloth has moved [s].
     """
 
     panes: tuple[Pane, ...]
@@ -62,7 +58,7 @@ def _pane(picture: Scene | Frame, label: str = "") -> Pane:
 
 
 def _poster(frame: Frame) -> Scene:
-    """A finished picture as a scene: a plain sheet, a metre high, straight before the camera."""
+    """A finished picture as a scene: a rectangle, 1 m high, that faces the camera."""
     height, width = frame.pixels.shape[:2]
     half = width / height / 2
     positions = np.array(
@@ -71,11 +67,11 @@ def _poster(frame: Frame) -> Scene:
     normals = np.tile(np.array([0, 0, 1], np.float32), (4, 1))
     uvs = np.array([(0, 0), (1, 0), (0, 1), (1, 1)], np.float64)
     mesh = Mesh(positions, normals, np.array([(0, 2, 1), (1, 2, 3)], np.int32), uvs)
-    look = Material((TextureLayer(frame.pixels),), "blend", False)
-    return Scene((Model(mesh, (look,)),), _facing(frame, 1.0), (width, height), UNLIT)
+    material = Material((TextureLayer(frame.pixels),), "blend", False)
+    return Scene((Model(mesh, (material,)),), _facing(frame, 1.0), (width, height), UNLIT)
 
 
 def _facing(frame: Frame, aspect: float) -> Camera:
-    """Straight at it, so that all of it is seen."""
+    """A camera that faces the picture and shows all of it."""
     height, width = frame.pixels.shape[:2]
     return Camera((0, 0, 2), (0, 0, 0), height=max(1.0, width / height / aspect))

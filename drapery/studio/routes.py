@@ -10,8 +10,8 @@ from urllib.parse import quote
 from fastapi import FastAPI, HTTPException, Request, Response
 from fastapi.responses import FileResponse, JSONResponse
 
-from drapery.banner.packs import Packs, open_packs
 from drapery.errors import DesignError, DraperyError
+from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_rows, pattern_sheet
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of

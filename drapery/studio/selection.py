@@ -9,7 +9,7 @@ from drapery.studio.document import Document
 from drapery.studio.sketch import Sketch
 
 Chosen = int | Literal["field"] | None
-"""A stroke's number, the field beneath all, or nothing: then dyes are for the next layer."""
+"""A stroke's number, the field, or None: then dyes are for the next layer."""
 
 
 class Selection:

@@ -15,7 +15,7 @@ from drapery.studio.uploads import Uploads
 from drapery.studio.viewport import Viewport
 
 MAX_SESSIONS = 64
-"""Tabs at once; more than anybody opens by hand."""
+"""Tabs at once; more than a person opens."""
 
 
 @dataclass(frozen=True)

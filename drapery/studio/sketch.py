@@ -1,4 +1,4 @@
-"""A design while it is being worked on: strokes that keep their names while they move."""
+"""A design while it is edited: strokes that keep their numbers when they move."""
 
 import random
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ MAX_TITLE = 80
 class Stroke:
     """One pattern in one dye.
 
-    number: names the stroke within its sketch, wherever it moves. hidden: kept, but not drawn.
+    number: identifies the stroke in its sketch, wherever it moves. hidden: not drawn.
     """
 
     number: int
@@ -27,7 +27,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Sketch:
-    """A design under work: its field's dye and its strokes, lowest first."""
+    """A design that is edited: the dye of its field, and its strokes, lowest first."""
 
     base: str = "white"
     strokes: tuple[Stroke, ...] = ()
@@ -50,20 +50,20 @@ def sketch_of(banner: Banner, title: str = "") -> Sketch:
 
 
 def add(sketch: Sketch, pattern: str, dye: str) -> Sketch:
-    """Lay a stroke on top. Raises DesignError for what is unknown, or beyond sixteen."""
+    """Add a stroke on top. Raises DesignError for unknown names, or if there are sixteen."""
     layer = Layer(pattern, dye)
     return _insert(sketch, len(sketch.strokes), layer.pattern, layer.dye)
 
 
 def duplicate(sketch: Sketch, number: int) -> Sketch:
-    """Lay a stroke like this one on it. Raises DesignError."""
+    """Add a copy of a stroke on top of it. Raises DesignError."""
     place = place_of(sketch, number)
     stroke = sketch.strokes[place]
     return _insert(sketch, place + 1, stroke.pattern, stroke.dye, stroke.hidden)
 
 
 def move(sketch: Sketch, number: int, place: int) -> Sketch:
-    """Put a stroke at a place, counted from 0 at the bottom; beyond the ends is at the end.
+    """Move a stroke to a place, counted from 0 at the bottom; larger places mean the top.
 
     Raises DesignError.
     """
@@ -88,20 +88,20 @@ def repattern(sketch: Sketch, number: int, pattern: str) -> Sketch:
 
 
 def hide(sketch: Sketch, number: int) -> Sketch:
-    """Hide a stroke, or show it where it was hidden. Raises DesignError."""
+    """Hide a stroke, or show a hidden one. Raises DesignError."""
     place = place_of(sketch, number)
     stroke = sketch.strokes[place]
     return _changed(sketch, place, replace(stroke, hidden=not stroke.hidden))
 
 
 def remove(sketch: Sketch, number: int) -> Sketch:
-    """Take a stroke away. Raises DesignError."""
+    """Remove a stroke. Raises DesignError."""
     place = place_of(sketch, number)
     return replace(sketch, strokes=sketch.strokes[:place] + sketch.strokes[place + 1 :])
 
 
 def clear(sketch: Sketch) -> Sketch:
-    """Take all strokes away."""
+    """Remove all strokes."""
     return replace(sketch, strokes=())
 
 
@@ -111,11 +111,11 @@ def dye_field(sketch: Sketch, dye: str) -> Sketch:
 
 
 def random_sketch(seed: int) -> Sketch:
-    """A design by chance, the same for the same seed: two to six patterns in a few dyes."""
+    """A random design, the same for the same seed: two to six patterns in a few dyes."""
     chance = random.Random(seed)
     dyes = chance.sample(DYE_NAMES, 3)
     patterns = chance.sample(PATTERN_NAMES[1:], chance.randint(2, LOOM_LAYERS))
-    # No layer in the dye of the one below it: where they overlap, one would not be seen.
+    # No layer has the dye of the one below it, or their overlap would not be visible.
     layers: list[Layer] = []
     for pattern in patterns:
         below = layers[-1].dye if layers else dyes[0]
@@ -124,16 +124,16 @@ def random_sketch(seed: int) -> Sketch:
 
 
 def place_of(sketch: Sketch, number: int) -> int:
-    """Where a stroke lies, from 0 at the bottom. Raises DesignError."""
+    """The place of a stroke, from 0 at the bottom. Raises DesignError."""
     for place, stroke in enumerate(sketch.strokes):
         if stroke.number == number:
             return place
-    raise DesignError(f"there is no layer {number} any more: choose one of the list")
+    raise DesignError(f"layer {number} does not exist any more; choose one of the list")
 
 
 def _insert(sketch: Sketch, place: int, pattern: str, dye: str, hidden: bool = False) -> Sketch:
     if len(sketch.strokes) >= MAX_LAYERS:
-        raise DesignError(f"the game shows at most {MAX_LAYERS} layers: remove one first")
+        raise DesignError(f"the game shows at most {MAX_LAYERS} layers; remove one first")
     number = 1 + max((stroke.number for stroke in sketch.strokes), default=0)
     stroke = Stroke(number, pattern, dye, hidden)
     return replace(sketch, strokes=(*sketch.strokes[:place], stroke, *sketch.strokes[place:]))

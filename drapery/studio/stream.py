@@ -175,7 +175,7 @@ async def _serve(socket: WebSocket, viewport: Viewport, which: str) -> None:
     except (ValueError, TypeError, OptionError):
         await socket.close(WRONG)
     finally:
-        # No await before all is undone: whoever cancels this task may not interrupt that.
+        # No await before all is undone: a cancellation must not interrupt it.
         sending.cancel()
         viewport.do(lambda live: live.release())
         viewport.press((), 0.0)

@@ -9,8 +9,8 @@ from drapery.studio.session import Session
 Which = Literal["all", "left", "right"]
 
 LABEL = (
-    "Live banner. Drag its cloth to pull it and the background to walk round it; the wheel or"
-    " plus and minus zoom, Shift with arrows turns, Home looks anew. W, A, S, D or arrows turn the"
+    "Live banner. Drag the cloth to pull it and the background to turn the view; the wheel or plus"
+    " and minus zoom, Shift with arrows turns, Home resets the view. W, A, S, D or arrows turn the"
     " wind, Q and E make it weaker and stronger, Space stops it."
 )
 

@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from drapery.banner.design import Banner
-from drapery.banner.packs import Packs, open_packs
 from drapery.errors import DraperyError
+from drapery.packs import Packs, open_packs
 from drapery.scenes.stager import STEP
 from drapery.studio.document import Document
 from drapery.studio.live import Live
@@ -31,7 +31,7 @@ BEHIND = 4
 """Ticks that are caught up at once; further ones are left out, and time runs slower."""
 THREADS = 4
 LONG = 0.8
-"""The user is told of a turn that takes longer [s]."""
+"""A turn that takes longer is announced to the user [s]."""
 FIRST = 2.0
 """How long the cloth waits for its first picture to be seen [s]."""
 LONGEST = 60.0

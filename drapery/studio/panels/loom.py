@@ -17,7 +17,7 @@ from drapery.studio.widgets import button, text_element
 
 
 def build(session: Session) -> None:
-    """The recipe, and a button that leaves out layers which nobody can see."""
+    """The recipe, and a button that leaves out layers that cannot be seen."""
     version = count()
     text_element("Loom recipe", "h2").classes("heading")
     warning = text_element("", "p").classes("warning").props('role="status"')
