@@ -14,16 +14,16 @@ SHORTEST_TOKEN = 8
 def run(
     port: Annotated[int, typer.Option(help="The port; 0 chooses one.")] = 8080,
     host: Annotated[
-        str, typer.Option(help="The address to listen at; one open to others wants --token.")
+        str, typer.Option(help="The address to listen at; one open to others needs --token.")
     ] = "127.0.0.1",
     token: Annotated[
-        str | None, typer.Option(help="What visitors must bring; at least 8 characters.")
+        str | None, typer.Option(help="The token that visitors must know; at least 8 characters.")
     ] = None,
     packs: o.PackOption = None,
     format: o.FormatOption = None,
     library: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Where designs are kept.", show_default="your own"),
+        typer.Option(metavar="FILE", help="The file of saved designs.", show_default="your own"),
     ] = None,
     browser: Annotated[
         bool, typer.Option("--open/--no-open", help="Open the page in a browser.")
@@ -43,7 +43,7 @@ def run(
         raise BackendError(
             f'the studio needs an extra ({error.name}); pip install "drapery[studio]"'
         ) from None
-    from drapery.banner.packs import open_packs
+    from drapery.packs import open_packs
 
     open_packs(settings.packs, format=format)
     adopt_warnings()
