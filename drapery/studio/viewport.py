@@ -177,12 +177,19 @@ class Viewport:
             await self._pulse.wait()
 
     def shown(self) -> Shown | None:
-        """What is visible now; None before there is anything. It blocks: call it in a thread."""
-        with self._turning:
+        """What is visible now; None before there is anything, and while a turn takes long.
+
+        It blocks: call it in a thread.
+        """
+        if not self._turning.acquire(timeout=LONG):
+            return None
+        try:
             version = self.version
             if self._picture[0] != version:
                 self._picture = version, self._content()
             return self._picture[1]
+        finally:
+            self._turning.release()
 
     def _restart(self, live: Live) -> None:
         live.reset()
