@@ -56,7 +56,7 @@ LAW: dict[str, set[str]] = {
         *("errors", "option", "options", "settings", "banner", "style", "batch"),
     },
     "drapery.studio": {
-        *("errors", "mesh", "option", "options", "settings"),
+        *("drapery", "errors", "mesh", "option", "options", "settings"),
         *("cloth", "banner", "packs", "render", "style", "scenes", "pictures"),
     },
 }

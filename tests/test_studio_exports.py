@@ -124,7 +124,7 @@ def test_a_fault_is_one_line(tmp_path: Path) -> None:
 def test_an_unforeseen_error_ends_it_with_a_line_and_a_traceback_in_the_log(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    work = export(Order(7, Settings()), tmp_path)  # no caller that is typed sends this
+    work = Export(7, tmp_path / "x.png", "x.png")  # not an order: no typed caller does this
     work.start()
     assert work.wait(30)
     assert work.state == "failed" and re.search(r"\(\w+Error\); see the studio's log", work.fault)

@@ -30,9 +30,8 @@ def run(
     ] = True,
 ) -> None:
     """Open the studio: design a banner on a page and watch it wave."""
-    from drapery.errors import BackendError
+    from drapery import BackendError, Settings
     from drapery.option import within
-    from drapery.settings import Settings
 
     _check(host, token)
     within("port", port, 0, 65535)
@@ -57,7 +56,7 @@ def run(
 
 
 def _check(host: str, token: str | None) -> None:
-    from drapery.errors import OptionError
+    from drapery import OptionError
 
     if token is not None and (len(token) < SHORTEST_TOKEN or not token.isascii()):
         raise OptionError(f"token: give at least {SHORTEST_TOKEN} plain characters")

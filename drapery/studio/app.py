@@ -10,7 +10,7 @@ import uvicorn
 from fastapi import FastAPI
 from nicegui import ui
 
-from drapery.errors import OutputError
+from drapery import OutputError
 from drapery.studio import page, routes, stream
 from drapery.studio.guard import LOOPBACK, Guard
 from drapery.studio.session import Sessions, StudioConfig

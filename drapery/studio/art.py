@@ -5,7 +5,7 @@ from zlib import crc32
 
 import numpy as np
 
-from drapery.banner.design import Banner, Layer
+from drapery import Banner, Layer
 from drapery.banner.packs.png import read_png
 from drapery.banner.packs.resampling import resize
 from drapery.banner.sprites import (

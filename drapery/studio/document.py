@@ -11,8 +11,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
+from drapery import Settings
 from drapery.packs import Packs, open_packs
-from drapery.settings import Settings
 from drapery.studio.history import History
 from drapery.studio.sketch import Sketch
 

@@ -10,8 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
-from drapery.banner.design import Banner
-from drapery.errors import DraperyError, OptionError
+from drapery import Banner, DraperyError, OptionError
 from drapery.option import one_of
 from drapery.settings import frame_count
 from drapery.studio.document import Document
@@ -67,7 +66,7 @@ def check(order: Order) -> None:
 
 
 def _still(order: Order, path: Path, on_progress: Progress) -> None:
-    from drapery.pictures import draw
+    from drapery import draw
 
     on_progress(0, 1)
     frame = draw(order.banner, options_for(order))
@@ -76,7 +75,7 @@ def _still(order: Order, path: Path, on_progress: Progress) -> None:
 
 
 def _face(order: Order, path: Path, on_progress: Progress) -> None:
-    from drapery.pictures import draw_face
+    from drapery import draw_face
 
     on_progress(0, 1)
     settings = options_for(order)
@@ -87,7 +86,7 @@ def _face(order: Order, path: Path, on_progress: Progress) -> None:
 
 
 def _loop(order: Order, path: Path, on_progress: Progress) -> None:
-    from drapery.pictures import iter_frames
+    from drapery import iter_frames
     from drapery.render import save_animation
     from drapery.render.encode import check_animation_target
 
@@ -188,8 +187,8 @@ class Export:
         except (OSError, MemoryError) as error:
             self.state, self.fault = "failed", f"the export failed: {error or 'out of memory'}"
         except Exception as error:
-            # Nobody foresaw it: the user must not wait for ever, and we need the traceback.
-            LOG.exception("an export of the kind %s failed", self.order.kind)
+            # A fault in the program: the user gets a line, and the log the traceback.
+            LOG.exception("the export of %s failed", self.name)
             kind = type(error).__name__
             self.state, self.fault = "failed", f"the export failed ({kind}); see the studio's log"
         else:

@@ -5,7 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
-from drapery.errors import DraperyError
+from drapery import DraperyError
 from drapery.studio.notices import show_notice
 from drapery.studio.session import Session
 from drapery.studio.uploads import PURPOSES

@@ -19,7 +19,7 @@ from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column, relationship
 from sqlalchemy.pool import NullPool
 
-from drapery.errors import DesignError, OutputError
+from drapery import DesignError, OutputError
 from drapery.studio.records import (
     MAX_DESIGNS,
     Design,

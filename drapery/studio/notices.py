@@ -6,7 +6,7 @@ from typing import Literal
 
 from nicegui import ui
 
-from drapery.errors import DraperyError
+from drapery import DraperyError
 
 Tone = Literal["fault", "warning", "done"]
 

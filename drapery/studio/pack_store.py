@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from drapery.errors import DesignError, DraperyError, PackError
+from drapery import DesignError, DraperyError, PackError
 from drapery.packs import open_packs
 from drapery.studio.document import Document
 from drapery.studio.uploads import Uploads

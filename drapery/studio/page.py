@@ -8,8 +8,7 @@ from typing import Literal
 from fastapi import Request
 from nicegui import Client, ui
 
-from drapery.errors import DraperyError
-from drapery.settings import Settings
+from drapery import DraperyError, Settings
 from drapery.studio.notices import show_notice
 from drapery.studio.panels import (
     bar,

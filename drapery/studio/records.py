@@ -6,10 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
+from drapery import DesignError, DraperyError, Settings
 from drapery.banner.packs.png import png_size, read_png
 from drapery.banner.patterns import PATTERNS
-from drapery.errors import DesignError, DraperyError
-from drapery.settings import Settings
 from drapery.studio.share import as_tree, checked_title, of_tree
 from drapery.studio.sketch import Sketch
 

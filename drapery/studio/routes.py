@@ -10,7 +10,7 @@ from urllib.parse import quote
 from fastapi import FastAPI, HTTPException, Request, Response
 from fastapi.responses import FileResponse, JSONResponse
 
-from drapery.errors import DesignError, DraperyError
+from drapery import DesignError, DraperyError
 from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_rows, pattern_sheet
 from drapery.studio.session import Session, Sessions

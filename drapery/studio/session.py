@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from drapery.settings import Settings
+from drapery import Settings
 from drapery.studio.document import Document
 from drapery.studio.exports import Exports, ExportSlots
 from drapery.studio.pack_store import PackStore

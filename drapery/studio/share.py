@@ -12,10 +12,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from drapery import DesignError, Settings
 from drapery.banner.formats import own_json
-from drapery.errors import DesignError
 from drapery.options import check_options
-from drapery.settings import NAMED_OPTIONS, Settings
+from drapery.settings import NAMED_OPTIONS
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
 
 VERSION = "a"

@@ -4,10 +4,10 @@ import random
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS, Banner, Layer
+from drapery import Banner, DesignError, Layer
+from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
-from drapery.errors import DesignError
 
 MAX_TITLE = 80
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from drapery.banner.design import Banner
+from drapery import Banner, Settings
 from drapery.banner.formats import shorthand
 from drapery.option import Option
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Settings
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
 
 STILLS = ("png",)
 LOOPS = ("gif", "apng", "webp", "mp4")
@@ -160,11 +160,11 @@ class _Listed(list[str]):
 
 def _imports(names: list[str]) -> list[str]:
     """Import lines for full names, one line for each module."""
-    homes: dict[str, list[str]] = {}
+    modules: dict[str, list[str]] = {}
     for name in sorted(names):
-        home, _, short = name.rpartition(".")
-        homes.setdefault(home, []).append(short)
-    return [f"from {home} import {', '.join(homes[home])}" for home in homes]
+        module, _, short = name.rpartition(".")
+        modules.setdefault(module, []).append(short)
+    return [f"from {module} import {', '.join(modules[module])}" for module in modules]
 
 
 _Code = tuple[list[str], list[str]]
@@ -190,21 +190,8 @@ def _design(order: Order, banner: list[str], named: list[str], out: str) -> _Cod
 
 
 def _model(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
-    names = [
-        "drapery.banner.packs.open_packs",
-        "drapery.settings.frame_count",
-        "drapery.render.export.save_model",
-        "drapery.scenes.stager.loop",
-        "drapery.settings.Settings",
-    ]
-    seconds, fps = repr(order.seconds), repr(order.fps)
-    moved = [*(banner or ["None"]), "packs", "settings", f"frame_count({seconds}, {fps})", fps]
-    return names, [
-        f"settings = {_call('Settings', [], named)}",
-        "packs = open_packs(settings.packs, format=settings.format)",
-        f"scenes = {_call('loop', moved, [])}",
-        f"save_model(scenes, {out}, fps={fps})",
-    ]
+    arguments = [*(banner or ["None"]), out]
+    return ["drapery.save_model"], [_call("save_model", arguments, _times(order) + named)]
 
 
 def _times(order: Order) -> list[str]:

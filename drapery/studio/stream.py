@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from fastapi import FastAPI, WebSocket, WebSocketDisconnect
 
-from drapery.errors import DraperyError, OptionError
+from drapery import DraperyError, OptionError
 from drapery.studio.live import Ray
 from drapery.studio.messages import MessageEncoder
 from drapery.studio.session import Sessions

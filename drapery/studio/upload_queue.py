@@ -6,10 +6,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 from starlette.concurrency import run_in_threadpool
 
-from drapery.banner.formats import read_designs
-from drapery.banner.formats.found import FoundBanner
-from drapery.banner.formats.registry import parse_banners
-from drapery.errors import DesignError, DraperyError
+from drapery import DesignError, DraperyError, FoundBanner, parse_banners, read_designs
 from drapery.studio.share import read_link
 from drapery.studio.sketch import banner_of
 from drapery.studio.uploads import Uploads, shown_name

@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from drapery.errors import DesignError
+from drapery import DesignError
 from drapery.studio.document import Document
 
 

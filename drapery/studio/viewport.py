@@ -15,8 +15,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, TypeVar
 
-from drapery.banner.design import Banner
-from drapery.errors import DraperyError
+from drapery import Banner, DraperyError
 from drapery.packs import Packs, open_packs
 from drapery.scenes.stager import STEP
 from drapery.studio.document import Document

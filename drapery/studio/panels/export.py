@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from drapery.errors import DraperyError
+from drapery import DraperyError
 from drapery.studio.exports import Export, stem_of
 from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.panels.fields import copy_field

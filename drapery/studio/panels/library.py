@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from nicegui import background_tasks, run, ui
 
-from drapery.errors import DraperyError
+from drapery import DraperyError
 from drapery.studio.art import thumbnail
 from drapery.studio.components import value_of
 from drapery.studio.file_field import FileField

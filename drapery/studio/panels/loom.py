@@ -6,9 +6,9 @@ from itertools import count
 
 from nicegui import ui
 
-from drapery.banner.design import LOOM_LAYERS, Banner
+from drapery import Banner, DraperyError
+from drapery.banner.design import LOOM_LAYERS
 from drapery.banner.loom import fits_loom, simplified, steps
-from drapery.errors import DraperyError
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session

@@ -5,7 +5,7 @@ from itertools import count
 
 from nicegui import Client, run, ui
 
-from drapery.errors import DraperyError
+from drapery import DraperyError
 from drapery.studio.file_field import FileField
 from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.pack_store import PackEntry, PackStore

@@ -1,6 +1,6 @@
 """The patterns of the packs in the chosen dyes."""
 
-from drapery.errors import DraperyError
+from drapery import DraperyError
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import PatternGrid, value_of
 from drapery.studio.descriptions import dye_title, pattern_title

@@ -2,11 +2,10 @@
 
 from nicegui import context, ui
 
-from drapery.banner.design import Banner
+from drapery import Banner, DesignError
 from drapery.banner.formats import write_banner
 from drapery.banner.formats.registry import FORMS
 from drapery.banner.names import shown as quoted
-from drapery.errors import DesignError
 from drapery.studio.components import value_of
 from drapery.studio.descriptions import described
 from drapery.studio.notices import show_notice
