@@ -6,7 +6,7 @@ from typing import Any
 
 from drapery.render.backends import backend as backend_named
 from drapery.render.frame import Frame
-from drapery.scenes.catalogue import SceneEntry, Clip
+from drapery.scenes.catalogue import Clip, SceneEntry
 from drapery.scenes.picture_grid import drawn
 from drapery.settings import OPTIONS
 
