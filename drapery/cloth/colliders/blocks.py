@@ -1,7 +1,8 @@
 """Signed distance of a set of unit cubes, in units of one cube.
 
 Outside, the distance to a union is the least of the distances to its cubes, and the nearest point
-always lies on a face that has free space before it, so the faces between two cubes are never felt.
+always lies on a face that has free space before it, so a cloth never touches the faces between two
+cubes.
 """
 
 import numpy as np
@@ -23,7 +24,7 @@ def blocks_distance(filled: Grid, p: Vector) -> tuple[float, Vector]:
     """
     i, j, k = int(np.floor(p[0])), int(np.floor(p[1])), int(np.floor(p[2]))
     if _is_filled(filled, i, j, k):
-        return _way_out(filled, i, j, k, p)
+        return _exit_distance(filled, i, j, k, p)
     wide, tall, deep = filled.shape
     if i < -1 or j < -1 or k < -1 or i > wide or j > tall or k > deep:
         return _outside_grid(filled, p)
@@ -60,8 +61,8 @@ def _nearest_cube(filled: Grid, i: int, j: int, k: int, p: Vector) -> tuple[floa
 
 
 @kernel
-def _way_out(filled: Grid, i: int, j: int, k: int, p: Vector) -> tuple[float, Vector]:
-    """The shortest of the six straight ways from inside a cube to free space."""
+def _exit_distance(filled: Grid, i: int, j: int, k: int, p: Vector) -> tuple[float, Vector]:
+    """Distance and direction from inside a cube to free space, along the axes."""
     best, normal = np.inf, (0.0, 1.0, 0.0)
     for axis in (1, 0, 2):
         for side in (1, -1):

@@ -71,7 +71,7 @@ def _check_bounds(name: str, field: Field, surface: Array) -> None:
 def _check_lipschitz(name: str, points: Array, distances: Array, surface: Array) -> None:
     from scipy.spatial import cKDTree
 
-    away, _nearest = cKDTree(surface).query(points)
+    away = np.asarray(cKDTree(surface).query(points)[0])
     far = distances > away * (1 + SLACK) + SLACK
     if far.any():
         raise OptionError(

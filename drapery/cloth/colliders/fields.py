@@ -1,4 +1,4 @@
-"""One form for all shapes inside the kernels: a signed distance field that is packed once."""
+"""The one form in which the kernels read shapes: a signed distance field, packed once."""
 
 from typing import NamedTuple
 

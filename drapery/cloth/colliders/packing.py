@@ -116,9 +116,9 @@ def _(shape: Capsule) -> Field:
 def _(shape: Box) -> Field:
     centre, half = np.asarray(shape.centre, float), np.asarray(shape.size, float) / 2
     rotation = np.asarray(shape.rotation, float)
-    reach = np.abs(rotation) @ half
+    extent = np.abs(rotation) @ half
     numbers = np.concatenate([centre, half, rotation.ravel()])
-    return Field(BOX, numbers, np.stack([centre - reach, centre + reach]), float(half.min()))
+    return Field(BOX, numbers, np.stack([centre - extent, centre + extent]), float(half.min()))
 
 
 @pack.register

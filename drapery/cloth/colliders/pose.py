@@ -23,13 +23,13 @@ class Pose:
 
 
 Path = Callable[[float], Pose]
-"""The pose at a time [s]. It is asked at the start and at the end of every step."""
+"""The pose at a time [s]; the collision stage calls it for the start and the end of every step."""
 
 STILL = Pose()
 
 
 def still(time: float) -> Pose:
-    """The path of a collider that stays where its shape says."""
+    """The path of a collider that does not move."""
     return STILL
 
 
@@ -46,7 +46,7 @@ def swinging(pivot: tuple[float, float, float], swing: float, period: float, pha
     """
     centre = np.asarray(pivot, float)
     if not period > 0:
-        raise OptionError(f"period {period} s: a swing needs a period above 0")
+        raise OptionError(f"period {period} s is out of range; use a number of seconds above 0")
 
     def pose(time: float) -> Pose:
         rotation = rotation_about((1, 0, 0), swing * float(sine_of_turns(time / period + phase)))
@@ -56,10 +56,13 @@ def swinging(pivot: tuple[float, float, float], swing: float, period: float, pha
 
 
 def rotation_about(axis: tuple[float, float, float], angle: float) -> Array:
-    """Rotation matrix [3, 3] about an axis by an angle [degrees] (Rodrigues)."""
+    """Rotation matrix [3, 3] about an axis by an angle [degrees], by Rodrigues' formula.
+
+    Raises OptionError for an axis without a direction.
+    """
     length = float(np.sqrt(np.square(axis).sum()))
     if not (np.isfinite(length) and length > 0):
-        raise OptionError(f"axis {axis}: a rotation needs an axis with a direction")
+        raise OptionError(f"axis {axis} has no direction; use finite numbers that are not all 0")
     x, y, z = unit = np.asarray(axis, float) / length
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     sine, cosine = sine_of_turns(angle / 360), sine_of_turns(angle / 360 + 0.25)

@@ -1,4 +1,4 @@
-"""What a cloth can meet: shapes as constants, in their own frame. A collider's path moves them."""
+"""The built-in shapes of colliders, in their own frame. A collider's path moves them."""
 
 from dataclasses import dataclass, field
 
@@ -15,7 +15,7 @@ MAX_TRIANGLES = 1_000_000
 
 @dataclass(frozen=True, eq=False)
 class Sphere:
-    """centre [m], shape [3]; radius [m]."""
+    """A ball: centre [m], shape [3]; radius [m]. Raises OptionError for a radius not above 0."""
 
     centre: Array
     radius: float
@@ -27,7 +27,10 @@ class Sphere:
 
 @dataclass(frozen=True, eq=False)
 class Capsule:
-    """All points within `radius` [m] of the segment from start to end [m], shape [3] each."""
+    """All points within `radius` [m] of the segment from start to end [m], shape [3] each.
+
+    Raises OptionError for ends that are not finite and a radius not above 0.
+    """
 
     start: Array
     end: Array
@@ -41,7 +44,9 @@ class Capsule:
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """centre [m]; size, the three edge lengths [m]; rotation [3, 3] of the box about its centre."""
+    """A box: centre [m], shape [3]; size, the three edge lengths [m]; rotation of the box about its
+    centre, a matrix [3, 3]. Raises OptionError for sizes not above 0 and other matrices.
+    """
 
     centre: Array
     size: Array
@@ -56,7 +61,10 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """A half-space: solid below the plane through `point` [m]; `normal` points to free space."""
+    """A half-space: solid below the plane through `point` [m], shape [3].
+
+    normal: points to free space, shape [3], of any length above 0. Raises OptionError.
+    """
 
     point: Array
     normal: Array
@@ -95,7 +103,7 @@ class Voxels:
 
 @dataclass(frozen=True, eq=False)
 class TriangleMesh:
-    """Any surface of triangles. Use `mesh_collider` and friends to make one.
+    """Any surface of triangles, as `mesh_collider`, `height_collider` and `load_mesh` make it.
 
     Connected parts that are closed are solid, and overlapping parts unite; open parts are
     sheets that stop a cloth on both sides.

@@ -83,9 +83,9 @@ def surface_distance(field: Field, p: Vector, limit: float) -> tuple[float, Vect
         first, solid = field.parts[part]
         apart = _box_square(field.boxes[first], p)
         if apart < limit * limit:
-            # Inside the part's box a far surface still tells inside from outside.
-            reach = np.inf if solid and apart == 0 else limit
-            d, n = _part_distance(field, first, solid, p, reach)
+            # Inside the part's box even a far surface decides between inside and outside.
+            max_distance = np.inf if solid and apart == 0 else limit
+            d, n = _part_distance(field, first, solid, p, max_distance)
             if d < best:
                 best, normal = d, n
     return best, normal
@@ -104,7 +104,7 @@ def _part_distance(
         if apart[waiting] >= square:
             continue
         if field.links[node, 1] == field.links[node, 2]:
-            waiting = _wait(nodes, apart, waiting, field, node, p)
+            waiting = _push_children(nodes, apart, waiting, field, node, p)
             continue
         for triangle in range(field.links[node, 1], field.links[node, 2]):
             c, r = closest_on_triangle(field.corners[triangle], p)
@@ -117,7 +117,7 @@ def _part_distance(
 
 
 @kernel
-def _wait(
+def _push_children(
     nodes: NDArray[np.int32], apart: Array, waiting: int, field: Field, node: int, p: Vector
 ) -> int:
     """Put a node's halves on the stack, the nearer one on top; the new height of the stack."""

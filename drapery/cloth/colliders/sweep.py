@@ -44,7 +44,7 @@ MAX_TOUCHES = 4
 """Touches in one step: floor, wall, second wall, and one more. After the last the point waits."""
 MAX_PUSHES = 8
 MISSED, TOUCHED, BOUNCED = range(3)
-QUIET = 0.25
+RESTITUTION_THRESHOLD = 0.25
 """Approach [m/s] below which nothing bounces: more than gravity's gain in a step of 1/60 s."""
 
 
@@ -83,7 +83,7 @@ def surface_velocity(sweep: RigidSweep, p: Vector, dt: float) -> Vector:
 
 
 @kernel
-def bounds_miss(field: Field, a: Vector, b: Vector, radius: float) -> bool:
+def boxes_apart(field: Field, a: Vector, b: Vector, radius: float) -> bool:
     """Whether the segment's box and the shape's box are further apart than the radius."""
     for axis in range(3):
         if max(a[axis], b[axis]) < field.bounds[0, axis] - radius:
@@ -208,7 +208,7 @@ def refine_impact(
 
 
 @kernel
-def rub(along_surface: Vector, limit: float) -> Vector:
+def apply_friction(along_surface: Vector, limit: float) -> Vector:
     """What Coulomb friction leaves: the vector shortened by `limit`, or nothing."""
     length = norm(along_surface)
     if length <= limit:
@@ -223,7 +223,7 @@ def respond(v: Vector, normal: Vector, restitution: float, friction: float) -> V
     if into <= 0:
         return v
     tangent = along(v, into, normal)
-    left = rub(tangent, friction * (1 + restitution) * into)
+    left = apply_friction(tangent, friction * (1 + restitution) * into)
     return along(left, restitution * into, normal)
 
 
@@ -241,7 +241,7 @@ def sweep_point(
     and its velocity after the impact [m/s]."""
     p = into_frame(sweep.position0, sweep.rotation0, start)
     goal = into_frame(sweep.position1, sweep.rotation1, end)
-    if bounds_miss(field, p, goal, contact.radius):
+    if boxes_apart(field, p, goal, contact.radius):
         return MISSED, end, velocity
     touch, v = MISSED, velocity
     motion = subtract(goal, p)
@@ -274,7 +274,7 @@ def impact_velocity(
     direction = turned(sweep.rotation1, normal)
     carried = surface_velocity(sweep, p, dt)
     relative = subtract(velocity, carried)
-    bounce = contact.restitution if -dot(relative, direction) > QUIET else 0.0
+    bounce = contact.restitution if -dot(relative, direction) > RESTITUTION_THRESHOLD else 0.0
     return add(carried, respond(relative, direction, bounce, contact.friction)), bounce
 
 

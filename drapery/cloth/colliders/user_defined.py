@@ -9,11 +9,12 @@ import inspect
 import re
 import threading
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeGuard
 
+import numba
 import numpy as np
 from llvmlite import ir
-from numba import carray, cfunc, njit, types
+from numba import types
 from numba.core.dispatcher import Dispatcher
 from numba.core.errors import NumbaError
 from numba.extending import intrinsic
@@ -64,9 +65,11 @@ class _Compiled(NamedTuple):
     gradient: Any
 
 
-_cfunc: Any = cfunc
+_numba: Any = numba  # its type stubs lack what is used here
+_types: Any = types
+carray: Any = _numba.carray
 _intrinsic: Any = intrinsic
-_pointer = types.CPointer(types.float64)
+_pointer = _types.CPointer(types.float64)
 _DISTANCE = types.float64(types.float64, types.float64, types.float64, _pointer, types.intp)
 _GRADIENT = types.void(types.float64, types.float64, types.float64, _pointer, types.intp, _pointer)
 _compiled: dict[tuple[DistanceFunction, GradientFunction | None], _Compiled] = {}
@@ -75,7 +78,7 @@ _lock = threading.Lock()
 """Held while a function is looked up or compiled, so that each has one address."""
 
 
-def is_user_defined(shape: object) -> bool:
+def is_user_defined(shape: object) -> TypeGuard[SignedDistance]:
     """Whether a shape has a signed distance of its own."""
     return hasattr(shape, "signed_distance")
 
@@ -156,9 +159,11 @@ def _compile(name: str, distance: DistanceFunction, gradient: GradientFunction |
 def _callable(
     name: str, what: str, function: Any, wrapper: Callable[[Any], Any], signature: Any
 ) -> Any:
-    inner = function if isinstance(function, Dispatcher) else njit(error_model="numpy")(function)
+    inner = (
+        function if isinstance(function, Dispatcher) else _numba.njit(error_model="numpy")(function)
+    )
     try:
-        return _cfunc(signature, error_model="numpy")(wrapper(inner))
+        return _numba.cfunc(signature, error_model="numpy")(wrapper(inner))
     except NumbaError as fault:
         raise OptionError(
             f"{name}: numba cannot compile its {what} ({_reason(fault)}); "
