@@ -40,7 +40,7 @@ def block_textures() -> dict[str, Texels]:
 
 
 def figure_sheets() -> dict[str, Texels]:
-    """The skins of our scenes' people by their path within the textures."""
+    """The skins of the figures in our scenes by their path within the textures."""
     return {
         "entity/player/traveller.png": figure_sheet(TRAVELLER),
         "entity/player/dancer.png": figure_sheet(DANCER),
@@ -49,7 +49,7 @@ def figure_sheets() -> dict[str, Texels]:
 
 
 def all_sheets() -> dict[str, Texels]:
-    """Every texture of ours by its path within the textures."""
+    """Every texture of our art by its path within the textures."""
     return {**banner_sheets(), **shield_sheets(), **block_textures(), **figure_sheets()}
 
 

@@ -1,4 +1,4 @@
-"""What a banner is: a base dye and layers of (pattern, dye), in the order they were loomed."""
+"""What a banner is: a base dye and layers of (pattern, dye), lowest first."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,9 +10,10 @@ from drapery.banner.patterns import PATTERNS
 from drapery.errors import DesignError
 
 MAX_LAYERS = 16
-"""The most layers that a command can give; the loom stops at six."""
+"""The most layers that a command can give."""
 
 LOOM_LAYERS = 6
+"""The most layers that the loom makes."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class Layer:
     pattern: the id without `minecraft:`, or `namespace:path` for a pattern of a data pack.
     dye: one of the sixteen dye names.
 
-    Other names of a pattern or dye are brought to these. Raises DesignError for an unknown one.
+    Other names of a pattern or dye become these. Raises DesignError for an unknown name.
     """
 
     pattern: str
@@ -39,9 +40,9 @@ class Layer:
 class Banner:
     """A design: its base dye and up to sixteen layers, lowest first.
 
-    kind: what bears the design, a banner or a shield.
+    base: one of the sixteen dye names. layers: of Layer. kind: a banner or a shield.
 
-    Raises DesignError for an unknown dye, a layer that is no Layer, or more than sixteen.
+    Raises DesignError for an unknown dye, a layer that is not a Layer, or more than sixteen.
     """
 
     base: str = "white"

@@ -1,4 +1,4 @@
-"""A design as work at the loom: its steps, and which of them nobody would see."""
+"""A design at the loom: its steps, and the layers that change nothing."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -21,47 +21,47 @@ CHARGE_ITEMS = {
     "bricks": "field masoned pattern",
     "curly_border": "bordure indented pattern",
 }
-"""What the loom wants beside the dye, for the patterns that want more."""
+"""The item that the loom needs beside the dye, by pattern."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One step: the layer laid on and the banner as it is after it."""
+    """One step: the layer that is added and the banner after it."""
 
     layer: Layer
     banner: Banner
 
     @property
     def item(self) -> str | None:
-        """The pattern item that the loom wants, if any."""
+        """The pattern item that the loom needs, if any."""
         return CHARGE_ITEMS.get(self.layer.pattern)
 
 
 def steps(banner: Banner) -> Iterator[Step]:
-    """The loom's steps in order, from the plain base on."""
+    """The loom's steps in order, from the plain base."""
     for count, layer in enumerate(banner.layers, 1):
         yield Step(layer, replace(banner, layers=banner.layers[:count]))
 
 
 def fits_loom(banner: Banner) -> bool:
-    """Whether a survival player can make it: the loom stops at six layers."""
+    """Whether the loom can make it, which adds at most LOOM_LAYERS."""
     return len(banner.layers) <= LOOM_LAYERS
 
 
 def simplified(banner: Banner, packs: Packs) -> Banner:
-    """The same picture with the layers left out that change no texel of the flag.
+    """The banner without the layers that change no texel of the flag.
 
-    Lower layers go first, so of two equal layers the upper one stays. Raises PackError.
+    Lower layers are removed first, so of two equal layers the upper one stays. Raises PackError.
     """
     whole = _visible(banner, packs)
-    kept = banner
+    result = banner
     for layer_index in range(len(banner.layers)):
-        # Layers are dropped from the bottom up: those above keep their distance to the top.
-        place = layer_index - (len(banner.layers) - len(kept.layers))
-        without = replace(kept, layers=kept.layers[:place] + kept.layers[place + 1 :])
+        # Layers are removed from the bottom up, so a layer keeps its distance to the top.
+        place = layer_index - (len(banner.layers) - len(result.layers))
+        without = replace(result, layers=result.layers[:place] + result.layers[place + 1 :])
         if np.array_equal(_visible(without, packs), whole):
-            kept = without
-    return kept
+            result = without
+    return result
 
 
 def _visible(banner: Banner, packs: Packs) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Names that people give to patterns and dyes, in every tongue of the game, brought to its ids."""
+"""Names of patterns and dyes in every version and edition of the game, and their ids."""
 
 from functools import cache
 
@@ -16,10 +16,10 @@ _BUKKIT = {
     "half_vertical_mirror": "half_vertical_right",
     "half_horizontal_mirror": "half_horizontal_bottom",
 }
-"""The server API's names, where they are not the ids. DIAGONAL_RIGHT is the trap: it is `rd`."""
+"""The server API's names that are not the ids. DIAGONAL_RIGHT is also an id, but means `rd`."""
 
 BEDROCK_CODES = {"flow": "flw", "guster": "gus"}
-"""The codes of the two patterns that came too late to have one in Java."""
+"""The codes of the two patterns that have none in Java."""
 
 _ALSO = {
     "fully": "base",
@@ -55,7 +55,7 @@ def shown(value: object, longest: int = 40) -> str:
 
 
 def plain(name: str) -> str:
-    """The name in the spelling of ids: `Per Bend-Sinister` gives `per_bend_sinister`."""
+    """The name as ids are spelt: `Per Bend-Sinister` gives `per_bend_sinister`."""
     words = name.lower().removeprefix("minecraft:").replace("-", " ").replace("_", " ").split()
     return "_".join(words)
 
@@ -66,7 +66,7 @@ def _pattern_table() -> dict[str, str]:
     codes = {code: p.name for code, p in BY_CODE.items()}
     bedrock = {code: name for name, code in BEDROCK_CODES.items()}
     ids = {name: name for name in PATTERNS}
-    # Later wins: `base` and `cross` are ids before they are the heralds' Base and Cross.
+    # Later ones win: `base` and `cross` are ids, not the heraldic titles Base and Cross.
     return titles | _ALSO | _BUKKIT | bedrock | codes | ids
 
 
@@ -83,12 +83,13 @@ def is_custom(name: str) -> bool:
 
 
 def pattern_id(name: object, at: str = "", *, bukkit: bool = False) -> str:
-    """The id of the pattern that is meant: `creeper`, or `namespace:path` of a data pack.
+    """The id of a pattern by any of its names: `creeper`, or `namespace:path` of a data pack.
 
     Takes ids with and without `minecraft:`, codes of versions before 1.20.5, Bedrock's codes,
-    Bukkit's names and English titles in any case. `bukkit` says that the name is surely Bukkit's.
+    Bukkit's names and English titles in any case.
+    bukkit: whether the name is known to be Bukkit's.
 
-    Raises DesignError, opening with the place `at`.
+    Raises DesignError that begins with the place `at`.
     """
     if not isinstance(name, str):
         raise DesignError(
@@ -106,11 +107,11 @@ def pattern_id(name: object, at: str = "", *, bukkit: bool = False) -> str:
 
 
 def dye_name(value: object, at: str = "", *, inverted: bool = False) -> str:
-    """The dye that is meant by a name or by a number from 0 to 15.
+    """The dye of a name or of a number from 0 to 15.
 
     White is number 0, or 15 where `inverted` (Java up to 1.12, and Bedrock).
 
-    Raises DesignError, opening with the place `at`.
+    Raises DesignError that begins with the place `at`.
     """
     if isinstance(value, int) and not isinstance(value, bool):
         if not 0 <= value < len(DYE_NAMES):
@@ -132,13 +133,13 @@ def dye_name(value: object, at: str = "", *, inverted: bool = False) -> str:
 def bukkit_pattern(name: str, at: str = "") -> str:
     """The pattern's name in Bukkit up to 1.20: `diagonal_up_right` gives DIAGONAL_RIGHT.
 
-    Raises DesignError, opening with the place `at`, for the patterns of data packs.
+    Raises DesignError that begins with the place `at` for patterns of data packs.
     """
     if is_custom(name):
         raise DesignError(
             f"{_place(at)}Bukkit has no name for {shown(name)}, a data pack's pattern"
         )
-    names = {meant: said for said, meant in _BUKKIT.items()}
+    names = {name: bukkit for bukkit, name in _BUKKIT.items()}
     return names.get(name, name).upper()
 
 
@@ -161,6 +162,6 @@ def _pattern_hint(name: str, key: str) -> str:
 def _did_you_mean(key: str, names: "dict[str, str] | list[str]") -> str:
     import difflib
 
-    # Matching takes time with the square of the length; nobody misspells that much.
+    # Matching takes time with the square of the length.
     close = difflib.get_close_matches(key[:40], [n for n in names if len(n) > 1], 1, 0.6)
     return f"; did you mean '{close[0]}'?" if close else ""

@@ -1,11 +1,11 @@
-"""The 43 patterns: ids, the short codes of older versions, and the names people say."""
+"""The 43 patterns: ids, the short codes of older versions, and English titles."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Pattern:
-    """One pattern: its id, its code before 1.20.5 (None where it never had one), its name."""
+    """One pattern: its id, its code before 1.20.5 (None if it had none), and its title."""
 
     name: str
     code: str | None

@@ -1,8 +1,8 @@
-"""A banner's sheets: their regions, and the exact colours of dyed sprites laid over each other.
+"""A banner's sheets: their regions, and the exact colours of dyed sprites over each other.
 
-Colours are 8-bit integers throughout; a layer's texel is round(texel * dye / 255) per channel and
-is laid over what is below by its alpha a: round((a * src + (255 - a) * dst) / 255). Neither
-rounding ever meets a tie: x / 255 = k + 1/2 would make the even 2x equal to the odd 255 (2k + 1).
+Colours are 8-bit integers; a layer's texel is round(texel * dye / 255) per channel and is blended
+over the layers below by its alpha a: round((a * src + (255 - a) * dst) / 255). Neither rounding
+ever has a tie: x / 255 = k + 1/2 would make the even 2x equal to the odd 255 (2k + 1).
 """
 
 from collections.abc import Sequence
@@ -65,7 +65,7 @@ BACK = SheetRegion(22, 1, 42, 41)
 TOP_EDGE = SheetRegion(1, 0, 21, 1)
 BOTTOM_EDGE = SheetRegion(21, 0, 41, 1)
 LEFT_EDGE = SheetRegion(0, 1, 1, 41)
-"""The edge at the left of someone who faces the front."""
+"""The edge at the left for a viewer of the front."""
 RIGHT_EDGE = SheetRegion(21, 1, 22, 41)
 
 FLAG_REGIONS: dict[str, SheetRegion] = {

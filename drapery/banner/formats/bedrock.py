@@ -1,4 +1,4 @@
-"""Bedrock's item or block entity, in SNBT or JSON: dyes count from black, `Type:1` is ominous.
+"""Bedrock's item or block entity, in SNBT or JSON. Dyes count from black; `Type:1` is ominous.
 
 `{Name:"minecraft:banner",Damage:15,Count:1,tag:{Patterns:[{Pattern:"cre",Color:10}],Type:0}}`, or
 `{id:"Banner",Base:15,Patterns:[…],Type:0}`. An item's `Damage` is its base.

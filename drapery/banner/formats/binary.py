@@ -1,4 +1,4 @@
-"""The forms of bytes as the door knows them, each with its reader and writer."""
+"""The forms of files as the registry lists them, each with its reader and writer."""
 
 import io
 from collections.abc import Callable, Iterator
@@ -27,7 +27,7 @@ def _nbt_form(
     find: Find,
     write: Callable[[Banner], bytes] | None = None,
 ) -> BinaryForm:
-    """A form by its suffix, read only if its tree has the layout."""
+    """A form that its suffix recognises; a file of another layout is refused."""
 
     def read(data: bytes) -> Iterator[FoundBanner]:
         tree = read_nbt(data, name)
@@ -43,7 +43,7 @@ def _by_suffix(suffixes: tuple[str, ...]) -> Callable[[bytes, str], bool]:
 
 
 def _opens_as_nbt(head: bytes) -> bool:
-    # Bedrock's header tells the length of the whole file, which the head does not show.
+    # Bedrock's header has the length of the whole file, which is unknown here.
     return is_compressed(head) or is_nbt(head) or head[8:9] == b"\n"
 
 
@@ -99,4 +99,4 @@ _TABLE = (
 )
 
 BINARY_FORMS: dict[str, BinaryForm] = {form.name: form for form in _TABLE}
-"""Every form of bytes by name; a file is of the first that recognises it."""
+"""Every form of files by name. A file is read by the first form that recognises it."""

@@ -1,6 +1,6 @@
-"""A banner's block entity in SNBT, with the block's id before it, which tells the base dye.
+"""A banner's block entity in SNBT, after the block's id, which names the base dye.
 
-`minecraft:red_banner{patterns:[…]}`. Up to 1.12 the entity had `Base` and stood alone.
+`minecraft:red_banner{patterns:[…]}`. Up to 1.12 the entity had `Base` and no id before it.
 """
 
 from drapery.banner.design import Banner
@@ -25,7 +25,7 @@ def recognises(text: str) -> bool:
 
 
 def read(text: str) -> list[FoundBanner]:
-    """The banner of the entity. Raises DesignError where nothing tells its base dye."""
+    """The banner of the entity. Raises DesignError if the base dye is missing."""
     return trees.read(text) if trees.recognises(text) else commands.read_command(text)
 
 

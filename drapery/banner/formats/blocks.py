@@ -1,4 +1,4 @@
-"""What files of placed blocks share: reading their parts, and the banners that blocks bear."""
+"""What files of placed blocks share: reading their parts, and the banners of blocks."""
 
 from collections.abc import Callable, Iterator
 from typing import Any, TypeAlias
@@ -13,21 +13,21 @@ from drapery.banner.names import shown
 from drapery.errors import DesignError
 
 OnError: TypeAlias = Callable[[DesignError], None]
-"""Takes the error of one broken banner or part, after which the search goes on."""
+"""Called with the error of one broken banner or part, after which the search continues."""
 
 Spot: TypeAlias = tuple[int, int, int]
 """A block's x, y, z."""
 
 
 def raise_error(error: DesignError) -> None:
-    """The OnError of those who want all banners or none."""
+    """An OnError that ends the search at the first error."""
     raise error
 
 
 def compounds(tree: dict[str, DataTree], where: str, *keys: str) -> list[dict[str, DataTree]]:
-    """The list of compounds under the first of the keys that is there; empty if none is.
+    """The list of compounds under the first of the keys that exists; empty if none exists.
 
-    Raises DesignError if what is there is anything else.
+    Raises DesignError for a value of another kind.
     """
     for key in keys:
         if key in tree:
@@ -39,7 +39,7 @@ def compounds(tree: dict[str, DataTree], where: str, *keys: str) -> list[dict[st
 
 
 def compound(tree: dict[str, DataTree], where: str, key: str) -> dict[str, DataTree]:
-    """The compound under a key; empty if there is none. Raises DesignError for anything else."""
+    """The compound under a key; empty if there is none. Raises DesignError for another value."""
     value = tree.get(key, {})
     if not isinstance(value, dict):
         raise DesignError(f"{where}: {key} is {shown(value)}, not a compound; save the file again")
@@ -63,7 +63,7 @@ def _is_finite(value: Any) -> bool:
 
 
 def longs(value: DataTree, where: str) -> NDArray[np.int64]:
-    """The numbers of a long array; none of None. Raises DesignError for anything else."""
+    """The numbers of a long array; empty for None. Raises DesignError for another value."""
     if isinstance(value, Numbers) and value.dtype.endswith("i8"):
         return value.array().astype(np.int64)
     if value is None or (isinstance(value, list) and all(isinstance(n, int) for n in value)):
@@ -85,9 +85,9 @@ def state_name(state: DataTree) -> str | None:
 def banners_of_block(
     entity: dict[str, DataTree], block: str | None, where: str, on_error: OnError
 ) -> Iterator[FoundBanner]:
-    """The banner that a block entity is, or else those it contains.
+    """The banner that a block entity is, or otherwise the banners that it contains.
 
-    block: the block's id, which tells the base dye since 1.13, if the file has it.
+    block: the block's id, which names the base dye since 1.13, or None if it is unknown.
     """
     if is_banner_id(block) or is_banner_id(entity.get("id", entity.get("Id"))):
         try:
@@ -99,7 +99,7 @@ def banners_of_block(
 
 
 def plain_banners(blocks: dict[Spot, str], where: str) -> Iterator[FoundBanner]:
-    """Banners that stand without a block entity: the game makes them plain ones."""
+    """Banners without a block entity, which the game shows without layers."""
     for place, block in blocks.items():
         if base_of(block) is not None:
             at = at_block(where, place)

@@ -1,10 +1,10 @@
-"""One chunk of a Java world: its block entities, and the packed sections that tell their blocks.
+"""One chunk of a Java world: its block entities, and the packed sections with their blocks.
 
 Since 1.18 the root holds `sections` and `block_entities`; before, `Level` holds `Sections` and
 `TileEntities`. A section is 16 x 16 x 16 blocks, x fastest, then z, then y. Its indices take
-`max(4, bits of the palette)` bits each. To 1.15 an index may span two longs, since 1.16 not:
-the length of the array tells which, and where it does not, both are the same. Before 1.13
-blocks are numeric ids, and a banner's block entity has its base dye.
+`max(4, bits of the palette)` bits each. Up to 1.15 an index may span two longs, since 1.16 it may
+not; the length of the array distinguishes the two wherever they differ. Before 1.13 blocks are
+numeric ids, and a banner's block entity has its base dye.
 """
 
 from collections.abc import Iterator
@@ -43,7 +43,7 @@ def find(
 ) -> Iterator[FoundBanner]:
     """Every banner of a chunk: blocks, contents of containers, entities.
 
-    tree: of the whole chunk. Raises DesignError where its parts are none of a chunk.
+    tree: of the whole chunk. Raises DesignError for parts that a chunk cannot have.
     """
     level = compound(tree, where, "Level") or tree
     sections = _sections(level, where)
@@ -64,7 +64,7 @@ def _sections(level: dict[str, DataTree], where: str) -> dict[int, dict[str, Dat
 
 
 def _block(section: dict[str, DataTree] | None, place: Spot, where: str) -> str | None:
-    """The id of the block at a place, if the section has ids."""
+    """The id of the block at a place, or None if the section has no ids."""
     states = (section or {}).get("block_states", section)
     if not isinstance(states, dict):
         return None

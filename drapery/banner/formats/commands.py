@@ -1,8 +1,7 @@
 """Commands of every Java version, and the item and block arguments that they hold.
 
-A command is read as the game's own reader would, but for what does not bear on the banner: the
-word that names a banner or shield, what stands in brackets and braces after it, and, up to 1.12,
-the numbers between.
+Of a command only the parts that define the banner are read: the word that names a banner or
+shield, the brackets and braces after it, and, up to 1.12, the numbers between them.
 """
 
 from collections.abc import Iterator
@@ -33,7 +32,7 @@ COMMANDS = frozenset(
 
 
 def command_of(text: str) -> str | None:
-    """The command that a text begins with, without slash and namespace; None if it is none."""
+    """The command that a text begins with, without slash and namespace, or None."""
     word = text.lstrip()[:40].split(maxsplit=1)[:1]
     name = word[0].removeprefix("/").removeprefix("minecraft:").lower() if word else ""
     return name if name in COMMANDS else None
@@ -57,13 +56,13 @@ def read_command(text: str, *, line: int = 1) -> list[FoundBanner]:
 
 
 def _last_run(parts: list[Part]) -> list[Part]:
-    """What `execute … run` comes down to: the filters before name banners that are not meant."""
+    """The command after `execute … run`; the filters before may name other banners."""
     runs = [place for place, part in enumerate(parts) if part == "run"]
     return parts[runs[-1] + 1 :] or parts if runs else parts
 
 
 def _found(parts: list[Part]) -> Iterator[FoundBanner]:
-    """An item or block argument of a banner; else what compounds and components hold."""
+    """The item or block argument of a banner; otherwise the banners in compounds and components."""
     for place, part in enumerate(parts):
         if isinstance(part, str) and (is_banner_id(part) or is_shield_id(part)):
             yield FoundBanner(_argument(str(part), parts[place + 1 :]), bare(part))
@@ -95,7 +94,7 @@ _MODES = frozenset({"destroy", "hollow", "keep", "outline", "replace", "strict"}
 
 
 def _check_rest(rest: list[Part]) -> None:
-    """After the argument stand counts, and of blocks the mode; the old state as `facing=north`."""
+    """Raise DesignError for words after the argument other than counts, states and modes."""
     for part in rest:
         if not isinstance(part, str) or part.isdecimal() or "=" in part:
             continue

@@ -1,4 +1,4 @@
-"""Unwrapping gzip and zlib piece by piece, so that no file grows beyond its limit."""
+"""Decompression of gzip and zlib piece by piece, within a limit of memory."""
 
 import zlib
 from collections.abc import Iterator
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from drapery.errors import DesignError
 
 MAX_BYTES = 64 * 2**20
-"""Bytes after decompression."""
+"""Most bytes of a file after decompression."""
 
 _PIECE = 2**20
 _FEED = 2**16
@@ -15,9 +15,9 @@ _REMEDY = "save or download the file again"
 
 
 def inflate(data: bytes, where: str, limit: int = MAX_BYTES) -> bytes:
-    """The bytes without their gzip or zlib wrapping, if they have one.
+    """The decompressed bytes; bytes that are neither gzip nor zlib are returned as they are.
 
-    Raises DesignError if they are broken, cut off, or over `limit` once unwrapped.
+    Raises DesignError if they are broken, cut off, or over `limit` after decompression.
     """
     if not is_compressed(data):
         check_size(len(data), where, limit)
@@ -37,7 +37,7 @@ def _pieces(data: bytes, where: str) -> Iterator[bytes]:
     size = start = 0
     waiting, piece = b"", b""
     while not stream.eof:
-        # Fed by spoonfuls, since zlib copies whatever it has not swallowed.
+        # In small parts, since zlib copies the part that it has not read yet.
         if not waiting and len(piece) < _PIECE:
             if start >= len(data):
                 raise DesignError(
@@ -58,7 +58,7 @@ def _pieces(data: bytes, where: str) -> Iterator[bytes]:
 
 
 def is_compressed(data: bytes) -> bool:
-    """Whether the bytes open as gzip (RFC 1952) or zlib (RFC 1950) does."""
+    """Whether the bytes begin as gzip (RFC 1952) or zlib (RFC 1950) data."""
     return data[:2] == b"\x1f\x8b" or (
         len(data) > 1 and data[0] == 0x78 and int.from_bytes(data[:2], "big") % 31 == 0
     )

@@ -1,4 +1,4 @@
-"""Files that hold banners: what a file is, by its bytes, and all banners in it or in a world."""
+"""Files that hold banners: recognises a file by its bytes, and finds all banners in it."""
 
 import os
 import re
@@ -15,14 +15,14 @@ from drapery.banner.formats.tree import DataTree
 from drapery.errors import DesignError
 
 MAX_FILES = 100_000
-"""Files of one world; 100,000 regions are 50,000 km in a square."""
+"""Most files of one world that are read."""
 
 _HEAD = 2 * region.SECTOR
 _NUMBER = re.compile(r"-?[0-9]{1,11}")
 
 
 class NbtLayout(NamedTuple):
-    """A layout of NBT files: its name, whether a tree has it, and all banners of such a tree."""
+    """A layout of NBT files: its name, a test whether a tree has it, and a search for banners."""
 
     name: str
     recognises: Callable[[dict[str, DataTree]], bool]
@@ -43,19 +43,19 @@ LAYOUTS = (
     NbtLayout("chunk", chunk.recognises, chunk.find),
     NbtLayout("nbt", lambda tree: True, _find_anywhere),
 )
-"""Layouts in the order in which they are tried; the last is any: players, items, level.dat."""
+"""Layouts in the order in which they are tried. The last fits any tree: players, level.dat."""
 
 
 def banners_in(path: str | Path, on_error: OnError = raise_error) -> Iterator[FoundBanner]:
-    """Every banner of a file or of a world's folder, with where it was found.
+    """Every banner of a file or of a world's folder, with its place.
 
-    Files: NBT (structures, schematics, Litematica, Bedrock's, players, items) and regions. They
-    are told by their bytes, not by their names. Links are not followed out of a world.
+    Files are NBT (structures, schematics, Litematica, Bedrock's, players, items) and regions. Their
+    bytes decide what they are, not their names. Links out of a world are not followed.
 
-    on_error: takes the error of one broken banner, chunk or file of a world, and the search goes
-    on; by default it is raised.
+    on_error: called with the error of one broken banner, chunk or file of a world, after which
+        the search continues; by default the error is raised.
 
-    Raises DesignError for a file that is none of these, and for a folder that is no world.
+    Raises DesignError for any other file, and for a folder that is not a world.
     """
     path = Path(path)
     if path.is_dir():
@@ -67,9 +67,9 @@ def banners_in(path: str | Path, on_error: OnError = raise_error) -> Iterator[Fo
 
 
 def is_binary(head: bytes, size: int) -> bool:
-    """Whether a file of this size [bytes], which opens so, is one for `banners_in`.
+    """Whether `banners_in` reads a file of this size [bytes].
 
-    head: the first 8 KiB.
+    head: its first 8 KiB.
     """
     return is_compressed(head) or is_nbt(head, size) or region.recognises(head, size)
 
@@ -140,7 +140,7 @@ def _world_files(folder: Path) -> Iterator[Path]:
 
 
 def _may_hold(path: Path) -> bool:
-    """level.dat, players, saved structures, and the regions of blocks and of entities."""
+    """Whether a file is level.dat, a player, a saved structure, or a region of a world."""
     if path.suffix == ".mca":
         return path.parent.name != "poi"
     if path.suffix == ".dat":

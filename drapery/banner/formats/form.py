@@ -1,4 +1,4 @@
-"""What the door knows of a form: its name, how to tell it, how to read it, how to write it."""
+"""A form of banners as the registry lists it: its name, and how to recognise, read and write it."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -11,10 +11,11 @@ from drapery.banner.formats.found import FoundBanner
 class Form:
     """A form of text.
 
-    name: what `--from` and `--as` take. title: what it is, for a table. example: a text of it.
-    recognises: whether a text is (at least meant as) this form; cheap, never raises.
+    name: what `--from` and `--as` take. title: a short description. example: a text of the form.
+    recognises: whether a text is probably of this form; it is fast and never raises.
     read: all banners of a text, at least one; raises DesignError.
-    write: the text of a banner; raises DesignError if the form cannot hold it. None: cannot write.
+    write: the text of a banner; raises DesignError if the form cannot hold it. None if the form
+        can only be read.
     """
 
     name: str
@@ -29,8 +30,9 @@ class Form:
 class BinaryForm:
     """A form of bytes, such as a region file.
 
-    suffixes: what its files end with, as `.mca`. recognises: by the first bytes and the file's
-    name. read: all banners in the file, none is no error; raises DesignError for a broken file.
+    suffixes: endings of its files' names, such as `.mca`. recognises: whether the first bytes and
+    the name of a file are of this form. read: all banners in the file, which may be none; raises
+    DesignError for a broken file.
     """
 
     name: str
@@ -42,5 +44,5 @@ class BinaryForm:
 
 
 def single(parse: Callable[[str], Banner]) -> Callable[[str], list[FoundBanner]]:
-    """A reader of all banners from a parser of one."""
+    """A function that reads all banners, from one that parses a single banner."""
     return lambda text: [FoundBanner(parse(text))]

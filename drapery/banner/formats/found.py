@@ -1,4 +1,4 @@
-"""All banners in a tree: items in containers of any sort, blocks, and what entities hold."""
+"""All banners in a tree: items in containers, blocks, and what entities hold."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -20,11 +20,11 @@ from drapery.banner.formats.tree import (
 from drapery.errors import DesignError
 
 BlockOf = Callable[[dict[str, DataTree]], str | None]
-"""Gives the id of the block that a block entity belongs to, or None where that is not known."""
+"""The id of the block that a block entity belongs to, or None if it is unknown."""
 
 _Path: TypeAlias = tuple["_Path | None", str | int]
-"""A place in a tree: its parent's path and its key. Spelt out only where a banner is, since a
-hostile file's paths are long and many."""
+"""A place in a tree: its parent's path and its key. Only the path of a banner becomes a text,
+since a hostile file can have many long paths."""
 
 _MOST_STEPS = 16
 _LONGEST_STEP = 200
@@ -32,7 +32,10 @@ _LONGEST_STEP = 200
 
 @dataclass(frozen=True)
 class FoundBanner:
-    """A banner and where it was found: a path in a tree, with a position or a name before it."""
+    """A banner and its place: a path in a tree, after the position of a block or a name.
+
+    where: such as `tower.nbt block 1,2,3` or `Items[0]`; empty if the text is only the banner.
+    """
 
     banner: Banner
     where: str = ""
@@ -47,12 +50,14 @@ def find_banners(
 ) -> Iterator[FoundBanner]:
     """Every banner and patterned shield in the tree, in the order of the text.
 
-    Looks into containers, shulker boxes, bundles, equipment, frames: any mapping or list. Plain
-    shields bear no design and are passed over. Bounded by the tree's size, however deep it is.
+    Every mapping and list is searched: containers, shulker boxes, bundles, equipment, frames.
+    Plain shields have no design and are skipped. The search does not recurse, so depth is no
+    limit.
 
-    where: what the paths begin with, such as a block's position.
-    block_of: tells a block entity's block, whose id tells the base dye since 1.13.
-    on_error: takes the error of one broken banner, and the search goes on; without it, raised.
+    where: the start of every path, such as a block's position.
+    block_of: gives the block of a block entity, whose id names the base dye since 1.13.
+    on_error: called with the error of one broken banner, after which the search continues;
+        without it, the error is raised.
     """
     open_nodes: list[Iterator[tuple[_Path, DataTree]]] = [iter([((None, where), tree)])]
     while open_nodes:
@@ -87,7 +92,7 @@ def _children(path: _Path, node: DataTree) -> Iterator[tuple[_Path, DataTree]]:
 
 
 def _spelt(path: _Path) -> str:
-    """A path as a text; of a very long one, the first and the last steps."""
+    """A path as a text. A very long one keeps its first and last steps."""
     keys: list[str | int] = []
     step: _Path | None = path
     while step is not None:
@@ -103,7 +108,7 @@ def _spelt(path: _Path) -> str:
 
 
 def _reader(node: DataTree, block_of: BlockOf | None) -> Callable[[DataTree, str], Banner] | None:
-    """What reads this node as a banner, or None if it is none."""
+    """The function that reads this node as a banner, or None if it is not a banner."""
     if not isinstance(node, dict):
         return None
     if _is_block_entity(node):
@@ -113,7 +118,7 @@ def _reader(node: DataTree, block_of: BlockOf | None) -> Callable[[DataTree, str
 
 
 def _is_block_entity(node: dict[str, DataTree]) -> bool:
-    """A banner's block entity has the id `banner` in every version, an old item has it too."""
+    """Whether a node is a banner's block entity. Its id is `banner`, as is that of old items."""
     identifier = node.get("id", node.get("Id"))
     if not isinstance(identifier, str) or bare(identifier) != "banner":
         return False

@@ -1,7 +1,7 @@
 """Java 1.20.5 and later: `/give @p minecraft:white_banner[banner_patterns=[…]]`.
 
-Since 1.21.5 other components are written otherwise (`tooltip_display`, names as SNBT); these do
-not bear on the banner, and the grammar takes both.
+Version 1.21.5 changed other components (`tooltip_display`, names as SNBT); they do not affect the
+banner, and the grammar reads both spellings.
 """
 
 from drapery.banner.design import Banner

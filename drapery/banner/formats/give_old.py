@@ -1,7 +1,7 @@
 """Java 1.8 to 1.12: `/give @p banner 1 15 {BlockEntityTag:{Base:15,Patterns:[…]}}`.
 
-Dyes count from black (0) to white (15), as they did for the dye items. The second number is the
-base, which `Base` in the tag overrules.
+Dyes count from black (0) to white (15), as the dye items did. The second number is the base dye;
+`Base` in the tag takes precedence.
 """
 
 from drapery.banner.design import Banner
@@ -34,8 +34,8 @@ def recognises(text: str) -> bool:
 def write(banner: Banner) -> str:
     """The command that gives the banner to the nearest player.
 
-    Raises DesignError for shields, whose colour could not be told from later versions', and for
-    patterns that came after 1.12.
+    Raises DesignError for shields, since their text would be read as that of later versions, and
+    for patterns that came after 1.12.
     """
     entity = block_entity(banner)
     return f"/give @p minecraft:banner 1 {entity['Base']} {write_snbt({'BlockEntityTag': entity})}"

@@ -1,6 +1,6 @@
 """An item object: `{id:"minecraft:red_banner",count:1,components:{…}}`.
 
-So items stand in chests, saves and `/data get`. Before 1.20.5 they had `Count` and `tag`.
+This is how chests, saves and `/data get` hold items. Before 1.20.5 they had `Count` and `tag`.
 """
 
 from drapery.banner.design import Banner
@@ -17,7 +17,7 @@ EXAMPLE = (
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is a tree, which none of the other forms of trees took."""
+    """Whether the text is a tree. The forms of other trees are tried before this one."""
     return is_tree(text)
 
 

@@ -1,6 +1,6 @@
 """A banner put in a slot: `/item replace entity @s armor.head with red_banner[…]`.
 
-Its older self, `/replaceitem entity @s slot.armor.head banner 1 15 {…}`, is read as well.
+The older `/replaceitem entity @s slot.armor.head banner 1 15 {…}` is read as well.
 """
 
 from drapery.banner.design import Banner

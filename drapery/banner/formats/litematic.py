@@ -1,7 +1,7 @@
 """Litematica's schematics (`.litematic`): named boxes, each a palette and packed block states.
 
 Indices take `max(2, bits of the palette)` bits each and may begin in one long and end in the
-next; x is fastest, then z, then y. A size may be negative: the box then lies the other way.
+next; x is fastest, then z, then y. A size may be negative: the box then extends the other way.
 """
 
 from collections.abc import Iterator
@@ -41,7 +41,7 @@ def find(
     """Every banner of a schematic: blocks, contents of containers, entities.
 
     tree: of the whole file. Positions count from the schematic's origin.
-    Raises DesignError where the file is no schematic.
+    Raises DesignError for parts that a schematic cannot have.
     """
     regions = compound(tree, where, "Regions")
     for name in regions:
@@ -83,7 +83,7 @@ def _names(
 
 
 def _corner(position: Spot, size: Spot) -> Spot:
-    """The box's least corner, which the block entities count from."""
+    """The box's lowest corner, from which the positions of block entities count."""
     x, y, z = (at + min(0, side + 1) for at, side in zip(position, size, strict=True))
     return x, y, z
 

@@ -1,9 +1,9 @@
-"""Unwrapping what lz4-java's block streams hold, with which a server may pack its chunks.
+"""Decompression of lz4-java's block streams, in which a server may save its chunks.
 
-A stream is a row of blocks. Each opens with the eight letters LZ4Block; a byte whose high half is
-1 for bytes as they are and 2 for LZ4 (its low half tells the writer's block size); and three
-little-endian numbers of 32 bits: the length here, the length unpacked, and a checksum. A block of
-no length is the end.
+A stream is a sequence of blocks. Each begins with the eight letters LZ4Block; a byte whose high
+half is 1 for uncompressed bytes and 2 for LZ4 (its low half is the writer's block size); and three
+little-endian numbers of 32 bits: the length in the stream, the length unpacked, and a checksum. A
+block of length 0 ends the stream.
 """
 
 import struct

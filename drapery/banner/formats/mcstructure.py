@@ -1,7 +1,7 @@
 """Bedrock's binary NBT: structures (`.mcstructure`), and any other file of its byte order.
 
-A structure lists its blocks by number, z fastest, then y, then x; block entities are kept by
-that number. Banners there have their base dye, and `Type:1` is the ominous banner.
+A structure numbers its blocks, z fastest, then y, then x, and lists block entities by that number.
+A banner's block entity has its base dye; `Type:1` is the ominous banner.
 """
 
 from collections.abc import Iterator, Sequence
@@ -42,7 +42,7 @@ def find(
     """Every banner of a structure: blocks, contents of containers, entities.
 
     tree: of the whole file. Positions count from the structure's corner.
-    Raises DesignError where the file is no structure.
+    Raises DesignError for parts that a structure cannot have.
     """
     size = spot(tree.get("size"), f"{where} size")
     structure = compound(tree, where, "structure")

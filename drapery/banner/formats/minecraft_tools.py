@@ -33,7 +33,7 @@ _PARAMETER = re.compile(r"(color|shape)_id_(0|[1-9][0-9]?)")
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is an address of this site, be it of the editor or of the gallery."""
+    """Whether the text is an address of this site, of the editor or of the gallery."""
     address = split_address(text)
     return address is not None and (address.host == HOST or address.host.endswith("." + HOST))
 
@@ -41,7 +41,7 @@ def recognises(text: str) -> bool:
 def parse(text: str) -> Banner:
     """Read an address of the editor of banners or shields, or its parameters alone.
 
-    Raises DesignError for gallery pages and for numbers that stand for nothing.
+    Raises DesignError for gallery pages and for numbers without a meaning.
     """
     text = text.strip()
     address = _address(text)

@@ -2,9 +2,8 @@
 
 A file's tree comes as plain Python: compounds are `dict`, lists `list`, numbers `int` and
 `float`, strings `str`. Byte arrays are `bytes`; int and long arrays and lists of numbers are
-`Numbers`, which stay in the file until they are wanted, but `list` if they are short. nbtlib
-reads past a file's end as zeros and recurses as deep as a file tells it to, so foreign files
-come through here.
+`Numbers`, which are decoded when they are used, or `list` if they are short. nbtlib
+only writes: it reads zeros past the end of a file and recurses without a limit.
 """
 
 import struct
@@ -20,13 +19,13 @@ from drapery.banner.formats.tree import DataTree
 from drapery.errors import DesignError
 
 MAX_DEPTH = 512
-"""Compounds and lists inside each other: the game's own limit."""
+"""Most compounds and lists inside each other; the game has the same limit."""
 
 MAX_TAGS = 500_000
-"""Tags in one file; an array is one tag, and schematics keep their blocks in arrays."""
+"""Most tags in one file. An array is one tag, and schematics have their blocks in arrays."""
 
 MAX_NAMES = 4096
-"""Names to share between compounds; a file has some hundreds."""
+"""Most names that compounds share in memory; usual files have some hundreds."""
 
 SHORT_LIST = 4
 """Lists of up to so many numbers (positions, rotations) are `list`; longer ones are Numbers."""

@@ -1,7 +1,7 @@
-"""Miners Need Cool Shoes and its kin: `needcoolshoes.com/banner?=ealleNhEehppai`.
+"""Miners Need Cool Shoes and sites like it: `needcoolshoes.com/banner?=ealleNhEehppai`.
 
 ncrs.skin, needcoolershoes.com and skinmc.net write the same code: pairs of characters, the
-first pair for the base. With the places (e, a) of a pair in the alphabet, the dye is
+first pair for the base. For a pair at the places (e, a) of the alphabet, the dye is
 `e & 15` and the pattern `(e >> 4) << 6 | a`.
 """
 
@@ -33,14 +33,14 @@ REMEDY = "open the banner in the site's editor and copy the address there, …/b
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is an address of one of the sites, be it of an editor or a gallery."""
+    """Whether the text is an address of one of the sites, an editor or a gallery."""
     return site_address(text, *HOSTS) is not None
 
 
 def parse(text: str) -> Banner:
     """Read an address of the editors, or its code alone.
 
-    Raises DesignError for gallery pages, which hold no code, and for codes that are not whole.
+    Raises DesignError for gallery pages, which have no code, and for incomplete codes.
     """
     text = text.strip()
     code = _code(text)

@@ -1,6 +1,6 @@
 """Our own JSON: `{"base": "red", "layers": [{"pattern": "creeper", "color": "lime"}]}`.
 
-A shield has `"kind": "shield"` as well. Layers may have `dye` for `color`.
+A shield has `"kind": "shield"` as well. Layers may have `colour` or `Color` for `color`.
 """
 
 import json
@@ -21,7 +21,7 @@ def recognises(text: str) -> bool:
 
 
 def matches(tree: DataTree) -> bool:
-    """Whether a tree is meant as this form."""
+    """Whether a tree is of this form."""
     return isinstance(tree, dict) and ("base" in tree or "layers" in tree) and "id" not in tree
 
 

@@ -1,4 +1,4 @@
-"""Which block stands where: palettes of block states and the arrays that index them."""
+"""The blocks at given places: palettes of block states and the arrays that index them."""
 
 from collections.abc import Iterable
 from typing import Any, TypeAlias
@@ -14,13 +14,13 @@ PIECE = 2**20
 """Indices that are unpacked at once, which bounds the memory."""
 
 MAX_PICKED = 100_000
-"""Blocks of one file that are looked at; a world's largest builds have some thousand banners."""
+"""Most blocks of one file that are read; the largest builds have some thousand banners."""
 
 Pieces: TypeAlias = Iterable[tuple[int, NDArray[Any]]]
 """Runs of palette indices, each with the number of its first block."""
 
 
-def pick(
+def pick_states(
     pieces: Pieces, places: Iterable[int], states: Iterable[int], where: str
 ) -> dict[int, int]:
     """The palette index at each of the places, and wherever it is one of the states.
@@ -51,7 +51,9 @@ def names_in_box(
     width, height, length = size
     inside = [p for p in places if all(0 <= p[axis] < size[axis] for axis in range(3))]
     banners = [state for state, name in palette.items() if is_banner_id(name)]
-    picked = pick(pieces, [(y * length + z) * width + x for x, y, z in inside], banners, where)
+    picked = pick_states(
+        pieces, [(y * length + z) * width + x for x, y, z in inside], banners, where
+    )
     return {
         (n % width, n // width // length, n // width % length): palette[state]
         for n, state in sorted(picked.items())
@@ -90,7 +92,7 @@ def _varints(piece: NDArray[np.uint8], ends: NDArray[np.int64], where: str) -> N
 
 
 def bits_for(states: int, least: int) -> int:
-    """Bits of an index into so many states; the game and the schematics never use under `least`."""
+    """Bits of an index into this many states, at least `least`."""
     return max(least, (states - 1).bit_length())
 
 
@@ -115,7 +117,7 @@ def unpack(
     low = words[word] >> shift.astype(np.uint64)
     over = np.maximum(shift + bits - 64, 0)
     following = words[np.minimum(word + 1, len(words) - 1)]
-    # Shifting by 64 is undefined, so the part that came over is shifted by what is left of it.
+    # A shift by 64 is undefined, so `high` is zero where nothing spans two longs.
     high = np.where(over > 0, following << (bits - over).astype(np.uint64), np.uint64(0))
     return ((low | high) & np.uint64((1 << bits) - 1)).astype(np.int64)
 

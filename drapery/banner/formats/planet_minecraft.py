@@ -1,7 +1,7 @@
 """Planet Minecraft's banner editor: `planetminecraft.com/banner/?b=2c729cmcf28`.
 
 The code is one character for the base dye, then two for each layer: dye, pattern. A
-character counts as its place in the alphabet, from 0; pattern 0 and 1 do not exist.
+character stands for its place in the alphabet, from 0; patterns 0 and 1 do not exist.
 """
 
 from drapery.banner.design import MAX_LAYERS, Banner, Layer
@@ -35,14 +35,14 @@ REMEDY = "copy the address from the editor's 'Remix Banner', planetminecraft.com
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is an address of this site, be it of the editor or of the gallery."""
+    """Whether the text is an address of this site, of the editor or of the gallery."""
     return site_address(text, HOST) is not None
 
 
 def parse(text: str) -> Banner:
     """Read an address of the editor, or its code alone.
 
-    Raises DesignError for gallery pages, which hold no code, and for codes that are not whole.
+    Raises DesignError for gallery pages, which have no code, and for incomplete codes.
     """
     text = text.strip()
     code = _code(text)

@@ -1,8 +1,8 @@
 """Region files of Java worlds (`r.<x>.<z>.mca`): up to 32 x 32 chunks in sectors of 4 KiB.
 
-The first sector tells each chunk's place: three bytes for its first sector and one for their
-number. A chunk opens with its length and the kind of its compression; the kind's high bit says
-that the chunk is too large and has its own file, `c.<x>.<z>.mcc`.
+The first sector lists the place of each chunk: three bytes for its first sector and one for the
+number of sectors. A chunk begins with its length and its kind of compression; if the high bit of
+the kind is set, the chunk is too large and has its own file, `c.<x>.<z>.mcc`.
 """
 
 import os
@@ -23,26 +23,26 @@ NAME = "region"
 SECTOR = 4096
 SIDE = 32
 MAX_CHUNK = 16 * 2**20
-"""Bytes of an unpacked chunk; most are under 300 KiB."""
+"""Most bytes of an unpacked chunk; usual ones have under 300 KiB."""
 
 MAX_RATIO = 100
-"""How many times a file all its chunks may unpack to, so that a bomb cannot hide in each of
-them. A chunk takes a sector at least, and one of air unpacks to some twenty sectors."""
+"""All chunks together may unpack to this many times the size of the file, so that not every
+chunk can be a bomb. A chunk takes at least a sector; one of air unpacks to about twenty."""
 
 KINDS = {1: "gzip", 2: "zlib", 3: "none", 127: "one of a mod's own"}
 _LZ4 = 4
 _OWN_FILE = 0x80
 _WORDS = (b"banner", b"Banner", b"shield")
-"""A chunk without any of these in its bytes bears no design and need not be read further."""
+"""A chunk without any of these in its bytes has no design and is not parsed."""
 
 _FILE_NAME = re.compile(r"r\.(-?[0-9]{1,9})\.(-?[0-9]{1,9})\.mc[ar]")
 
 
 def recognises(head: bytes, size: int) -> bool:
-    """Whether a file of this size [bytes] that opens so is a region.
+    """Whether a file of this size [bytes] is a region.
 
-    head: at least the first sector. Region files have no mark of their own, but every chunk
-    that they list must lie inside them and behind the two sectors of the header.
+    head: at least its first sector. Region files have no signature, but every chunk that they
+    list must lie inside the file and after the two sectors of the header.
     """
     if size < 2 * SECTOR or len(head) < SECTOR:
         return False
@@ -60,10 +60,10 @@ def find(
 ) -> Iterator[FoundBanner]:
     """Every banner of a region file, with its place: `chunk 3,-1 block 48,71,-9`.
 
-    A broken chunk is one error; the others are read.
+    A broken chunk is one error, and the others are read.
 
-    name: the file's, `r.<x>.<z>.mca`, which tells the chunks' places. folder: where the files of
-    chunks too large for a region lie.
+    name: of the file, `r.<x>.<z>.mca`, which gives the chunks' positions. folder: contains the
+    files of chunks that are too large for a region.
     """
     corner = _corner(name)
     limit = max(MAX_CHUNK, MAX_RATIO * file.seek(0, os.SEEK_END))
@@ -96,7 +96,7 @@ def _corner(name: str) -> tuple[int, int]:
 def _listed(head: bytes, where: str, on_error: OnError) -> list[int]:
     """The numbers of the chunks that a region has."""
     if len(head) < SECTOR:
-        # The game makes empty region files where it meant to save and did not.
+        # The game leaves empty region files where it did not finish to save.
         if head:
             on_error(DesignError(f"{where}: cut off: {len(head)} bytes are not a region file"))
         return []
@@ -137,7 +137,7 @@ def _unpacked(
 
 
 def _own_file(folder: Path | None, name: str, where: str) -> bytes:
-    """What a chunk of over a megabyte keeps in a file beside the region."""
+    """The data of a chunk of over a megabyte, from the file beside the region."""
     path = folder / name if folder else None
     if path is None or path.is_symlink() or not path.is_file():
         raise DesignError(f"{where}: its file {name} is missing; copy it into the region's folder")

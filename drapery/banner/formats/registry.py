@@ -1,4 +1,4 @@
-"""The door: any text or file in, banners out; and a banner in, any form out."""
+"""The registry of forms: reads banners from any text or file, and writes a banner in any form."""
 
 import re
 import sys
@@ -35,7 +35,7 @@ from drapery.banner.names import shown
 from drapery.errors import DesignError
 
 MAX_COMMANDS = 20_000
-"""In one text, a line each."""
+"""Most commands in one text, each on a line of its own."""
 
 _HEAD = 8192
 
@@ -75,11 +75,11 @@ _TABLE = (
 )
 
 FORMS: dict[str, Form] = {form.name: form for form in _TABLE}
-"""Every form of text by name. A text is of the first that recognises it."""
+"""Every form of text by name. A text is read by the first form that recognises it."""
 
 
 def recognise(text: str) -> Form:
-    """The form that a text is, or is meant to be. Raises DesignError for none."""
+    """The first form that recognises a text. Raises DesignError if none does."""
     for form in _TABLE:
         if form.recognises(text):
             return form
@@ -95,10 +95,10 @@ def recognise(text: str) -> Form:
 
 
 def parse_banners(text: str, *, form: str | None = None) -> list[FoundBanner]:
-    """All banners of a text, at least one, with where in it each was found.
+    """All banners of a text, at least one, each with its place in the text.
 
-    form: one of FORMS, for a text that does not tell its own. Several commands may stand on a
-    line each, as in a function file; a line that is broken is warned of and passed over.
+    form: one of FORMS, or None to recognise it. A text may have several commands, one on each
+        line, as in a function file; a broken line is skipped with a warning.
 
     Raises DesignError with the place and the remedy.
     """
@@ -114,9 +114,10 @@ def parse_banners(text: str, *, form: str | None = None) -> list[FoundBanner]:
 
 
 def parse_banner(text: str, *, form: str | None = None, number: int | None = None) -> Banner:
-    """The banner of a text in any form, which is told by itself.
+    """The banner of a text in any form.
 
-    form: one of FORMS, to force it. number: which one, from 1, if the text holds several.
+    form: one of FORMS, or None to recognise it. number: which banner, from 1, if the text holds
+        several.
 
     Raises DesignError with the place and the remedy.
     """
@@ -132,9 +133,10 @@ def write_banner(banner: Banner, form: str = "json") -> str:
 
 
 def pick(found: list[FoundBanner], number: int | None = None) -> Banner:
-    """The one banner that is meant; several that are the same are one.
+    """One of the banners that were found; several equal ones count as one.
 
-    number: which, from 1. Raises DesignError if it is needed or out of range.
+    number: which, from 1. Raises DesignError if it is out of range, and for None if the banners
+    differ.
     """
     if number is None and len({f.banner for f in found}) == 1:
         return found[0].banner
@@ -151,7 +153,7 @@ def pick(found: list[FoundBanner], number: int | None = None) -> Banner:
 def read_design(
     source: str | Path, *, form: str | None = None, number: int | None = None
 ) -> Banner:
-    """The banner of a text, of a file if there is one by that name, or of standard input ("-").
+    """The banner of a text, of a file if a file of that name exists, or of standard input ("-").
 
     Raises DesignError as `parse_banner` does, and for files that cannot be read.
     """
@@ -192,14 +194,14 @@ def _unknown(form: str) -> DesignError:
 
 
 def binary_forms() -> dict[str, BinaryForm]:
-    """Every form of bytes by name; texts are read without numpy, which these need."""
+    """Every form of files by name. They need numpy, which is not loaded to read texts."""
     from drapery.banner.formats.binary import BINARY_FORMS
 
     return BINARY_FORMS
 
 
 def _command_lines(text: str) -> list[tuple[int, str]]:
-    """The lines that are commands, with their numbers, if the text has them line by line."""
+    """The lines that are commands, with their numbers; empty for a text of one line."""
     if "\n" not in text.strip():
         return []
     lines = enumerate(text.split("\n"), 1)
@@ -207,7 +209,7 @@ def _command_lines(text: str) -> list[tuple[int, str]]:
 
 
 def _all_lines(lines: list[tuple[int, str]]) -> list[FoundBanner]:
-    """The banners of all commands; what is broken is passed over while others are whole."""
+    """The banners of all commands. Broken commands are skipped if others are correct."""
     if len(lines) > MAX_COMMANDS:
         raise DesignError(f"the text has {len(lines)} commands, over {MAX_COMMANDS}: split it")
     found: list[FoundBanner] = []
@@ -220,7 +222,9 @@ def _all_lines(lines: list[tuple[int, str]]) -> list[FoundBanner]:
             found += [FoundBanner(f.banner, f"line {number} {f.where}") for f in read]
         except DesignError as error:
             errors.append(DesignError(_with_line(str(error), number)))
-    return _despite(found, errors, "there is no banner in the commands: paste a /give command")
+    return _with_warnings(
+        found, errors, "there is no banner in the commands: paste a /give command"
+    )
 
 
 def _with_line(message: str, number: int) -> str:
@@ -229,10 +233,10 @@ def _with_line(message: str, number: int) -> str:
     return f"line {number}{', ' if message.startswith('column ') else ': '}{message}"
 
 
-def _despite(
+def _with_warnings(
     found: list[FoundBanner], errors: list[DesignError], nothing: str
 ) -> list[FoundBanner]:
-    """What was found, with a warning of what was not; the first error if that was all."""
+    """The banners that were found, with warnings of the errors; raises if none was found."""
     if not found:
         raise errors[0] if errors else DesignError(nothing)
     for error in islice(errors, _MOST_WARNINGS):
@@ -245,7 +249,7 @@ def _despite(
 _MOST_WARNINGS = 5
 
 _FILE_NAME = re.compile(r"[^\s:{}\[\]\"'?&=]+\.[A-Za-z][A-Za-z0-9]{1,5}")
-"""One word with an ending, which no text of a banner is."""
+"""One word with a suffix: a file name, since no text of a banner looks like that."""
 
 _SUFFIXES = frozenset(
     f".{suffix}"
@@ -257,7 +261,7 @@ _SUFFIXES = frozenset(
 
 
 def _as_path(source: str | Path) -> Path | None:
-    """The file or world that a source names, or None where it is a text."""
+    """The file or world that a source names, or None if the source is a text."""
     if isinstance(source, Path):
         return source
     if len(source) > 1024 or "\n" in source or "\0" in source:
@@ -303,7 +307,7 @@ def _read_path(path: Path, form: str | None) -> list[FoundBanner]:
 
 
 def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
-    """All banners of a file that is said to be of this form."""
+    """All banners of a file, read in this form whatever its bytes look like."""
     from drapery.banner.formats.compression import MAX_BYTES, check_size
 
     if path.is_dir():
@@ -312,7 +316,7 @@ def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
         )
     check_size(path.stat().st_size, str(path), MAX_BYTES)
     try:
-        return _despite(list(form.read(path.read_bytes())), [], "no banner in it")
+        return _with_warnings(list(form.read(path.read_bytes())), [], "no banner in it")
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from None
 
@@ -321,7 +325,7 @@ def _read_binary(path: Path) -> list[FoundBanner]:
     from drapery.banner.formats.files import banners_in
 
     errors: list[DesignError] = []
-    return _despite(list(banners_in(path, errors.append)), errors, f"{path}: no banner in it")
+    return _with_warnings(list(banners_in(path, errors.append)), errors, f"{path}: no banner in it")
 
 
 def _decoded(data: bytes, name: str) -> str:

@@ -1,6 +1,6 @@
 """Sponge's schematics (`.schem`, versions 1 to 3), and the older `.schematic` with numeric ids.
 
-A palette gives each block state its number; the blocks are a byte array of such numbers as
+A palette gives each block state a number; the blocks are a byte array of these numbers as
 varints, x fastest, then z, then y.
 https://github.com/SpongePowered/Schematic-Specification
 """
@@ -41,7 +41,8 @@ def find(
 ) -> Iterator[FoundBanner]:
     """Every banner of a schematic: blocks, contents of containers, entities.
 
-    tree: of the whole file. Raises DesignError where the file is no schematic.
+    tree: of the whole file. Raises DesignError for parts that a schematic
+    cannot have.
     """
     root = compound(tree, where, "Schematic") or tree
     blocks = root["Blocks"] if isinstance(root.get("Blocks"), dict) else root
@@ -56,7 +57,7 @@ def find(
 
 
 def _block_entities(blocks: dict[str, DataTree], where: str) -> dict[Spot, dict[str, DataTree]]:
-    """Block entities by place; version 3 puts what is the game's own under `Data`."""
+    """Block entities by place; version 3 has the game's own keys under `Data`."""
     entities = {}
     for entity in compounds(blocks, where, "BlockEntities", "TileEntities"):
         place = spot(entity.get("Pos", entity), where)
@@ -91,7 +92,7 @@ def _size(root: dict[str, DataTree], where: str) -> Spot:
 def write(banners: Sequence[Banner]) -> bytes:
     """A schematic of version 3, compressed: standing banners in a row to the east.
 
-    Raises DesignError for shields, which are no blocks, and for over 32767 banners.
+    Raises DesignError for shields, which are not blocks, and for over 32767 banners.
     """
     from nbtlib import ByteArray, IntArray, Short
 

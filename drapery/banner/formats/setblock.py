@@ -1,7 +1,7 @@
 """A banner as a placed block, 1.20.5 and later: `/setblock ~ ~ ~ red_banner[rotation=8]{…}`.
 
-The game copies this form with F3+I. Read are all its ages: `Patterns` with codes and numbers
-(1.13 to 1.20.4), and `standing_banner 8 replace {Base:…}` (up to 1.12).
+The game copies this form with F3+I. The older spellings are read as well: `Patterns` with codes
+and numbers (1.13 to 1.20.4), and `standing_banner 8 replace {Base:…}` (up to 1.12).
 """
 
 from drapery.banner.design import Banner

@@ -1,8 +1,8 @@
-"""Typed by hand: `white creeper:lime border:black`, or as the game's tooltip says it.
+"""Typed by hand: `white creeper:lime border:black`, or as the game's tooltip shows it.
 
-The base dye comes first, then layers from the lowest to the highest, each `pattern:dye` or, where
-commas or lines part them, also `Lime Creeper Charge`. `shield` before the base makes a shield;
-`ominous banner` is the illagers'.
+The base dye comes first, then the layers, lowest first. A layer is `pattern:dye`, or, between
+commas or on its own line, `Lime Creeper Charge`. `shield` before the base makes a shield; `ominous
+banner` is the banner of the illagers.
 """
 
 from drapery.banner.design import Banner, Layer
@@ -49,7 +49,7 @@ def write(banner: Banner) -> str:
 
 
 def _words(line: str) -> list[str]:
-    """The words of a line, with `a : b` and `light blue` each brought into one."""
+    """The words of a line; `a : b` and `light blue` become one word each."""
     words: list[str] = []
     for word in ":".join(part.strip() for part in line.split(":")).split():
         light = words and words[-1].lower().endswith("light")
@@ -67,7 +67,7 @@ def _base(word: str) -> str:
 
 
 def _phrases(words: list[str]) -> list[str]:
-    """Layers in a row of words: each ends with its `:dye`, the last perhaps with none."""
+    """The layers in a row of words. Each ends with its `:dye`; the last may have none."""
     phrases: list[list[str]] = [[]]
     for word in words:
         phrases[-1].append(word)

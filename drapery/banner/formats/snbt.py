@@ -15,21 +15,21 @@ if TYPE_CHECKING:
     from lark.exceptions import UnexpectedInput
 
 MAX_TEXT = 1 << 20
-"""Characters."""
+"""Most characters of a text."""
 
 MAX_DEPTH = 512
-"""Brackets within brackets, as in the game's own reader."""
+"""Most brackets inside each other; the game's own parser has the same limit."""
 
 MAX_TOKENS = 120_000
-"""Words, texts and brackets; a thousand banners of six layers have some 70,000."""
+"""Most words, strings and brackets; a thousand banners of six layers have about 70,000."""
 
 
 class Brackets(dict[str, DataTree]):
-    """What stands in `[name=value,…]`: components, a block's state, or a selector's filters."""
+    """The contents of `[name=value,…]`: components, a block's state, or a selector's filters."""
 
 
 Part = Any
-"""Of a command: a word (str; lark's Token, which knows its column), Brackets, or a compound."""
+"""A part of a command: a word (a str: lark's Token, with its column), Brackets, or a compound."""
 
 
 def parse_snbt(text: str, *, line: int = 1) -> DataTree:
@@ -37,7 +37,7 @@ def parse_snbt(text: str, *, line: int = 1) -> DataTree:
 
     line: the number of the text's first line, for errors.
 
-    Raises DesignError with line, column and what was expected, and past the limits.
+    Raises DesignError with line, column and what was expected, and for texts over the limits.
     """
     return _parse(text, "tree", line)
 
@@ -49,7 +49,7 @@ def parse_command(text: str, *, line: int = 1) -> list[Part]:
 
 
 def write_snbt(tree: DataTree) -> str:
-    """The shortest SNBT of a tree, as the game's commands hold it: `{pattern:"creeper"}`."""
+    """The shortest SNBT of a tree, as in the game's commands: `{pattern:"creeper"}`."""
     if isinstance(tree, dict):
         return "{" + ",".join(f"{_key(k)}:{write_snbt(v)}" for k, v in tree.items()) + "}"
     if isinstance(tree, list):
@@ -92,7 +92,7 @@ def _parser() -> "Lark":
 
 
 class _FaultError(Exception):
-    """Something wrong at a token that the grammar cannot see."""
+    """A fault at a token that the grammar does not detect."""
 
     def __init__(self, token: Any, message: str) -> None:
         super().__init__(message)
@@ -100,7 +100,7 @@ class _FaultError(Exception):
 
 
 class _Limits:
-    """Watches the tokens go by, so that no text takes long or nests deep."""
+    """Counts tokens and depth while the text is read, and ends at the limits."""
 
     always_accept = ()
 
@@ -200,7 +200,7 @@ _LONGEST_NUMBER = 80
 
 
 def scalar(word: str) -> DataTree:
-    """What a bare word stands for: `5b` and `0x5` are 5, `true` is 1, `creeper` is itself."""
+    """The value of a bare word: `5b` and `0x5` are 5, `true` is 1, `creeper` is itself."""
     word = str(word)
     if word in ("true", "false"):
         return int(word == "true")
@@ -249,7 +249,7 @@ _LETTERS = {"b": "\b", "s": " ", "t": "\t", "n": "\n", "f": "\f", "r": "\r"}
 
 
 def _unquoted(token: "Token") -> str:
-    """The text between the quotes, its escapes resolved (1.21.5; before, only quotes had them)."""
+    """The text between the quotes, with its escapes resolved, as since 1.21.5."""
     inner = token[1:-1]
     if "\\" not in inner:
         return inner
@@ -285,7 +285,7 @@ _EXPECTED = {
 
 
 def _explain(error: "UnexpectedInput", text: str, line: int) -> NoReturn:
-    """Raise the one line that says where the text goes wrong and what should stand there."""
+    """Raise a one-line error with the place and what was expected there."""
     from lark.exceptions import UnexpectedCharacters
 
     token = getattr(error, "token", None)
@@ -306,7 +306,7 @@ def _wanted(error: "UnexpectedInput") -> str:
     expected = next(
         filter(None, (getattr(error, k, None) for k in ("accepts", "allowed", "expected"))), ()
     )
-    # Where a value may end, that it may also go on as `a:b` helps nobody.
+    # If a value may end here, the other ways to continue it are not worth a hint.
     idle = {"COLON", "EQUAL", "SEMICOLON", "LPAR"} if "COMMA" in expected else set()
     names = [name for key, name in _EXPECTED.items() if key in expected and key not in idle]
     return f"; expected {' or '.join(names)}" if names else ""

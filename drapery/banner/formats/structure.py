@@ -32,7 +32,8 @@ def find(
 ) -> Iterator[FoundBanner]:
     """Every banner of a structure: blocks, contents of containers, entities.
 
-    tree: of the whole file. Raises DesignError where the file is no structure.
+    tree: of the whole file. Raises DesignError for parts that a structure
+    cannot have.
     """
     names = _palette(tree, where)
     bare_blocks: dict[Spot, str] = {}
@@ -49,7 +50,7 @@ def find(
 
 
 def _palette(tree: dict[str, DataTree], where: str) -> dict[int, str]:
-    """The ids of the states; of several palettes (ships), which differ in wood, the first."""
+    """The ids of the states. Files of ships have several palettes, of which the first counts."""
     if isinstance(several := tree.get("palettes"), list):
         tree = {"palette": several[0] if several else []}
     states = enumerate(compounds(tree, where, "palette"))
@@ -59,7 +60,7 @@ def _palette(tree: dict[str, DataTree], where: str) -> dict[int, str]:
 def write(banners: Sequence[Banner]) -> bytes:
     """A structure, compressed, of standing banners in a row to the east, facing south.
 
-    Raises DesignError for shields, which are no blocks.
+    Raises DesignError for shields, which are not blocks.
     """
     bases = list(dict.fromkeys(placeable(banner).base for banner in banners))
     palette = [

@@ -1,6 +1,7 @@
 """An entity that holds banners: `/summon item_frame ~ ~ ~ {Item:{id:"minecraft:red_banner"}}`.
 
-Frames, dropped items, armour stands and whoever wears or carries one, in every version's spelling.
+Frames, dropped items, armour stands and mobs that wear or carry a banner, in the spelling of every
+version.
 """
 
 from drapery.banner.design import Banner

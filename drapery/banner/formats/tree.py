@@ -1,7 +1,7 @@
-"""From a plain tree (dict, list, str, numbers: what SNBT, NBT and JSON give) to a banner.
+"""Banners from plain trees of dict, list, str and numbers, as SNBT, NBT and JSON give them.
 
-A tree's mappings may be any `dict`, its sequences any `list`; nbtlib's tags are both. Every
-DesignError opens with the path of its place in the tree, as `components.banner_patterns[2].color`.
+Mappings may be any `dict` and sequences any `list`, so nbtlib's tags fit. Every DesignError begins
+with the path of its place in the tree, such as `components.banner_patterns[2].color`.
 """
 
 from collections.abc import Iterable
@@ -16,7 +16,7 @@ DataTree: TypeAlias = Any
 """dict[str, DataTree] | list[DataTree] | str | int | float | None."""
 
 OLD_BANNERS = frozenset({"banner", "standing_banner", "wall_banner"})
-"""Ids that do not tell the dye: Java up to 1.12, and Bedrock."""
+"""Ids that do not name the dye: of Java up to 1.12, and of Bedrock."""
 
 OMINOUS = Banner(
     "white",
@@ -34,7 +34,7 @@ OMINOUS = Banner(
         )
     ),
 )
-"""The raiders' banner, which Bedrock keeps as `Type:1` and Java as its eight layers."""
+"""The raiders' banner, which is `Type:1` in Bedrock and eight layers in Java."""
 
 
 def bare(identifier: str) -> str:
@@ -75,7 +75,7 @@ def under(at: str, key: str | int) -> str:
 def get(tree: dict[str, DataTree], *keys: str) -> tuple[str, DataTree]:
     """The first of the keys that the mapping has, with or without `minecraft:`, and its value.
 
-    The value is None, and the key the first asked for, where it has none of them.
+    If it has none of them, the key is the first one, and the value is None.
     """
     for key in keys:
         for spelt in (key, f"minecraft:{key}"):
@@ -85,7 +85,7 @@ def get(tree: dict[str, DataTree], *keys: str) -> tuple[str, DataTree]:
 
 
 def read_layers(entries: DataTree, at: str, *, inverted: bool = False) -> tuple[Layer, ...]:
-    """Layers from `[{pattern, color}, …]` or `[{Pattern, Color}, …]`; none from None.
+    """Layers from `[{pattern, color}, …]` or `[{Pattern, Color}, …]`; empty for None.
 
     inverted: colour numbers count from black (Java up to 1.12, and Bedrock).
     """
@@ -121,7 +121,7 @@ def _present(entry: dict[str, DataTree], at: str, *keys: str) -> tuple[DataTree,
 
 
 def _pattern(value: DataTree, at: str) -> str:
-    """A pattern by name, or defined on the spot: `{asset_id:"ns:x", translation_key:"…"}`."""
+    """A pattern by name, or defined inline: `{asset_id:"ns:x", translation_key:"…"}`."""
     if not isinstance(value, dict):
         return pattern_id(value, at)
     key, asset = get(value, "asset_id")
@@ -176,7 +176,7 @@ def banner_from_tag(item_id: str, tag: DataTree, at: str = "", *, data: DataTree
     if is_shield_id(item_id):
         return _shield_from_tag(entity, inner, inverted=data is not None)
     if base_of(item_id) is None and "Base" not in entity:
-        # A damage value left out is 0, which is black.
+        # A missing damage value is 0, which is black.
         entity = entity | {"Base": 0 if data is None else data}
     return banner_from_block_entity(entity, inner, block=item_id)
 
@@ -199,9 +199,9 @@ def _shield(base: str | None, layers: tuple[Layer, ...], at: str) -> Banner:
 def banner_from_block_entity(entity: DataTree, at: str = "", *, block: str | None = None) -> Banner:
     """A banner from its block entity: `patterns` (1.20.5+) or `Patterns`, and `Base` if it is old.
 
-    block: the id of the block that it belongs to, which tells the base dye since 1.13. Without
-    one that does, the entity must have `Base`, and its colour numbers count from black (Java up
-    to 1.12, and Bedrock), or be Bedrock's ominous banner (`Type:1`).
+    block: the id of its block, which names the base dye since 1.13. Without such an id, the entity
+        must have `Base`, and its colour numbers count from black (Java up to 1.12, and Bedrock),
+        or be Bedrock's ominous banner (`Type:1`).
     """
     entity = _mapping(entity, at)
     dye = None if block is None else base_of(block)

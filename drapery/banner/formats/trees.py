@@ -1,4 +1,4 @@
-"""Texts that are a whole tree, in JSON or SNBT: read once, then told apart by what they hold."""
+"""Texts that are one tree, in JSON or SNBT: parsed once, then recognised by their keys."""
 
 import json
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from drapery.banner.formats.tree import DataTree, banner_from_block_entity, bann
 from drapery.errors import DesignError
 
 DATA_ANSWER = " has the following "
-"""What `/data get` says between the name and the tree."""
+"""The words of `/data get` between the name and the tree."""
 
 
 def recognises(text: str) -> bool:
@@ -23,12 +23,12 @@ def recognises(text: str) -> bool:
 
 
 def read(text: str) -> list[FoundBanner]:
-    """All banners of the tree. Raises DesignError with the place, also where there is none."""
+    """All banners of the tree. Raises DesignError with the place, and if there is none."""
     return _all(read_text(text))
 
 
 def read_wynncraft(text: str) -> list[FoundBanner]:
-    """As `read`, but a design in JSON is surely Wynncraft's, so that its names are Bukkit's."""
+    """As `read`, but a design in JSON is taken for Wynncraft's, whose names are Bukkit's."""
     tree = read_text(text)
     return [FoundBanner(wynncraft.from_tree(tree))] if wynncraft.may_be(tree) else _all(tree)
 
@@ -43,12 +43,12 @@ def _all(tree: DataTree) -> list[FoundBanner]:
 
 
 def read_text(text: str) -> DataTree:
-    """The tree of a text, by JSON where it is that, else by SNBT."""
+    """The tree of a text, parsed as JSON if possible, otherwise as SNBT."""
     start = max(text.find("{"), 0) if DATA_ANSWER in text[:200] else 0
     if start == 0 and len(text) <= MAX_TEXT:
         with suppress(ValueError, RecursionError):
             return json.loads(text)
-    # Spaces for what the game says before, so that columns stay those of the text.
+    # Spaces replace the words before the tree, so that columns are those of the text.
     return parse_snbt(" " * start + text[start:])
 
 
@@ -64,17 +64,17 @@ def _found(tree: DataTree) -> Iterator[FoundBanner]:
 
 
 def _without_id(tree: dict[str, DataTree]) -> Banner | None:
-    """A block entity, a tag or components that somebody cut out: the id is gone."""
+    """The banner of a block entity, a tag or components that were copied without an id."""
     if "id" in tree or "Name" in tree:
         return None
     if get(tree, "BlockEntityTag")[1] is not None:
-        return banner_from_tag("banner", tree) if _tells_base(tree) else _baseless(tree)
+        return banner_from_tag("banner", tree) if _has_base(tree) else _baseless(tree)
     if "Patterns" in tree or "patterns" in tree or "Type" in tree:
         return banner_from_block_entity(tree)
     return _baseless(tree) if get(tree, "banner_patterns")[1] is not None else None
 
 
-def _tells_base(tag: dict[str, DataTree]) -> bool:
+def _has_base(tag: dict[str, DataTree]) -> bool:
     entity = get(tag, "BlockEntityTag")[1]
     return isinstance(entity, dict) and ("Base" in entity or entity.get("Type") == 1)
 

@@ -1,4 +1,4 @@
-"""What the forms that live in a web address share: taking the address apart, and its refusals."""
+"""What the forms of web addresses share: splitting the address, and its errors."""
 
 from dataclasses import dataclass
 from typing import NoReturn
@@ -7,7 +7,7 @@ from urllib.parse import parse_qsl, unquote, urlsplit
 from drapery.errors import DesignError
 
 MAX_ADDRESS = 4096
-"""Characters; the longest address that any of the sites makes is under 400."""
+"""Most characters of an address; those of the sites have under 400."""
 
 COLOURS = (
     "black",
@@ -27,24 +27,24 @@ COLOURS = (
     "orange",
     "white",
 )
-"""The dyes as all the sites count them: 15 minus the game's number."""
+"""The dyes in the order of all the sites: 15 minus the game's number."""
 
 
 @dataclass(frozen=True)
 class Address:
-    """A web address: host in lower case without `www.`, path, and the query as it was written."""
+    """A web address: host in lower case without `www.`, path, and the query, not decoded."""
 
     host: str
     path: str
     query: str
 
     def pairs(self) -> list[tuple[str, str]]:
-        """The query as (name, value), where a plus sign stays a plus sign."""
+        """The query as pairs of name and value. A plus sign is not a space here."""
         return parse_qsl(self.query.replace("+", "%2B"), keep_blank_values=True)
 
 
 def split_address(text: str) -> Address | None:
-    """Take a web address apart, with or without its scheme; None where the text is none."""
+    """The parts of a web address, with or without its scheme; None for another text."""
     text = text.strip()
     if not text or len(text) > MAX_ADDRESS or any(c.isspace() for c in text):
         return None
@@ -61,7 +61,7 @@ def split_address(text: str) -> Address | None:
 
 
 def site_address(text: str, *hosts: str) -> Address | None:
-    """The address, if it is one of these sites' or of a place under them (`de.site.com`)."""
+    """The address if its host is one of these or below one (`de.site.com`), otherwise None."""
     address = split_address(text)
     if address and any(("." + address.host).endswith("." + host) for host in hosts):
         return address
@@ -69,17 +69,17 @@ def site_address(text: str, *hosts: str) -> Address | None:
 
 
 def is_bare_code(text: str, alphabet: str) -> bool:
-    """Whether a text could be the code alone: some characters, all of the alphabet."""
+    """Whether all characters of a text are in the alphabet, as in a code without address."""
     return 0 < len(text) <= MAX_ADDRESS and all(character in alphabet for character in text)
 
 
 def clip(text: str, limit: int = 60) -> str:
-    """A text as an error may show it: quoted, on one line, and no longer than `limit`."""
+    """A text as errors show it: quoted, on one line, at most `limit` characters."""
     return repr(text if len(text) <= limit else text[: limit - 1] + "…")
 
 
 def letter(code: str, place: int) -> str:
-    """A character of a code as an error names it."""
+    """A character of a code as errors name it."""
     return f"{code[place]!r} at character {place + 1} of the code"
 
 

@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from nbtlib import Base
 
 DATA_VERSION = 3953
-"""Java 1.21, whose banners the later versions read too."""
+"""The version of Java 1.21. Later versions read its banners too."""
 
 
 def encode(tree: dict[str, DataTree], order: Literal["big", "little"] = "big") -> bytes:
     """The bytes of a tree; Java's compressed, Bedrock's not.
 
-    Ints are written as TAG_Int and bools as TAG_Byte; nbtlib's own tags stay what they are.
+    Ints are written as TAG_Int and bools as TAG_Byte; nbtlib's own tags are written unchanged.
     """
     from nbtlib import Compound
 
@@ -26,7 +26,7 @@ def encode(tree: dict[str, DataTree], order: Literal["big", "little"] = "big") -
     Compound({"": tag(tree)}).write(raw, order)
     # A file is the one entry of a compound, without the tag that would close the compound.
     data = raw.getvalue()[:-1]
-    # The time stays out of the header, so that equal trees are equal files.
+    # No time in the header, so that equal trees are equal files.
     return gzip.compress(data, mtime=0) if order == "big" else data
 
 
@@ -45,7 +45,7 @@ def tag(tree: DataTree) -> "Base":
 
 
 def block_entity(banner: Banner) -> dict[str, DataTree]:
-    """A banner's block entity; the block's id tells the base dye."""
+    """A banner's block entity; the block's id names the base dye."""
     layers = names(banner.layers)
     return {"id": "minecraft:banner"} | ({"patterns": layers} if layers else {})
 

@@ -1,7 +1,7 @@
 """Wynncraft's guild JSON: `{"base": "BLACK", "layers": [{"colour": "RED", "pattern": "CROSS"}]}`.
 
-Patterns and dyes bear Bukkit's names. The guild's whole answer may stand around it, under
-`banner`; `tier` and `structure` are of the guild's tower, not of the design.
+Patterns and dyes have Bukkit's names. The design may also be under `banner` in the guild's whole
+answer. `tier` and `structure` describe the guild's tower and are ignored.
 """
 
 import json
@@ -25,7 +25,7 @@ def recognises(text: str) -> bool:
 
 
 def matches(tree: DataTree) -> bool:
-    """Whether a tree is meant as this form, alone or in a guild's answer."""
+    """Whether a tree is of this form, alone or in a guild's answer."""
     if not isinstance(tree, dict):
         return False
     inner = tree.get("banner")
@@ -33,7 +33,7 @@ def matches(tree: DataTree) -> bool:
 
 
 def may_be(tree: DataTree) -> bool:
-    """Whether a tree can be read as this form by somebody who knows that it is."""
+    """Whether a tree could be of this form, if the caller knows that it is."""
     if not isinstance(tree, dict) or "id" in tree:
         return False
     return "base" in tree or isinstance(tree.get("banner"), dict)
@@ -44,8 +44,8 @@ def _is_design(tree: DataTree) -> bool:
         return False
     layers = tree.get("layers")
     entries = layers if isinstance(layers, list) else []
-    told = any(isinstance(entry, dict) and "colour" in entry for entry in entries)
-    return told or "tier" in tree or "structure" in tree
+    has_colours = any(isinstance(entry, dict) and "colour" in entry for entry in entries)
+    return has_colours or "tier" in tree or "structure" in tree
 
 
 def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:

@@ -1,4 +1,4 @@
-"""What folders and zips of packs have in common: what marks a pack, limits, words for faults."""
+"""What folders and zips of packs share: the signs of a pack, limits, and words of errors."""
 
 from collections.abc import Iterable
 
@@ -10,12 +10,12 @@ MAX_FILES = 100_000
 ROOTS = ("assets", "data", "pack.mcmeta")
 """A folder with one of these at its top is a pack."""
 
-LITTER = ("__MACOSX", ".DS_Store")
-"""What some systems leave beside it."""
+IGNORED_NAMES = ("__MACOSX", ".DS_Store")
+"""Files that some systems add beside a pack."""
 
 
 def within(data: bytes, limit: int, place: str) -> bytes:
-    """The data of a file, if it keeps to the limit [bytes]. Raises PackError naming the place."""
+    """The data of a file. Raises PackError naming the place if it is over the limit [bytes]."""
     if len(data) > limit:
         raise PackError(f"{place} is over {limit} bytes: shrink it")
     return data

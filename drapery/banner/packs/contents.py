@@ -1,4 +1,4 @@
-"""What packs have, lack and override, for a person who wonders why a banner looks as it does."""
+"""Reports on packs: what they have, lack and override."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -21,10 +21,10 @@ class PackReport:
     format: the resource format that it is read as, or None; overlays: the folders that count.
     has, lacks: of the 43 patterns. added: patterns of its own. shields: of the 43, for shields.
     bases: which of banner_base, shield_base and shield_base_nopattern it has.
-    overrides: pairs of a pattern and the pack below whose sheet it hides.
+    overrides: pairs of a pattern and the pack below whose sheet it overrides.
     sides: pairs of a sheet's side [px] and how many have it, small ones first.
     normal_maps, specular_maps: patterns with LabPBR maps. animated: patterns with frames.
-    problems: the errors of files that cannot be used.
+    problems: the errors of files that cannot be read.
     unchecked: patterns beyond MAX_CHECKED_BYTES; their sheets and maps are not decoded, and are
         not among the sides, maps, animations and problems.
     """

@@ -1,4 +1,4 @@
-"""Filters in packs: regular expressions that take files or sprites away."""
+"""Filters in packs: regular expressions of files or sprites that are removed."""
 
 import re
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from typing import Any
 from drapery.errors import PackError
 
 MAX_REPEATS = 3
-"""The cost of a search grows by the length of an id with each repetition; ids have 128 letters."""
+"""Most repetitions in an expression. Each multiplies the time of a search by an id's length."""
 
 MAX_OPTIONS = 6
 
@@ -16,19 +16,19 @@ _MAX_LENGTH = 200
 
 @dataclass(frozen=True)
 class IdFilter:
-    """Takes away the ids whose namespace and path both match; None matches all."""
+    """Removes the ids whose namespace and path both match; None matches every id."""
 
     namespace: re.Pattern[str] | None
     path: re.Pattern[str] | None
 
     def matches(self, namespace: str, path: str) -> bool:
-        """Whether it takes this id away. A match anywhere counts, as in the game."""
+        """Whether this id is removed. A match anywhere in it counts, as in the game."""
         pairs = ((self.namespace, namespace), (self.path, path))
         return all(pattern is None or pattern.search(text) for pattern, text in pairs)
 
 
 def parse_filter(entry: Any, name: str) -> IdFilter:
-    """Read `{"namespace": regex, "path": regex}`. Raises PackError, calling the file by name."""
+    """Read `{"namespace": regex, "path": regex}`. Raises PackError naming the file."""
     if not isinstance(entry, dict):
         raise PackError(f"{name}: a filter must be an object with namespace and path")
     return IdFilter(
@@ -52,7 +52,7 @@ def _regex(text: Any, name: str) -> re.Pattern[str] | None:
 
 
 def _is_cheap(text: str) -> bool:
-    """No repeated group and few repetitions, so that no search is worse than cubic."""
+    """Whether there are few repetitions and no repeated group: a search is cubic at worst."""
     bare = re.sub(r"\\.", "x", text)
     bare = re.sub(r"\[\^?\]?[^\]]*\]", "x", bare)
     repeats = len(re.findall(r"[*+{]", bare))

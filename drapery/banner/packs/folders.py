@@ -7,13 +7,13 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
-from drapery.banner.packs.checks import LITTER, MAX_FILES, ROOTS, listed, reason, within
+from drapery.banner.packs.checks import IGNORED_NAMES, MAX_FILES, ROOTS, listed, reason, within
 from drapery.errors import PackError
 
 
 @dataclass(frozen=True)
 class OwnArt:
-    """The art that comes with this package; its folder is a pack's `assets`."""
+    """The art that is installed with this package, whose folder is the `assets` of a pack."""
 
     label: str = "drapery's own art"
 
@@ -53,7 +53,7 @@ class FolderSource:
             if not path.is_file():
                 self._refuse_broken_link(path, name)
                 return None
-            self._refuse_way_out(path, name)
+            self._refuse_outside_link(path, name)
             with path.open("rb") as file:
                 return within(file.read(limit + 1), limit, f"{self.label}: {name}")
         except (OSError, RuntimeError) as error:
@@ -80,7 +80,7 @@ class FolderSource:
         except OSError:
             return ()
 
-    def _refuse_way_out(self, path: Path, name: str) -> None:
+    def _refuse_outside_link(self, path: Path, name: str) -> None:
         if not path.resolve().is_relative_to(self.root.resolve()):
             raise PackError(
                 f"{self.label}: {name} is a link out of the pack: replace it by the file itself"
@@ -92,8 +92,8 @@ class FolderSource:
 
 
 def open_folder(path: Path) -> FolderSource:
-    """The pack in a folder, or in the one folder in it that is one. Raises PackError, OSError."""
-    names = {entry.name for entry in path.iterdir() if entry.name not in LITTER}
+    """The pack in a folder, or in its only subfolder that is a pack. Raises PackError, OSError."""
+    names = {entry.name for entry in path.iterdir() if entry.name not in IGNORED_NAMES}
     if names & set(ROOTS):
         return FolderSource(path, str(path))
     inside = [name for name in sorted(names) if _looks_like_pack(path / name)]

@@ -16,7 +16,7 @@ Format = tuple[float, float]
 """Major and minor format number."""
 
 NEWEST_FORMAT = 84
-"""The newest resource format known here; packs that promise more are taken at this one."""
+"""The newest resource format known here; packs for newer ones are read as of this one."""
 
 MAX_JSON = 1 << 20
 """Largest JSON file that is read [bytes]."""
@@ -39,7 +39,7 @@ class FormatRange:
 
 @dataclass(frozen=True)
 class Overlay:
-    """A folder that is laid over the pack in the formats it is for."""
+    """A folder whose files override the pack's in a range of formats."""
 
     directory: str
     formats: FormatRange
@@ -47,10 +47,10 @@ class Overlay:
 
 @dataclass(frozen=True)
 class PackMeta:
-    """What `pack.mcmeta` says; a pack without one has the defaults.
+    """The contents of `pack.mcmeta`; a pack without one has the defaults.
 
     format: the declared format, or None. formats: all that it claims to support, or None.
-    overlays: lowest first. filters: what they match is hidden in the packs below.
+    overlays: lowest first. filters: files of the packs below that are hidden.
     """
 
     format: int | None = None
@@ -75,7 +75,7 @@ class PackMeta:
 
 
 def read_json(data: bytes, name: str) -> Any:
-    """Parse a JSON file of a pack, calling it by name. Raises PackError with line and column."""
+    """Parse a JSON file of a pack. Raises PackError with its name, line and column."""
     try:
         return json.loads(data.decode("utf-8-sig"), strict=False)
     except UnicodeDecodeError as error:
@@ -88,7 +88,7 @@ def read_json(data: bytes, name: str) -> Any:
 
 
 def parse_meta(data: bytes, name: str) -> PackMeta:
-    """Read `pack.mcmeta`, calling it by name in errors. Raises PackError."""
+    """Read `pack.mcmeta`. name: what errors call it. Raises PackError."""
     root = read_json(data, name)
     pack = _object(root, "pack", name)
     declared = pack.get("pack_format")
@@ -121,7 +121,7 @@ def parse_version(data: bytes, name: str) -> PackMeta:
 
 
 def _one_line(text: str) -> str:
-    """For a terminal: no line breaks, no control codes, no formatting codes of the game's."""
+    """One line for a terminal, without control codes and the game's formatting codes."""
     plain = re.sub("§.", "", text)
     return "".join(c for c in " ".join(plain.split()) if c.isprintable())[:200]
 

@@ -1,4 +1,4 @@
-"""One resource or data pack: its files with its overlays over them."""
+"""One resource or data pack: its files, overridden by its overlays."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -14,8 +14,8 @@ from drapery.banner.patterns import PATTERN_NAMES
 class Pack:
     """One opened pack.
 
-    roots: prefixes of its names, topmost overlay first, the pack itself last.
-    format: the resource format it is read as, None where it is unknown.
+    roots: the folders of its files: topmost overlay first, the pack itself last.
+    format: the resource format that it is read as, None if it is unknown.
     """
 
     source: PackSource
@@ -59,19 +59,19 @@ def open_pack(path: str | Path | PackSource, format: int | None = None) -> Pack:
     """One pack by itself, without our own art below it.
 
     path: a folder, zip or jar, or a source of files such as MemoryPack.
-    format: the resource format of the game to be; None is the newest that the pack supports.
+    format: the resource format of the game; None is the newest that the pack supports.
     Raises PackError naming the path and the remedy.
     """
     source = open_source(path)
     meta = _read_meta(source)
-    # Data packs count formats of their own, so a resource format says nothing about them.
+    # Data packs have format numbers of their own, to which a resource format does not apply.
     wanted = format if source.folders("assets") else None
     roots = (*(f"{name}/" for name in meta.directories(wanted)), "")
     return Pack(source, meta, roots, meta.newest() if format is None else format)
 
 
 def added_patterns(pack: Pack) -> tuple[str, ...]:
-    """The patterns beyond the 43 that a pack defines or has a texture for, sorted full ids."""
+    """Full ids, sorted, of the patterns beyond the 43 that a pack defines or has a texture for."""
     found = {
         name
         for namespace in pack.folders("data")
@@ -92,7 +92,7 @@ def _ids(pack: Pack, namespace: str, folder: str, ending: str) -> Iterator[str]:
 
 
 def _without_maps(names: set[str]) -> set[str]:
-    """Without the LabPBR maps that lie beside other textures."""
+    """The names without those of LabPBR maps of other textures."""
     return {name for name in names if name[-2:] not in ("_n", "_s") or name[:-2] not in names}
 
 
@@ -100,6 +100,6 @@ def _read_meta(source: PackSource) -> PackMeta:
     data = source.read("pack.mcmeta", MAX_JSON)
     if data is not None:
         return parse_meta(data, f"{source.label}: pack.mcmeta")
-    # A client jar says its format elsewhere.
+    # A client jar has its format in another file.
     data = source.read("version.json", MAX_JSON)
     return PackMeta() if data is None else parse_version(data, f"{source.label}: version.json")

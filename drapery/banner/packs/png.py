@@ -1,4 +1,4 @@
-"""PNG files as texels: whatever the mode, sRGB with straight alpha; checked before decoding."""
+"""PNG files of every mode as texels: sRGB with straight alpha, checked before decoding."""
 
 import struct
 from io import BytesIO
@@ -23,9 +23,9 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def png_size(data: bytes, name: str) -> tuple[int, int]:
-    """Width and height [px] as the header states them; nothing is decoded.
+    """Width and height [px] from the header; nothing is decoded.
 
-    name: the file, as errors call it. Raises PackError.
+    name: what errors call the file. Raises PackError.
     """
     if data[:8] != _SIGNATURE or data[12:16] != b"IHDR" or len(data) < 33:
         raise PackError(f"{name} is not a PNG file: save it as one")
@@ -41,15 +41,15 @@ def png_size(data: bytes, name: str) -> tuple[int, int]:
 def read_png(data: bytes, name: str) -> Texels:
     """The texels of a PNG file of any mode, shape [H, W, 4].
 
-    Of 16 bits a channel the upper eight are kept, as the game does.
-    name: the file, as errors call it. Raises PackError.
+    Of 16 bits a channel only the upper eight count, as in the game.
+    name: what errors call the file. Raises PackError.
     """
     png_size(data, name)
     # The plug-in alone: PIL.Image.open would load those of every common format first.
     from PIL.PngImagePlugin import PngImageFile
 
     try:
-        # Pillow warns of broken animation chunks, which are of no use here.
+        # Pillow warns of broken animation chunks, which are not read here.
         with catch_warnings(action="ignore"), PngImageFile(BytesIO(data)) as image:
             image.load()
             texels = _rgba(image, depth=data[24])
@@ -63,7 +63,7 @@ def _rgba(image: "PngImageFile", depth: int) -> Texels:
     if image.mode.startswith("I"):
         return _from_grey16(np.asarray(image), image.info.get("transparency"))
     clear = image.info.get("transparency")
-    # Pillow widens grey texels of 2 and 4 bits but leaves their transparent value as it stood.
+    # Pillow widens grey texels of 2 and 4 bits, but not their transparent value.
     if image.mode == "L" and isinstance(clear, int) and depth < 8:
         image.info["transparency"] = clear * (255 // ((1 << depth) - 1))
     if image.mode == "RGB" and isinstance(clear, tuple) and depth == 16:

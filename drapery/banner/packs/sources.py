@@ -1,7 +1,7 @@
-"""Where a pack's files come from.
+"""Sources of a pack's files.
 
-Nothing is ever unpacked: a file is found by its name inside the pack, read whole up to a limit and
-handed on. Names are those of the pack's root: `assets/minecraft/textures/…`, with slashes.
+Nothing is unpacked to disk: a file is read by its name, up to a limit. Names are relative to the
+pack's root and have slashes: `assets/minecraft/textures/…`.
 """
 
 from pathlib import Path
@@ -20,16 +20,19 @@ class PackSource(Protocol):
 
     @property
     def label(self) -> str:
-        """What errors call the pack."""
+        """What messages call the pack."""
 
     def read(self, name: str, limit: int) -> bytes | None:
-        """A file whole, or None where there is none. Raises PackError, also beyond the limit."""
+        """The bytes of a file, or None if it does not exist.
+
+        Raises PackError if it cannot be read or is over the limit [bytes].
+        """
 
     def files(self, folder: str) -> tuple[str, ...]:
         """Names of all files under a folder, sorted."""
 
     def folders(self, folder: str) -> tuple[str, ...]:
-        """Names of the folders right under a folder, sorted, without the path to it."""
+        """Names, without path, of the folders directly under a folder, sorted."""
 
 
 def open_source(path: str | Path | PackSource) -> PackSource:

@@ -1,7 +1,7 @@
-"""Atlas files of packs: where the texture behind a sprite's id lies.
+"""Atlas files of packs: the textures of sprite ids.
 
-`assets/minecraft/atlases/<atlas>.json` of every pack adds to one list of sources, in order; a later
-source wins over an earlier one, and a filter takes away what came before it.
+`assets/minecraft/atlases/<atlas>.json` of every pack adds to one list of sources. A later source
+overrides an earlier one, and a filter removes sprites of the sources before it.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,7 +18,7 @@ _MAX_SOURCES = 4096
 
 @dataclass(frozen=True)
 class SpriteFolder:
-    """Every texture under a folder, in all namespaces; the sprite's path is prefix + the rest."""
+    """Every texture under a folder, in all namespaces. A sprite's path is prefix + the rest."""
 
     source: str
     prefix: str
@@ -36,9 +36,9 @@ SpriteSource = SpriteFolder | SpriteTexture | IdFilter
 
 
 def parse_atlas(data: bytes, name: str) -> tuple[tuple[SpriteSource, ...], tuple[str, ...]]:
-    """The sources of an atlas file, and the kinds of source in it that are not read.
+    """The sources of an atlas file, and its types of source that are not read.
 
-    Raises PackError, calling the file by name.
+    Raises PackError naming the file.
     """
     root = read_json(data, name)
     entries = root.get("sources") if isinstance(root, dict) else None
@@ -52,9 +52,9 @@ def parse_atlas(data: bytes, name: str) -> tuple[tuple[SpriteSource, ...], tuple
 
 
 def textures_of(sprite: str, sources: Sequence[SpriteSource]) -> Iterator[str]:
-    """The ids of textures that may stand behind a sprite's id, the first to try first.
+    """The ids of textures that a sprite's id may mean, in the order to try them.
 
-    Ids are `namespace:path`; which of the textures exists is for the caller to see.
+    Ids are `namespace:path`. The caller takes the first texture that exists.
     """
     namespace, path = split_id(sprite)
     for source in reversed(sources):

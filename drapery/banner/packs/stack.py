@@ -1,7 +1,7 @@
-"""Resource packs laid over our own art: patterns, bases and other textures as texels.
+"""Resource packs over our own art: patterns, bases and other textures as texels.
 
-A pack is a folder, a zip or a client jar. Of several, the later one wins, file by file; overlays
-named in `pack.mcmeta` lie over the pack that they belong to.
+A pack is a folder, a zip, a client jar or a pack in memory. Of several, the later one overrides the
+earlier, file by file; the overlays of a pack, named in its `pack.mcmeta`, override its own files.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -38,7 +38,7 @@ MAX_PNG = 32 << 20
 """Largest PNG file that is read [bytes]."""
 
 LAST_OLD_FORMAT = 75
-"""Last format (1.21.11) in which the base texture lay beside, not in, `entity/banner`."""
+"""Last format (1.21.11) in which the base texture was beside `entity/banner`, not in it."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,11 @@ class PackFile:
 
 @dataclass(frozen=True, eq=False)
 class Packs:
-    """A stack of packs, lowest first; the lowest is our own art. Files are read when asked for."""
+    """A stack of packs, lowest first; the lowest is our own art. Files are read when needed.
+
+    packs: the packs of the stack. format: the resource format that they were opened for, or None.
+    `open_packs` makes one.
+    """
 
     packs: tuple[Pack, ...]
     format: int | None = None
@@ -68,10 +72,10 @@ class Packs:
     _notes: dict[str, None] = field(default_factory=dict, init=False, repr=False)
 
     def sheet(self, pattern: str, kind: Kind = "banner", time: float = 0.0) -> Texels:
-        """The sheet of a pattern, shape [H, H, 4]; at a time [s] where it is animated.
+        """The sheet of a pattern, shape [H, H, 4], at a time [s] of its animation.
 
-        pattern: an id such as `creeper`, or `namespace:path` for one of a data pack or, without
-            a definition, of a texture. A missing one is the game's checker, with a warning.
+        pattern: an id such as `creeper`, or `namespace:path` for a pattern of a data pack, of
+            a MemoryPack or of a texture. A missing one is the game's checker, with a warning.
         Raises PackError.
         """
         return self._sheet(pattern, kind).at(time)
@@ -96,7 +100,7 @@ class Packs:
         return self._textures.get(full, lambda: self._any_texture(full)).at(time)
 
     def period(self, pattern: str, kind: Kind = "banner") -> float:
-        """How long the animation of a pattern's sheet takes [s]; 0 where it is still."""
+        """The length of the animation of a pattern's sheet [s]; 0 if it is still."""
         return self._sheet(pattern, kind).period
 
     def normal_map(self, pattern: str, kind: Kind = "banner") -> Texels | None:
@@ -127,12 +131,12 @@ class Packs:
         return PATTERN_NAMES + tuple(sorted(added))
 
     def level(self, pattern: str, kind: Kind = "banner") -> int | None:
-        """Which of `packs` a pattern's sheet comes from; None where it is missing."""
+        """The index in `packs` of the pack with a pattern's sheet, or None if it is missing."""
         found = self._find_sheet(pattern, kind)
         return None if found is None else found.level
 
     def base_level(self, base: Base = "banner_base") -> int | None:
-        """Which of `packs` a base comes from; None where it is missing."""
+        """The index in `packs` of the pack with a base, or None if it is missing."""
         found = self._find_base(base)
         return None if found is None else found.level
 
@@ -146,7 +150,7 @@ class Packs:
         return tuple(file for file in found if file is not None)
 
     def warnings(self) -> tuple[str, ...]:
-        """What a user should know of the textures asked for so far, one line each."""
+        """What a user should know of the textures read so far, one line each."""
         lines = list(self._notes)
         if self._missing:
             names = ", ".join(self._missing)
@@ -157,11 +161,11 @@ class Packs:
             names = ", ".join(self._black)
             lines.append(
                 f"black covers all below, as the game draws it: {names}"
-                " (masks from before 1.15? pack format 4 would read them so)"
+                " (masks from before 1.15? use format 4 to read them as masks)"
             )
         if (self._ours or self._missing) and len(self.packs) > 1 and not self._used:
             labels = ", ".join(pack.label for pack in self.packs[1:])
-            lines.append(f"nothing here comes from {labels}: the textures needed are not in there")
+            lines.append(f"no texture comes from {labels}: the textures needed are not in it")
         return tuple(lines)
 
     def _sheet(self, pattern: str, kind: Kind) -> Texture:
@@ -174,7 +178,7 @@ class Packs:
         if found is None:
             return sheet
         pack = self.packs[found.level]
-        # Our own art is never of the old kind, whatever the format of the game.
+        # Our own art has no masks, whatever the format of the game.
         if found.level == 0 or not is_mask(sheet.frames[0], pack.format):
             if looks_like_mask(sheet.frames[0]):
                 self._black[name] = None
@@ -208,7 +212,7 @@ class Packs:
         return cut_frames(read_png(found.data, place), layout)
 
     def _map(self, found: PackFile | None, ending: str) -> Texels | None:
-        """The map beside a texture, from its pack or one above; those below mapped another."""
+        """The map beside a texture, from its pack or one above; those below belong to another."""
         beside = self._find_map(found, ending)
         return None if beside is None else read_png(beside.data, self._place(beside))
 
@@ -253,7 +257,7 @@ class Packs:
         return None
 
     def _asset_id(self, pattern: str) -> str:
-        """What the pattern's definition in a data pack names as its asset; itself without one."""
+        """The asset id in the pattern's definition in a data pack, or the pattern itself."""
         namespace, path = split_id(pattern)
         found = self._find([f"data/{namespace}/banner_pattern/{path}.json"], limit=MAX_JSON)
         if found is None:

@@ -1,4 +1,4 @@
-"""Ids of textures and patterns: `namespace:path`, where `minecraft` may go unsaid."""
+"""Ids of textures and patterns: `namespace:path`; the default namespace is `minecraft`."""
 
 import re
 
@@ -10,13 +10,13 @@ _ID = re.compile(r"[a-z0-9_.-]+:[a-z0-9_./-]+", re.A)
 
 
 def is_id(text: str) -> bool:
-    """Whether this is an id with namespace that leads nowhere but into a pack."""
+    """Whether this is an id with namespace whose file lies inside a pack."""
     fits = len(text) <= MAX_ID and _ID.fullmatch(text) is not None
     return fits and ".." not in re.split("[:/]", text)
 
 
 def full_id(text: str, place: str = "pattern or texture") -> str:
-    """The id with its namespace. Raises PackError, calling where it was found by `place`."""
+    """The id with its namespace. Raises PackError naming the place."""
     name = text if ":" in text else f"minecraft:{text}"
     if not is_id(name):
         raise PackError(

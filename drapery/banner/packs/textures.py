@@ -1,4 +1,4 @@
-"""Textures of packs: still or animated by an `.mcmeta` beside them, and masks of old packs."""
+"""Textures of packs: still or animated by their `.mcmeta`, and the masks of old packs."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -17,7 +17,7 @@ MAX_SHEET = 2048
 """Largest side of a banner's or shield's sheet [px]."""
 
 LAST_MASK_FORMAT = 4
-"""Up to this pack format (1.14) a pattern was a mask: its red channel said where the dye shows."""
+"""Up to this pack format (1.14) a pattern was a mask: its red channel was the dye's alpha."""
 
 _MAX_FRAMES = 8192
 _CHECKER_SIDE = 16
@@ -68,7 +68,7 @@ class Texture:
 
     @property
     def period(self) -> float:
-        """How long the animation takes [s]; 0 for a still texture."""
+        """The length of the animation [s]; 0 for a still texture."""
         return sum(self.ticks) / TICKS_PER_SECOND if len(self.frames) > 1 else 0.0
 
 
@@ -133,9 +133,9 @@ def check_sheet(layout: FrameLayout, name: str) -> None:
 def is_mask(texels: Texels, pack_format: int | None) -> bool:
     """Whether a sheet is a mask of the kind used before 1.15.
 
-    In a pack of that time every sheet is, but for those with half-transparent texels, which
-    meant nothing then. Where no format is known, only a black and white one without any
-    transparent texels.
+    In a pack of that time every sheet is one, except sheets with half-transparent texels, which
+    had no meaning then. If the format is unknown, only a black and white sheet without any
+    transparent texels is one.
     """
     alpha = texels[..., 3]
     if pack_format is None:
@@ -144,7 +144,7 @@ def is_mask(texels: Texels, pack_format: int | None) -> bool:
 
 
 def looks_like_mask(texels: Texels) -> bool:
-    """Whether a sheet of newer days seems a mask left over: opaque black beside opaque grey."""
+    """Whether a newer sheet looks like an old mask: grey, with opaque black and opaque white."""
     alpha, red = texels[..., 3], texels[..., 0]
     if ((alpha > 0) & (alpha < 255)).any():
         return False
@@ -157,7 +157,7 @@ def looks_like_mask(texels: Texels) -> bool:
 
 
 def from_mask(mask: Texels, base: Texels) -> Texels:
-    """The sheet that looks today as a mask did over a base: the base's colours, alpha from red.
+    """The sheet of today that looks as a mask over a base did: the base's colours, alpha from red.
 
     Its side is that of `common_side`.
     """
@@ -170,7 +170,7 @@ def from_mask(mask: Texels, base: Texels) -> Texels:
 
 
 def checker() -> Texels:
-    """The game's sign for a missing texture, 16 x 16: black and magenta quarters."""
+    """The game's picture for a missing texture, 16 x 16: black and magenta quarters."""
     texels = np.zeros((_CHECKER_SIDE, _CHECKER_SIDE, 4), np.uint8)
     low = np.arange(_CHECKER_SIDE) < _CHECKER_SIDE // 2
     texels[low[:, None] ^ low] = (0xF8, 0, 0xF8, 0)

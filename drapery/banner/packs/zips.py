@@ -1,4 +1,4 @@
-"""Packs in zips and jars. Nothing is ever unpacked to disk, and little trusted."""
+"""Packs in zips and jars. Nothing is unpacked to disk, and stated sizes are not trusted."""
 
 import os
 import struct
@@ -8,17 +8,17 @@ from pathlib import Path
 from stat import S_ISLNK
 from typing import TYPE_CHECKING
 
-from drapery.banner.packs.checks import LITTER, MAX_FILES, ROOTS, listed, reason, within
+from drapery.banner.packs.checks import IGNORED_NAMES, MAX_FILES, ROOTS, listed, reason, within
 from drapery.errors import PackError
 
 if TYPE_CHECKING:
     from zipfile import ZipFile, ZipInfo
 
 MAX_DIRECTORY = 8 << 20
-"""Largest list of contents in a zip [bytes]; it is read whole before the first file."""
+"""Largest list of contents in a zip [bytes]; it is read before the first file."""
 
 MAX_RATIO = 200
-"""Most that a file over a mebibyte may be squeezed; PNG files hardly shrink at all."""
+"""Largest compression ratio of a file over a mebibyte; that of PNG files is about 1."""
 
 _LONGEST_TAIL = 76 + 22 + (1 << 16)
 """A zip's end records and the longest comment behind them [bytes]."""
@@ -30,7 +30,7 @@ class ZipSource:
 
     archive: "ZipFile"
     entries: "dict[str, ZipInfo]"
-    doubles: frozenset[str]
+    duplicates: frozenset[str]
     label: str
 
     def read(self, name: str, limit: int) -> bytes | None:
@@ -39,12 +39,12 @@ class ZipSource:
         if entry is None:
             return None
         place = f"{self.label}: {name}"
-        if name in self.doubles:
+        if name in self.duplicates:
             raise PackError(f"{place} is in the zip twice: make the zip again")
         _check_entry(entry, limit, place)
         try:
             with self.archive.open(entry) as file:
-                # The stated size may lie; never more than the limit is unpacked.
+                # The stated size may be wrong; never more than the limit is unpacked.
                 return within(file.read(limit + 1), limit, place)
         except _zip_faults() as error:
             raise PackError(
@@ -102,14 +102,14 @@ def _indexed(archive: "ZipFile", label: str) -> ZipSource:
             )
     root = _root_in_zip([name for name, _ in named], label)
     entries: dict[str, ZipInfo] = {}
-    doubles = set()
+    duplicates = set()
     for name, info in named:
         if name.startswith(root):
             short = name[len(root) :]
             if short in entries:
-                doubles.add(short)
+                duplicates.add(short)
             entries[short] = info
-    return ZipSource(archive, entries, frozenset(doubles), label)
+    return ZipSource(archive, entries, frozenset(duplicates), label)
 
 
 def _root_in_zip(names: list[str], label: str) -> str:
@@ -120,7 +120,7 @@ def _root_in_zip(names: list[str], label: str) -> str:
     inside = {
         parts[0]
         for parts in (name.split("/", 2) for name in names)
-        if len(parts) > 1 and parts[1] in ROOTS and parts[0] not in LITTER
+        if len(parts) > 1 and parts[1] in ROOTS and parts[0] not in IGNORED_NAMES
     }
     if len(inside) == 1:
         return f"{inside.pop()}/"
@@ -164,8 +164,8 @@ def _check_entry(entry: "ZipInfo", limit: int, place: str) -> None:
         raise PackError(f"{place} is a link: replace it by the file itself")
     if entry.compress_type not in (0, 8):
         raise PackError(f"{place} has a compression that the game cannot read: use deflate")
-    squeezed = entry.file_size > MAX_RATIO * max(1, entry.compress_size)
-    if entry.file_size > limit or (squeezed and entry.file_size > 1 << 20):
+    is_dense = entry.file_size > MAX_RATIO * max(1, entry.compress_size)
+    if entry.file_size > limit or (is_dense and entry.file_size > 1 << 20):
         raise PackError(
             f"{place} would unpack from {entry.compress_size} to {entry.file_size} bytes:"
             " zip bombs are not read"
