@@ -409,8 +409,8 @@ def main() -> None:
     words.add_argument("--machines", type=int, default=100)
     words.add_argument("--port", type=int, default=8799)
     asked = words.parse_args()
-    with TemporaryDirectory() as kept:
-        folder = Path(kept)
+    with TemporaryDirectory() as temporary:
+        folder = Path(temporary)
         _measure(asked, folder)
 
 

@@ -30,9 +30,9 @@ def work(one: Job) -> JobResult:
     if kind.startswith("eat"):
         return JobResult(one, None, size=len(bytearray(8 << 30)))
     if kind.startswith("nibble"):
-        kept = []
+        blocks = []
         while True:
-            kept.append(b"x" * (1 << 20))
+            blocks.append(b"x" * (1 << 20))
     return JobResult(one, None, size=os.getpid())
 
 

@@ -93,7 +93,7 @@ e,red,4,48x48,,,
 """
 
 
-def test_all_faults_are_told_with_their_lines(tmp_path: Path, drapery: Run) -> None:
+def test_all_faults_are_listed_with_their_lines(tmp_path: Path, drapery: Run) -> None:
     path = write(tmp_path / "m.csv", BAD)
     with pytest.raises(ManifestError) as caught:
         read_manifest(path)

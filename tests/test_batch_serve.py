@@ -257,7 +257,7 @@ def test_a_flood_of_clients_takes_bounded_memory() -> None:
     assert len(rates._buckets) == MAX_CLIENTS
 
 
-def test_too_many_requests_are_told_when_to_come_again() -> None:
+def test_too_many_requests_get_the_time_to_ask_again() -> None:
     with TestClient(make_app(rate=1)) as client:
         codes = [client.get("/banner.png?design=wite").status_code for _ in range(21)]
         late = client.get("/banner.png?design=red")

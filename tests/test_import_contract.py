@@ -49,11 +49,11 @@ LAW: dict[str, set[str]] = {
         ),
     },
     "drapery.batch": {
-        *("errors", "option", "options", "settings", "yaml_text"),
-        *("banner", "style", "render", "pictures", "comparison"),
+        *("drapery", "errors", "option", "options", "settings", "yaml_text"),
+        *("banner", "packs", "style", "render"),
     },
     "drapery.serve": {
-        *("errors", "option", "options", "settings", "banner", "style", "batch"),
+        *("drapery", "errors", "option", "options", "settings", "style", "batch"),
     },
     "drapery.studio": {
         *("drapery", "errors", "mesh", "option", "options", "settings"),

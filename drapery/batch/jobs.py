@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from drapery.banner.design import Banner
+from drapery import Banner
 from drapery.batch.keys import DigestCache, code_version, picture_key
 from drapery.batch.manifest import PictureRequest
 from drapery.batch.stores import LocalStore, Store
@@ -138,8 +138,8 @@ def _draw_and_store(job: Job, store: Store) -> tuple[int, tuple[str, ...]]:
 
 
 def _save(job: Job, path: Path) -> None:
-    from drapery.pictures import draw, iter_frames
-    from drapery.render.encode import save_animation
+    from drapery import draw, iter_frames
+    from drapery.render import save_animation
     from drapery.settings import frame_count
 
     if job.seconds is None or job.fps is None:

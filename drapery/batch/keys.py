@@ -1,4 +1,4 @@
-"""What a picture is made of, as one hash: same key, same bytes, so no work."""
+"""The key of a picture: a hash of all that it is made of. Equal keys, equal bytes."""
 
 import hashlib
 import json
@@ -12,7 +12,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
-from drapery.banner.design import Banner
+from drapery import Banner
 from drapery.errors import PackError
 from drapery.settings import Settings
 
@@ -59,8 +59,8 @@ def picture_key(
 ) -> str:
     """The key of a picture: 64 hexadecimal digits. Raises PackError for what cannot be read.
 
-    Of the design, its canonical form counts, not how it was written; of packs and textures, their
-    bytes, not their names; of us, `code_version`.
+    It is a hash of the design in its canonical form, the options, the bytes of packs and textures
+    (not their names), and `code_version`.
     """
     options, texture = asdict(settings), settings.texture_path
     options["packs"] = [digests.of(pack) for pack in settings.pack_paths]
@@ -76,7 +76,7 @@ def picture_key(
 
 @cache
 def code_version() -> str:
-    """The release and a hash of its code and art, so that a changed checkout is another version."""
+    """The release with a hash of its code and art: an edited checkout is another version."""
     whole = hashlib.sha256()
     for package in ("drapery", "drapery.render", "drapery.assets"):
         for name, file in sorted(_own_files(files(package), package)):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from drapery.banner.design import Banner
+from drapery import Banner
 from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
 from drapery.option import shown
@@ -194,7 +194,7 @@ def _objects(settings: Settings, options: Mapping[str, Any]) -> list[str]:
 
 
 def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
-    from drapery.banner.formats import parse_banner, read_design
+    from drapery.banner.formats import read_design
 
     try:
         if text is None:
@@ -202,7 +202,7 @@ def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
         file = folder / text if len(text) < 200 and "\0" not in text else None
         if file is not None and "\n" not in text and file.is_file():
             return read_design(file)
-        return parse_banner(text)
+        return Banner.parse(text)
     except (DesignError, OSError) as error:
         faults.append(f"design: {error}")
         return None
@@ -325,8 +325,8 @@ def _unusable(requests: Iterable[PictureRequest]) -> Iterator[ManifestFault]:
 
 
 def _verdict(request: PictureRequest) -> str | None:
-    from drapery.banner.packs import open_packs
-    from drapery.render.backends import backend
+    from drapery.packs import open_packs
+    from drapery.render import backend
     from drapery.style.kinds import check_kind
 
     settings = request.settings

@@ -1,6 +1,7 @@
 """The report of a run: its numbers, what failed and why, and small pictures."""
 
 import io
+from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -120,11 +121,9 @@ def _thumbnail(data: bytes) -> str:
     """The first frame, no larger than SIDE, as a `data:` address."""
     from PIL import Image
 
-    from drapery.comparison.report import data_of
-
     with Image.open(io.BytesIO(data)) as image:
         small = image.convert("RGBA")
     small.thumbnail((SIDE, SIDE))
     buffer = io.BytesIO()
     small.save(buffer, "PNG")
-    return data_of(buffer.getvalue(), "png")
+    return f"data:image/png;base64,{b64encode(buffer.getvalue()).decode()}"

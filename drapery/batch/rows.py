@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from drapery.banner.design import Banner
+from drapery import Banner
 from drapery.errors import DesignError, DraperyError, OptionError
 from drapery.options import one_line
 
@@ -162,7 +162,7 @@ def _has_names(value: object) -> bool:
 
 def _banners(path: Path) -> Rows:
     """One row for each banner; the reader warns of the broken parts of a world."""
-    from drapery.banner.formats import read_designs
+    from drapery import read_designs
 
     try:
         found = read_designs(path)

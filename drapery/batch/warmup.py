@@ -3,8 +3,7 @@
 
 def warm_up(*, stills: bool = True, loops: bool = True) -> None:
     """Fill numba's cache: draw tiny pictures of the sorts that will be drawn."""
-    from drapery.banner.design import Banner
-    from drapery.pictures import animate, draw
+    from drapery import Banner, animate, draw
 
     if stills:
         draw(Banner(), size=(8, 8), time=0.05)

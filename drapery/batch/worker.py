@@ -25,7 +25,10 @@ def run(pipe: Any, work: Callable[[Any], Any], memory: int, threads: int) -> Non
     os.environ["NUMBA_NUM_THREADS"] = str(threads)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_die_with_parent, daemon=True).start()
-    import drapery.pictures  # noqa: F401 - so that its memory is the worker's, not the first job's
+    import drapery
+
+    # Import what draws now, so that its memory is the worker's, not the first job's.
+    _ = drapery.draw
 
     _limit(memory)
     with suppress(EOFError, ConnectionError):

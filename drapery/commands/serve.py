@@ -35,9 +35,9 @@ def run(
     """Answer /banner.png?design=… and /banner.gif?design=…; /docs lists the parameters."""
     import os
 
-    from drapery.banner.packs import open_packs
     from drapery.errors import BackendError
     from drapery.option import within
+    from drapery.packs import open_packs
     from drapery.settings import MAX_SIDE, Settings
 
     try:

@@ -129,7 +129,7 @@ def _faults(query: Sequence[tuple[str, str]], ending: str) -> list[str]:
 def _request(
     values: dict[str, str], settings: Settings, ending: str, limits: PictureLimits
 ) -> PictureRequest:
-    from drapery.banner.formats import parse_banner
+    from drapery import Banner
     from drapery.style.kinds import check_kind
 
     text = values.get("design", "")
@@ -137,8 +137,8 @@ def _request(
         raise OptionError("design is missing; write ?design=white+creeper:lime")
     if len(text) > limits.max_length:
         raise OptionError(f"design has over {limits.max_length} characters; write it shorter")
-    # Never `read_design`: a client's text must not name a file.
-    banner = parse_banner(text)
+    # A client's text must not name a file, so it is parsed and never opened.
+    banner = Banner.parse(text)
     if settings.kind in _NEEDS_FILE:
         raise OptionError(f"kind {settings.kind} shows a file, which an address cannot name")
     check_kind(banner, settings)
