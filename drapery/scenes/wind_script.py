@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from drapery.errors import OptionError
-from drapery.option import shown
 
 MAX_BYTES = 1 << 16
 LIMITS = {"strength": (0.0, 40.0), "direction": (-3600.0, 3600.0)}
@@ -44,10 +43,10 @@ def read_script(path: str) -> tuple[WindSetting, ...]:
     except (OSError, ValueError) as fault:
         reason = getattr(fault, "strerror", None) or "it is not a text file"
         raise OptionError(
-            f"script {shown(path)} cannot be read ({reason}); give a file of commands"
+            f"script {path} cannot be read ({reason}); give a file of commands"
         ) from None
     if len(data) > MAX_BYTES:
-        raise OptionError(f"script {shown(path)} is over {MAX_BYTES} bytes; shorten it")
+        raise OptionError(f"script {path} is over {MAX_BYTES} bytes; shorten it")
     return tuple(parse_script(text, path))
 
 

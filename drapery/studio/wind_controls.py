@@ -28,7 +28,7 @@ class WindControls:
     on: whether it blows.
     """
 
-    speed: float = Settings().wind_speed
+    speed: float = Settings.wind
     direction: float | None = None
     gusts: float = Settings.gusts
     seed: int = 0
@@ -41,8 +41,13 @@ class WindControls:
 
 
 def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
-    """What blows in a picture."""
-    return WindControls(settings.wind_speed, settings.direction, settings.gusts, settings.seed, on)
+    """The wind of a picture; of a Wind that is given, what these controls can set."""
+    wind = settings.wind
+    if isinstance(wind, Wind):
+        x, _, z = wind.velocity
+        heading = float(np.degrees(np.arctan2(x, z)))
+        return WindControls(min(_speed(wind), MAX_WIND), heading, wind.gusts, wind.seed, on)
+    return WindControls(wind, settings.direction, settings.gusts, settings.seed, on)
 
 
 def wind_of(controls: WindControls) -> Wind:

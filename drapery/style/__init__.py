@@ -1,1 +1,73 @@
-"""From moving cloth to what is drawn."""
+"""How cloth looks: its thickness, where its sides lie on the texture, and the layers on it.
+
+```python
+from drapery.cloth import grid
+from drapery.mesh import Mesh, vertex_normals
+from drapery.style import FLAG_MAPPING, extrude
+
+cloth = grid(5, 9, width=0.8, height=1.6)
+normals = vertex_normals(cloth.rest_positions, cloth.triangles)
+thin = Mesh(cloth.rest_positions, normals, cloth.triangles, cloth.uvs)
+thick = extrude(thin, 0.04, FLAG_MAPPING)
+```
+
+Lengths are in metres and y is up. A sheet gets its thickness by moving each vertex along the
+average of its faces' normals; a `UVMapping` says where front, back and rim lie on the texture; a `Material`
+of several `TextureLayer`s (`drapery.render`) draws textured quads on top of one another.
+Names are imported when they are first used.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from drapery.style.block import FLAG_MAPPING, FLAG_SIZE
+    from drapery.style.body import Body, MaterialAt, Panel, Part
+    from drapery.style.crowds import cover_crowd
+    from drapery.style.extrusion import Shell, boundary_edges, extrude, make_shell
+    from drapery.style.kinds import body_of
+    from drapery.style.layers import flag_material
+    from drapery.style.uv_mapping import BoxMapping, SheetMapping, UVMapping, box_mapping
+
+__all__ = [
+    "FLAG_MAPPING",
+    "FLAG_SIZE",
+    "Body",
+    "BoxMapping",
+    "MaterialAt",
+    "Panel",
+    "Part",
+    "SheetMapping",
+    "Shell",
+    "UVMapping",
+    "body_of",
+    "boundary_edges",
+    "box_mapping",
+    "cover_crowd",
+    "extrude",
+    "flag_material",
+    "make_shell",
+]
+
+_MODULES = {
+    "block": ("FLAG_MAPPING", "FLAG_SIZE"),
+    "body": ("Body", "MaterialAt", "Panel", "Part"),
+    "crowds": ("cover_crowd",),
+    "extrusion": ("Shell", "boundary_edges", "extrude", "make_shell"),
+    "kinds": ("body_of",),
+    "layers": ("flag_material",),
+    "uv_mapping": ("BoxMapping", "SheetMapping", "UVMapping", "box_mapping"),
+}
+_HOMES = {name: module for module, names in _MODULES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'drapery.style' has no attribute {name!r}")
+    value = getattr(import_module(f"drapery.style.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

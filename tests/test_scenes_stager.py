@@ -1,0 +1,73 @@
+"""The stager: names and objects give the same cloth; objects are never taken from a cache."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import drapery.style
+from drapery import Banner
+from drapery.banner.packs import open_packs
+from drapery.cloth import Cloth, Fabric, SolverXPBD, State, Wind
+from drapery.mesh import Array
+from drapery.scenes.stager import Stager, loop, still, wind_of
+from drapery.settings import Settings
+from drapery.style.kinds import body_of
+
+NAMED = Settings(time=0.5, solver="xpbd", wind=6.0, direction=40.0, seed=3)
+
+
+def flag(**options: Any) -> Array:
+    return still(Banner(), open_packs(()), replace(NAMED, **options)).models[-1].mesh.positions
+
+
+def test_objects_equal_the_names_they_stand_for() -> None:
+    named = flag()
+    assert np.array_equal(flag(solver=SolverXPBD()), named)
+    assert np.array_equal(flag(wind=wind_of(NAMED)), named)
+    assert np.array_equal(flag(fabric=Fabric()), named)
+
+
+def test_a_stager_advances_to_the_still() -> None:
+    stager = Stager(body_of(Banner(), open_packs(()), NAMED), NAMED)
+    for _ in range(30):
+        stager.advance()
+    assert stager.time == pytest.approx(NAMED.time)
+    assert np.allclose(stager.meshes()[-1].positions, flag(), atol=1e-6)
+
+
+@dataclass
+class Push:
+    """A force that a program changes between two pictures."""
+
+    strength: float
+
+    def acceleration(self, cloth: Cloth, state: State) -> Array:
+        return np.full_like(state.positions, self.strength)
+
+
+def test_objects_are_not_taken_from_the_cache() -> None:
+    named, push = flag(), Push(0.0)
+    assert np.allclose(flag(forces=(push,)), named, atol=1e-5)
+    push.strength = 5.0
+    assert not np.allclose(flag(forces=(push,)), named, atol=1e-2)
+    assert not np.array_equal(flag(solver=SolverXPBD(substeps=8)), named)
+    assert not np.array_equal(flag(fabric=Fabric(density=0.9)), named)
+    assert not np.array_equal(flag(wind=Wind((0.0, 0.0, 9.0))), named)
+
+
+def test_a_given_wind_loops_without_a_seam() -> None:
+    settings = replace(NAMED, wind=Wind((1.0, 0.0, 6.0), period=1.7))
+    scenes = loop(Banner(), open_packs(()), settings, 40, 20.0)
+    moments = np.stack([scene.models[-1].mesh.positions for scene in scenes])
+    steps = np.linalg.norm(np.roll(moments, -1, axis=0) - moments, axis=-1).max(axis=1)
+    assert steps[-1] <= 1.1 * steps[:-1].max()
+
+
+def test_every_public_name_of_style_is_there_and_documented() -> None:
+    assert dir(drapery.style) == sorted(drapery.style.__all__)
+    for name in drapery.style.__all__:
+        assert getattr(drapery.style, name) is not None
+    with pytest.raises(AttributeError, match="nothing"):
+        drapery.style.nothing  # noqa: B018
