@@ -3,9 +3,7 @@
 from itertools import islice
 from math import hypot
 
-from drapery.cloth import disc, simulate
-from drapery.cloth.colliders import Collider
-from drapery.cloth.collisions import Collisions
+from drapery.cloth import Collider, Collisions, disc, simulate
 from drapery.render import draw_models, make_mesh
 
 
