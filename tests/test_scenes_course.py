@@ -103,7 +103,7 @@ def test_a_sail_under_one_command_is_one_motion() -> None:
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("1 faster", "line 1: '1 faster' is no command"),
+        ("1 faster", "line 1: '1 faster' is not a command"),
         ("0 on\n\nsoon off", "line 3: 'soon' is no number"),
         ("0 strength -2", "from 0 to 40"),
         ("0 strength nan", "no number"),

@@ -56,16 +56,16 @@ def wood_model(banner_blocks: Sequence[BannerBlock], packs: Packs) -> Model:
 
 
 def flag_materials(designs: Sequence[str], packs: Packs) -> tuple[Material, ...]:
-    """What flags of these designs wear. Raises FormatError or PackError."""
+    """The materials of flags of these designs. Raises FormatError or PackError."""
     return tuple(flag_material(Banner.parse(design), packs) for design in designs)
 
 
 def flag_models(
     shell: Shell, state: State, materials: tuple[Material, ...], thickness: float = 1.0
 ) -> Model:
-    """The flags of a state; the looks go round. thickness: in texels.
+    """The flags of a state; the materials repeat in turn. thickness: in texels.
 
-    Give every frame the same looks: the renderer knows by identity what it has prepared.
+    Give every frame the same materials: the renderer knows by identity what it has prepared.
     """
     index = np.arange(len(state.positions), dtype=np.int32) % len(materials)
     return garment(shell, state.positions, thickness * SCALE, *materials, index=index)

@@ -89,14 +89,14 @@ def _room() -> Array:
 
 
 def _bands(side: int) -> NDArray[np.int32]:
-    """Which look each banner wears, shape [side³]: colours change from corner to corner."""
+    """Which material each banner has, shape [side³]: colours change from corner to corner."""
     x, y, z = np.indices((side, side, side)).reshape(3, -1)
     band = (x + side - 1 - y + z) * len(RAINBOW) // (3 * side - 2)
     return (VARIANTS * band + (x + 2 * y + z) % VARIANTS).astype(np.int32)
 
 
 def _materials(parameters: StressParameters) -> tuple[Material, ...]:
-    """VARIANTS looks in each colour of the rainbow."""
+    """VARIANTS materials in each colour of the rainbow."""
     random = np.random.default_rng(parameters.seed)
     packs = open_packs(())
     return tuple(

@@ -76,7 +76,9 @@ def _obeyed(now: WindSetting, words: list[str], place: str) -> WindSetting:
                 else replace(changed, strength=number)
             )
     said = " ".join(words)[:40]
-    raise OptionError(f"{place}: {said!r} is no command; write TIME on|off|direction N|strength N")
+    raise OptionError(
+        f"{place}: {said!r} is not a command; write TIME on|off|direction N|strength N"
+    )
 
 
 def _time(text: str, now: WindSetting, place: str) -> float:
@@ -92,5 +94,5 @@ def _number(text: str, least: float, most: float, place: str) -> float:
     except ValueError:
         value = math.nan
     if not least <= value <= most:
-        raise OptionError(f"{place}: {text[:20]!r} is no number from {least:g} to {most:g}")
+        raise OptionError(f"{place}: {text[:20]!r} is not a number from {least:g} to {most:g}")
     return value

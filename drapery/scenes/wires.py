@@ -29,7 +29,7 @@ def wired(
     material: Material | None = None,
     springs: bool = False,
 ) -> tuple[Model, ...]:
-    """A cloth's edges, or all its springs by kind, and its pins; its faces in a look.
+    """A cloth's edges, or all its springs by kind, and its pins; its faces in a material.
 
     positions: [N, 3]; height: of the picture [pixels].
     """

@@ -12,8 +12,8 @@ thick = extrude(thin, 0.04, FLAG_MAPPING)
 ```
 
 Lengths are in metres and y is up. A sheet gets its thickness by moving each vertex along the
-average of its faces' normals; a `UVMapping` says where front, back and rim lie on the texture; a `Material`
-of several `TextureLayer`s (`drapery.render`) draws textured quads on top of one another.
+average of its faces' normals; a `UVMapping` says where front, back and rim lie on the texture; a
+`Material` of several `TextureLayer`s (`drapery.render`) draws textured quads on one another.
 Names are imported when they are first used.
 """
 

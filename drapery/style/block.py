@@ -22,6 +22,8 @@ FLAG_SIZE = (20 * SCALE, 40 * SCALE)
 """Width and height of the flag [m]."""
 
 FLAG_MAPPING = box_mapping((0, 0), (20, 40, 1))
+"""Where the sides of a flag lie on its texture, as the game's model has them."""
+
 SWAY_PERIOD = 5.0
 """The game's own sway repeats after this time [s]: 100 ticks of 1/20 s."""
 

@@ -1,4 +1,4 @@
-"""What is to be drawn, before it moves: stiff parts, panels of cloth, and what they wear."""
+"""What is to be drawn, before it moves: stiff parts, panels of cloth, and their materials."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,12 +11,12 @@ from drapery.render.scene import Material
 from drapery.style.uv_mapping import UVMapping
 
 MaterialAt = Callable[[float], Material]
-"""What is worn at a time [s]: one and the same look for as long as it looks the same."""
+"""The material at a time [s]; the same object for as long as it looks the same."""
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A stiff piece [m] and what it wears."""
+    """A stiff piece of a body. mesh: [m]. material_at: its material at a time [s]."""
 
     mesh: Mesh
     material_at: MaterialAt
@@ -29,12 +29,12 @@ class Panel:
     size: width and height [m].
     origin: where the middle of its top edge hangs [m], shape [3].
     texel: the unit of its thickness [m].
-    uv_mapping: where its sides lie on the texture.
-    pins: what of it is held.
+    uv_mapping: where its sides lie on the texture; hashable.
+    pins: which particles are held.
     board: its stiff shape in the game, hung, at a phase 0..1 of its sway and of a thickness
         [texels].
     sway: the period of that sway [s]; None where the game holds it still.
-    material_at: what it wears.
+    material_at: its material at a time [s].
     """
 
     size: tuple[float, float]
@@ -49,10 +49,10 @@ class Panel:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """One thing to be drawn.
+    """One thing to be drawn: stiff parts and panels of cloth.
 
-    period: of its animated textures [s]; 0 where they are still.
-    light: what falls on it. camera: None frames it by a named view.
+    period: of its animated textures [s]; 0 if they are still.
+    light: the light on it. camera: its own; None if a named view frames it.
     """
 
     parts: tuple[Part, ...] = ()

@@ -17,7 +17,10 @@ from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
 
 
 def boundary_edges(triangles: Triangles) -> NDArray[np.int32]:
-    """Edges that only one triangle has, shape [E, 2], each running as its triangle runs."""
+    """The edges that only one triangle has, shape [E, 2], in the direction of their triangles.
+
+    triangles: vertex indices, shape [T, 3].
+    """
     edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     _, first, count = np.unique(
         np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True
@@ -52,7 +55,7 @@ class Shell:
         return np.ascontiguousarray(np.concatenate(parts), np.int32)
 
     def cover(self, positions: Array, normals: Array, thickness: float) -> Mesh:
-        """The shell around thin sheets.
+        """The shells around thin sheets: each vertex moves half the thickness along its normal.
 
         positions, normals: [m] and unit, shape [..., N, 3].
         thickness: distance between the two sheets [m].
@@ -76,7 +79,12 @@ class Shell:
 
 
 def make_shell(triangles: Triangles, uvs: Array, uv_mapping: UVMapping = SHEET_MAPPING) -> Shell:
-    """The shell of a sheet with these triangles [T, 3] and UVs [N, 2], painted by a skin."""
+    """The constant part of thick cloths that share their triangles and texture coordinates.
+
+    triangles: of the thin sheet, shape [T, 3]. uvs: its texture coordinates 0..1, shape [N, 2].
+    uv_mapping: where its front, back and rim lie on the texture; the same picture on both sides
+    unless given. `Shell.cover` makes the mesh at each moment.
+    """
     rim = boundary_edges(triangles)
     sheets = [uv_mapping.front(uvs), uv_mapping.back(uvs)]
     return Shell(len(uvs), triangles, rim, np.concatenate([*sheets, uv_mapping.rim(uvs, rim)]))
@@ -85,7 +93,8 @@ def make_shell(triangles: Triangles, uvs: Array, uv_mapping: UVMapping = SHEET_M
 def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING) -> Mesh:
     """Give a thin mesh a thickness [m]: front and back sheets and a closed rim.
 
-    The mesh's normals say where forwards is; give averaged ones (`vertex_normals`).
+    mesh: its normals say where forwards is; give averaged ones (`drapery.mesh.vertex_normals`).
+    uv_mapping: see `make_shell`. For moving cloth, make the shell once and `cover` each moment.
     """
     shell = make_shell(mesh.triangles, mesh.uvs, uv_mapping)
     return shell.cover(mesh.positions, mesh.normals, thickness)

@@ -1,4 +1,4 @@
-"""A walking figure of boxes: its parts, how it is posed, and what it wears.
+"""A walking figure of boxes: its parts, poses and materials.
 
 It stands on y = 0 at the origin, faces +z, and is 32 texels tall, like the game's people, which is
 1.875 m; it wears any skin of their layout, 64 x 64 texels.

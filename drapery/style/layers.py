@@ -1,4 +1,4 @@
-"""Layers as looks: textured quads stacked on one another, or one composited texture.
+"""Layers as materials: textured quads stacked on one another, or one composited texture.
 
 Stacked is the game's way: every layer is drawn over the one below, tinted on the way. Flat
 composites them first and draws one texture; pictures of the two agree within 2/255.
@@ -21,7 +21,7 @@ LayerMode = Literal["stacked", "flat"]
 def flag_material(
     banner: Banner, packs: Packs, mode: LayerMode = "stacked", time: float = 0.0
 ) -> Material:
-    """What the flag wears: the cloth, the base dye, then the layers in order.
+    """The material of a flag: the cloth, the base dye, then the layers in order.
 
     time: for animated textures [s]. Raises PackError where a texture cannot be used.
     """
@@ -29,30 +29,30 @@ def flag_material(
 
 
 def wood_material(packs: Packs) -> Material:
-    """What pole and bar wear."""
+    """The material of pole and bar."""
     return Material((TextureLayer(packs.base_sheet()),))
 
 
 def flag_material_at(banner: Banner, packs: Packs, settings: Settings) -> MaterialAt:
-    """What the flag wears at a time. Raises PackError where a texture cannot be used."""
+    """The material of a flag at each time. Raises PackError for an unusable texture."""
     maps = design_maps(banner, packs, "banner") if settings.pbr else ()
     return _material_at(lambda time: flag_layers(banner, packs, time), settings.layers, maps)
 
 
 def wood_material_at(packs: Packs, settings: Settings) -> MaterialAt:
-    """What pole and bar wear at a time. Raises PackError."""
+    """The material of pole and bar at a time. Raises PackError."""
     maps = design_maps(Banner(), packs, "banner")[:1] if settings.pbr else ()
     return _material_at(lambda time: ((packs.base_sheet(time), WHITE),), "stacked", maps)
 
 
 def plate_material_at(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
-    """What a shield's plate wears; None is the shield without a design. Raises PackError."""
+    """The material of a shield's plate; None is the shield without a design. Raises PackError."""
     maps = design_maps(design, packs, "shield") if settings.pbr else ()
     return _material_at(lambda time: shield_layers(design, packs, time), settings.layers, maps)
 
 
 def handle_material_at(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
-    """What a shield's handle wears: the lowest sheet alone, as in the game. Raises PackError."""
+    """The material of a shield's handle: the lowest sheet alone, as in the game. Raises PackError."""
     maps = design_maps(design, packs, "shield")[:1] if settings.pbr else ()
     return _material_at(lambda time: shield_layers(design, packs, time)[:1], "stacked", maps)
 
@@ -68,7 +68,7 @@ def textures_period(
 def _material_at(
     layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode, maps: tuple[Maps, ...] = ()
 ) -> MaterialAt:
-    # The renderer knows what it has prepared by identity, so the same textures are the same look.
+    # The renderer knows what it has prepared by identity, so the same textures give the same material.
     known: dict[tuple[int, ...], tuple[tuple[Tinted, ...], Material]] = {}
 
     def at(time: float) -> Material:

@@ -18,9 +18,9 @@ def garment(
     *materials: Material,
     index: NDArray[np.int32] | None = None,
 ) -> Model:
-    """A cloth, or a batch of them, as it is worn: the thin sheet made thick.
+    """A cloth, or a batch of them, made thick.
 
-    sheet: [..., N, 3]; thickness: [m]; looks, index: as in `Model`.
+    sheet: [..., N, 3]; thickness: [m]; materials, index: as in `Model`.
     """
     normals = vertex_normals(sheet, shell.sheet)
     return Model(shell.cover(sheet, normals, thickness), materials, index)

@@ -26,7 +26,7 @@ class UVMapping(Protocol):
 
 
 class SheetMapping:
-    """The same picture on both sides; the rim repeats the texels at the border."""
+    """The same picture on both sides; the rim repeats the texels at the border. See `UVMapping`."""
 
     def front(self, uvs: Array) -> Array:
         return uvs
@@ -39,6 +39,7 @@ class SheetMapping:
 
 
 SHEET_MAPPING = SheetMapping()
+"""The mapping of cloth that is given none."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,8 @@ class BoxMapping:
     """The unfolded box of the game's models: a rectangle for each of the six sides.
 
     The left edge's strip has the front at its right border, the right edge's at its left, the
-    top and bottom edges' at their lower border: so the picture runs on around the corner.
+    top and bottom edges' at their lower border, so the picture continues around the corner. All
+    rectangles are fractions of the texture: left, top, right, bottom.
     """
 
     front_rect: Rect
@@ -96,10 +98,10 @@ def box_mapping(
     size: tuple[float, float, float],
     sheet: tuple[float, float] = (64, 64),
 ) -> BoxMapping:
-    """The skin of a box of the game's models, all in texels.
+    """Where the sides of a box lie on its texture, as in the game's models; all in texels.
 
-    offset: upper left corner of its unfolding; size: width, height and depth of the box; sheet:
-    width and height of the texture.
+    offset: the upper left corner of the unfolded box on the texture. size: width, height and depth
+    of the box. sheet: width and height of the texture.
     """
     x, y = offset
     width, height, depth = size

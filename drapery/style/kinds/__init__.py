@@ -1,4 +1,4 @@
-"""The kinds of things that are drawn, each a function from what it wears to its body."""
+"""The kinds of things that are drawn, each a function from a design or texture to its body."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from drapery.style.kinds import banner, cape, elytra, shield
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind. takes: what it wears. placements: where it can be."""
+    """One kind. takes: what it is drawn with. placements: where it can be."""
 
     build: Callable[[Banner | None, Packs, Settings], Body]
     takes: Literal["design", "texture"]
@@ -48,7 +48,7 @@ def check_kind(design: Banner | None, settings: Settings) -> Kind:
         places = " or ".join(kind.placements)
         raise OptionError(f"placement {settings.placement} is not for a {name}; use {places}")
     if kind.takes == "texture" and design is not None:
-        raise OptionError(f"kind {name} wears no design; give its texture alone, a PNG file")
+        raise OptionError(f"kind {name} takes no design; give only its texture, a PNG file")
     if kind.takes == "design" and settings.texture is not None:
         raise OptionError("texture is for a cape or elytra; use kind cape, or leave it out")
     return kind
