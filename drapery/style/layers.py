@@ -52,7 +52,7 @@ def plate_material_at(design: Banner | None, packs: Packs, settings: Settings) -
 
 
 def handle_material_at(design: Banner | None, packs: Packs, settings: Settings) -> MaterialAt:
-    """The material of a shield's handle: the lowest sheet alone, as in the game. Raises PackError."""
+    """The material of a shield's handle: the lowest sheet alone. Raises PackError."""
     maps = design_maps(design, packs, "shield")[:1] if settings.pbr else ()
     return _material_at(lambda time: shield_layers(design, packs, time)[:1], "stacked", maps)
 
@@ -68,7 +68,7 @@ def textures_period(
 def _material_at(
     layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode, maps: tuple[Maps, ...] = ()
 ) -> MaterialAt:
-    # The renderer knows what it has prepared by identity, so the same textures give the same material.
+    # The renderer knows by identity what it has prepared, so equal textures give one material.
     known: dict[tuple[int, ...], tuple[tuple[Tinted, ...], Material]] = {}
 
     def at(time: float) -> Material:
