@@ -51,7 +51,7 @@ def link_groups(cloth: Cloth, limit: float, sweeps: int) -> list[Attachments]:
         return []
     springs = across_then_outwards(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
     fine = cloth.spring_pairs[springs], limit * cloth.spring_length[springs]
-    held = attachments(cloth, limit)
+    held = long_range_attachments(cloth, limit)
     groups = [held, *_long_links(cloth, limit), *[fine] * sweeps, held]
     return [shared(cloth, *group) for group in groups]
 
@@ -77,7 +77,7 @@ def shared(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Attachment
     return Attachments(pairs, longest[free], shares[:, 0].copy(), shares[:, 1].copy())
 
 
-def attachments(cloth: Cloth, slack: float) -> tuple[NDArray[np.int32], Array]:
+def long_range_attachments(cloth: Cloth, slack: float) -> tuple[NDArray[np.int32], Array]:
     """Pin and particle pairs [K, 2] and the farthest they may be apart [m], [K].
 
     slack: that distance over the one on the cloth at rest. It should be no less than springs may

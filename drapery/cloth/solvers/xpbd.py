@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels, sheet_kernels, simd
-from drapery.cloth.attachments import Attachments, attachments
+from drapery.cloth.attachments import Attachments, long_range_attachments
 from drapery.cloth.checks import check_flag, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.faces import wind_faces
@@ -146,7 +146,7 @@ class SolverXPBD(KernelSolver):
         return own
 
     def _links(self, cloth: Cloth) -> Attachments:
-        pairs, max_distance = attachments(cloth, SLACK)
+        pairs, max_distance = long_range_attachments(cloth, SLACK)
         own = cloth.spring_length[cloth.spring_kind == STRUCTURAL]
         far = self.attach & (max_distance > (NEAR + 0.5) * SLACK * own.mean())
         ones = np.ones(int(far.sum()))
