@@ -396,10 +396,9 @@ class Settings:
     @property
     def wind_speed(self) -> float:
         """Mean speed of the wind [m/s]."""
-        if isinstance(self.wind, float):
-            return self.wind
-        velocity: Sequence[float] = getattr(self.wind, "velocity", (self.wind,))
-        return math.hypot(*velocity)
+        if isinstance(self.wind, int | float):
+            return float(self.wind)
+        return math.hypot(*self.wind.velocity)
 
     @property
     def turned(self) -> float:

@@ -1,72 +1,76 @@
-"""Imports run downhill, nothing hides, and what is installed is what is here."""
+"""Inner packages never import outer ones, no modules import in a circle, and all are installed."""
 
 import ast
 import tomllib
+from collections import Counter
+from collections.abc import Iterator
+from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parent.parent
-ROOMS = {
+FOLDERS = {
     "drapery": ROOT / "drapery",
     "drapery.render": ROOT / "render",
     "drapery.assets": ROOT / "assets",
 }
-
-# Each room and the rooms it may import. Longest prefix decides; a room may import itself.
-LAW: dict[str, set[str]] = {
-    "drapery.errors": set(),
-    "drapery.mesh": {"errors"},
-    "drapery.option": {"errors"},
-    "drapery.settings": {"errors", "option"},
-    "drapery.jit_cache": set(),
-    "drapery.jit": {"jit_cache"},
-    "drapery.options": {"errors", "settings"},
-    "drapery.yaml_text": {"errors"},
-    "drapery.cloth": {"errors", "jit", "mesh"},
-    "drapery.banner": {"errors", "assets"},
-    "drapery.packs": {"banner"},
-    "drapery.assets": set(),
-    "drapery.render": {"errors", "jit", "mesh"},
-    "drapery.style": {"errors", "jit", "mesh", "settings", "banner", "render"},
-    "drapery.scenes": {"errors", "mesh", "settings", "cloth", "banner", "style", "render"},
-    "drapery.pictures": {"errors", "mesh", "settings", "banner", "render", "scenes"},
-    "drapery.comparison": {"errors", "mesh", "settings", "banner", "render", "pictures", "scenes"},
-    "drapery.sheets": {
-        *("errors", "settings", "banner", "render", "pictures", "comparison", "scenes"),
-    },
-    "drapery.beet": {"errors", "settings", "banner", "testing"},
-    "drapery.testing": {
-        *(
-            "errors",
-            "options",
-            "settings",
-            "yaml_text",
-            "banner",
-            "render",
-            "pictures",
-            "comparison",
-        ),
-    },
-    "drapery.batch": {
-        *("drapery", "errors", "option", "options", "settings", "yaml_text"),
-        *("banner", "packs", "style", "render"),
-    },
-    "drapery.serve": {
-        *("drapery", "errors", "option", "options", "settings", "style", "batch"),
-    },
-    "drapery.studio": {
-        *("drapery", "errors", "mesh", "option", "options", "settings"),
-        *("cloth", "banner", "packs", "render", "style", "scenes", "pictures"),
-    },
-}
 NOT_INSTALLED = ROOT / "assets" / "drawing"
-TOP_FLOOR = {"drapery.cli", "drapery.commands", "drapery.__main__", "drapery"}
+
+FOUNDATION = {"errors", "mesh", "option", "options", "settings", "yaml_text", "jit", "jit_cache"}
+CORE = {"cloth", "banner", "packs", "render", "style", "assets"}
+PICTURES = {"scenes", "pictures", "comparison", "sheets"}
+APPLICATIONS = {"commands", "testing", "batch", "serve", "studio", "beet", "cli", "__main__"}
+RINGS = (FOUNDATION, CORE, PICTURES, APPLICATIONS)
+"""From the innermost ring to the outermost; none imports one that is further out."""
+
+# Within a ring, and in the foundation, each package names those that it may import.
+ALLOWED: dict[str, set[str]] = {
+    "errors": set(),
+    "jit_cache": set(),
+    "jit": {"jit_cache"},
+    "mesh": {"errors"},
+    "option": {"errors"},
+    "settings": {"errors", "option"},
+    "options": {"errors", "option", "settings"},
+    "yaml_text": {"errors"},
+    "assets": set(),
+    "banner": {"assets"},
+    "packs": {"banner"},
+    "cloth": set(),
+    "render": set(),
+    "style": {"banner", "render"},
+    "scenes": set(),
+    "pictures": {"scenes"},
+    "comparison": {"pictures", "scenes"},
+    "sheets": {"pictures", "comparison", "scenes"},
+    "testing": set(),
+    "beet": {"testing"},
+    "batch": set(),
+    "serve": {"batch"},
+    "studio": set(),
+    "commands": {"testing", "batch", "serve", "studio"},
+    "cli": {"commands"},
+    "__main__": {"cli"},
+}
+KNOWS_NO_SETTINGS = {"cloth", "banner", "packs", "render", "assets"}
+"""Packages that others use without Drapery's options."""
+
+PUBLIC = {
+    *("drapery", "drapery.cloth", "drapery.cloth.colliders", "drapery.render", "drapery.style"),
+    *("drapery.packs", "drapery.testing", "drapery.batch", "drapery.banner.formats"),
+    *(f"drapery.{name}" for name in FOUNDATION),
+}
+"""Modules whose names others may import."""
+PRIVATE_IMPORTS = {"batch": 14, "beet": 1, "commands": 45, "serve": 2, "studio": 78, "testing": 22}
+"""Imports of other modules by each application that are left. The numbers may only fall."""
 
 
+@cache
 def modules() -> dict[str, Path]:
     found = {}
-    for package, folder in ROOMS.items():
+    for package, folder in FOLDERS.items():
         for path in sorted(folder.rglob("*.py")):
             if NOT_INSTALLED in path.parents:
                 continue
@@ -76,51 +80,104 @@ def modules() -> dict[str, Path]:
     return found
 
 
-def room_of(name: str) -> str:
-    return ".".join(name.split(".")[:2])
+def package_of(name: str) -> str:
+    return name.split(".")[1] if "." in name else "__init__"
 
 
-def imports_of(path: Path) -> set[str]:
-    names: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+def ring_of(package: str) -> int:
+    return next(number for number, ring in enumerate(RINGS) if package in ring)
+
+
+def _for_types_only(node: ast.AST) -> bool:
+    return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
+
+
+def _running(node: ast.AST) -> Iterator[ast.AST]:
+    """All nodes below, those of imports for type checkers left out."""
+    for child in ast.iter_child_nodes(node):
+        if not _for_types_only(child):
+            yield child
+            yield from _running(child)
+
+
+@cache
+def imports_of(name: str) -> frozenset[str]:
+    """The modules of ours that a module imports, at any depth of its code."""
+    found: set[str] = set()
+    for node in _running(ast.parse(modules()[name].read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
+            found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{path}: write imports from the top"
-            names.add(node.module or "")
-    return {name for name in names if name.split(".")[0] == "drapery"}
+            assert node.level == 0, f"{name}: write imports from the top"
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                found.add(inner if inner in modules() else node.module or "")
+    return frozenset(target for target in found if target in modules())
 
 
 @pytest.mark.parametrize("name", sorted(modules()))
-def test_imports_run_downhill(name: str) -> None:
-    room = room_of(name)
-    if room in TOP_FLOOR:
+def test_imports_lead_inwards(name: str) -> None:
+    package = package_of(name)
+    if package == "__init__":
         return
-    allowed = LAW.get(room)
-    assert allowed is not None, f"{room} has no place in the law of imports"
-    for target in imports_of(modules()[name]):
-        other = room_of(target)
-        assert other == room or other.removeprefix("drapery.") in allowed, f"{name} -> {target}"
+    assert package in ALLOWED, f"{package} has no place in the import contract"
+    for target in imports_of(name):
+        other = package_of(target)
+        if other in (package, "__init__"):
+            continue
+        assert ring_of(other) <= ring_of(package), f"{name} -> {target}: outwards"
+        if ring_of(other) == ring_of(package):
+            assert other in ALLOWED[package], f"{name} -> {target}: not in the contract"
+        if package in KNOWS_NO_SETTINGS:
+            assert other not in ("settings", "options", "option"), f"{name} -> {target}"
+
+
+def test_no_modules_import_each_other_in_a_circle() -> None:
+    try:
+        TopologicalSorter({name: imports_of(name) for name in modules()}).prepare()
+    except CycleError as error:
+        pytest.fail(" -> ".join(reversed(error.args[1])))
+
+
+def private_imports(package: str) -> list[str]:
+    """The imports of modules that are not public by a package of another ring."""
+    return [
+        f"{name} -> {target}"
+        for name in modules()
+        if package_of(name) == package
+        for target in sorted(imports_of(name))
+        if package_of(target) != package
+        and target not in PUBLIC
+        and package_of(target) not in APPLICATIONS
+    ]
+
+
+@pytest.mark.parametrize("package", sorted(APPLICATIONS))
+def test_applications_import_public_names(package: str) -> None:
+    found = private_imports(package)
+    assert len(found) <= PRIVATE_IMPORTS.get(package, 0), "\n".join(found)
 
 
 def test_every_package_is_installed() -> None:
-    config = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    config = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     listed = set(config["tool"]["setuptools"]["packages"])
     here = {
-        ".".join((package, *path.parent.relative_to(folder).parts))
-        for package, folder in ROOMS.items()
-        for path in folder.rglob("*.py")
-        if NOT_INSTALLED not in path.parents
+        name if path.name == "__init__.py" else name.rpartition(".")[0]
+        for name, path in modules().items()
     }
     assert listed == here
 
 
-def test_no_module_bears_the_name_of_its_function() -> None:
+def test_no_module_has_the_name_of_its_function() -> None:
     for name, path in modules().items():
         own = name.rsplit(".", 1)[-1]
         functions = {
             node.name
-            for node in ast.parse(path.read_text()).body
+            for node in ast.parse(path.read_text(encoding="utf-8")).body
             if isinstance(node, ast.FunctionDef)
         }
         assert own not in functions, f"{name} holds a function of its own name"
+
+
+if __name__ == "__main__":
+    print(Counter({package: len(private_imports(package)) for package in APPLICATIONS}))

@@ -66,7 +66,7 @@ def resolved(job: Job, artifacts: tuple[Artifact, ...]) -> Job:
     if not artifacts:
         return job
     here = [unbundle(artifact) for artifact in artifacts]
-    count = len(job.settings.packs)
+    count = len(job.settings.pack_paths)
     settings: Settings = replace(
         job.settings, packs=tuple(here[:count]), texture=here[count] if here[count:] else None
     )
