@@ -1,4 +1,4 @@
-"""The command line: which commands there are, and how a fault ends."""
+"""The command line: its commands, and how errors are printed."""
 
 import sys
 
@@ -54,7 +54,7 @@ app.add_typer(sheet.app, name="sheet")
 
 
 def main() -> None:
-    """Run a command. A fault of the input is one line on standard error and exit code 2."""
+    """Run a command. Bad input prints one line on standard error; the exit code is 2."""
     adopt_warnings()
     try:
         code = app(standalone_mode=False)
@@ -67,7 +67,8 @@ def main() -> None:
             say(f"{error.format_message()} (see `drapery --help`)")
         code = error.exit_code
     except OSError as error:
-        say(f"{error.filename or 'the output'}: {error.strerror or error}; mend that, then go on")
+        place = error.filename or "the output"
+        say(f"{place}: {error.strerror or error}; correct that and try again")
         code = 2
     except (KeyboardInterrupt, typer.Abort):
         say("stopped")

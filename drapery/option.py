@@ -31,7 +31,7 @@ class Option:
     choices: the values that are allowed, where they are few.
     parts: the names of the two whole numbers of a pair such as `512x512`.
     several: whether the value is a tuple of any number of values.
-    takes: tells an object that a program may give as it is, in place of a name or a number.
+    takes: whether an object may be given, by a program, in place of a name or a number.
     audience: who may set it.
     flag: its name on the command line.
     metavar: what help shows in place of the value.

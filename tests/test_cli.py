@@ -211,7 +211,7 @@ def test_the_library_names_an_option_of_the_wrong_kind(options: dict[str, Any]) 
         Settings(**options)
 
 
-def test_what_is_no_banner_is_told_how_to_become_one() -> None:
+def test_what_is_not_a_banner_is_refused_with_a_remedy() -> None:
     with pytest.raises(DesignError, match=r"Banner\.parse"):
         draw("white creeper:lime")  # type: ignore[arg-type]
     with pytest.raises(DesignError, match="Layer"):
@@ -235,7 +235,7 @@ def test_help_does_not_wait_for_the_kernels() -> None:
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
 
 
-def test_doctor_tells_the_whole_remedy(drapery: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_doctor_prints_the_whole_remedy(drapery: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     from drapery.render import doctor
 
     report = [doctor.BackendReport("video", False, "no PyAV", 'pip install "drapery[video]"')]

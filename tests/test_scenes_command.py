@@ -16,7 +16,7 @@ def test_the_list_names_every_scene(drapery) -> None:
     assert all(len(line) < 120 for line in out.splitlines())
 
 
-def test_a_scene_alone_tells_its_parameters(drapery) -> None:
+def test_a_scene_alone_lists_its_parameters(drapery) -> None:
     code, out, _ = drapery("scene", "blocky")
     assert code == 0
     assert "steps = 4" in out and "pixel_snap = True" in out
@@ -61,7 +61,7 @@ def test_a_sail_obeys_its_script(drapery, tmp_path) -> None:
         (["banner", "--left-grid", "1x5"], "columns 1"),
         (["sail", "--script", "none.txt"], "script none.txt cannot be read"),
         (["cape", "--dye", "sky"], "dye 'sky' is not known"),
-        ([], "no scene is named"),
+        ([], "no scene is given"),
     ],
 )
 def test_a_fault_is_one_line_and_leaves_no_file(drapery, tmp_path, words, fault) -> None:

@@ -1,1 +1,1 @@
-"""The commands, one file each; what they draw with is imported when they run."""
+"""The commands, one file each; they import what they need when they run."""

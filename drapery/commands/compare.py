@@ -23,7 +23,7 @@ def run(
         list[str],
         typer.Argument(
             metavar="A [B]...",
-            help="Designs, packs with one design, or pictures drawn before.",
+            help="Designs, one design and packs, or finished pictures.",
             show_default=False,
         ),
     ],
@@ -37,7 +37,7 @@ def run(
         ),
     ] = None,
     tolerance: Annotated[int, typer.Option(help="Channel errors up to this do not count.")] = 0,
-    pixels: Annotated[int, typer.Option(help="So many pixels may differ more.")] = 0,
+    pixels: Annotated[int, typer.Option(help="Number of pixels that may differ more.")] = 0,
     perceptual: Annotated[
         bool, typer.Option("--perceptual", help="SSIM and FLIP as well (extra: compare).")
     ] = False,
@@ -52,7 +52,7 @@ def run(
     ] = "auto",
     **words: Any,
 ) -> None:
-    """Hold pictures against the first; exit code 0 same, 1 different, 2 bad input."""
+    """Compare pictures with the first; exit code 0 same, 1 different, 2 bad input."""
     from drapery.comparison.pairs import compare_variants
     from drapery.comparison.variants import draw_variants
     from drapery.option import within
@@ -94,7 +94,7 @@ def _close(pair: "Comparison", tolerance: int, pixels: int) -> bool:
 
 
 def _check_target(target: Path) -> None:
-    """Refuse a target before the work. Raises OptionError or OutputError."""
+    """Check a target before anything is drawn. Raises OptionError or OutputError."""
     from drapery.errors import OptionError
     from drapery.render.encode.output import check_writable
 

@@ -16,7 +16,7 @@ def run(
     scale: Annotated[int, typer.Option(help="Pixels per texel of a 64 x 64 pack.")] = 8,
     form: o.FromOption = None,
     number: o.NumberOption = None,
-    back: Annotated[bool, typer.Option("--back", help="The other side.")] = False,
+    back: Annotated[bool, typer.Option("--back", help="Draw the back.")] = False,
     packs: o.PackOption = None,
     format: o.FormatOption = None,
 ) -> None:

@@ -26,7 +26,7 @@ _PAGE = """<!doctype html>
   code { background: #eeeeea; padding: .1rem .3rem; border-radius: 3px; }
 </style>
 <h1>The scenes</h1>
-<p>Each is one command; <code>drapery scene NAME</code> alone tells its parameters.</p>
+<p>Each is one command; <code>drapery scene NAME</code> alone lists its parameters.</p>
 <main>
 {% for scene in scenes %}
 <section>
@@ -52,7 +52,9 @@ def run(
         list[str] | None,
         typer.Argument(metavar="[NAME]...", help="Some scenes only.", show_default="all"),
     ] = None,
-    seconds: Annotated[float | None, typer.Option(help="Length of each; else its own.")] = None,
+    seconds: Annotated[
+        float | None, typer.Option(help="Length of each in seconds.", show_default="its own")
+    ] = None,
     kind: Annotated[str, typer.Option("--as", help=f"One of {', '.join(KINDS)}.")] = "gif",
     size: o.SizeOption = "480x480",
     backend: o.BackendOption = "auto",

@@ -53,8 +53,8 @@ def run(
         check_sheet_target(steps)
     banner = read_design(design, form=form, number=number)
     opened = open_packs(settings.packs, format=format)
-    _tell_steps(banner)
-    _tell_hidden(banner, opened)
+    _print_steps(banner)
+    _print_hidden(banner, opened)
     with compile_notice():
         if out is not None:
             (frame,) = draw_scenes([apart(banner, opened, settings)], opened, settings)
@@ -63,7 +63,7 @@ def run(
             steps_sheet(banner, opened).save(steps)
 
 
-def _tell_steps(banner: "Banner") -> None:
+def _print_steps(banner: "Banner") -> None:
     from drapery.banner.loom import fits_loom, steps
 
     print(f"start with a {banner.base.replace('_', ' ')} banner")
@@ -72,10 +72,10 @@ def _tell_steps(banner: "Banner") -> None:
         dye = step.layer.dye.replace("_", " ")
         print(f"{number:2}. {step.layer.pattern} with {dye} dye{item}")
     if not fits_loom(banner):
-        print("a loom stops at six layers; this design wants a command")
+        print("a loom makes six layers at most; make this design with a command")
 
 
-def _tell_hidden(banner: "Banner", packs: "Packs") -> None:
+def _print_hidden(banner: "Banner", packs: "Packs") -> None:
     from drapery.banner.formats import write_banner
     from drapery.banner.loom import simplified
 

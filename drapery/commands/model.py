@@ -20,7 +20,7 @@ FLAT = (
     *("size", "layers", "pbr", "background", "samples", "pixel", "backend"),
     *("light", "block_light", "sky_light", "daylight", "shadow"),
 )
-"""Options of pictures that a model has no use for."""
+"""Options of pictures that a model does not use."""
 
 
 @o.pictured(*FLAT)

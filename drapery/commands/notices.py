@@ -1,4 +1,4 @@
-"""What a command says on the side, on standard error: notes, warnings, progress."""
+"""What a command prints on standard error: notes, warnings, progress."""
 
 import subprocess
 import sys
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def say(line: str) -> None:
-    """One line to the user, beside the result."""
+    """Print one line to the user; the result itself goes to standard output."""
     print(f"drapery: {line}", file=sys.stderr, flush=True)
 
 
@@ -24,22 +24,22 @@ def show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    """`warnings.showwarning` for the command line: our own words, without the place in the code."""
+    """`warnings.showwarning` for the command line: one line, without the place in the code."""
     say(str(message))
 
 
 def adopt_warnings() -> None:
-    """Show what the library warns of as plain lines, each once."""
+    """Print each warning of the library once, as a plain line."""
     warnings.showwarning = show_warning
     warnings.simplefilter("once", UserWarning)
 
 
 @contextmanager
 def compile_notice() -> Iterator[None]:
-    """Say so when kernels are being compiled: it happens once, and takes some seconds.
+    """Print a line when kernels are compiled, which happens once and takes some seconds.
 
-    Where it is the cloth's turn, another process compiles the rasteriser meanwhile; this one
-    finds it in the cache.
+    While this process compiles the cloth's kernels, another compiles those of the renderer, which
+    this one then finds in the cache.
     """
     from numba.core import event
 
@@ -61,7 +61,7 @@ def compile_notice() -> Iterator[None]:
 
 
 def _start_beside(module: str) -> None:
-    """Run a module in a process of its own, which nobody waits for."""
+    """Run a module in another process, without waiting for it."""
     nowhere = subprocess.DEVNULL
     command = [sys.executable, "-m", module]
     with suppress(OSError):
@@ -70,14 +70,14 @@ def _start_beside(module: str) -> None:
 
 @contextmanager
 def progress(what: str, total: int) -> Iterator[Callable[[int, int | None], None]]:
-    """A bar with count, rate and time left; the callable takes how many are done, of how many."""
+    """A bar with count, rate and time left; the callable takes the number done and the total."""
     with bar_of(what) as bar:
         task = bar.add_task(what, total=total)
         yield lambda done, _total: bar.update(task, completed=done)
 
 
 def bar_of(what: str, *more: str) -> "Progress":
-    """A bar on standard error: count, rate, time left, and more columns by rich's own words."""
+    """A bar on standard error: count, rate, time left, and more columns in rich's markup."""
     from rich.console import Console
     from rich.progress import (
         BarColumn,

@@ -26,7 +26,7 @@ def run(
     ] = None,
     format: o.FormatOption = None,
 ) -> None:
-    """Say what packs have, lack and override; exit code 1 if something in them is broken."""
+    """List what packs have, lack and override; exit code 1 if something in them is broken."""
     from drapery.banner.packs import open_packs
     from drapery.banner.packs.contents import describe_packs
     from drapery.settings import check_format

@@ -8,7 +8,7 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
 
 CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
-"""Options that are no command's own are parameters of the scene: `--script FILE`."""
+"""Options that the command does not know are parameters of the scene: `--script FILE`."""
 
 
 def run(
@@ -20,16 +20,16 @@ def run(
         str | None,
         typer.Option("-o", "--out", metavar="TARGET", help="A picture, animation or folder."),
     ] = None,
-    show_list: Annotated[bool, typer.Option("--list", help="Name all scenes.")] = False,
+    show_list: Annotated[bool, typer.Option("--list", help="List all scenes.")] = False,
     parameter: Annotated[
         list[str] | None,
         typer.Option("-p", "--set", metavar="NAME=VALUE", help="A parameter of the scene."),
     ] = None,
     seconds: Annotated[
-        float | None, typer.Option(help="Length of the animation; most scenes' own is 4.")
+        float | None, typer.Option(help="Length of the animation in seconds; 4 for most scenes.")
     ] = None,
     fps: Annotated[
-        float | None, typer.Option(help="Frames per second; most scenes' own are 20.")
+        float | None, typer.Option(help="Frames per second; 20 for most scenes.")
     ] = None,
     size: o.SizeOption = "480x480",
     backend: o.BackendOption = "auto",
@@ -43,7 +43,7 @@ def run(
     if show_list:
         _show_list()
     elif name is None:
-        raise OptionError("no scene is named; `drapery scene --list` names them all")
+        raise OptionError("no scene is given; `drapery scene --list` lists them all")
     elif out is None:
         _show_parameters(name)
     else:

@@ -25,7 +25,7 @@ def write_patterns(
     dyes: Annotated[
         str, typer.Option(help="Dyes of the patterns: all, or a list with commas.")
     ] = "all",
-    back: Annotated[bool, typer.Option("--back", help="The other side.")] = False,
+    back: Annotated[bool, typer.Option("--back", help="Draw the backs.")] = False,
     scale: Annotated[int, typer.Option(help="Pixels per texel of a 64 x 64 pack.")] = 3,
     packs: o.PackOption = None,
     format: o.FormatOption = None,

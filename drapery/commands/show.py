@@ -19,12 +19,12 @@ def run(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option("-o", "--out", metavar="FILE", help="Write it there, as .nbt, .schem, ..."),
+        typer.Option("-o", "--out", metavar="FILE", help="The file to write, as .nbt, .schem, ..."),
     ] = None,
     form: o.FromOption = None,
     number: o.NumberOption = None,
 ) -> None:
-    """Say what was understood of one banner or many, or write them in another form."""
+    """Show one banner or many, layer by layer, or write them in another form."""
     from drapery.banner.formats import read_designs, write_banner
     from drapery.banner.formats.registry import pick
 
