@@ -7,7 +7,7 @@ import numpy as np
 from drapery.cloth import Cloth, State
 from drapery.cloth.colliders import Collider
 from drapery.cloth.colliders.packing import distance
-from drapery.cloth.colliders.sample_points import sample_points
+from drapery.cloth.colliders.sampling import sample_points
 from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Clip, find
 from drapery.scenes.drawing import scene_frames

@@ -31,7 +31,7 @@ from drapery.cloth.colliders import (
 )
 from drapery.cloth.colliders.collision_world import CollisionWorld
 from drapery.cloth.colliders.packing import distance, pack
-from drapery.cloth.colliders.sample_points import sample_points
+from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.collisions import Collisions, collision_world
 from drapery.cloth.contact import self_contact
 from drapery.cloth.state import State

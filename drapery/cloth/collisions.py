@@ -10,7 +10,7 @@ from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.collision_world import CollisionWorld
-from drapery.cloth.colliders.sample_points import sample_points
+from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.contact import self_contact
 from drapery.cloth.solvers.driver import check_limit
 from drapery.errors import OptionError

@@ -23,7 +23,7 @@ from drapery.cloth.attachments import Attachments
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.pose import Pose
-from drapery.cloth.colliders.sample_points import SamplePoints
+from drapery.cloth.colliders.sampling import SamplePoints
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, ContactParams, RigidSweep, sweep_point
 from drapery.cloth.colliders.vectors import Vector, along, norm, row, scale, subtract
 from drapery.cloth.contact import SelfContact, separate_all
