@@ -94,9 +94,9 @@ def _checked(image: ImageArray, place: str) -> Texels:
             f" {MAX_PIXELS} px in all"
         )
     if not is_mask:
-        return array
+        return array.astype(np.uint8)
     texels = np.full((height, width, 4), 255, np.uint8)
-    texels[..., 3] = array if array.dtype == np.uint8 else array * np.uint8(255)
+    texels[..., 3] = np.where(array, 255, 0) if array.dtype == np.bool_ else array
     return texels
 
 
