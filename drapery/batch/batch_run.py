@@ -97,8 +97,10 @@ def run_batch(
     with ResultsDB(_results_path(store, results, resume)) as database:
         spawn = _spawner(jobs, store, workers, scheduler, JobLimits(timeout, memory << 20))
         policy = RetryPolicy(retries)
-        more = {} if on_event is None else {"on_event": on_event}
-        progress = execute(jobs, store, database, spawn, resume=resume, retries=policy, **more)
+        listen = _ignore if on_event is None else on_event
+        progress = execute(
+            jobs, store, database, spawn, resume=resume, retries=policy, on_event=listen
+        )
         seconds = time.monotonic() - start
         name = Path(manifest).name if isinstance(manifest, str | Path) else "pictures"
         try:
@@ -106,6 +108,10 @@ def run_batch(
         except OutputError as error:
             progress.errors[str(error)] = None
     return _result(progress, seconds)
+
+
+def _ignore(progress: Progress) -> None:
+    pass
 
 
 def _result(progress: Progress, seconds: float) -> BatchResult:

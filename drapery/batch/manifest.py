@@ -158,14 +158,13 @@ def _request(
 
 def _fields(values: Mapping[str, Any], faults: list[str]) -> RowFields:
     """The fields of a row; those that are wrong are None."""
-    texts: dict[str, str] = {}
-    times: dict[str, float] = {}
+    read: dict[str, Any] = {}
     for name, value in values.items():
         if value is None:
             continue
         if name in LOOP_OPTIONS:
             try:
-                times[name] = LOOP_OPTIONS[name].parse(value)
+                read[name] = LOOP_OPTIONS[name].parse(value)
             except OptionError as error:
                 faults.append(one_line(str(error)))
         elif name in TEXTS:
@@ -176,8 +175,8 @@ def _fields(values: Mapping[str, Any], faults: list[str]) -> RowFields:
             elif len(text) > MAX_TEXT:
                 faults.append(f"{name} has over {MAX_TEXT} characters; write it shorter")
             else:
-                texts[name] = text
-    return RowFields(**texts, **times)
+                read[name] = text
+    return RowFields(**read)
 
 
 def _objects(settings: Settings, options: Mapping[str, Any]) -> list[str]:

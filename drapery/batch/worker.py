@@ -53,25 +53,22 @@ def _die_with_parent() -> None:
 
 def _limit(memory: int) -> None:
     """Refuse allocations beyond the limit, where the system can."""
-    if sys.platform == "win32":
-        return
-    import resource
+    if sys.platform != "win32":
+        import resource
 
-    # Threads' stacks and mapped libraries are address space that a job does not fill.
-    limit = memory_of("self", ADDRESS_SPACE) + memory + (1 << 30)
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    if hard == resource.RLIM_INFINITY or limit < hard:
-        # macOS has the call and refuses some limits.
-        with suppress(OSError, ValueError):
-            resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
+        # Threads' stacks and mapped libraries are address space that a job does not fill.
+        limit = memory_of("self", ADDRESS_SPACE) + memory + (1 << 30)
+        _, hard = resource.getrlimit(resource.RLIMIT_AS)
+        if hard == resource.RLIM_INFINITY or limit < hard:
+            # macOS has the call and refuses some limits.
+            with suppress(OSError, ValueError):
+                resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
 
 
 def memory_of(pid: int | str | None, column: int) -> int:
     """ADDRESS_SPACE or RESIDENT memory of a process [bytes]; 0 where the system does not say."""
-    if sys.platform == "win32":
-        return 0
-    try:
-        pages = Path(f"/proc/{pid}/statm").read_text(encoding="ascii").split()[column]
-        return int(pages) * os.sysconf("SC_PAGE_SIZE")
-    except (OSError, IndexError, ValueError):
-        return 0
+    with suppress(OSError, IndexError, ValueError):
+        if sys.platform != "win32":
+            pages = Path(f"/proc/{pid}/statm").read_text(encoding="ascii").split()[column]
+            return int(pages) * os.sysconf("SC_PAGE_SIZE")
+    return 0

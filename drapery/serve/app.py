@@ -148,9 +148,9 @@ class PictureService:
         left = asyncio.create_task(_disconnected(request))
         try:
             # Others may wait for the same picture, so nothing here cancels it.
-            done = asyncio.wrap_future(answer)
+            ends: set[asyncio.Future[Any]] = {asyncio.wrap_future(answer), left}
             first = asyncio.FIRST_COMPLETED
-            await asyncio.wait({done, left}, timeout=self.deadline, return_when=first)
+            await asyncio.wait(ends, timeout=self.deadline, return_when=first)
         finally:
             left.cancel()
             self.queue.leave(job, answer)
@@ -302,7 +302,8 @@ class CountRequests:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request (ASGI)."""
         if scope["type"] != "http":
-            return await self.app(scope, receive, send)
+            await self.app(scope, receive, send)
+            return
         known = ("/banner.png", "/banner.gif", "/metrics", "/healthz", "/readyz")
         path = scope["path"] if scope["path"] in known else "other"
 

@@ -53,7 +53,8 @@ class ServiceConfig:
 
 def parameters(animated: bool, limits: PictureLimits) -> list[dict[str, Any]]:
     """The query's parameters, for OpenAPI."""
-    schemas = {"design": {"type": "string", "minLength": 1, "maxLength": limits.max_length}}
+    length = {"minLength": 1, "maxLength": limits.max_length}
+    schemas: dict[str, dict[str, Any]] = {"design": {"type": "string", **length}}
     schemas |= {name: _schema(OPTIONS[name]) for name in PUBLIC_OPTIONS}
     schemas["time"]["maximum"] = limits.time
     if animated:

@@ -66,7 +66,8 @@ class LimitedProtocol(H11Protocol):
 
 
 def _host(connection: Any) -> str:
-    return connection.client[0] if connection.client else ""
+    host: str = connection.client[0] if connection.client else ""
+    return host
 
 
 def listen(host: str, port: int) -> socket.socket:
