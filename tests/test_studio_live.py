@@ -21,7 +21,7 @@ from drapery.render.soft import draw_scene
 from drapery.scenes.stager import STEP, ClothSpec, still
 from drapery.settings import Settings
 from drapery.studio.live import Live, Ray
-from drapery.studio.live_cloth import live_cloth
+from drapery.studio.live_cloth import new_live_cloth
 from drapery.studio.messages import MessageEncoder, pack, unpack
 from drapery.studio.player import Player
 from drapery.studio.session import Session, Sessions
@@ -174,7 +174,7 @@ def still_origin(live: Live) -> np.ndarray:
 
 
 def test_a_hand_does_not_tear_the_cloth() -> None:
-    held = live_cloth(SPEC).grabbed(44)
+    held = new_live_cloth(SPEC).grabbed(44)
     far = held.reachable(np.array([9.0, 3.0, 2.0]))
     rest = held.whole.rest_positions
     for pin in range(5):
@@ -182,7 +182,7 @@ def test_a_hand_does_not_tear_the_cloth() -> None:
         assert np.linalg.norm(far - rest[pin]) <= flat * 0.99 + 2e-3
     near = rest[44] + np.array([-0.1, 0.2, 0.1])
     assert np.array_equal(held.reachable(near), near)
-    assert live_cloth(SPEC).pulled(far).grab is None
+    assert new_live_cloth(SPEC).pulled(far).grab is None
 
 
 def test_what_is_held_moves_no_faster_than_a_hand() -> None:
@@ -215,9 +215,9 @@ def test_pins_that_come_back_are_gone_to_gently() -> None:
 
 
 def test_another_grid_goes_on_from_the_same_shape() -> None:
-    cloth = live_cloth(SPEC)
+    cloth = new_live_cloth(SPEC)
     finer = cloth.remade(replace(SPEC, shape=(9, 17)))
-    assert np.allclose(finer.positions, live_cloth(finer.spec).positions, atol=1e-6)
+    assert np.allclose(finer.positions, new_live_cloth(finer.spec).positions, atol=1e-6)
     live = a_live()
     live.step(40)
     coarse = live.particles()[0].copy()

@@ -278,7 +278,7 @@ def coarsen(cloth: Cloth) -> Cloth | None:
     width, height = np.ptp(cloth.rest_positions[:, 0]), np.ptp(cloth.rest_positions[:, 1])
     mass = len(free) / cloth.inv_mass[free].mean() if free.any() else 1.0
     by_kind = [cloth.spring_stiffness[cloth.spring_kind == kind] for kind in range(3)]
-    stiffness = [float(k.mean()) if k.size else 0.0 for k in by_kind]
+    stretch, shear, bend = (float(k.mean()) if k.size else 0.0 for k in by_kind)
     pinned = np.flatnonzero(thin(cloth.inv_mass[None, :, None], cloth)[0, :, 0] == 0)
     coarse = grid(
         columns // 2 + 1,
@@ -286,7 +286,7 @@ def coarsen(cloth: Cloth) -> Cloth | None:
         float(width),
         float(height),
         pins=pinned,
-        fabric=Fabric(float(mass / (width * height)), *stiffness, drag=cloth.drag),
+        fabric=Fabric(float(mass / (width * height)), stretch, shear, bend, cloth.drag),
     )
     return replace(coarse, rest_positions=rest)
 

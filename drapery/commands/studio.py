@@ -38,6 +38,7 @@ def run(
     settings = Settings(packs=tuple(packs or ()), format=format)
     try:
         from drapery.studio import app
+        from drapery.studio.session import StudioConfig
     except ImportError as error:
         raise BackendError(
             f'the studio needs an extra ({error.name}); pip install "drapery[studio]"'
@@ -52,7 +53,7 @@ def run(
         if browser:
             _open(address)
 
-    app.run(app.StudioConfig(settings, library), host=host, port=port, token=token, ready=ready)
+    app.run(StudioConfig(settings, library), host=host, port=port, token=token, ready=ready)
 
 
 def _check(host: str, token: str | None) -> None:

@@ -82,7 +82,8 @@ def read_parameters(kind: type[P], words: Mapping[str, str], scene: str) -> P:
 def _option(each: Field[Any]) -> Option:
     """A field as an option; that of one number for a tuple."""
     first = each.default[0] if isinstance(each.default, tuple) else each.default
-    return Option(each.name, type=type(first), default=first, **each.metadata)
+    kind: Any = type(first)
+    return Option(each.name, type=kind, default=first, **each.metadata)
 
 
 def _checked(each: Field[Any], value: Any) -> Any:

@@ -190,7 +190,8 @@ class Stager:
     def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
         """The meshes in what they show at a time [s]; body: another whose materials they show."""
         shown = body or self.body
-        getters = [piece.material_at for piece in (*shown.parts, *shown.panels)]
+        getters = [part.material_at for part in shown.parts]
+        getters += [panel.material_at for panel in shown.panels]
         return [Model(mesh, (at(time),)) for mesh, at in zip(meshes, getters, strict=True)]
 
     def scene(self, models: Sequence[Model], camera: Camera, shadow: Model | None = None) -> Scene:

@@ -21,7 +21,7 @@ from drapery.render.scene import Model
 from drapery.render.shadow import contact_shadow
 from drapery.scenes.stager import STEP, Stager, cloth_spec, floor_under
 from drapery.settings import Settings
-from drapery.studio.live_cloth import LiveCloth, live_cloth
+from drapery.studio.live_cloth import LiveCloth, new_live_cloth
 from drapery.studio.panes import Pane, Shown
 from drapery.studio.wind_controls import (
     WindControls,
@@ -70,7 +70,7 @@ class Live:
         self._held: int | None = None
         self._shadow: tuple[int, Model] | None = None
         self._stager = Stager(body_of(design, packs, settings), settings, ())
-        self._stager.cloths = self._cloths_for(self._stager.body, settings)
+        self._stager.cloths = [*self._cloths_for(self._stager.body, settings)]
 
     @property
     def time(self) -> float:
@@ -135,7 +135,7 @@ class Live:
         self._shadow = None
         self._stager.steps = 0
         self._stager.wind = wind_of(self.wind_controls)
-        self._stager.cloths = [live_cloth(cloth.spec) for cloth in self._stager.cloths]
+        self._stager.cloths = [new_live_cloth(cloth.spec) for cloth in self._stager.cloths]
 
     def grab(self, ray: Ray) -> bool:
         """Grab the free particle nearest to a line of sight; False if there is none."""
@@ -222,7 +222,7 @@ class Live:
             spec, cloth = cloth_spec(panel, settings), old.get(number)
             if cloth is None or cloth.spec != spec:
                 self._disturbed |= self._stager.steps > 0
-                cloth = live_cloth(spec) if cloth is None else cloth.remade(spec)
+                cloth = new_live_cloth(spec) if cloth is None else cloth.remade(spec)
             cloths.append(cloth)
         return cloths
 

@@ -106,7 +106,7 @@ class LiveCloth(PanelCloth):
 
         Raises OptionError.
         """
-        new = live_cloth(spec)
+        new = new_live_cloth(spec)
         if self.spec.size != spec.size:
             return new
         return replace(new, state=_resampled(self, new))
@@ -129,7 +129,7 @@ class LiveCloth(PanelCloth):
         return lambda time: start + (end - start) * min(max((time - began) / STEP, 0.0), 1.0)
 
 
-def live_cloth(spec: ClothSpec) -> LiveCloth:
+def new_live_cloth(spec: ClothSpec) -> LiveCloth:
     """A cloth at rest. Raises OptionError."""
     rest = cloth_at_rest(spec)
     return LiveCloth(**vars(rest), whole=rest.cloth)

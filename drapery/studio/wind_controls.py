@@ -7,7 +7,7 @@ import numpy as np
 
 from drapery.cloth import Wind
 from drapery.scenes.stager import WIND_AXIS, flow
-from drapery.settings import MAX_WIND, Settings
+from drapery.settings import MAX_WIND, OPTIONS, Settings
 
 DEFAULT_HEADING = float(np.degrees(np.arctan2(WIND_AXIS[0], WIND_AXIS[2])))
 """Where a picture's wind blows to [degrees]: 0 is straight out of its front."""
@@ -28,7 +28,7 @@ class WindControls:
     on: whether it blows.
     """
 
-    speed: float = Settings.wind
+    speed: float = OPTIONS["wind"].default
     direction: float | None = None
     gusts: float = Settings.gusts
     seed: int = 0

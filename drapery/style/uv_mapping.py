@@ -24,6 +24,9 @@ class UVMapping(Protocol):
     def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
         """UVs of the rim, shape [4 E, 2]: front start, front end, back start, back end."""
 
+    def __hash__(self) -> int:
+        """Equal for mappings that are equal: shells are kept by it."""
+
 
 class SheetMapping:
     """The same picture on both sides; the rim repeats the texels at the border. See `UVMapping`."""
