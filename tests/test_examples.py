@@ -22,6 +22,7 @@ PROGRAMS = {
     "animate": ("waving.webp", *(f"frame-{number}.png" for number in range(4))),
     "own_pack": ("heart.png",),
     "own_cloth": ("sheet.png",),
+    "own_collider": ("own_collider.png",),
     "own_solver": ("own_solver.png",),
     "video": ("banner.mp4",),
     "compare_designs": ("difference.png",),
