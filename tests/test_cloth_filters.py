@@ -50,7 +50,7 @@ def by_matrix(cloth, values):
 @pytest.mark.parametrize("factors", [False, True])
 def test_products_along_rows_and_columns_are_the_matrix(pins, factors, monkeypatch):
     if factors:
-        monkeypatch.setattr(filters, "LARGEST", 0)
+        monkeypatch.setattr(filters, "MAX_MATRIX_NUMBERS", 0)
     # With structural springs alone no spring leaves the grid, so nothing is mirrored.
     cloth = grid(7, 12, 0.8, 1.6, pins=pins, fabric=Fabric(0.3, 5.0, 0.0, 0.0))
     values = velocities(cloth)

@@ -122,7 +122,7 @@ def kernel_modules():
     return {
         name: path
         for name, path in modules().items()
-        if "drapery.jit" in imports_of(path) and name != "drapery.jit"
+        if "drapery.jit" in imports_of(name) and name != "drapery.jit"
     }
 
 
