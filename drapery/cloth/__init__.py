@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from drapery.cloth.solvers.verlet import SolverVerlet
     from drapery.cloth.solvers.xpbd import SolverXPBD
     from drapery.cloth.state import State, rest_state
-    from drapery.cloth.stepping import simulate
+    from drapery.cloth.stepping import MovingCloth, simulate
     from drapery.cloth.wind import Wind
     from drapery.cloth.world import Detail, World, WorldView
 
@@ -78,6 +78,7 @@ __all__ = [
     "Force",
     "ForceField",
     "Gravity",
+    "MovingCloth",
     "PinPath",
     "Pins",
     "Plane",
@@ -193,7 +194,10 @@ _MODULES = {
         "State",
         "rest_state",
     ),
-    "stepping": ("simulate",),
+    "stepping": (
+        "MovingCloth",
+        "simulate",
+    ),
     "wind": ("Wind",),
     "world": (
         "Detail",

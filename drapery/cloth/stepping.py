@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Self
 
 from drapery.cloth.checks import shown
 from drapery.cloth.cloth import Cloth
@@ -16,6 +17,63 @@ from drapery.errors import OptionError
 
 if TYPE_CHECKING:
     from drapery.cloth.collisions import Collisions
+
+
+@dataclass(frozen=True, eq=False)
+class MovingCloth:
+    """Cloths of one topology at one moment, and what steps them; see `begin` and `advance`.
+
+    Each call of `advance` may be given other forces and another path of the pins. For motion
+    under the same forces, `simulate` is simpler.
+
+    dt: one step [s]. solver_state: what the solver remembers between steps.
+    resolve: the collision stage after each step; None where the cloths meet nothing.
+    """
+
+    cloth: Cloth
+    solver: Solver
+    dt: float
+    state: State
+    solver_state: Any
+    resolve: Callable[[State, State], State] | None = None
+
+    @staticmethod
+    def begin(
+        cloth: Cloth,
+        solver: Solver | None = None,
+        dt: float = 1.0 / 60.0,
+        *,
+        start: State | None = None,
+        count: int = 1,
+        collisions: Collisions | None = None,
+    ) -> MovingCloth:
+        """The cloths before their first step; arguments as in `simulate`. Raises OptionError."""
+        solver = SolverDesbrun() if solver is None else solver
+        check_step(dt, 1)
+        _check_types(cloth, solver)
+        state = rest_state(cloth, count) if start is None else start
+        check_state(cloth, state)
+        resolve = None
+        if collisions is not None:
+            # Imported here: a cloth that meets nothing starts without the colliders' kernels.
+            from drapery.cloth.collisions import collision_world
+
+            resolve = collision_world(cloth, collisions).resolve
+        return MovingCloth(cloth, solver, dt, state, solver.init(cloth, dt), resolve)
+
+    def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
+        """The cloths some time steps later. Raises OptionError where they are torn to infinity."""
+        check_step(self.dt, steps)
+        state, solver_state = self.state, self.solver_state
+        # One call makes all steps, unless the collision stage follows each.
+        calls, each = (1, steps) if self.resolve is None else (steps, 1)
+        for _ in range(calls):
+            before = state
+            state, solver_state = self.solver.step(
+                self.cloth, before, solver_state, forces, self.dt, steps=each, pins=pins
+            )
+            state = state if self.resolve is None else self.resolve(before, state)
+        return replace(self, state=state, solver_state=solver_state)
 
 
 def simulate(
@@ -38,64 +96,25 @@ def simulate(
     The call raises OptionError for wrong arguments; the iterator does where a force or a path
     gives what cannot be used, or the cloth is torn to infinity.
     """
-    solver = SolverDesbrun() if solver is None else solver
     check_step(dt, every)
-    check_arguments(cloth, solver, pins)
-    state = rest_state(cloth, count) if start is None else start
-    check_state(cloth, state)
-    lower_forces(forces, cloth, len(state.positions))
-    solver_state = solver.init(cloth, dt)
-    if collisions is None:
-        return _states(cloth, solver, forces, dt, state, solver_state, every, pins)
-    # Imported here: a cloth that meets nothing starts without the colliders' kernels.
-    from drapery.cloth.collisions import collision_world
-
-    resolve = collision_world(cloth, collisions).resolve
-    return _colliding(cloth, solver, forces, dt, state, solver_state, every, pins, resolve)
+    moving = MovingCloth.begin(cloth, solver, dt, start=start, count=count, collisions=collisions)
+    if pins is not None and not callable(pins):
+        raise OptionError(f"pins {shown(pins)} is not a path; give a function of the time [s]")
+    lower_forces(forces, cloth, len(moving.state.positions))
+    return _states(moving, forces, every, pins)
 
 
-def check_arguments(cloth: Cloth, solver: Solver, pins: PinPath | None) -> None:
-    """Raises OptionError for what is not a cloth, a solver or a path."""
+def _states(
+    moving: MovingCloth, forces: Sequence[Force], every: int, pins: PinPath | None
+) -> Iterator[State]:
+    while True:
+        yield moving.state
+        moving = moving.advance(forces, every, pins)
+
+
+def _check_types(cloth: Cloth, solver: Solver) -> None:
+    """Raises OptionError for what is not a cloth or not a solver."""
     if not isinstance(cloth, Cloth):
         raise OptionError(f"cloth {shown(cloth)} is not a Cloth; use grid, disc or from_mesh")
     if not (hasattr(solver, "init") and hasattr(solver, "step")) or isinstance(solver, type):
         raise OptionError(f"solver {shown(solver)} is not a solver; use SolverXPBD() or the like")
-    if pins is not None and not callable(pins):
-        raise OptionError(f"pins {shown(pins)} is not a path; give a function of the time [s]")
-
-
-def _states(
-    cloth: Cloth,
-    solver: Solver,
-    forces: Sequence[Force],
-    dt: float,
-    state: State,
-    solver_state: Any,
-    every: int,
-    pins: PinPath | None,
-) -> Iterator[State]:
-    while True:
-        yield state
-        state, solver_state = solver.step(
-            cloth, state, solver_state, forces, dt, steps=every, pins=pins
-        )
-
-
-def _colliding(
-    cloth: Cloth,
-    solver: Solver,
-    forces: Sequence[Force],
-    dt: float,
-    state: State,
-    solver_state: Any,
-    every: int,
-    pins: PinPath | None,
-    resolve: Callable[[State, State], State],
-) -> Iterator[State]:
-    """The same, step by step, with the collision stage after each."""
-    while True:
-        yield state
-        for _ in range(every):
-            before = state
-            after, solver_state = solver.step(cloth, before, solver_state, forces, dt, pins=pins)
-            state = resolve(before, after)

@@ -33,7 +33,7 @@ def motion(
     start: the rest shape unless given. settle: time before the first frame [s], rounded to whole
     frames. step: the longest time step [s].
     """
-    steps = max(1, math.ceil(1 / (clip.fps * step) - 1e-9))
+    steps = steps_per_frame(clip, step)
     states = simulate(
         cloth,
         solver,
@@ -46,6 +46,11 @@ def motion(
     )
     first = round(settle * clip.fps)
     return islice(states, first, first + clip.count)
+
+
+def steps_per_frame(clip: Clip, step: float = STEP) -> int:
+    """How many time steps a frame of the clip takes; step: the longest one [s]."""
+    return max(1, math.ceil(1 / (clip.fps * step) - 1e-9))
 
 
 def placed(cloth: Cloth, position: Array, rotation: Array | None = None) -> Cloth:

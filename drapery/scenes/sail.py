@@ -2,13 +2,23 @@
 
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from itertools import groupby, pairwise
+from dataclasses import dataclass
 
 import numpy as np
 
 from drapery.banner.packs import Packs, open_packs
-from drapery.cloth import Cloth, Drag, Fabric, Force, Gravity, State, Wind, grid, rest_state
+from drapery.cloth import (
+    Cloth,
+    Drag,
+    Fabric,
+    Force,
+    Gravity,
+    MovingCloth,
+    State,
+    Wind,
+    grid,
+    rest_state,
+)
 from drapery.cloth.colliders import Capsule, Collider
 from drapery.cloth.collisions import Collisions
 from drapery.cloth.exact import sine_of_turns
@@ -17,7 +27,7 @@ from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.moving import motion, placed
+from drapery.scenes.moving import placed, steps_per_frame
 from drapery.scenes.parameters import (
     SceneParameters,
     grid_parameter,
@@ -90,22 +100,19 @@ def blown(
 ) -> Iterator[State]:
     """The sail at each frame. A command takes effect at the first frame not before it."""
     times = [setting.time - 1e-9 for setting in settings]
-    collisions = Collisions(spars(), parameters.thickness, order=3)
-    state = rest_state(cloth, dtype=np.float64)
-    last = range(clip.count - 1)
-    for number, frames in groupby(last, lambda frame: bisect_right(times, frame / clip.fps)):
-        under_way = motion(
-            cloth,
-            replace(clip, count=len(list(frames)) + 1),
-            solver=SolverVerlet(),
-            forces=_forces(parameters, settings[number - 1]),
-            collisions=collisions,
-            start=state,
-        )
-        for now, later in pairwise(under_way):
-            yield now
-            state = later
-    yield state
+    steps = steps_per_frame(clip)
+    sail = MovingCloth.begin(
+        cloth,
+        SolverVerlet(),
+        1 / (clip.fps * steps),
+        start=rest_state(cloth, dtype=np.float64),
+        collisions=Collisions(spars(), parameters.thickness, order=3),
+    )
+    yield sail.state
+    for frame in range(clip.count - 1):
+        setting = settings[bisect_right(times, frame / clip.fps) - 1]
+        sail = sail.advance(_forces(parameters, setting), steps)
+        yield sail.state
 
 
 def spars() -> tuple[Collider, ...]:

@@ -10,8 +10,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import chain
-from typing import Any, Self
+from itertools import chain, islice
 
 import numpy as np
 
@@ -22,16 +21,16 @@ from drapery.cloth import (
     Fabric,
     Force,
     Gravity,
-    PinPath,
+    MovingCloth,
     Solver,
     State,
     Wind,
     grid,
-    rest_state,
+    simulate,
 )
 from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.registry import solver
-from drapery.mesh import Array, Mesh, vertex_normals
+from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import UNLIT, lit_at
 from drapery.render.scene import Model, Scene
@@ -40,7 +39,7 @@ from drapery.render.views import find_view, frame_view, turntable
 from drapery.settings import Settings, background_colour
 from drapery.style.block import turn
 from drapery.style.body import Body, Panel
-from drapery.style.extrusion import Shell, make_shell
+from drapery.style.extrusion import Shell, make_shell, thicken
 from drapery.style.kinds import body_of
 from drapery.style.uv_mapping import UVMapping
 
@@ -77,38 +76,9 @@ class ClothSpec:
         return solver(self.solver) if isinstance(self.solver, str) else self.solver
 
 
-@dataclass(frozen=True, eq=False)
-class PanelCloth:
-    """The cloth of one panel at one moment.
-
-    solver_state: what the solver keeps between steps. dt: the time step [s].
-    """
-
-    spec: ClothSpec
-    cloth: Cloth
-    solver: Solver
-    solver_state: Any
-    state: State
-    dt: float
-
-    @property
-    def positions(self) -> Array:
-        """Positions in the panel's own frame [m], shape [N, 3]."""
-        positions: Array = self.state.positions[0]
-        return positions
-
-    def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
-        """The cloth some time steps later. Raises OptionError where it has blown up."""
-        state, solver_state = self.solver.step(
-            self.cloth, self.state, self.solver_state, forces, self.dt, steps=steps, pins=pins
-        )
-        return replace(self, state=state, solver_state=solver_state)
-
-
-def cloth_at_rest(spec: ClothSpec, dt: float = STEP) -> PanelCloth:
+def cloth_at_rest(spec: ClothSpec) -> MovingCloth:
     """The cloth at rest at time 0. Raises OptionError."""
-    cloth, method = spec.make_cloth(), spec.make_solver()
-    return PanelCloth(spec, cloth, method, method.init(cloth, dt), rest_state(cloth), dt)
+    return MovingCloth.begin(spec.make_cloth(), spec.make_solver(), STEP)
 
 
 def cloth_spec(panel: Panel, settings: Settings) -> ClothSpec:
@@ -126,7 +96,7 @@ class Stager:
     """
 
     def __init__(
-        self, body: Body, settings: Settings, cloths: Sequence[PanelCloth] | None = None
+        self, body: Body, settings: Settings, cloths: Sequence[MovingCloth] | None = None
     ) -> None:
         self.body = body
         self.settings = settings
@@ -153,32 +123,25 @@ class Stager:
             self.cloths = [cloth.advance(forces, steps) for cloth in self.cloths]
         self.steps += steps
 
-    def meshes(self, time: float | None = None) -> list[Mesh]:
-        """The stiff parts, then each panel as it is drawn: thick and in its place.
-
-        time: of the game's sway [s]; that of the stager unless given.
-        """
+    def meshes(self) -> list[Mesh]:
+        """What is drawn at this moment; see `soft` and `stiff`."""
         if self.settings.pose == "cloth":
-            sheets = [self.thick(n, cloth.positions) for n, cloth in enumerate(self.cloths)]
-        else:
-            time = self.time if time is None else time
-            sheets = [self.stiff(panel, _phase(panel, time)) for panel in self.body.panels]
-        return [*self.parts, *sheets]
+            return self.soft([cloth.state.positions[0] for cloth in self.cloths])
+        return self.stiff([_phase(panel, self.time) for panel in self.body.panels])
 
-    def thick(self, number: int, positions: Array) -> Mesh:
-        """A panel's cloth with its thickness, in its place.
+    def soft(self, sheets: Sequence[Array]) -> list[Mesh]:
+        """The stiff parts, then each panel as cloth: thick and in its place.
 
-        positions: in the panel's own frame [m], shape [..., N, 3].
+        sheets: each panel's particles in its own frame [m], shape [N, 3].
         """
-        panel = self.body.panels[number]
-        shell = _grid_shell(self.settings.grid, panel.uv_mapping)
-        placed = positions + panel.origin
-        normals = vertex_normals(placed, shell.sheet)
-        return self._turned(shell.cover(placed, normals, self.settings.thickness * panel.texel))
+        panels = zip(self.body.panels, sheets, strict=True)
+        return [*self.parts, *(self._thick(panel, sheet) for panel, sheet in panels)]
 
-    def stiff(self, panel: Panel, phase: float) -> Mesh:
-        """A panel as the game draws it, at a phase 0..1 of its sway."""
-        return self._turned(panel.board(phase, self.settings.thickness))
+    def stiff(self, phases: Sequence[float]) -> list[Mesh]:
+        """The stiff parts, then each panel as the game draws it, at a phase 0..1 of its sway."""
+        panels, thickness = zip(self.body.panels, phases, strict=True), self.settings.thickness
+        boards = (panel.board(phase, thickness) for panel, phase in panels)
+        return [*self.parts, *map(self._turned, boards)]
 
     def camera(self, points: Sequence[Array], aspect: float) -> Camera:
         """The body's own camera, or one that frames points [m], each [..., 3], in the view."""
@@ -210,6 +173,11 @@ class Stager:
             settings.samples,
         )
 
+    def _thick(self, panel: Panel, sheet: Array) -> Mesh:
+        shell = _grid_shell(self.settings.grid, panel.uv_mapping)
+        thickness = self.settings.thickness * panel.texel
+        return self._turned(thicken(shell, sheet + panel.origin, thickness))
+
     def _turned(self, mesh: Mesh) -> Mesh:
         return turn(mesh, self.settings.turned) if self.settings.turned else mesh
 
@@ -220,11 +188,15 @@ def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
     design: None for a cape or elytra. Raises OptionError or PackError.
     """
     body, steps = body_of(design, packs, settings), math.ceil(settings.time / STEP)
-    dt = settings.time / steps if steps else STEP
-    at = Moments(dt, steps or 1, min(steps, 1), 1)
-    cloths = [_recorded(spec, settings, at)[0] for spec in _specs(body, settings)]
-    stager = Stager(body, settings, cloths)
-    return next(_scenes(stager, [stager.meshes(settings.time)], [settings.time]))
+    stager = Stager(body, settings, ())
+    if settings.pose == "cloth":
+        dt = settings.time / steps if steps else STEP
+        at = Moments(dt, steps or 1, min(steps, 1), 1)
+        sheets = [_recorded(spec, settings, at)[0].positions[0] for spec in _specs(body, settings)]
+        meshes = stager.soft(sheets)
+    else:
+        meshes = stager.stiff([_phase(panel, settings.time) for panel in body.panels])
+    return next(_scenes(stager, [meshes], [settings.time]))
 
 
 def loop(
@@ -239,14 +211,12 @@ def loop(
     stager, frames = Stager(body, settings, ()), range(count)
     if settings.pose == "cloth":
         motions = [_periodic(spec, settings, count, fps) for spec in _specs(body, settings)]
-        sheets = [[stager.thick(n, motion[f]) for n, motion in enumerate(motions)] for f in frames]
+        moments = [stager.soft([motion[frame] for motion in motions]) for frame in frames]
     else:
         # A whole number of the game's sways fills the loop.
         sways = [max(1, round(_phase(panel, count / fps))) for panel in body.panels]
-        panels = [*zip(body.panels, sways, strict=True)]
-        sheets = [[stager.stiff(panel, n * f / count) for panel, n in panels] for f in frames]
-    meshes = [[*stager.parts, *moment] for moment in sheets]
-    return _scenes(stager, meshes, texture_times(body.period, count, fps))
+        moments = [stager.stiff([n * frame / count for n in sways]) for frame in frames]
+    return _scenes(stager, moments, texture_times(body.period, count, fps))
 
 
 def texture_times(period: float, count: int, fps: float) -> list[float]:
@@ -296,8 +266,7 @@ def _phase(panel: Panel, time: float) -> float:
 
 
 def _specs(body: Body, settings: Settings) -> list[ClothSpec]:
-    moves = settings.pose == "cloth"
-    return [cloth_spec(panel, settings) for panel in body.panels if moves]
+    return [cloth_spec(panel, settings) for panel in body.panels]
 
 
 @lru_cache(maxsize=16)
@@ -348,18 +317,14 @@ class Moments:
     period: float | None = None
 
 
-def _record(spec: ClothSpec, forces: Sequence[Force], at: Moments) -> tuple[PanelCloth, ...]:
-    """The cloth at each moment of the at."""
-    cloth, moments = cloth_at_rest(spec, at.dt), []
-    for number in range(at.first + at.count):
-        if number:
-            cloth = cloth.advance(forces, at.every)
-        if number >= at.first:
-            moments.append(cloth)
-    return tuple(moments)
+def _record(spec: ClothSpec, forces: Sequence[Force], at: Moments) -> tuple[State, ...]:
+    """The cloth at each of the moments."""
+    cloth, method = spec.make_cloth(), spec.make_solver()
+    states = simulate(cloth, method, forces, at.dt, every=at.every)
+    return tuple(islice(states, at.first, at.first + at.count))
 
 
-def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[PanelCloth, ...]:
+def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, ...]:
     """The same, from the cache where the settings hold only names and numbers."""
     size = at.count * math.prod(spec.shape) * 3 * np.dtype(float).itemsize
     named = isinstance(spec.solver, str) and spec.fabric is None
@@ -372,13 +337,13 @@ def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[PanelCl
 @lru_cache(maxsize=16)
 def _cached(
     spec: ClothSpec, wind: tuple[float, float | None, float, int], at: Moments
-) -> tuple[PanelCloth, ...]:
+) -> tuple[State, ...]:
     # Many banners in a row often move alike, since a design does not change the cloth.
     speed, direction, gusts, seed = wind
     settings = Settings(wind=speed, direction=direction, gusts=gusts, seed=seed)
     moments = _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
     for moment in moments:
-        moment.state.positions.flags.writeable = False
+        moment.positions.flags.writeable = False
     return moments
 
 
@@ -389,7 +354,7 @@ def _periodic(spec: ClothSpec, settings: Settings, count: int, fps: float) -> Ar
     first = math.ceil(SETTLING / period) * count
     at = Moments(1 / (fps * steps), steps, first, count + 1, period)
     moments = _recorded(spec, settings, at)
-    return close_loop(np.stack([moment.positions for moment in moments]))
+    return close_loop(np.stack([moment.positions[0] for moment in moments]))
 
 
 def close_loop(motion: Array) -> Array:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +9,12 @@ from numpy.typing import NDArray
 from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import open_packs
 from drapery.banner.patterns import PATTERN_NAMES
-from drapery.cloth import Gravity, Wind, grid, rest_state, simulate
+from drapery.cloth import Gravity, Wind, grid, rest_state
 from drapery.mesh import Array
 from drapery.render.scene import Material, Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Clip
+from drapery.scenes.moving import motion
 from drapery.scenes.parameters import SceneParameters, parameter, seed_parameter, wind_parameter
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.crowds import cover_crowd
@@ -63,14 +63,16 @@ def play(parameters: StressParameters, clip: Clip) -> Iterator[Scene]:
 
 def _motion(parameters: StressParameters, clip: Clip, places: Array) -> Iterator[Array]:
     cloth = grid(5, 9, *FLAG_SIZE)
-    steps = max(1, round(60 / clip.fps))
     wind = Wind((0.4 * parameters.wind, 0.0, parameters.wind), seed=parameters.seed, origins=places)
-    start = rest_state(cloth, len(places), np.float32)
-    states = simulate(
-        cloth, forces=(Gravity(), wind), dt=1 / (clip.fps * steps), every=steps, start=start
+    states = motion(
+        cloth,
+        clip,
+        forces=(Gravity(), wind),
+        start=rest_state(cloth, len(places), np.float32),
+        settle=parameters.settle,
+        step=1 / 60,
     )
-    first = round(parameters.settle * clip.fps)
-    return (state.positions for state in islice(states, first, first + clip.count))
+    return (state.positions for state in states)
 
 
 def _places(parameters: StressParameters) -> Array:

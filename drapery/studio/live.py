@@ -188,7 +188,7 @@ class Live:
 
     def particles(self) -> list[Array]:
         """The particles of each cloth in its own frame [m], shape [N, 3]."""
-        return [cloth.positions for cloth in self._stager.cloths]
+        return [cloth.positions for cloth in self._cloths]
 
     def shown(self) -> Shown:
         """What is seen at this moment."""

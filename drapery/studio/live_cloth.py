@@ -7,9 +7,9 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import Cloth, Force, PinPath, State
+from drapery.cloth import Cloth, Force, MovingCloth, PinPath, State
 from drapery.mesh import Array
-from drapery.scenes.stager import STEP, ClothSpec, PanelCloth, cloth_at_rest
+from drapery.scenes.stager import STEP, ClothSpec, cloth_at_rest
 
 EASE = 0.35
 """The share of the way to its target that a held particle goes in a time step."""
@@ -39,12 +39,19 @@ class Grab:
     target: Array
 
 
-@dataclass(frozen=True, eq=False)
-class LiveCloth(PanelCloth):
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LiveCloth(MovingCloth):
     """A panel's cloth that can be grabbed. whole: the cloth without the grab's pins."""
 
+    spec: ClothSpec
     whole: Cloth
     grab: Grab | None = None
+
+    @property
+    def positions(self) -> Array:
+        """Positions in the panel's own frame [m], shape [N, 3]."""
+        positions: Array = self.state.positions[0]
+        return positions
 
     @property
     def free(self) -> NDArray[np.intp]:
@@ -132,10 +139,10 @@ class LiveCloth(PanelCloth):
 def new_live_cloth(spec: ClothSpec) -> LiveCloth:
     """A cloth at rest. Raises OptionError."""
     rest = cloth_at_rest(spec)
-    return LiveCloth(**vars(rest), whole=rest.cloth)
+    return LiveCloth(**vars(rest), spec=spec, whole=rest.cloth)
 
 
-def _resampled(old: PanelCloth, new: PanelCloth) -> State:
+def _resampled(old: LiveCloth, new: LiveCloth) -> State:
     """The state on another grid, linear between the particles of the old one."""
     if old.spec.shape == new.spec.shape:
         return old.state

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.mesh import Array, Mesh, Triangles
+from drapery.mesh import Array, Mesh, Triangles, vertex_normals
 from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
 
 
@@ -88,6 +88,14 @@ def make_shell(triangles: Triangles, uvs: Array, uv_mapping: UVMapping = SHEET_M
     rim = boundary_edges(triangles)
     sheets = [uv_mapping.front(uvs), uv_mapping.back(uvs)]
     return Shell(len(uvs), triangles, rim, np.concatenate([*sheets, uv_mapping.rim(uvs, rim)]))
+
+
+def thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
+    """The shells around thin sheets, along the averaged normals of their own faces.
+
+    sheet: positions [m], shape [..., N, 3]. thickness: distance between the two sheets [m].
+    """
+    return shell.cover(sheet, vertex_normals(sheet, shell.sheet), thickness)
 
 
 def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING) -> Mesh:

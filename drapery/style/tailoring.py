@@ -6,9 +6,9 @@ from numpy.typing import NDArray
 from drapery.banner.dyes import DYES
 from drapery.banner.sprites import tint
 from drapery.errors import OptionError
-from drapery.mesh import Array, vertex_normals
+from drapery.mesh import Array
 from drapery.render.scene import Material, Model, Texels, TextureLayer
-from drapery.style.extrusion import Shell
+from drapery.style.extrusion import Shell, thicken
 
 
 def garment(
@@ -18,12 +18,11 @@ def garment(
     *materials: Material,
     index: NDArray[np.int32] | None = None,
 ) -> Model:
-    """A cloth, or a batch of them, made thick.
+    """A cloth, or a batch of them, made thick; sheet, thickness: see `thicken`.
 
-    sheet: [..., N, 3]; thickness: [m]; materials, index: as in `Model`.
+    materials, index: as in `Model`.
     """
-    normals = vertex_normals(sheet, shell.sheet)
-    return Model(shell.cover(sheet, normals, thickness), materials, index)
+    return Model(thicken(shell, sheet, thickness), materials, index)
 
 
 def dyed(texels: Texels, dye: str) -> Material:
