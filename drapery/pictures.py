@@ -15,8 +15,7 @@ from drapery.errors import DesignError, OptionError
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
-from drapery.settings import Options, Settings, check_format
-from drapery.settings import frame_count as frame_count
+from drapery.settings import Options, Settings, check_format, frame_count
 
 
 def draw(

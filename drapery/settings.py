@@ -15,12 +15,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, get_args
 
 from drapery.errors import OptionError
-from drapery.option import Audience as Audience
-from drapery.option import Option, shown
-from drapery.option import one_of as one_of
-from drapery.option import pair as pair
-from drapery.option import whole as whole
-from drapery.option import within as within
+from drapery.option import Option, shown, within
 
 if TYPE_CHECKING:
     import numpy as np
