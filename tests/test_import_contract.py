@@ -179,5 +179,15 @@ def test_no_module_has_the_name_of_its_function() -> None:
         assert own not in functions, f"{name} holds a function of its own name"
 
 
+def test_class_names_are_unique() -> None:
+    places: dict[str, list[str]] = {}
+    for folder in FOLDERS.values():
+        for path in sorted(folder.rglob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.ClassDef):
+                    places.setdefault(node.name, []).append(f"{path.relative_to(ROOT)}")
+    assert not {name: found for name, found in places.items() if len(found) > 1}
+
+
 if __name__ == "__main__":
     print(Counter({package: len(private_imports(package)) for package in APPLICATIONS}))
