@@ -76,7 +76,7 @@ def draw_list(models: Sequence[Model]) -> DrawList:
 
     Raises OptionError, naming the model, for arrays that do not fit together.
     """
-    constant = topology(models)
+    constant = make_topology(models)
     return DrawList(
         _joined([model.mesh.positions for model in models]),
         _joined([model.mesh.normals for model in models]),
@@ -84,7 +84,7 @@ def draw_list(models: Sequence[Model]) -> DrawList:
     )
 
 
-def topology(models: Sequence[Model]) -> Topology:
+def make_topology(models: Sequence[Model]) -> Topology:
     """The constant part of the models' draw list; see `draw_list`."""
     arrays = tuple(
         part

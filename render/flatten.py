@@ -20,7 +20,7 @@ MAX_TEXELS = 1 << 20
 _cache: IdentityCache[MaterialTables] = IdentityCache()
 
 
-def flattened(tables: MaterialTables) -> MaterialTables:
+def composite_layers(tables: MaterialTables) -> MaterialTables:
     """The same materials with one layer each; `tables` itself where their sizes do not allow it."""
     return _cache.get((tables,), None, lambda: _flatten(tables))
 

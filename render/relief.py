@@ -23,7 +23,7 @@ SLACK = 1e-9
 """A texel's middle on a triangle's edge belongs to it, whichever way its corners were rounded."""
 
 
-def relieved(scene: Scene) -> Scene:
+def bake_normal_maps(scene: Scene) -> Scene:
     """The scene with the light of surfaces that have normal maps in their textures.
 
     A scene without such maps is returned as it is.

@@ -9,7 +9,7 @@ from conftest import Run
 from PIL import Image
 
 from drapery import Banner
-from drapery.banner.loom import fits_loom, simplified, steps
+from drapery.banner.loom import fits_loom, loom_steps, simplify
 from drapery.banner.packs import open_packs
 from drapery.comparison.metrics import measure
 from drapery.comparison.panels import difference_panel
@@ -153,18 +153,18 @@ def test_the_loom_is_told_step_by_step(drapery: Run, tmp_path: Path) -> None:
     assert code == 0 and out_file.exists() and steps_file.exists()
     assert "2. creeper with lime dye and a creeper head" in out
     banner = Banner.parse("white base:red creeper:lime")
-    assert [step.banner.layers[-1] for step in steps(banner)] == list(banner.layers)
+    assert [step.banner.layers[-1] for step in loom_steps(banner)] == list(banner.layers)
     assert fits_loom(banner) and not fits_loom(Banner.parse("white" + " cross:red" * 7))
 
 
 def test_hidden_layers_are_found_and_visible_ones_kept() -> None:
     packs = open_packs(())
     hidden = Banner.parse("white creeper:lime base:red cross:black")
-    assert simplified(hidden, packs) == Banner.parse("white base:red cross:black")
+    assert simplify(hidden, packs) == Banner.parse("white base:red cross:black")
     visible = Banner.parse("white gradient:red cross:black")
-    assert simplified(visible, packs) == visible
+    assert simplify(visible, packs) == visible
     twice = Banner.parse("white cross:black cross:black")
-    assert len(simplified(twice, packs).layers) == 1
+    assert len(simplify(twice, packs).layers) == 1
 
 
 @pytest.mark.parametrize("target", ["out.bmp", "none/out.png"])

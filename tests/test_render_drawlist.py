@@ -9,7 +9,7 @@ from render_shapes import noise, painted, plain, quad
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.render.atlas import FEW_SIZES, PADDING, make_atlas
-from drapery.render.drawlist import draw_list, topology
+from drapery.render.drawlist import draw_list, make_topology
 from drapery.render.light import GAME_LIGHT
 from drapery.render.materials import make_material_tables
 from drapery.render.scene import Material, Model, TextureLayer
@@ -97,9 +97,9 @@ def test_what_does_not_move_is_prepared_once() -> None:
     batch = crowd()
     moved = Mesh(batch.mesh.positions + 1, batch.mesh.normals, batch.mesh.triangles, batch.mesh.uvs)
     again = Model(moved, batch.materials, batch.material_index)
-    assert topology((batch,)) is topology((again,))
+    assert make_topology((batch,)) is make_topology((again,))
     other = Model(batch.mesh, batch.materials, batch.material_index[::-1].copy())
-    assert topology((other,)) is not topology((batch,))
+    assert make_topology((other,)) is not make_topology((batch,))
 
 
 def bad(**change: object) -> Model:

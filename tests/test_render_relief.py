@@ -12,7 +12,7 @@ from PIL import Image
 from drapery.mesh import Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, Light
-from drapery.render.relief import relieved
+from drapery.render.relief import bake_normal_maps
 from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 from drapery.style.block import turn
@@ -43,7 +43,9 @@ def scene_of(mesh: Mesh, *layers: TextureLayer, light: Light = GAME_LIGHT) -> Sc
 
 def brightness(mesh: Mesh, normal: np.ndarray, light: Light = GAME_LIGHT) -> float:
     """What the map makes of white: one shade all over, as a factor."""
-    (model,) = relieved(scene_of(mesh, TextureLayer(WHITE, normal=normal), light=light)).models
+    (model,) = bake_normal_maps(
+        scene_of(mesh, TextureLayer(WHITE, normal=normal), light=light)
+    ).models
     (shade,) = np.unique(model.materials[0].layers[0].texels[..., :3])
     return float(shade) / 255
 
@@ -59,7 +61,7 @@ def test_a_level_map_changes_nothing() -> None:
 
 def test_a_scene_without_maps_is_left_as_it_is() -> None:
     scene = scene_of(board(), TextureLayer(WHITE))
-    assert relieved(scene) is scene
+    assert bake_normal_maps(scene) is scene
 
 
 @pytest.mark.parametrize("right, down", [(0, -0.6), (0, 0.6), (0.6, 0), (-0.6, 0), (0.3, -0.5)])
@@ -92,12 +94,12 @@ def test_the_upper_coats_relief_lies_over_the_lower_by_its_alpha() -> None:
         TextureLayer(WHITE, normal=slope(0, -0.6)),
         TextureLayer(half, normal=slope(0, 0.6)),
     )
-    (model,) = relieved(scene_of(board(), lower, upper)).models
+    (model,) = bake_normal_maps(scene_of(board(), lower, upper)).models
     shades = model.materials[0].layers[0].texels[..., 0]
     top, foot = (brightness(board(), slope(0, y)) for y in (-0.6, 0.6))
     assert (shades[:, :2] == round(top * 255)).all() and (shades[:, 2:] == round(foot * 255)).all()
     # A layer without a map paints over the relief and leaves it as it is.
-    (model,) = relieved(scene_of(board(), lower, TextureLayer(half, (255, 0, 0)))).models
+    (model,) = bake_normal_maps(scene_of(board(), lower, TextureLayer(half, (255, 0, 0)))).models
     texels = model.materials[0].layers[0].texels
     assert (texels[..., 0] == round(top * 255)).all() and (texels[:, 2:, 1:3] == 0).all()
 
@@ -111,7 +113,7 @@ def test_every_member_of_a_batch_is_lit_by_itself() -> None:
         normals=np.stack([mesh.normals for mesh in meshes]),
     )
     scene = replace(scene_of(board(), TextureLayer(WHITE)), models=(Model(batch, (material,)),))
-    (model,) = relieved(scene).models
+    (model,) = bake_normal_maps(scene).models
     assert model.material_index is not None and model.material_index.tolist() == [0, 1, 2]
     for member, worn in zip(meshes, model.materials, strict=True):
         assert worn.layers[0].texels[0, 0, 0] == round(brightness(member, slope(0.5, -0.3)) * 255)
@@ -120,7 +122,7 @@ def test_every_member_of_a_batch_is_lit_by_itself() -> None:
 def test_maps_of_other_sizes_are_sampled_to_the_nearest() -> None:
     fine = np.kron(LEVEL[:2, :2], np.ones((8, 8, 1), np.uint8))
     fine[:, 8:] = slope(0, -0.6)[0, 0]
-    (model,) = relieved(scene_of(board(), TextureLayer(WHITE, normal=fine))).models
+    (model,) = bake_normal_maps(scene_of(board(), TextureLayer(WHITE, normal=fine))).models
     texels = model.materials[0].layers[0].texels
     assert texels.shape == (16, 16, 4)
     assert len(np.unique(texels[:, :8])) == 2 and (texels[0, 8] > texels[0, 7]).any()

@@ -138,7 +138,7 @@ def test_compositing_beforehand_changes_no_bit(alpha: str, monkeypatch: pytest.M
     def leave(worn: MaterialTables) -> MaterialTables:
         return worn
 
-    monkeypatch.setattr("drapery.render.soft.flattened", leave)
+    monkeypatch.setattr("drapery.render.soft.composite_layers", leave)
     assert (drawn(material, background=(10, 200, 30, 77)) == beforehand).all()
 
 

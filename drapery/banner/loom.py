@@ -25,7 +25,7 @@ CHARGE_ITEMS = {
 
 
 @dataclass(frozen=True)
-class Step:
+class LoomStep:
     """One step: the layer that is added and the banner after it."""
 
     layer: Layer
@@ -37,10 +37,10 @@ class Step:
         return CHARGE_ITEMS.get(self.layer.pattern)
 
 
-def steps(banner: Banner) -> Iterator[Step]:
+def loom_steps(banner: Banner) -> Iterator[LoomStep]:
     """The loom's steps in order, from the plain base."""
     for count, layer in enumerate(banner.layers, 1):
-        yield Step(layer, replace(banner, layers=banner.layers[:count]))
+        yield LoomStep(layer, replace(banner, layers=banner.layers[:count]))
 
 
 def fits_loom(banner: Banner) -> bool:
@@ -48,7 +48,7 @@ def fits_loom(banner: Banner) -> bool:
     return len(banner.layers) <= LOOM_LAYERS
 
 
-def simplified(banner: Banner, packs: Packs) -> Banner:
+def simplify(banner: Banner, packs: Packs) -> Banner:
     """The banner without the layers that change no texel of the flag.
 
     Lower layers are removed first, so of two equal layers the upper one stays. Raises PackError.

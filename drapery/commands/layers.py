@@ -64,10 +64,10 @@ def run(
 
 
 def _print_steps(banner: "Banner") -> None:
-    from drapery.banner.loom import fits_loom, steps
+    from drapery.banner.loom import fits_loom, loom_steps
 
     print(f"start with a {banner.base.replace('_', ' ')} banner")
-    for number, step in enumerate(steps(banner), 1):
+    for number, step in enumerate(loom_steps(banner), 1):
         item = f" and a {step.item}" if step.item else ""
         dye = step.layer.dye.replace("_", " ")
         print(f"{number:2}. {step.layer.pattern} with {dye} dye{item}")
@@ -77,9 +77,9 @@ def _print_steps(banner: "Banner") -> None:
 
 def _print_hidden(banner: "Banner", packs: "Packs") -> None:
     from drapery.banner.formats import write_banner
-    from drapery.banner.loom import simplified
+    from drapery.banner.loom import simplify
 
-    fewer = simplified(banner, packs)
+    fewer = simplify(banner, packs)
     if fewer != banner:
         spared = len(banner.layers) - len(fewer.layers)
         print(f"the same picture with {spared} fewer: {write_banner(fewer, 'text')}")

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from drapery.banner.design import Banner, Layer
-from drapery.banner.loom import steps
+from drapery.banner.loom import loom_steps
 from drapery.banner.packs import Packs
 from drapery.errors import OptionError, PackError
 from drapery.pictures import face_pixels
@@ -59,7 +59,9 @@ def contents_sheet(packs: Packs, *, base: str = "white", dye: str = "black") -> 
 def steps_sheet(banner: Banner, packs: Packs) -> PictureSheet:
     """The banner after each step at the loom, with the dye and the pattern to use."""
     made = [(f"base, {banner.base}", Banner(banner.base))]
-    made += [(f"{step.layer.pattern}, {step.layer.dye}", step.banner) for step in steps(banner)]
+    made += [
+        (f"{step.layer.pattern}, {step.layer.dye}", step.banner) for step in loom_steps(banner)
+    ]
     cells = tuple(
         SheetCell(f"{number}. {name}", face_pixels(until, packs, 4))
         for number, (name, until) in enumerate(made)

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from drapery.mesh import Array
 from drapery.render import Camera, Light, Model
-from drapery.render.drawlist import Topology, topology
-from drapery.render.flatten import flattened
+from drapery.render.drawlist import Topology, make_topology
+from drapery.render.flatten import composite_layers
 from drapery.render.identity_cache import IdentityCache
-from drapery.render.relief import relieved
+from drapery.render.relief import bake_normal_maps
 from drapery.studio.panes import Pane, Shown
 
 TYPES = {"float32": "<f4", "uint32": "<u4", "int32": "<i4", "uint8": "|u1"}
@@ -109,7 +109,7 @@ class MessageEncoder:
             )
         )
         shapes = [model.mesh.positions.shape for model in models]
-        return self._recent.get(arrays, shapes, lambda: topology(models))
+        return self._recent.get(arrays, shapes, lambda: make_topology(models))
 
     def _knows(self, topology: Topology, shown: Shown, counts: list[int]) -> bool:
         labels = [(pane.label, pane.flat, pane.scene.background) for pane in shown.panes]
@@ -124,7 +124,7 @@ class MessageEncoder:
     def _scene(self, topology: Topology, shown: Shown, panes: list["_DrawnPane"]) -> bytes:
         starts, materials = topology.vertex_start, np.zeros(len(topology.uvs), np.int32)
         materials[topology.triangles] = topology.triangle_material[:, None]
-        tables = flattened(topology.material_tables)
+        tables = composite_layers(topology.material_tables)
         kinds = np.stack([tables.material_alpha, tables.material_lit], axis=1)
         header = {
             "kind": "scene",
@@ -233,7 +233,7 @@ class _DrawnPane:
 
     def __init__(self, pane: Pane) -> None:
         self.pane = pane
-        self.models: tuple[Model, ...] = relieved(pane.scene).models
+        self.models: tuple[Model, ...] = bake_normal_maps(pane.scene).models
 
 
 def _pane_headers(topology: Topology, panes: list[_DrawnPane]) -> list[dict[str, Any]]:

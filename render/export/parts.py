@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from drapery.errors import OptionError
 from drapery.mesh import Triangles
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
-from drapery.render.flatten import flattened
+from drapery.render.flatten import composite_layers
 from drapery.render.materials import ALPHA_CODES, MaterialTables
 from drapery.render.scene import Alpha, Scene, Texels
 
@@ -81,7 +81,7 @@ def _same(one: Topology, other: Topology) -> bool:
 
 
 def _parts(topology: Topology, positions: Float32, normals: Float32) -> MeshParts:
-    material_tables = flattened(topology.material_tables)
+    material_tables = composite_layers(topology.material_tables)
     if (material_tables.material_layers[:, 1] > 1).any():
         raise OptionError(
             "a 3-D file takes one texture for a surface, and these layers' sizes do not divide one"

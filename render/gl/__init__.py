@@ -21,7 +21,7 @@ from drapery.errors import BackendError, OptionError
 from drapery.mesh import Triangles
 from drapery.render.camera import Matrix, clip_matrix
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
-from drapery.render.flatten import flattened
+from drapery.render.flatten import composite_layers
 from drapery.render.frame import Frame, Pixels
 from drapery.render.gl.platform import load_pyrender, release
 from drapery.render.materials import BLEND, CUTOUT, MaterialTables
@@ -206,7 +206,7 @@ def _material_tables(material_tables: MaterialTables, stacked: bool) -> Material
     many = material_tables.material_layers[:, 1] > 1
     if stacked:
         many &= material_tables.material_alpha == BLEND
-    return flattened(material_tables) if many.any() else material_tables
+    return composite_layers(material_tables) if many.any() else material_tables
 
 
 def _material(pyrender: Any, material_tables: MaterialTables) -> Any:

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from drapery.errors import OptionError
 from drapery.mesh import Mesh, Triangles
 from drapery.render.camera import Matrix, clip_matrix
-from drapery.render.drawlist import Float32, Topology, topology
-from drapery.render.flatten import flattened
+from drapery.render.drawlist import Float32, Topology, make_topology
+from drapery.render.flatten import composite_layers
 from drapery.render.frame import Frame
 from drapery.render.materials import BLEND, MaterialTables
-from drapery.render.relief import relieved
+from drapery.render.relief import bake_normal_maps
 from drapery.render.scene import Scene
 from drapery.render.soft.bins import RECORD, TILE, sort_into_tiles
 from drapery.render.soft.clipping import Corners, clip
@@ -69,17 +69,19 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
 
     Raises OptionError for sizes, textures or meshes that cannot be drawn.
     """
-    scene = relieved(scene)
+    scene = bake_normal_maps(scene)
     grid = _grid(scene)
     workers = threads or worker_count()
-    constant = topology(scene.models)
+    constant = make_topology(scene.models)
     matrix = clip_matrix(scene.camera, scene.size)
     raster, union = _project(scene, constant, matrix, grid, workers)
     if union:
         raster = _clipped(scene, raster, matrix, grid)
     raster = _blends_last(raster, constant.material_tables.material_alpha)
     picture = np.full((scene.size[1], scene.size[0]), _background(scene), np.uint32)
-    _draw(scene, _tables(flattened(constant.material_tables)), raster, grid, workers, picture)
+    _draw(
+        scene, _tables(composite_layers(constant.material_tables)), raster, grid, workers, picture
+    )
     return Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
 
 

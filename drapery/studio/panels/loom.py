@@ -8,7 +8,7 @@ from nicegui import ui
 
 from drapery import Banner, DraperyError
 from drapery.banner.design import LOOM_LAYERS
-from drapery.banner.loom import fits_loom, simplified, steps
+from drapery.banner.loom import fits_loom, loom_steps, simplify
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
@@ -23,13 +23,17 @@ def build(session: Session) -> None:
     warning = text_element("", "p").classes("warning").props('role="status"')
     with ui.element("div").classes("line") as spare:
         hint = text_element("", "span").classes("hint grow")
-        button("Leave out layers that change nothing", lambda: simplify(session), text="Leave out")
+        button(
+            "Leave out layers that change nothing",
+            lambda: simplify_design(session),
+            text="Leave out",
+        )
     recipe = ui.html("", sanitize=False).classes("recipe")
 
     def show() -> None:
         try:
             banner = banner_of(session.sketch)
-            unseen = len(banner.layers) - len(simplified(banner, session.packs()).layers)
+            unseen = len(banner.layers) - len(simplify(banner, session.packs()).layers)
         except DraperyError:
             return
         warning.set_text(
@@ -46,10 +50,10 @@ def build(session: Session) -> None:
     session.listen("packs", show)
 
 
-def simplify(session: Session) -> None:
+def simplify_design(session: Session) -> None:
     """Leave out the layers that change no texel."""
     with errors_shown():
-        banner = simplified(banner_of(session.sketch), session.packs())
+        banner = simplify(banner_of(session.sketch), session.packs())
         session.selection.lay_out(sketch_of(banner, session.sketch.title))
 
 
@@ -57,7 +61,7 @@ def _recipe(banner: Banner, address: str, version: int) -> str:
     dyes = Counter(layer.dye for layer in banner.layers)
     goods = [f"1 {_lower(banner.base)} {banner.kind}"]
     goods += [f"{n} {_lower(dye)} dye" + "s" * (n > 1) for dye, n in dyes.items()]
-    goods += sorted({step.item for step in steps(banner) if step.item})
+    goods += sorted({step.item for step in loom_steps(banner) if step.item})
     items = "".join(f"<li>{escape(each)}</li>" for each in goods)
     rows = "".join(
         _row(
@@ -65,7 +69,7 @@ def _recipe(banner: Banner, address: str, version: int) -> str:
             _step_title(step.layer.dye, step.layer.pattern),
             step.item,
         )
-        for number, step in enumerate(steps(banner), 1)
+        for number, step in enumerate(loom_steps(banner), 1)
     )
     return f'<h3>Items</h3><ul class="goods">{items}</ul><h3>Steps</h3>' + (
         f'<ol class="steps">{rows}</ol>'
