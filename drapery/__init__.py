@@ -4,9 +4,12 @@
 
     draw(Banner.parse("white creeper:lime border:black"), view="hero").save("banner.png")
 
-`drapery.cloth` simulates cloth, `drapery.render` draws meshes, `drapery.style` gives a simulated
-cloth its thickness and textures, `drapery.packs` opens resource packs and makes them in memory,
-`drapery.testing` checks pictures against golden ones. Names are loaded when they are first used.
+`drapery.banner` reads and writes designs and composites their sheets, `drapery.packs` opens
+resource packs and makes them in memory, `drapery.cloth` simulates cloth, `drapery.style` gives a
+simulated cloth its thickness and textures, `drapery.render` draws meshes, `drapery.scenes` hangs
+cloth before a camera and plays ready-made scenes, `drapery.comparison` and `drapery.sheets` compare
+and list pictures, `drapery.testing` checks them against golden ones. Names are loaded when they
+are first used.
 """
 
 from importlib import import_module
@@ -32,6 +35,7 @@ if TYPE_CHECKING:
     from drapery.style.extrusion import extrude
 
     __version__: str
+    """The version of the installed distribution, such as `0.1.0`."""
 
 __all__ = [
     "Animation",

@@ -12,7 +12,7 @@ from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.contents import PackReport, describe_packs
 from drapery.banner.packs.memory import MemoryPack
 from drapery.banner.packs.pack import Pack, open_pack
-from drapery.banner.packs.png import Texels
+from drapery.banner.packs.png import Texels, png_size, read_png
 from drapery.banner.packs.sources import PackSource
 from drapery.banner.packs.stack import PackLike
 
@@ -27,4 +27,6 @@ __all__ = [
     "describe_packs",
     "open_pack",
     "open_packs",
+    "png_size",
+    "read_png",
 ]

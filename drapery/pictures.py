@@ -6,8 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal, Unpack
 
-import numpy as np
-
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.stack import PackLike
@@ -16,6 +14,8 @@ from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
 from drapery.settings import Options, Settings, check_format, frame_count
+
+__all__ = ["animate", "draw", "draw_face", "draw_scenes", "iter_frames", "save_model"]
 
 
 def draw(
@@ -127,13 +127,9 @@ def face_pixels(
 
     Raises PackError.
     """
-    from drapery.banner.sprites import face
+    from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
 
-    texels = face(banner, packs, side)
-    # Packs of other sizes keep the picture's size: nearest texel at each pixel's centre.
-    down = (np.arange(40 * scale) * 2 + 1) * texels.shape[0] // (80 * scale)
-    across = (np.arange(20 * scale) * 2 + 1) * texels.shape[1] // (40 * scale)
-    return np.ascontiguousarray(texels[down][:, across])
+    return FLAG_REGIONS[side].sample(composite(flag_layers(banner, packs)), scale)
 
 
 def draw_scenes(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterator[Frame]:

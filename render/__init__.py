@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     )
     from drapery.render.doctor import BackendReport, backend_report
     from drapery.render.drawing import Colour, draw_models, draw_scene, make_model
+    from drapery.render.drawlist import DrawList, Topology, draw_list, make_topology
     from drapery.render.encode import (
         check_animation_target,
         check_still_target,
@@ -37,9 +38,13 @@ if TYPE_CHECKING:
     from drapery.render.encode.output import check_writable, make_folder, replacing
     from drapery.render.encode.png import png_bytes
     from drapery.render.export import MODEL_ENDINGS, check_model_target, save_model
+    from drapery.render.flatten import composite_layers
     from drapery.render.frame import Animation, Frame, Pixels
+    from drapery.render.identity_cache import IdentityCache
     from drapery.render.light import GAME_LIGHT, UNLIT, Light, lit_at
     from drapery.render.lines import dot_model, line_model
+    from drapery.render.materials import MaterialTables
+    from drapery.render.relief import bake_normal_maps
     from drapery.render.resize import enlarge
     from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
     from drapery.render.shadow import contact_shadow
@@ -54,29 +59,36 @@ __all__ = [
     "BackendReport",
     "Camera",
     "Colour",
+    "DrawList",
     "DrawScene",
     "Frame",
+    "IdentityCache",
     "Light",
     "Material",
+    "MaterialTables",
     "Mesh",
     "Model",
     "Pixels",
     "Scene",
     "Texels",
     "TextureLayer",
+    "Topology",
     "View",
     "backend",
     "backend_names",
     "backend_report",
+    "bake_normal_maps",
     "check_animation_target",
     "check_model_target",
     "check_still_target",
     "check_writable",
     "clip_matrix",
+    "composite_layers",
     "contact_shadow",
     "contact_sheet",
     "contact_table",
     "dot_model",
+    "draw_list",
     "draw_models",
     "draw_scene",
     "edges_model",
@@ -90,6 +102,7 @@ __all__ = [
     "make_folder",
     "make_mesh",
     "make_model",
+    "make_topology",
     "normals_model",
     "on_checker",
     "pins_model",
@@ -117,15 +130,20 @@ _NAMES = {
     ),
     "drapery.render.doctor": ("BackendReport", "backend_report"),
     "drapery.render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),
+    "drapery.render.drawlist": ("DrawList", "Topology", "draw_list", "make_topology"),
     "drapery.render.encode": (
         *("check_animation_target", "check_still_target", "save_animation", "save_frame"),
     ),
     "drapery.render.encode.output": ("check_writable", "make_folder", "replacing"),
     "drapery.render.encode.png": ("png_bytes",),
     "drapery.render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
+    "drapery.render.flatten": ("composite_layers",),
     "drapery.render.frame": ("Animation", "Frame", "Pixels"),
+    "drapery.render.identity_cache": ("IdentityCache",),
     "drapery.render.light": ("GAME_LIGHT", "UNLIT", "Light", "lit_at"),
     "drapery.render.lines": ("dot_model", "line_model"),
+    "drapery.render.materials": ("MaterialTables",),
+    "drapery.render.relief": ("bake_normal_maps",),
     "drapery.render.resize": ("enlarge",),
     "drapery.render.scene": ("Material", "Model", "Scene", "Texels", "TextureLayer"),
     "drapery.render.shadow": ("contact_shadow",),

@@ -34,6 +34,7 @@ VIEWS: dict[str, View] = {
     "gui": View(-20, 30, None),
     "hero": View(28, 8, 30),
 }
+"""The named views; `hero` has perspective, the others a parallel projection."""
 
 
 def find_view(view: str | View) -> View:

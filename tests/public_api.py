@@ -14,7 +14,10 @@ import griffe
 
 ROOT = Path(__file__).parent.parent
 RECORD = Path(__file__).with_suffix(".txt")
-PUBLIC = ("drapery", "cloth", "render", "style", "testing", "batch")
+PUBLIC = (
+    *("drapery", "cloth", "banner", "packs", "render", "style", "scenes", "pictures"),
+    *("comparison", "sheets", "testing", "batch"),
+)
 """The package and those of its modules that others may import."""
 
 

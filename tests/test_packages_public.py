@@ -7,7 +7,10 @@ from pathlib import Path
 
 import pytest
 
-PACKAGES = ["drapery.render", "drapery.comparison", "drapery.sheets", "drapery.testing"]
+PACKAGES = [
+    *("drapery.banner", "drapery.render", "drapery.scenes"),
+    *("drapery.comparison", "drapery.sheets", "drapery.testing"),
+]
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -16,7 +19,7 @@ def test_every_public_name_is_there_documented_and_seen_by_type_checkers(package
     tree = ast.parse(Path(inspect.getfile(module)).read_text(encoding="utf-8"))
     (checked,) = (node for node in tree.body if isinstance(node, ast.If))
     imported = {
-        alias.name: node.module
+        alias.asname or alias.name: node.module
         for node in checked.body
         if isinstance(node, ast.ImportFrom)
         for alias in node.names

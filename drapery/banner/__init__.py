@@ -1,13 +1,123 @@
-"""What a banner is, how it is written down, and the pictures it is made of."""
+"""What a banner is, how it is written down, and the sheets of texels that it is made of.
 
-from drapery.banner.design import Banner, Layer, use_parser
+    from drapery.banner import FLAG_REGIONS, composite, flag_layers, parse_banner, write_banner
+    from drapery.packs import open_packs
 
-__all__ = ["Banner", "Layer"]
+    banner = parse_banner("white creeper:lime border:black")
+    print(write_banner(banner, "give"))
+    sheet = composite(flag_layers(banner, open_packs(())))  # uint8 [64, 64, 4]
+    front = FLAG_REGIONS["front"].crop(sheet)  # uint8 [40, 20, 4]
+
+Texels are 8-bit sRGB with straight alpha, the top row first. Names are loaded when they are first
+used.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from drapery.banner.design import use_parser
+
+if TYPE_CHECKING:
+    from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS, Banner, Layer
+    from drapery.banner.dyes import DYE_NAMES, DYES, Dye
+    from drapery.banner.formats.form import BinaryForm, Form
+    from drapery.banner.formats.found import FoundBanner, find_banners
+    from drapery.banner.formats.registry import (
+        FORMS,
+        binary_forms,
+        choose_banner,
+        parse_banner,
+        parse_banners,
+        read_design,
+        read_designs,
+        recognise,
+        write_banner,
+    )
+    from drapery.banner.loom import LoomStep, fits_loom, loom_steps, simplify
+    from drapery.banner.names import dye_name, pattern_id
+    from drapery.banner.patterns import PATTERN_NAMES, PATTERNS, Pattern
+    from drapery.banner.sprites import (
+        FLAG_REGIONS,
+        SHIELD_REGIONS,
+        SheetRegion,
+        composite,
+        flag_layers,
+        shield_layers,
+    )
+
+__all__ = [
+    "DYES",
+    "DYE_NAMES",
+    "FLAG_REGIONS",
+    "FORMS",
+    "LOOM_LAYERS",
+    "MAX_LAYERS",
+    "PATTERNS",
+    "PATTERN_NAMES",
+    "SHIELD_REGIONS",
+    "Banner",
+    "BinaryForm",
+    "Dye",
+    "Form",
+    "FoundBanner",
+    "Layer",
+    "LoomStep",
+    "Pattern",
+    "SheetRegion",
+    "binary_forms",
+    "choose_banner",
+    "composite",
+    "dye_name",
+    "find_banners",
+    "fits_loom",
+    "flag_layers",
+    "loom_steps",
+    "parse_banner",
+    "parse_banners",
+    "pattern_id",
+    "read_design",
+    "read_designs",
+    "recognise",
+    "shield_layers",
+    "simplify",
+    "write_banner",
+]
+
+_NAMES = {
+    "drapery.banner.design": ("LOOM_LAYERS", "MAX_LAYERS", "Banner", "Layer"),
+    "drapery.banner.dyes": ("DYES", "DYE_NAMES", "Dye"),
+    "drapery.banner.formats.form": ("BinaryForm", "Form"),
+    "drapery.banner.formats.found": ("FoundBanner", "find_banners"),
+    "drapery.banner.formats.registry": (
+        *("FORMS", "binary_forms", "choose_banner", "parse_banner", "parse_banners"),
+        *("read_design", "read_designs", "recognise", "write_banner"),
+    ),
+    "drapery.banner.loom": ("LoomStep", "fits_loom", "loom_steps", "simplify"),
+    "drapery.banner.names": ("dye_name", "pattern_id"),
+    "drapery.banner.patterns": ("PATTERNS", "PATTERN_NAMES", "Pattern"),
+    "drapery.banner.sprites": (
+        *("FLAG_REGIONS", "SHIELD_REGIONS", "SheetRegion"),
+        *("composite", "flag_layers", "shield_layers"),
+    ),
+}
+_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
 
 
-def _parse(text: str) -> Banner:
+def __getattr__(name: str) -> Any:
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module 'drapery.banner' has no attribute {name!r}")
+    value = getattr(import_module(_MODULE_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+def _parse(text: str) -> "Banner":
     # The forms are imported when the first text is read: they take a while.
-    from drapery.banner.formats import parse_banner
+    from drapery.banner.formats.registry import parse_banner
 
     return parse_banner(text)
 

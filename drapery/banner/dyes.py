@@ -5,7 +5,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Dye:
-    """One dye: its id in commands, its number (white is 0) and its colour in sRGB."""
+    """One dye.
+
+    name: its id in commands. number: 0 to 15, white is 0. rgb: the colour that it gives to a
+    banner's cloth, 8-bit sRGB, as in the game's class `DyeColor`.
+    """
 
     name: str
     number: int
@@ -38,3 +42,4 @@ DYES: dict[str, Dye] = {
 """Every dye by name, in the order of their numbers."""
 
 DYE_NAMES: tuple[str, ...] = tuple(DYES)
+"""The names of the sixteen dyes, in the order of their numbers."""

@@ -26,7 +26,7 @@ CHARGE_ITEMS = {
 
 @dataclass(frozen=True)
 class LoomStep:
-    """One step: the layer that is added and the banner after it."""
+    """One step at the loom. layer: what is added. banner: the design after it."""
 
     layer: Layer
     banner: Banner
@@ -38,13 +38,13 @@ class LoomStep:
 
 
 def loom_steps(banner: Banner) -> Iterator[LoomStep]:
-    """The loom's steps in order, from the plain base."""
+    """The steps in which a loom makes a banner, from the plain base on, one for each layer."""
     for count, layer in enumerate(banner.layers, 1):
         yield LoomStep(layer, replace(banner, layers=banner.layers[:count]))
 
 
 def fits_loom(banner: Banner) -> bool:
-    """Whether the loom can make it, which adds at most LOOM_LAYERS."""
+    """Whether a loom can make the banner: it adds at most LOOM_LAYERS layers."""
     return len(banner.layers) <= LOOM_LAYERS
 
 

@@ -5,7 +5,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Pattern:
-    """One pattern: its id, its code before 1.20.5 (None if it had none), and its title."""
+    """One pattern of the game.
+
+    name: its id. code: its short name before 1.20.5, None if it had none. title: its English name.
+    """
 
     name: str
     code: str | None
@@ -70,6 +73,7 @@ PATTERNS: dict[str, Pattern] = {
 """Every pattern of the game by id."""
 
 PATTERN_NAMES: tuple[str, ...] = tuple(PATTERNS)
+"""The ids of all patterns of the game, in the order of its list."""
 
 BY_CODE: dict[str, Pattern] = {p.code: p for p in PATTERNS.values() if p.code is not None}
 """The patterns that have a code of the versions before 1.20.5, by that code."""

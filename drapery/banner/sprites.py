@@ -21,7 +21,7 @@ from drapery.banner.packs.resampling import MAX_COMPOSITE, common_side, nearest_
 
 Tint = tuple[int, int, int]
 Tinted = tuple[Texels, Tint]
-"""A sheet and the colour it is multiplied by."""
+"""A sheet, uint8 [H, H, 4], and the sRGB colour that multiplies it, three of 0..255."""
 
 WHITE: Tint = (255, 255, 255)
 UNITS = 64
@@ -59,6 +59,16 @@ class SheetRegion:
         columns = index[self.left * unit : self.right * unit]
         return np.ascontiguousarray(sheet[rows[:, None], columns])
 
+    def sample(self, sheet: Texels, scale: int) -> Texels:
+        """The region at `scale` pixels a unit, shape [scale * rows, scale * columns, 4].
+
+        Each pixel is the nearest texel to its centre, so pictures of all packs have one size.
+        """
+        texels = self.crop(sheet)
+        rows = nearest_texels(len(texels), (self.bottom - self.top) * scale)
+        columns = nearest_texels(texels.shape[1], (self.right - self.left) * scale)
+        return np.ascontiguousarray(texels[rows[:, None], columns])
+
 
 FRONT = SheetRegion(1, 1, 21, 41)
 BACK = SheetRegion(22, 1, 42, 41)
@@ -76,6 +86,10 @@ FLAG_REGIONS: dict[str, SheetRegion] = {
     "left": LEFT_EDGE,
     "right": RIGHT_EDGE,
 }
+"""The six sides of a flag on its sheet, by name; left and right as a viewer of the front has them.
+
+From the game's model: a box of 20 x 40 x 1 units whose texture starts at (0, 0).
+"""
 
 SHIELD_REGIONS: dict[str, SheetRegion] = {
     "front": SheetRegion(1, 1, 13, 23),
@@ -85,7 +99,7 @@ SHIELD_REGIONS: dict[str, SheetRegion] = {
     "left": SheetRegion(0, 1, 1, 23),
     "right": SheetRegion(13, 1, 14, 23),
 }
-"""The plate of a shield."""
+"""The six sides of a shield's plate, 12 x 22 units, on its sheet, by name."""
 
 
 def tint(texels: Texels, rgb: Tint) -> Texels:
@@ -105,15 +119,20 @@ def lay_over(below: Texels, above: Texels) -> Texels:
     return _divide_by_255(alpha * source + (255 - alpha) * below)
 
 
-def composite(layers: Sequence[Tinted]) -> Texels:
-    """One opaque sheet for a stack of square sheets and their tints, lowest first.
+def composite(layers: Sequence[Tinted], side: int | None = None) -> Texels:
+    """One opaque sheet for a stack of square sheets and their tints, shape [side, side, 4].
 
-    Its side is that of `common_side`. Where that is the least common multiple, nearest sampling
-    of the sheet equals nearest sampling of each layer at its own size; above MAX_COMPOSITE it
-    equals it only to the nearest texel of the sheet. The lowest layer counts as opaque, as in the
-    game's solid layer.
+    layers: as `flag_layers` gives them, lowest first; the lowest counts as opaque, as in the
+        game's solid layer.
+    side: of the sheet [px]; each layer is sampled to its nearest texels. None is the least common
+        multiple of the layers' sides, where that loses nothing, or, if that is over 2048 px, the
+        greatest multiple of the largest side within it.
+
+    Channels are 8-bit integers: round(texel * dye / 255) for the tint, and
+    round((a * source + (255 - a) * below) / 255) for a layer of alpha a over those below.
     """
-    side = common_side(len(texels) for texels, _ in layers)
+    if side is None:
+        side = common_side(len(texels) for texels, _ in layers)
     sheet = np.empty((side, side, 4), np.uint8)
     for top in range(0, side, _BAND):
         rows = slice(top, min(top + _BAND, side))

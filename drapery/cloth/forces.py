@@ -51,6 +51,8 @@ class ForceField(Protocol):
 
 
 Force = Gravity | Drag | Wind | ForceField
+"""What acts on the particles of a cloth; a ForceField is any object of your own with the
+method `acceleration`."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,8 @@ from drapery.mesh import Array
 PinName = Literal["none", "top", "corners", "three-corners", "four-corners"]
 Predicate = Callable[[Array], NDArray[np.bool_]]
 Pins = PinName | Predicate | Sequence[int] | NDArray[np.integer]
+"""Which particles are held: the name of some of a grid's, the particles' numbers, or a function
+from the rest positions [m], shape [N, 3], to bools, shape [N]."""
 
 PinPath = Callable[[float], Array]
 """Where the pinned particles are at a time [s]: positions [m], shape [P, 3] or [B, P, 3].

@@ -8,7 +8,7 @@ import typer
 from drapery.commands import options as o
 
 if TYPE_CHECKING:
-    from drapery.banner.design import Banner
+    from drapery import Banner
 
 
 def run(
@@ -25,14 +25,15 @@ def run(
     number: o.NumberOption = None,
 ) -> None:
     """Show one banner or many, layer by layer, or write them in another form."""
-    from drapery.banner.formats import read_designs, write_banner
-    from drapery.banner.formats.registry import pick
+    from drapery.banner import choose_banner, read_designs, write_banner
 
     found = read_designs(design, form=form)
     if out is not None:
-        _write(pick(found, number), out, written)
+        _write(choose_banner(found, number), out, written)
         return
-    banners = [pick(found, number)] if number is not None else [one.banner for one in found]
+    banners = (
+        [choose_banner(found, number)] if number is not None else [one.banner for one in found]
+    )
     if written is not None:
         for banner in banners:
             print(write_banner(banner, written))
@@ -45,10 +46,9 @@ def run(
 
 def _write(banner: "Banner", out: Path, form: str | None) -> None:
     """The banner as a file: of a form of bytes by its name or the file's ending, or of text."""
-    from drapery.banner.formats import write_banner
-    from drapery.banner.formats.registry import binary_forms
+    from drapery.banner import binary_forms, write_banner
     from drapery.errors import DesignError
-    from drapery.render.encode.output import replacing
+    from drapery.render import replacing
 
     ending = out.suffix.lower()
     kinds = [kind for kind in binary_forms().values() if kind.write]
@@ -79,14 +79,14 @@ def _explain(banner: "Banner") -> None:
 
 
 def _swatch(dye: str) -> str:
-    from drapery.banner.dyes import DYES
+    from drapery.banner import DYES
 
     red, green, blue = DYES[dye].rgb
     return f"[on rgb({red},{green},{blue})]    [/] {dye}"
 
 
 def _title(pattern: str) -> str:
-    from drapery.banner.patterns import PATTERNS
+    from drapery.banner import PATTERNS
 
     known = PATTERNS.get(pattern)
     return known.title if known else "pattern of a data pack"

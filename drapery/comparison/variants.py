@@ -10,7 +10,7 @@ from PIL import Image
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import read_designs
-from drapery.banner.formats.registry import pick
+from drapery.banner.formats.registry import choose_banner
 from drapery.errors import OptionError
 from drapery.pictures import draw
 from drapery.render import Frame
@@ -85,7 +85,7 @@ def draw_variants(
 
 def _banner(text: str, form: str | None, number: int | None) -> Banner:
     found = read_designs(text, form=form)
-    return pick(found, number if len(found) > 1 else None)
+    return choose_banner(found, number if len(found) > 1 else None)
 
 
 def _drawn(

@@ -23,6 +23,7 @@ class PictureGrid:
 
 
 Picture = Scene | Frame | PictureGrid
+"""One picture of a ready-made scene: to be drawn, drawn already, or several side by side."""
 
 
 def panel_size(size: tuple[int, int], columns: int, rows: int = 1) -> tuple[int, int]:

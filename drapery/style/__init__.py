@@ -21,11 +21,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from drapery.style.block import FLAG_MAPPING, FLAG_SIZE
+    from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, turn
     from drapery.style.body import Body, MaterialAt, Panel, Part
     from drapery.style.crowds import cover_crowd
     from drapery.style.extrusion import Shell, boundary_edges, extrude, make_shell
-    from drapery.style.kinds import body_of
+    from drapery.style.kinds import Kind, body_of, check_kind
     from drapery.style.layers import flag_material
     from drapery.style.uv_mapping import BoxMapping, SheetMapping, UVMapping, box_mapping
 
@@ -34,6 +34,7 @@ __all__ = [
     "FLAG_SIZE",
     "Body",
     "BoxMapping",
+    "Kind",
     "MaterialAt",
     "Panel",
     "Part",
@@ -43,18 +44,20 @@ __all__ = [
     "body_of",
     "boundary_edges",
     "box_mapping",
+    "check_kind",
     "cover_crowd",
     "extrude",
     "flag_material",
     "make_shell",
+    "turn",
 ]
 
 _MODULES = {
-    "block": ("FLAG_MAPPING", "FLAG_SIZE"),
+    "block": ("FLAG_MAPPING", "FLAG_SIZE", "turn"),
     "body": ("Body", "MaterialAt", "Panel", "Part"),
     "crowds": ("cover_crowd",),
     "extrusion": ("Shell", "boundary_edges", "extrude", "make_shell"),
-    "kinds": ("body_of",),
+    "kinds": ("Kind", "body_of", "check_kind"),
     "layers": ("flag_material",),
     "uv_mapping": ("BoxMapping", "SheetMapping", "UVMapping", "box_mapping"),
 }

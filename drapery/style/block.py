@@ -52,7 +52,11 @@ def to_world(points: Array) -> Array:
 
 
 def turn(mesh: Mesh, degrees: float) -> Mesh:
-    """The mesh turned about the block's upright axis; the game turns by -angle for a facing."""
+    """The mesh turned about the upright axis through the block's middle, (0.5, y, 0.5) [m].
+
+    mesh: positions and normals, each [..., V, 3]. degrees: clockwise as seen from above, so +z
+        (south) turns towards -x (west), as the game's rotations and facings do.
+    """
     angle = np.radians(-degrees)
     cos, sin = np.cos(angle), np.sin(angle)
     matrix = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])

@@ -29,6 +29,7 @@ Files = dict[str, bytes]
 """What is written, by file name; the target itself comes last."""
 
 MODEL_ENDINGS = (".glb", ".obj", ".ply", ".bbmodel", ".geo.json")
+"""The endings of the 3-D files that `save_model` writes; only .glb holds a motion."""
 
 
 def save_model(scenes: Scene | Iterable[Scene], path: str | Path, *, fps: float = 20.0) -> None:

@@ -121,7 +121,7 @@ def parse_banner(text: str, *, form: str | None = None, number: int | None = Non
 
     Raises DesignError with the place and the remedy.
     """
-    return pick(parse_banners(text, form=form), number)
+    return choose_banner(parse_banners(text, form=form), number)
 
 
 def write_banner(banner: Banner, form: str = "json") -> str:
@@ -132,7 +132,7 @@ def write_banner(banner: Banner, form: str = "json") -> str:
     return write(banner)
 
 
-def pick(found: list[FoundBanner], number: int | None = None) -> Banner:
+def choose_banner(found: list[FoundBanner], number: int | None = None) -> Banner:
     """One of the banners that were found; several equal ones count as one.
 
     number: which, from 1. Raises DesignError if it is out of range, and for None if the banners
@@ -157,7 +157,7 @@ def read_design(
 
     Raises DesignError as `parse_banner` does, and for files that cannot be read.
     """
-    return pick(read_designs(source, form=form), number)
+    return choose_banner(read_designs(source, form=form), number)
 
 
 def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBanner]:

@@ -121,6 +121,8 @@ class TriangleMesh:
 
 
 Shape = Sphere | Capsule | Box | Plane | Voxels | TriangleMesh | SignedDistance
+"""What a collider can be; a SignedDistance is any object of your own with a distance that
+numba compiles."""
 
 
 def sixfold_volumes(vertices: Array, triangles: Triangles, part: NDArray[np.int32]) -> Array:

@@ -14,7 +14,11 @@ from drapery.style.kinds import banner, cape, elytra, shield
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind. takes: what it is drawn with. placements: where it can be."""
+    """One kind of thing that is drawn.
+
+    build: makes the body of a design (None for a texture) from packs and settings; raises
+        OptionError and PackError. takes: what it is drawn with. placements: where it can be.
+    """
 
     build: Callable[[Banner | None, Packs, Settings], Body]
     takes: Literal["design", "texture"]
@@ -39,7 +43,11 @@ def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
 
 
 def check_kind(design: Banner | None, settings: Settings) -> Kind:
-    """The kind that the settings ask for. Raises OptionError where options do not fit it."""
+    """The kind that the settings ask for; nothing is drawn and no file is read.
+
+    design: None for a cape, elytra or plain shield. Raises OptionError where options, or a design,
+    do not fit the kind.
+    """
     name = settings.kind
     if name == "auto":
         name = "banner" if design is None else design.kind
