@@ -314,6 +314,20 @@ def test_a_bomb_in_every_chunk_goes_off_in_none(tmp_path: Path):
     assert len(errors) == 1 and "MiB unpacked" in str(errors[0])
 
 
+def test_a_chunk_of_nothing_but_banners_is_too_much(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr("drapery.banner.formats.region.MAX_BANNERS", 20)
+    blocks = {(n % 16, n // 16, 0): (make.block_id(RED), make.entity(RED)) for n in range(40)}
+    chunk = make.chunk("1.18", blocks)
+    path = make.save(tmp_path / "r.0.0.mca", make.region({(0, 0): chunk, (1, 0): RED_CHUNK}))
+    errors: list[DesignError] = []
+    assert len(list(banners_in(path, errors.append))) == 21
+    assert [str(error) for error in errors] == [
+        "r.0.0.mca chunk 0,0: over 20 banners; split the chunk in two worlds"
+    ]
+
+
 def test_a_chunk_that_a_thousand_places_list_is_read_once(tmp_path: Path):
     blocks = {(n, 1, 0): (make.block_id(RED), make.entity(RED)) for n in range(16)}
     region = bytearray(make.region({(0, 0): make.chunk("1.18", blocks)}))

@@ -8,6 +8,7 @@ the kind is set, the chunk is too large and has its own file, `c.<x>.<z>.mcc`.
 import os
 import re
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from typing import BinaryIO
 
@@ -28,6 +29,9 @@ MAX_CHUNK = 16 * 2**20
 MAX_RATIO = 100
 """All chunks together may unpack to this many times the size of the file, so that not every
 chunk can be a bomb. A chunk takes at least a sector; one of air unpacks to about twenty."""
+
+MAX_BANNERS = 20_000
+"""Most banners of one chunk, which has 98,304 blocks."""
 
 KINDS = {1: "gzip", 2: "zlib", 3: "none", 127: "one of a mod's own"}
 _LZ4 = 4
@@ -80,11 +84,18 @@ def find(
             unpacked += len(data)
             check_size(unpacked, where, limit)
             if any(word in data for word in _WORDS):
-                yield from chunk.find(read_nbt(data, at), at, on_error)
+                yield from _limited(chunk.find(read_nbt(data, at), at, on_error), at)
         except DesignError as error:
             on_error(error)
         if unpacked > limit:
             return
+
+
+def _limited(found: Iterator[FoundBanner], where: str) -> Iterator[FoundBanner]:
+    """The banners of a chunk. Raises DesignError after the last that is allowed."""
+    yield from islice(found, MAX_BANNERS)
+    if next(found, None) is not None:
+        raise DesignError(f"{where}: over {MAX_BANNERS} banners; split the chunk in two worlds")
 
 
 def _corner(name: str) -> tuple[int, int]:
