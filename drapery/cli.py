@@ -1,6 +1,12 @@
 """The command line: its commands, and how errors are printed."""
 
+import signal
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from io import TextIOWrapper
+from types import FrameType
 
 import typer
 from typer.exceptions import TyperException
@@ -54,10 +60,16 @@ app.add_typer(sheet.app, name="sheet")
 
 
 def main() -> None:
-    """Run a command. Bad input prints one line on standard error; the exit code is 2."""
+    """Run a command. Bad input prints one line on standard error; the exit code is 2.
+
+    Ctrl-C, SIGTERM and SIGHUP remove partial files; the exit codes are 130, 143 and 129.
+    """
     adopt_warnings()
+    _print_any_text()
+    received: list[int] = []
     try:
-        code = app(standalone_mode=False)
+        with _ended_by_signals(received):
+            code = app(standalone_mode=False)
     except DraperyError as error:
         say(str(error))
         code = 2
@@ -73,4 +85,42 @@ def main() -> None:
     except (KeyboardInterrupt, typer.Abort):
         say("stopped")
         code = 130
+    if received:
+        code = 128 + received[0]
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _print_any_text() -> None:
+    """Write characters that the terminal cannot show as escapes, not as an error."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+@contextmanager
+def _ended_by_signals(received: list[int]) -> Iterator[None]:
+    """SIGTERM and SIGHUP end the block as Ctrl-C does, and are appended to `received`.
+
+    A second one ends the process at once. A signal that is ignored stays so, as nohup wants
+    SIGHUP. Windows has no SIGHUP, and only the main thread may change what signals do.
+    """
+
+    def restore() -> None:
+        for number in numbers:
+            signal.signal(number, signal.SIG_DFL)
+
+    def end(number: int, frame: FrameType | None) -> None:
+        restore()
+        received.append(number)
+        raise KeyboardInterrupt
+
+    known = [getattr(signal, name, None) for name in ("SIGTERM", "SIGHUP")]
+    if threading.current_thread() is not threading.main_thread():
+        known = []
+    numbers = [n for n in known if n is not None and signal.getsignal(n) is signal.SIG_DFL]
+    for number in numbers:
+        signal.signal(number, end)
+    try:
+        yield
+    finally:
+        restore()

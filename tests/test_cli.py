@@ -1,8 +1,11 @@
 """The command line does the job, and bad input ends in one clear line and exit code 2."""
 
 import io
+import os
+import signal
 import subprocess
 import sys
+import time
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -13,6 +16,7 @@ from conftest import GIVE, Run
 from PIL import Image
 
 from drapery import Banner, DraperyError, animate, draw
+from drapery.commands import notices
 from drapery.errors import DesignError, OptionError
 from drapery.settings import Settings
 
@@ -93,7 +97,7 @@ def test_a_design_is_read_from_a_file_and_from_standard_input(
     design = tmp_path / "banner.txt"
     design.write_text(GIVE)
     from_file = drapery("show", design, "--as", "text")
-    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(GIVE.encode())))
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(GIVE.encode()), encoding="utf-8"))
     assert from_file == drapery("show", "-", "--as", "text") != (0, "", "")
 
 
@@ -242,3 +246,66 @@ def test_doctor_prints_the_whole_remedy(drapery: Run, monkeypatch: pytest.Monkey
     monkeypatch.setattr(doctor, "backend_report", lambda: report)
     code, out, _ = drapery("doctor")
     assert code == 0 and 'to mend it: pip install "drapery[video]"' in out
+
+
+def command(*words: object, **options: Any) -> "subprocess.CompletedProcess[str]":
+    """Drapery in a process of its own."""
+    line = [sys.executable, "-m", "drapery", *map(str, words)]
+    return subprocess.run(line, capture_output=True, encoding="utf-8", **options)
+
+
+def test_help_is_shown_in_ascii() -> None:
+    ran = command("--help", env=os.environ | {"PYTHONIOENCODING": "ascii", "LC_ALL": "C"})
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert r"?design=\u2026" in ran.stdout
+
+
+def test_a_closed_standard_input_is_one_line(drapery: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", None)
+    code, out, err = drapery("show", "-")
+    assert (code, out, len(err.splitlines())) == (2, "", 1)
+    assert "standard input" in err
+
+
+def test_errors_are_one_line_of_bounded_length(capsys: pytest.CaptureFixture[str]) -> None:
+    notices.say("a\nb" * 100_000)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert len(line) < notices.MAX_LINE + 20
+
+
+def test_an_error_that_cannot_be_printed_keeps_its_exit_code() -> None:
+    if not Path("/dev/full").exists():
+        pytest.skip("there is no /dev/full")
+    with Path("/dev/full").open("w", encoding="utf-8") as full:
+        line = [sys.executable, "-m", "drapery", "show", "creper"]
+        assert subprocess.run(line, stderr=full).returncode == 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows ends processes without a signal")
+@pytest.mark.parametrize("name, code", [("SIGTERM", 143), ("SIGHUP", 129), ("SIGINT", 130)])
+def test_a_stopped_animation_leaves_no_partial_file(tmp_path: Path, name: str, code: int) -> None:
+    target = "frames/" if name == "SIGHUP" else "out.gif"
+    words = ["animate", "white", "-o", target, "--size", "512x512", "--seconds", "60"]
+    line = [sys.executable, "-m", "drapery", *words]
+    run = subprocess.Popen(line, cwd=tmp_path, stderr=subprocess.DEVNULL)
+    end = time.monotonic() + 120
+    while not list(tmp_path.glob(".*.part")):
+        assert time.monotonic() < end and run.poll() is None
+        time.sleep(0.01)
+    run.send_signal(getattr(signal, name))
+    assert run.wait(60) == code
+    assert not list(tmp_path.rglob(".*.part"))
+
+
+def test_signals_do_as_before_after_a_command(drapery: Run) -> None:
+    names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    before = [signal.getsignal(getattr(signal, name)) for name in names]
+    assert drapery("show", "white")[0] == 0
+    assert [signal.getsignal(getattr(signal, name)) for name in names] == before
+
+
+def test_a_system_without_sighup_runs_commands(
+    drapery: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr(signal, "SIGHUP", raising=False)
+    assert drapery("show", "white")[0] == 0

@@ -1,10 +1,9 @@
 """`drapery batch`: all pictures of a manifest, on one machine or many."""
 
-import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -65,7 +64,7 @@ def run(
         raise OptionError("--cluster starts a scheduler of its own; leave out --scheduler")
     defaults = _defaults(default or [])
     try:
-        with _stopped_by_signals(), compile_notice(), _progress() as on_event:
+        with compile_notice(), _progress() as on_event:
             result = run_batch(
                 manifest,
                 out,
@@ -102,26 +101,6 @@ def _defaults(texts: list[str]) -> dict[str, str]:
             raise OptionError(f"--set {text!r} has no value; write NAME=VALUE")
     pairs = (text.split("=", 1) for text in texts)
     return {name.strip(): value.strip() for name, value in pairs}
-
-
-@contextmanager
-def _stopped_by_signals() -> Iterator[None]:
-    """SIGTERM and SIGHUP end the block as Ctrl-C does, so that it leaves no partial files."""
-
-    def stop(number: int, frame: Any) -> None:
-        raise KeyboardInterrupt
-
-    names = ("SIGTERM", "SIGHUP")  # Windows has no SIGHUP
-    numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
-    # nohup ignores SIGHUP, and that must stay so.
-    numbers = [number for number in numbers if signal.getsignal(number) is signal.SIG_DFL]
-    for number in numbers:
-        signal.signal(number, stop)
-    try:
-        yield
-    finally:
-        for number in numbers:
-            signal.signal(number, signal.SIG_DFL)
 
 
 @contextmanager

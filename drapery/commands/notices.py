@@ -11,9 +11,17 @@ if TYPE_CHECKING:
     from rich.progress import Progress
 
 
-def say(line: str) -> None:
-    """Print one line to the user; the result itself goes to standard output."""
-    print(f"drapery: {line}", file=sys.stderr, flush=True)
+MAX_LINE = 4000
+"""Most characters of one line on standard error."""
+
+
+def say(message: str) -> None:
+    """Print one line of bounded length on standard error, if it is open and not full."""
+    line = " ".join(message.splitlines())
+    if len(line) > MAX_LINE:
+        line = f"{line[:MAX_LINE]} ..."
+    with suppress(OSError):
+        print(f"drapery: {line}", file=sys.stderr, flush=True)
 
 
 def show_warning(

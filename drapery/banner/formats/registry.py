@@ -166,7 +166,7 @@ def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBa
     Raises DesignError as `parse_banners` does, and for files that cannot be read.
     """
     if source == "-":
-        return parse_banners(_decoded(sys.stdin.buffer.read(4 * MAX_TEXT + 1), "-"), form=form)
+        return parse_banners(_decoded(_read_stdin(), "-"), form=form)
     path = _as_path(source)
     if path is None:
         return parse_banners(str(source), form=form)
@@ -174,6 +174,13 @@ def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBa
         return _read_path(path, form)
     except OSError as error:
         raise DesignError(f"{path}: {error.strerror or error}; check the path") from None
+
+
+def _read_stdin() -> bytes:
+    try:
+        return sys.stdin.buffer.read(4 * MAX_TEXT + 1)
+    except (AttributeError, OSError):  # Python has no sys.stdin where the descriptor is closed
+        raise DesignError("-: standard input cannot be read; give the design or a file") from None
 
 
 def _named(form: str) -> Form:
