@@ -52,7 +52,7 @@ def mixed(path: Path, count: int, size: str = "48x48", loops: int = 10) -> Path:
         moving = loops and number % loops == 0
         words |= {"out": f"{number}.gif", "seconds": 0.5} if moving else {"out": f"{number}.png"}
         lines.append(words)
-    path.write_text("\n".join(map(json.dumps, lines)))
+    path.write_text("\n".join(map(json.dumps, lines)), encoding="utf-8")
     return path
 
 
@@ -65,7 +65,7 @@ def catalogue_manifest(path: Path, size: str) -> Path:
         for pattern in PATTERN_NAMES
         for dye in DYE_NAMES
     ]  # fmt: skip
-    path.write_text("\n".join(map(json.dumps, lines)))
+    path.write_text("\n".join(map(json.dumps, lines)), encoding="utf-8")
     return path
 
 
@@ -233,7 +233,7 @@ def _kill(run: subprocess.Popen[bytes], victim: str) -> str:
     except psutil.NoSuchProcess:
         return "ended"
     if victim == "run" or not family:
-        run.send_signal(signal.SIGKILL)
+        run.kill()
         return "run"
     try:
         random.choice(family).kill()

@@ -102,14 +102,16 @@ def _memory(name: str) -> float:
     """This process's memory now (VmRSS) or at its peak (VmHWM) [MB]; 0 if it is not told."""
     if not _STATUS.exists():
         return 0.0
-    line = next(line for line in _STATUS.read_text().splitlines() if line.startswith(name))
+    line = next(
+        line for line in _STATUS.read_text(encoding="utf-8").splitlines() if line.startswith(name)
+    )
     return int(line.split()[1]) / 1024
 
 
 def _forget_peak() -> None:
     """Let the peak begin anew. See proc(5), /proc/pid/clear_refs."""
     if _CLEAR.exists():
-        _CLEAR.write_text("5")
+        _CLEAR.write_text("5", encoding="utf-8")
 
 
 def kind_of(message: str) -> str:

@@ -1,12 +1,12 @@
 """The same jobs by a cluster of real processes, which may be killed."""
 
 import os
-import signal
 import warnings
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
+import psutil
 import pytest
 from test_batch_keys import make_pack
 from test_batch_run import manifest, pictures
@@ -38,7 +38,7 @@ def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -
     def on_event(progress) -> None:
         if progress.drawn == 5:
             pid = next(iter(executors[-1].client.run(os.getpid).values()))
-            os.kill(pid, signal.SIGKILL)
+            psutil.Process(pid).kill()
 
     with ResultsDB(tmp_path / FILE) as results, warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -2,13 +2,13 @@
 
 import math
 import os
-import signal
 import time
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
+import psutil
 import pytest
 from batch_works import job, work
 from hypothesis import given
@@ -96,7 +96,7 @@ def test_a_worker_killed_from_outside_loses_no_job(tmp_path: Path) -> None:
         for result, tries in run_jobs([job(name) for name in names], pool, SOON):
             ended.append((result.job.key, result.error, tries))
             if len(ended) in (15, 40):
-                os.kill(pool.pids()[0], signal.SIGKILL)
+                psutil.Process(pool.pids()[0]).kill()
     finally:
         pool.close()
     assert Counter(key for key, _, _ in ended) == Counter(names)
@@ -125,7 +125,7 @@ def test_workers_that_die_as_they_start_are_started_again_after_growing_pauses()
             for pid in set(pool.pids()) - pids:
                 pids.add(pid)
                 starts.append(time.monotonic())
-                os.kill(pid, signal.SIGKILL)
+                psutil.Process(pid).kill()
             pool.poll(0.01)
             assert not pool.ready()
         pauses = [later - before for before, later in pairwise(starts)]
@@ -142,7 +142,7 @@ def test_a_pool_whose_workers_never_start_gives_up_with_the_reason() -> None:
         with pytest.raises(BackendError, match=r"3 workers in a row .*killed by signal 9"):
             while True:
                 for pid in pool.pids():
-                    os.kill(pid, signal.SIGKILL)
+                    psutil.Process(pid).kill()
                 pool.poll(0.05)
     finally:
         pool.close()

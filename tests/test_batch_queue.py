@@ -1,14 +1,13 @@
 """The service's queue answers everyone who asks, whatever happens to its workers."""
 
 import math
-import os
-import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from itertools import pairwise
 
+import psutil
 import pytest
 from batch_works import job, work
 
@@ -200,8 +199,8 @@ def _kill_workers(pools: list[ProcessPool], seconds: float) -> set[int]:
         for pid in pools[-1].pids() if pools else []:
             if pid not in killed:
                 killed.add(pid)
-                with suppress(ProcessLookupError):
-                    os.kill(pid, signal.SIGKILL)
+                with suppress(psutil.NoSuchProcess):
+                    psutil.Process(pid).kill()
         time.sleep(0.005)
     return killed
 

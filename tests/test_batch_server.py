@@ -1,6 +1,5 @@
 """The service as a process that is attacked: silent clients, killed workers, SIGTERM."""
 
-import os
 import re
 import signal
 import socket
@@ -156,8 +155,8 @@ def _waiting(base: str) -> float:
 def _kill_all(process: subprocess.Popen[str], stop: threading.Event) -> None:
     while not stop.is_set():
         for worker in workers_of(process):
-            with suppress(ProcessLookupError):
-                os.kill(worker.pid, signal.SIGKILL)
+            with suppress(psutil.NoSuchProcess):
+                worker.kill()
         time.sleep(0.01)
 
 

@@ -166,7 +166,7 @@ def test_any_thread_may_draw() -> None:
 def resident() -> float:
     """Memory of this process [MB]."""
     gc.collect()
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    pages = int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 

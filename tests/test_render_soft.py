@@ -274,7 +274,7 @@ def test_many_frames_keep_the_memory_flat() -> None:
     """Changing meshes, looks and sizes: nothing is kept but the last few preparations."""
 
     def resident() -> int:
-        pages = Path("/proc/self/statm").read_text().split()[1]
+        pages = Path("/proc/self/statm").read_text(encoding="utf-8").split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE")
 
     if not Path("/proc/self/statm").exists():

@@ -78,7 +78,7 @@ def test_all_patterns_in_all_dyes_are_on_the_sheet(tmp_path: Path) -> None:
 
 def html_pictures(path: Path) -> list[tuple[str, bytes]]:
     """Label and pixels of each picture in a page, which may not ask for anything outside it."""
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     sources = re.findall(
         r'<img alt="([^"]*)" title="[^"]*" src="data:image/png;base64,([^"]*)"', text
     )

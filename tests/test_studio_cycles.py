@@ -57,7 +57,7 @@ def handles(studio: Studio) -> int:
 
 def memory(studio: Studio) -> float:
     """What the process has in memory [MiB]."""
-    pages = int(Path(f"/proc/{studio.process.pid}/statm").read_text().split()[1])
+    pages = int(Path(f"/proc/{studio.process.pid}/statm").read_text(encoding="utf-8").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
 
 

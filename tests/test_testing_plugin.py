@@ -87,7 +87,8 @@ def test_with_a_golden(golden):
 def test_a_report_that_cannot_be_written_keeps_the_fault(pytester: pytest.Pytester) -> None:
     test = pytester.makepyfile(HEAD + "\ndef test_one(golden):\n    golden(grey(10), 'a')\n")
     pytester.runpytest_subprocess("--drapery-update").assert_outcomes(passed=1)
-    Path(test).write_text(Path(test).read_text().replace("grey(10)", "grey(11)"))
+    code = Path(test).read_text(encoding="utf-8")
+    Path(test).write_text(code.replace("grey(10)", "grey(11)"), encoding="utf-8")
     (pytester.path / "drapery-report").write_text("a file in the way of the folder")
     result = pytester.runpytest_subprocess()
     result.assert_outcomes(failed=1)
