@@ -1,4 +1,4 @@
-"""The simulation core: cloths, what moves them and what they meet. It knows nothing of Minecraft.
+"""The simulation core: cloths, forces, solvers and colliders. It does not depend on Minecraft.
 
 ```python
 from itertools import islice
@@ -13,7 +13,7 @@ for state in islice(simulate(cloth, SolverXPBD(), forces), 180):
 
 Units are SI; y is up. Arrays have the vector as their last axis: a `State` of B cloths of N
 particles has positions [B, N, 3]. The same input gives the same bits, for any number of threads.
-Names are imported when they are first used, so that this package costs nothing until it is.
+Names are imported when they are first used, so importing the package is cheap.
 """
 
 from importlib import import_module

@@ -1,12 +1,14 @@
 """Attachments: pairs of particles that may not be farther apart than a longest length.
 
-Provot (1995) shortens each long spring in turn, and the error travels one spring a sweep: on fine
-grids twenty sweeps are not enough. Three things carry it farther, in this order. Long-range
-attachments tie each particle to its pins (Kim, Chentanez, Müller, "Long range attachments", SCA
-2012). Attachments over 2, 4, 8, … cells bound the distance between particles far apart on the
-cloth, the longest first (after Müller, "Hierarchical position based dynamics", VRIPHYS 2008). The
-springs themselves are taken from the pins outwards, so that one sweep carries an error from the
-top of a hanging cloth to its free edge.
+Provot (1995) shortens each long spring in turn. One sweep moves an error by one spring, so twenty
+sweeps are not enough on fine grids. Three corrections move it farther. They are made in this order:
+
+1. Long-range attachments bound the distance of each particle from its pins (Kim, Chentanez, Müller,
+   "Long range attachments", SCA 2012).
+2. Attachments over 2, 4, 8, … cells bound the distance between particles that are far apart on the
+   cloth, the longest first (after Müller, "Hierarchical position based dynamics", VRIPHYS 2008).
+3. The springs are corrected from the pins outwards. One sweep then moves an error from the top of a
+   hanging cloth to its free edge.
 """
 
 from collections.abc import Sequence
@@ -23,11 +25,11 @@ FEW_PINS = 4
 """Particles are attached to every pin if there are no more than this, else to the nearest."""
 
 MAX_LEVELS = 16
-"""The longest links go over 2^16 springs."""
+"""The longest attachments span 2^16 springs."""
 
 
 class Attachments(NamedTuple):
-    """In the order of correction, with the share of it that each end takes.
+    """Pairs in the order of correction, with the share of the correction that each end takes.
 
     pairs: [K, 2]. longest: [m], [K]. share_i, share_j: [K].
     """
@@ -38,26 +40,32 @@ class Attachments(NamedTuple):
     share_j: Array
 
 
-def limited_links(cloth: Cloth, limit: float, sweeps: int) -> Attachments:
-    """Links that hold a cloth's structural springs to `limit` times their rest length."""
-    groups = link_groups(cloth, limit, sweeps)
-    return joined(groups) if groups else shared(cloth, np.zeros((0, 2), np.int32), np.zeros(0))
+def stretch_limits(cloth: Cloth, limit: float, sweeps: int) -> Attachments:
+    """Attachments that limit a cloth's structural springs to `limit` times their rest length."""
+    groups = attachment_groups(cloth, limit, sweeps)
+    return (
+        concatenated(groups) if groups else shared(cloth, np.zeros((0, 2), np.int32), np.zeros(0))
+    )
 
 
-def link_groups(cloth: Cloth, limit: float, sweeps: int) -> list[Attachments]:
-    """Attachments, long links by their length, the springs once a sweep, and the attachments again,
-    which leave no stretch next to the pins; none for 0 sweeps."""
+def attachment_groups(cloth: Cloth, limit: float, sweeps: int) -> list[Attachments]:
+    """Groups in the order of correction; an empty list for 0 sweeps.
+
+    Attachments to the pins come first, then long attachments, the longest first, then the springs,
+    once a sweep. The attachments to the pins come again at the end, to remove the stretch next to
+    the pins.
+    """
     if sweeps == 0:
         return []
     springs = across_then_outwards(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
     fine = cloth.spring_pairs[springs], limit * cloth.spring_length[springs]
     held = long_range_attachments(cloth, limit)
-    groups = [held, *_long_links(cloth, limit), *[fine] * sweeps, held]
+    groups = [held, *_long_attachments(cloth, limit), *[fine] * sweeps, held]
     return [shared(cloth, *group) for group in groups]
 
 
-def joined(groups: Sequence[Attachments]) -> Attachments:
-    """Groups of links one after another."""
+def concatenated(groups: Sequence[Attachments]) -> Attachments:
+    """All groups as one, in their order."""
     pairs, longest, share_i, share_j = zip(*groups, strict=True)
     return Attachments(
         np.concatenate(pairs),
@@ -68,7 +76,7 @@ def joined(groups: Sequence[Attachments]) -> Attachments:
 
 
 def shared(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Attachments:
-    """Both ends share a correction by their inverse masses; pinned ends take none."""
+    """Attachments whose ends share a correction by inverse mass; pinned ends take none."""
     w = cloth.inv_mass[pairs]
     total = w.sum(axis=1)
     free = total > 0
@@ -80,9 +88,9 @@ def shared(cloth: Cloth, pairs: NDArray[np.int32], longest: Array) -> Attachment
 def long_range_attachments(cloth: Cloth, slack: float) -> tuple[NDArray[np.int32], Array]:
     """Pin and particle pairs [K, 2] and the farthest they may be apart [m], [K].
 
-    slack: that distance over the one on the cloth at rest. It should be no less than springs may
-    stretch: shorter ties than the springs' carry the cloth's weight in their place, and each
-    particle swings by itself, too fast.
+    slack: that distance over the distance on the cloth at rest. It should be at least the factor by
+    which springs may stretch. Otherwise the attachments carry the cloth's weight instead of the
+    springs, and each particle swings separately and too fast.
     """
     pins = np.flatnonzero(cloth.inv_mass == 0)
     free = np.flatnonzero(cloth.inv_mass > 0)
@@ -103,7 +111,8 @@ def long_range_attachments(cloth: Cloth, slack: float) -> tuple[NDArray[np.int32
 def _max_distances(cloth: Cloth, pin: int, particles: NDArray[np.integer]) -> Array:
     """Distance of particles from a pin over the cloth at rest [m].
 
-    Straight on a flat grid; elsewhere along the springs, which is a little too far, never too near.
+    On a flat grid it is the straight distance. Elsewhere it is the distance along the springs; it
+    is never too short and may be slightly too long.
     """
     if cloth.grid_shape is not None and _is_flat(cloth):
         away: Array = cloth.rest_positions[particles] - cloth.rest_positions[pin]
@@ -125,7 +134,7 @@ def _is_flat(cloth: Cloth) -> bool:
 
 
 def nearest_pins(cloth: Cloth) -> NDArray[np.int64]:
-    """For each particle the number of the pin nearest at rest in a straight line, [N]."""
+    """The index of the pin nearest to each particle at rest, in a straight line, [N]."""
     pins = np.flatnonzero(cloth.inv_mass == 0)
     best = np.full(len(cloth.inv_mass), np.inf)
     nearest = np.zeros(len(best), np.int64)
@@ -136,10 +145,10 @@ def nearest_pins(cloth: Cloth) -> NDArray[np.int64]:
     return nearest
 
 
-def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
-    """Links over 2^n springs, the longest first."""
+def _long_attachments(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
+    """Pairs and longest distances over 2^n springs, the longest first."""
     if cloth.grid_shape is None:
-        return _ancestor_links(cloth, limit)
+        return _path_attachments(cloth, limit)
     index = np.arange(len(cloth.inv_mass), dtype=np.int32).reshape(cloth.grid_shape)
     stride, groups = 2, []
     while 2 * stride < max(cloth.grid_shape):
@@ -154,8 +163,8 @@ def _long_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Arr
     return groups[::-1]
 
 
-def _ancestor_links(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
-    """The same for any cloth: from each particle 2^n springs up the shortest path to a pin."""
+def _path_attachments(cloth: Cloth, limit: float) -> list[tuple[NDArray[np.int32], Array]]:
+    """The same for any cloth: each particle and that 2^n springs up its shortest path to a pin."""
     if not (cloth.inv_mass == 0).any():
         return []
     distances = pin_distances(cloth)
@@ -177,7 +186,7 @@ def _next_towards_pins(cloth: Cloth, distances: Array) -> NDArray[np.int64]:
     lengths = np.tile(cloth.spring_length, 2)
     shortest = np.isfinite(distances[a]) & (distances[a] + lengths <= distances[b] * (1 + 1e-12))
     towards = np.arange(len(distances))
-    # In reverse, so that the first spring of several wins.
+    # In reverse order, so that the first of several springs is the one that stays.
     towards[b[shortest][::-1]] = a[shortest][::-1]
     pinned = np.flatnonzero(cloth.inv_mass == 0)
     towards[pinned] = pinned

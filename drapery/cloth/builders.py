@@ -25,7 +25,7 @@ def grid(
     pins: Pins = "top",
     fabric: Fabric = DEFAULT,
 ) -> Cloth:
-    """A rectangle of cloth, hanging from y = 0 and facing +z.
+    """A rectangular cloth. Its top edge is at y = 0 and it faces +z.
 
     columns, rows: particles across and down; particles are numbered row by row from the top left.
     width, height: [m], up to 1e6. pins: see `pinned_particles`. fabric: the material; its mass is
@@ -71,7 +71,7 @@ def strip(
     """A line of particles along +x from the origin: a ribbon, a rope, a chain.
 
     It has no faces, so wind does not move it. count: particles, 2 or more. length: [m]. width:
-    of the ribbon [m]; it counts for the mass alone. pins, fabric: as `grid`. Raises OptionError.
+    of the ribbon [m]; it changes only the mass. pins, fabric: as `grid`. Raises OptionError.
     """
     check_fabric(fabric)
     check_count("strip count", count, 2, MAX_PARTICLES)
@@ -143,7 +143,7 @@ def _grid_triangles(rows: int, columns: int) -> NDArray[np.int32]:
 
 
 def spring_lengths(positions: Array, cloth: Cloth) -> Array:
-    """Present lengths of the springs [m], shape [..., S], of positions [..., N, 3]."""
+    """Current lengths of the springs [m], shape [..., S], at positions [..., N, 3]."""
     a, b = cloth.spring_pairs.T
     lengths: Array = np.linalg.norm(positions[..., b, :] - positions[..., a, :], axis=-1)
     return lengths

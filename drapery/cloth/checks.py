@@ -7,7 +7,7 @@ import numpy as np
 from drapery.errors import OptionError
 
 MAX_SHOWN = 60
-"""Characters of a wrong value that a message shows."""
+"""The most characters of a wrong value that a message shows."""
 
 
 def check_number(name: str, value: object, minimum: float, maximum: float, unit: str = "") -> float:
@@ -50,7 +50,7 @@ def check_flag(name: str, value: object) -> None:
 
 
 def vector3(name: str, value: object, maximum: float, unit: str) -> np.ndarray[Any, Any]:
-    """Three numbers as an array, shape [3]. Raises OptionError unless each is at most maximum."""
+    """Three numbers as an array, shape [3]; each from -maximum to maximum. Raises OptionError."""
     try:
         vector = np.asarray(value, float)
     except (TypeError, ValueError, OverflowError):
@@ -64,10 +64,10 @@ def vector3(name: str, value: object, maximum: float, unit: str) -> np.ndarray[A
 
 
 def shown(value: object) -> str:
-    """A wrong value on one line, cut short."""
+    """A wrong value as one short line for a message."""
     try:
         text = repr(value)
-    except ValueError:  # Python refuses to write whole numbers of thousands of digits
+    except ValueError:  # Python does not print integers of thousands of digits
         text = f"<{type(value).__name__}>"
     text = " ".join(text.split())
     return text if len(text) <= MAX_SHOWN else text[:MAX_SHOWN] + "..."

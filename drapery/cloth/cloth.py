@@ -23,7 +23,7 @@ MAX_SPRING = 1e9
 
 @dataclass(frozen=True, eq=False)
 class Cloth:
-    """A mass-spring cloth; nothing in it changes while it moves.
+    """The constant data of a mass-spring cloth; `State` has the data that change.
 
     rest_positions: [m], shape [N, 3].
     inv_mass: inverse masses [1/kg], shape [N]; 0 is pinned.
@@ -36,6 +36,8 @@ class Cloth:
     grid_shape: (rows, columns) where the particles are a regular grid, rows from the top,
         particle index = row * columns + column; None for any other topology.
     drag: rate at which still air slows the cloth [1/s]; see `Fabric`.
+
+    Raises OptionError for arrays of wrong shape and values out of range.
     """
 
     rest_positions: Array

@@ -1,11 +1,11 @@
-"""The options of the collision stage, which follows every step of every solver."""
+"""The options of collisions, which are resolved after every step of every solver."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.cloth.attachments import limited_links
+from drapery.cloth.attachments import stretch_limits
 from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders.collider import Collider
@@ -20,13 +20,14 @@ from drapery.errors import OptionError
 class Collisions:
     """What a cloth collides with.
 
-    colliders: one after another; where they touch each other, the last one decides.
-    thickness: of the cloth [m]; its middle keeps half of it from every collider.
+    colliders: applied one after another; where two overlap, the last one decides.
+    thickness: of the cloth [m]; particles stay half of it away from every collider.
     order: how finely faces are tested, 1 to 16, see `sample_points`.
     apart: least distance between particles of the cloth itself [m]; None lets it pass through
         itself. Use about the distance between neighbours.
-    limit: longest length of a structural spring over its rest length; springs that colliders
-        stretched further are shortened, and colliders come again, `rounds` times in all.
+    limit: longest length of a structural spring over its rest length. Springs that colliders
+        stretched more are shortened, and colliders are applied again.
+    rounds: how often colliders are applied in a step.
     threads: None for as many as there are processors.
 
     Raises OptionError for numbers out of range.
@@ -50,7 +51,7 @@ class Collisions:
 
 
 def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
-    """The collision stage for one cloth; any number of steps and threads may use it.
+    """The collision world of one cloth; any number of steps and threads may use it.
 
     Raises OptionError.
     """
@@ -61,7 +62,7 @@ def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
         sample_points(cloth, collisions.order),
         collisions.thickness / 2,
         None if apart is None else self_contact(cloth, apart),
-        limited_links(cloth, collisions.limit, 1),
+        stretch_limits(cloth, collisions.limit, 1),
         collisions.rounds,
         collisions.threads,
     )

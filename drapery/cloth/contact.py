@@ -1,4 +1,4 @@
-"""Cloth against itself: particles keep a thickness apart.
+"""Self-collision: particles of a cloth stay at least a thickness apart.
 
 Particles are sorted into the cells of a spatial hash (Teschner et al. 2003, "Optimized spatial
 hashing for collision detection of deformable objects"), and pairs that are too near are pushed
@@ -22,10 +22,10 @@ PRIMES = (73856093, 19349663, 83492791)
 
 
 class SelfContact(NamedTuple):
-    """What self-collision needs to know of a cloth.
+    """What self-collision needs of a cloth.
 
     thickness: least distance [m] between particles.
-    first, excluded: particles that may be nearer to particle i are excluded[first[i] : first[i+1]].
+    first, excluded: excluded[first[i] : first[i+1]] are the particles that may be nearer to i.
     inv_mass: [1/kg], shape [N].
     """
 
@@ -36,8 +36,7 @@ class SelfContact(NamedTuple):
 
 
 def self_contact(cloth: Cloth, thickness: float) -> SelfContact:
-    """Self-collision for a cloth. The ends of a spring, and pairs that are nearer at rest, are
-    excluded.
+    """Self-collision of a cloth, without the ends of springs and pairs that are nearer at rest.
 
     thickness: least distance between other particles [m]. Raises OptionError unless it is above 0.
     """
@@ -58,8 +57,7 @@ def self_contact(cloth: Cloth, thickness: float) -> SelfContact:
 
 @entry_point
 def separate_all(x: Array, v: Array, begin: int, end: int, contact: SelfContact) -> None:
-    """Cloths begin..end of a batch: particles at least the thickness apart, and none approaching
-    when touching.
+    """Separate the particles of cloths begin..end of a batch, and stop their approach.
 
     x, v: positions [m] and velocities [m/s], shape [B, N, 3], changed in place.
     """
@@ -71,7 +69,7 @@ def separate_all(x: Array, v: Array, begin: int, end: int, contact: SelfContact)
 
 @kernel
 def separate_pass(x: Array, v: Array, contact: SelfContact) -> int:
-    """Push apart every pair found in the hash, once; the number of pairs that were too near."""
+    """Push apart every pair found in the hash once; returns how many pairs were too near."""
     cells = cells_of(x, contact.thickness)
     starts, members = hashed(cells)
     found = 0
@@ -122,7 +120,7 @@ def hashed(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int6
 
 @kernel
 def is_excluded(i: int, j: int, contact: SelfContact) -> bool:
-    """Whether particles i and j may be nearer than the thickness; j's are in rising order."""
+    """Whether particles i and j may be nearer than the thickness; excluded ones are sorted."""
     for place in range(contact.first[i], contact.first[i + 1]):
         if contact.excluded[place] >= j:
             return bool(contact.excluded[place] == j)

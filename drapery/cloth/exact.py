@@ -1,7 +1,7 @@
 """Elementary functions with the same bits on every machine.
 
-The C library's sine and LAPACK's kernels differ between processors in the last place; these use
-only IEEE additions, multiplications and divisions in a fixed order.
+The C library's sine and LAPACK's kernels differ between processors in the last bit. These functions
+use only IEEE additions, multiplications and divisions in a fixed order.
 """
 
 from typing import Any
@@ -12,7 +12,7 @@ from drapery.mesh import Array
 
 
 def sine_of_turns(turns: Any) -> Any:
-    """sin(2π turns) within 1e-12, of a number or an array, by its own series."""
+    """sin(2π turns) of a number or an array, by its Taylor series, with an error below 1e-12."""
     part = turns - np.floor(turns + 0.5)
     part = np.sign(part) * (0.25 - abs(abs(part) - 0.25))
     angle = 2 * np.pi * part

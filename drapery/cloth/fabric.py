@@ -1,4 +1,4 @@
-"""What a cloth is made of."""
+"""The material of a cloth."""
 
 from dataclasses import dataclass, fields
 
@@ -19,9 +19,9 @@ class Fabric:
     bend: stiffness of the springs over two cells or across an inner edge [N/m].
     drag: rate at which still air slows the cloth [1/s], 0 to 1e6; it adds to every `Drag` force.
 
-    Stiffness is 0 to 1e9 N/m. The default ratio 5 : 1 : 0.2 is that of a Minecraft mod's flag
-    (50 : 10 : 2 for particles of 1 kg). Springs belong to particles, so a finer grid of the same
-    fabric is softer for its mass. Raises OptionError for a number out of these bounds.
+    Stiffness is 0 to 1e9 N/m. The default ratio 5 : 1 : 0.2 is that of the flag of a Minecraft mod
+    (50 : 10 : 2 for particles of 1 kg). The stiffness is that of one spring, so a finer grid of the
+    same fabric is softer relative to its mass. Raises OptionError for a number out of these bounds.
     """
 
     density: float = 0.3

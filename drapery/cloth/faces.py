@@ -1,4 +1,4 @@
-"""Where wind acts: the area that belongs to each particle, and the samples of the wind."""
+"""The faces on which wind acts: the area of each particle, and the samples of the wind."""
 
 from typing import NamedTuple
 
@@ -9,16 +9,17 @@ from drapery.cloth.cloth import Cloth
 from drapery.mesh import Array
 
 SAMPLE_SPACING = 1.25
-"""Greatest distance between samples of the wind on a grid [m]; gusts are wider."""
+"""Greatest distance between samples of the wind on a grid [m]; gusts are larger."""
 
 
 class Faces(NamedTuple):
-    """Each particle's share of the faces around it, as a vector along their averaged normal.
+    """Each particle's part of the area of the faces around it, as a vector along their mean normal.
 
     The vector area of particle i is the sum of share · (b - a) x (d - c) over the sides
     (a, b, c, d) numbered begin[i] to begin[i + 1].
     sides: particles, [E, 4]. shares: [E]. begin: [N + 1].
-    controls: numbers of the wind samples around each particle, [N, 4]; weights: theirs, [N, 4].
+    controls: indices of the wind samples around each particle, [N, 4]. weights: of those samples,
+    [N, 4].
     """
 
     sides: NDArray[np.int32]
@@ -66,7 +67,7 @@ def _grid_faces(cloth: Cloth, rows: int, columns: int) -> tuple[Faces, NDArray[n
 
 
 def _samples(length: float, count: int) -> NDArray[np.int64]:
-    """Lines of a grid side [m] of `count` particles on which the wind is sampled."""
+    """Indices of the lines at which the wind is sampled, along a grid side of `length` [m]."""
     pieces = min(count - 1, max(1, int(np.ceil(length / SAMPLE_SPACING))))
     return np.round(np.linspace(0, count - 1, pieces + 1)).astype(np.int64)
 

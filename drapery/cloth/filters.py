@@ -1,7 +1,7 @@
-"""The filter of Desbrun 1999, W = (I - dt² M⁻¹ H)⁻¹, in the cheapest form for a cloth.
+"""The filter of Desbrun 1999, W = (I - dt² M⁻¹ H)⁻¹, in the form that is fastest for a cloth.
 
-H is the springs' linear Hessian: H_ij = k_ij, H_ii = -sum_j k_ij. Pinned particles have no
-inverse mass, so their rows of W are those of the identity. A free cloth's rows each sum to 1.
+H is the springs' linear Hessian: H_ij = k_ij, H_ii = -sum_j k_ij. Pinned particles have inverse
+mass 0, so their rows of W are rows of the identity. Each row of W sums to 1 if nothing is pinned.
 """
 
 from typing import NamedTuple
@@ -14,21 +14,22 @@ from drapery.cloth.exact import inverse, sine_of_turns
 from drapery.mesh import Array
 
 MAX_MATRIX_NUMBERS = 1 << 20
-"""A separable filter with more numbers in its matrices is stored as factors."""
+"""The most numbers in the matrices of a separable filter; a larger one is stored as factors."""
 
 MAX_DENSE = 400
-"""An irregular cloth with more particles has a band matrix as its filter."""
+"""The most particles of an irregular cloth with a dense filter; larger ones have a band matrix."""
 MAX_SEPARABLE_PINS = 64
-"""A grid with more pins, other than its top row, has no separable filter."""
+"""The most pins of a grid with a separable filter, unless its pins are the top row."""
 
 
 class Filter(NamedTuple):
-    """u = W g as products of small matrices with the particles of a grid's lines.
+    """u = W g as products of small matrices with the rows and columns of a grid.
 
-    matrices: all of them, flat. products: [n, 5], for each the place and size of its matrix, the
-    first particle of its line and the step to the next, and whether it reads g or u (0 or 1) to
-    write the other. The last one writes u. release: [N, P]; u += release u[pins] brings the
-    pinned particles' u to 0; [N, 0] where it is so already.
+    matrices: all of them, flat. products: [n, 5], one row for each product: the offset and the size
+    of its matrix, the first particle of its row or column, the step to the next particle, and
+    whether it reads g and writes u (0) or reads u and writes g (1). The last product writes u.
+    release: [N, P]; u += release u[pins] makes u of the pinned particles 0; [N, 0] if it is 0
+    without that.
     """
 
     matrices: Array
@@ -52,8 +53,9 @@ class BandFilter(NamedTuple):
 class SheetFilter(NamedTuple):
     """W of a regular grid laid out as rows of lanes; see `drapery.cloth.sheets`.
 
-    into: [W, W], each column's part of each wave along the row; back: the inverse.
-    near, far, inverse: of each wave's column, L one and two below the diagonal and 1 / D, [R, W].
+    into: [W, W], the transform of a row into its eigenvectors ("waves"). back: the inverse.
+    near, far, inverse: for each wave the factors of its matrix along the column: L one and two
+    below the diagonal, and 1 / D, [R, W].
     first: the first free row. release: [P, R · W], see `Filter`.
     """
 
@@ -67,7 +69,7 @@ class SheetFilter(NamedTuple):
 
 
 def cloth_filter(cloth: Cloth, dt: float) -> Filter | BandFilter:
-    """The cheapest filter for this cloth."""
+    """The fastest form of the filter for this cloth."""
     columns = cloth.grid_shape[1] if cloth.grid_shape else 0
     pins = np.flatnonzero(cloth.inv_mass == 0)
     hangs = np.array_equal(pins, np.arange(columns))
@@ -100,7 +102,7 @@ def dense_filter(cloth: Cloth, dt: float) -> Array:
 
 
 def band_filter(cloth: Cloth, dt: float) -> BandFilter:
-    """W for a cloth of any topology and size; the order is that of Cuthill and McKee (1969)."""
+    """W for a cloth of any topology and size, ordered by Cuthill and McKee (1969)."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
@@ -141,7 +143,7 @@ def _ldl(band: Array) -> tuple[Array, Array]:
                 row = i + 1 + j
                 if row < count:
                     lower[row, back - 1 - j] = factors[j]
-                # row `row` loses factors[j] times the part of the column up to its own diagonal.
+                # Subtract factors[j] times the column, down to the diagonal, from row `row`.
                 padded[row, back - j : back + 1] -= factors[j] * below[: j + 1]
     return lower, pivots
 
@@ -149,11 +151,11 @@ def _ldl(band: Array) -> tuple[Array, Array]:
 def separable_filter(cloth: Cloth, dt: float) -> Filter:
     """W of a regular grid as small products along its rows and columns.
 
-    The springs that would leave the grid are mirrored at its edges. Then the eigenvectors of H
-    are products of those of the two 1-D Laplacians, which are cosines; sines for columns that
-    hang from a pinned row. With 1-D eigenvalues r and c, structural springs have r + c, shear
-    springs rc + 2r + 2c and flexion springs r² + 4r + c² + 4c. So: to the waves of each row; for
-    each wave, the filter of the columns; and back.
+    Springs that would cross an edge of the grid are mirrored there. Then the eigenvectors of H are
+    products of the eigenvectors of two 1-D Laplacians: cosines, or sines for columns below a pinned
+    row. With 1-D eigenvalues r and c, structural springs have the eigenvalues r + c, shear springs
+    rc + 2r + 2c and flexion springs r² + 4r + c² + 4c. So each row is transformed into waves, each
+    wave is filtered along its column, and the rows are transformed back.
     """
     assert cloth.grid_shape is not None
     rows, columns = cloth.grid_shape
@@ -167,7 +169,7 @@ def separable_filter(cloth: Cloth, dt: float) -> Filter:
 
 
 def _spectrum(cloth: Cloth, rows: Array, columns: Array, dt: float) -> Array:
-    """W of each wave: 1-D eigenvalues of the rows [R] and columns [C] to [R, C]."""
+    """Eigenvalues of W, [R, C], from the 1-D eigenvalues of the rows [R] and columns [C]."""
     r, c = rows[:, None], columns[None]
     k = [_stiffness(cloth, kind) for kind in range(3)]
     H = k[0] * (r + c) + k[1] * (r * c + 2 * r + 2 * c) + k[2] * (r * r + 4 * r + c * c + 4 * c)
@@ -176,9 +178,9 @@ def _spectrum(cloth: Cloth, rows: Array, columns: Array, dt: float) -> Array:
 
 
 def sheet_filter(cloth: Cloth, dt: float, width: int) -> SheetFilter:
-    """The filter of `separable_filter`, with the waves' columns solved instead of multiplied.
+    """The filter of `separable_filter`, with a band matrix to solve for the column of each wave.
 
-    Along a column the Laplacian is a band of one, its square a band of two.
+    Along a column the Laplacian has bandwidth 1 and its square bandwidth 2.
     """
     assert cloth.grid_shape is not None
     rows, columns = cloth.grid_shape
@@ -234,14 +236,14 @@ def _pentadiagonal(diagonal: Array, near: Array, far: Array) -> tuple[Array, Arr
 
 
 def _padded(values: Array, width: int, filling: float = 0.0) -> Array:
-    """The last axis filled up."""
+    """The last axis filled up to `width`."""
     wide = np.full((*values.shape[:-1], width), filling)
     wide[..., : values.shape[-1]] = values
     return wide
 
 
 def _products(V: Array, U: Array, spectrum: Array, first: int) -> tuple[Array, NDArray[np.int64]]:
-    """Matrices and products: to the waves of each row, filter each wave's column, and back."""
+    """The matrices and products: rows into waves, the filter of each wave's column, and back."""
     rows, columns = spectrum.shape
     size = columns * columns
     starts = first + columns * np.arange(rows)
@@ -262,7 +264,7 @@ def _products(V: Array, U: Array, spectrum: Array, first: int) -> tuple[Array, N
 
 
 def _release(V: Array, U: Array, spectrum: Array, pins: NDArray[np.int64], hangs: bool) -> Array:
-    """-W[:, pins] W[pins, pins]⁻¹, [N, P]: forces at the pins that hold them still."""
+    """-W[:, pins] W[pins, pins]⁻¹, [N, P]: the effect of the forces that hold the pins."""
     columns = [np.zeros((len(V) * len(U), 0))]
     if hangs:
         return np.zeros(((len(V) + 1) * len(U), 0))
@@ -277,7 +279,7 @@ def _release(V: Array, U: Array, spectrum: Array, pins: NDArray[np.int64], hangs
 
 
 def is_regular(cloth: Cloth) -> bool:
-    """Whether a grid's free particles are alike, and its springs of each kind."""
+    """Whether the free particles of a grid have one mass, and springs of a kind one stiffness."""
     free = cloth.inv_mass[cloth.inv_mass > 0]
     kinds = [cloth.spring_stiffness[cloth.spring_kind == kind] for kind in range(3)]
     uniform = [free, *kinds]
@@ -291,7 +293,7 @@ def _stiffness(cloth: Cloth, kind: int) -> float:
 
 
 def _free(count: int) -> tuple[Array, Array]:
-    """Eigenvectors (in columns) and eigenvalues of a path's Laplacian: cosines."""
+    """Eigenvectors (in columns) and eigenvalues of the Laplacian of a path graph: cosines."""
     wave = np.arange(count) / (2 * count)
     vectors = sine_of_turns(0.25 + (np.arange(count)[:, None] + 0.5) * wave)
     return _normal(vectors), 2 * sine_of_turns(0.25 + wave) - 2

@@ -1,7 +1,7 @@
-"""Forces that act on every particle alike, and how any force reaches a solver.
+"""Gravity and drag, the protocol of user-defined forces, and their form for the kernels.
 
-Gravity, Drag and Wind become a few numbers that kernels read. Any other object with an
-`acceleration` method is called once a step.
+Gravity, Drag and Wind become arrays that kernels read. Any other object with an `acceleration`
+method is called once a step.
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ MAX_GRAVITY = 1e6
 class Gravity:
     """A uniform acceleration of every particle.
 
-    acceleration: [m/s²], each component from -1e6 to 1e6.
+    acceleration: [m/s²], each component from -1e6 to 1e6. `simulate` checks it (OptionError).
     """
 
     acceleration: tuple[float, float, float] = (0.0, -9.81, 0.0)
@@ -34,9 +34,10 @@ class Gravity:
 
 @dataclass(frozen=True)
 class Drag:
-    """Linear drag in still air: acceleration -rate · v, so the speed of a fall ends at g / rate.
+    """Linear drag in still air: acceleration -rate · v, so the speed of a fall tends to g / rate.
 
-    rate: [1/s], 0 to 1e6; it adds to the drag of the cloth's `Fabric`.
+    rate: [1/s], 0 to 1e6; it adds to the drag of the cloth's `Fabric`. `simulate` checks it
+    (OptionError).
     """
 
     rate: float = 0.1
@@ -44,7 +45,7 @@ class Drag:
 
 @runtime_checkable
 class ForceField(Protocol):
-    """A force of your own: any object with this method. It is called once a step."""
+    """A user-defined force: any object with this method, which is called once a step."""
 
     def acceleration(self, cloth: Cloth, state: State) -> Array:
         """Acceleration of each particle [m/s²], shape [B, N, 3] or [N, 3], all finite."""
@@ -59,7 +60,7 @@ method `acceleration`."""
 class Loads:
     """Forces as the kernels read them.
 
-    gravity: [m/s²], shape [3]. drag: [1/s]. gusts: all winds. custom: called at every step.
+    gravity: [m/s²], shape [3]. drag: [1/s]. gusts: all winds. custom: user-defined forces.
     """
 
     gravity: Array
@@ -69,7 +70,7 @@ class Loads:
 
 
 def lower_forces(forces: Sequence[Force], cloth: Cloth, count: int) -> Loads:
-    """Check and lower the forces on `count` cloths. Raises OptionError."""
+    """Check the forces on `count` cloths and convert them for the kernels. Raises OptionError."""
     gravity = np.zeros(3)
     drag = cloth.drag
     winds: list[Wind] = []

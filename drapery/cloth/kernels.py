@@ -20,7 +20,7 @@ from drapery.cloth.wind import CROSSWIND
 from drapery.jit import kernel
 
 TINY = 1e-6
-"""Springs count as at least this share of their rest length: ends that coincide divide by it."""
+"""The shortest length of a spring over its rest length; it avoids a division by 0."""
 MIN_SPEED = 1e-9
 """Slower velocities [m/s] become 0: subnormal numbers would slow the processor down."""
 GUST_RMS = 0.1836
@@ -32,7 +32,7 @@ sine_of_turns = kernel(exact.sine_of_turns)
 
 @kernel
 def load_lanes(y: Any, x: Any, start: Any) -> None:
-    """Copy the lanes from `start` of x [3N, B] into the block y [3N, L]."""
+    """Copy the lanes of x [3N, B] from `start` on into the block y [3N, L]."""
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):
             y[row, lane] = x[row, np.uintp(start) + np.uintp(lane)]
@@ -40,7 +40,7 @@ def load_lanes(y: Any, x: Any, start: Any) -> None:
 
 @kernel
 def store_lanes(x: Any, y: Any, start: Any) -> None:
-    """Copy the block y [3N, L] to the lanes from `start` of x [3N, B]."""
+    """Copy the block y [3N, L] to the lanes of x [3N, B] from `start` on."""
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):
             x[row, np.uintp(start) + np.uintp(lane)] = y[row, lane]
@@ -48,7 +48,7 @@ def store_lanes(x: Any, y: Any, start: Any) -> None:
 
 @kernel
 def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) -> None:
-    """g += dt/m · F: a spring longer than its rest length pulls both ends together."""
+    """g += dt/m · F of all springs; one that is longer than at rest pulls its ends together."""
     tiny = x.dtype.type(TINY)
     for s in range(springs.rest.size):
         i, j = 3 * np.intp(springs.pairs[s, 0]), 3 * np.intp(springs.pairs[s, 1])
@@ -65,7 +65,7 @@ def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) 
 
 @kernel
 def direction(x: Any, i: Any, j: Any, lane: Any) -> Any:
-    """From rows i, i + 1 and i + 2 to those at j."""
+    """The vector from particle i to particle j; i and j are the first rows of their coordinates."""
     return (
         load(x, j, lane) - load(x, i, lane),
         load(x, j + 1, lane) - load(x, i + 1, lane),
@@ -83,7 +83,7 @@ def add(x: Any, row: Any, lane: Any, part: Any, dx: Any, dy: Any, dz: Any) -> No
 
 @kernel
 def shorten(x: Any, attachments: Any) -> None:
-    """Provot's correction: pairs over their longest length are pulled back to it, in order."""
+    """Provot's correction: pairs over their longest length are shortened to it, in order."""
     for s in range(attachments.longest.size):
         i, j = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
         longest = fill(attachments.longest[s])
@@ -100,10 +100,10 @@ def shorten(x: Any, attachments: Any) -> None:
 
 @kernel
 def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any) -> None:
-    """Three noises of unit rms at points `at` [3, L], into out [3, L].
+    """Three noise values of unit rms at points `at` [3, L], into out [3, L].
 
     `first` [L] is added to the cell number along axis 0, which repeats after `cells`. The three
-    share a cell's one random vector in three orders, so they are not correlated.
+    values use a cell's random vector with its components in three orders, so they are uncorrelated.
     """
     F = at.dtype.type
     one, count, scale = F(1), F(cells), F(1 / (127.5 * GUST_RMS))
@@ -133,7 +133,7 @@ def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any) -> None
 
 @kernel
 def below(x: Any) -> Any:
-    """The greatest whole number not above x. A loop with np.floor is not vectorised."""
+    """The floor of x. A loop with np.floor is not vectorised."""
     whole = type(x)(np.int32(x))
     return whole - type(x)(1) if whole > x else whole
 
@@ -147,7 +147,7 @@ def fade(x: Any) -> Any:
 
 @kernel
 def spread(cell: Any, factor: Any) -> Any:
-    """A cell's number along one axis as bits."""
+    """The hash bits of a cell's number along one axis."""
     return np.uint32(np.uint32(np.int32(cell)) * factor)
 
 
@@ -159,7 +159,7 @@ def xor_shifted(h: Any, places: Any) -> Any:
 
 @kernel
 def corner(sums: Any, h: Any, weight: Any, x: Any, y: Any, z: Any) -> Any:
-    """The three sums plus a corner's part: its gradient, from bits h, times the vector to it."""
+    """The three sums plus the part of a corner: its gradient, from bits h, times its offset."""
     F = type(x)
     # The 32-bit finaliser of MurmurHash3 (Appleby 2011).
     h = xor_shifted(np.uint32(h), np.uint32(16))
@@ -179,7 +179,7 @@ def corner(sums: Any, h: Any, weight: Any, x: Any, y: Any, z: Any) -> Any:
 def blow(
     wind: Any, x: Any, controls: Any, gusts: Any, number: Any, start: Any, time: Any, work: Any
 ) -> None:
-    """Velocity of one wind on the lanes from `start` at the control particles, into wind [3C, L].
+    """Velocity of one wind at the control particles, lanes from `start` on, into wind [3C, L].
 
     work: [18, L] of the same type.
     """
@@ -194,7 +194,7 @@ def blow(
         cells -= numbers[15] * np.floor(cells / numbers[15])
         first[lane] = -np.floor(cells)
         drift[lane] = cells - np.floor(cells)
-    # Noise is 0 where all three coordinates are whole: keep the origin off such a place.
+    # Noise is 0 where all three coordinates are whole numbers: avoid that at the origin.
     middle, scale = F(0.5), F(numbers[13])
     along, across, up = F(numbers[12] * ALONG), F(numbers[12] * ACROSS), F(numbers[12] * UP)
     for control in range(controls.size):
@@ -225,7 +225,7 @@ def add_wind_velocities(
 ) -> None:
     """g += dt/m · F of one wind, whose velocity at the control particles is `wind` [3C, L].
 
-    v may be g.
+    v may be the same array as g.
     """
     tiny = x.dtype.type(1e-30)
     for i in range(inv_mass.size):
@@ -255,7 +255,7 @@ def add_wind_velocities(
 
 @kernel
 def vector_area(x: Any, faces: Any, i: Any, lane: Any) -> Any:
-    """Of the faces around particle i."""
+    """The vector area of the faces around particle i; see `faces.Faces`."""
     nx = ny = nz = fill(x.dtype.type(0))
     for side in range(faces.begin[i], faces.begin[i + 1]):
         a, b = 3 * np.intp(faces.sides[side, 0]), 3 * np.intp(faces.sides[side, 1])
@@ -295,7 +295,7 @@ def subtract_frame(g: Any, v: Any, mean: Any) -> None:
 def filter_velocities(both: Any, filter: Any, pins: Any) -> None:
     """both[1] = W both[0], pins at 0; both [2, 3N, L], of which both[0] is overwritten.
 
-    By the filter's form: `filters.Filter` or `filters.BandFilter`.
+    filter: a `filters.Filter` or a `filters.BandFilter`.
     """
 
 
@@ -370,19 +370,19 @@ def filter_by_band(both: Any, filter: Any, pins: Any) -> None:
         for below in range(i + 1, min(free, i + back + 1)):
             part = filter.lower[below, back - below + i]
             if part != 0:
-                # Rows below are solved already: L' takes their share from this one.
+                # The rows below are solved already: L' subtracts their part from this row.
                 other = both[1, 3 * filter.order[below] + axis]
                 for lane in range(to.size):
                     to[lane] -= part * other[lane]
 
 
-def keep_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
-    """Take from g the angular momentum that the filter has added to v; see `spin.Spin`."""
+def restore_angular_momentum(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
+    """Subtract from g the angular momentum that the filter added to v; see `spin.Spin`."""
 
 
-@overload(keep_spin, inline="always")
-def _keep_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> Any:
-    chosen = leave_spin if spin.instance_class is NoSpin else subtract_spin
+@overload(restore_angular_momentum, inline="always")
+def _restore_angular_momentum(g: Any, x: Any, v: Any, spin: Any, work: Any) -> Any:
+    chosen = no_correction if spin.instance_class is NoSpin else subtract_spin
 
     def implementation(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
         chosen(g, x, v, spin, work)
@@ -391,7 +391,7 @@ def _keep_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> Any:
 
 
 @kernel
-def leave_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
+def no_correction(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
     """For cloths with pins."""
 
 
@@ -458,7 +458,7 @@ def turn_rate(gain: Any, work: Any, lane: Any) -> None:
 
 @kernel
 def add_uniform(g: Any, mean: Any, inv_mass: Any, numbers: Any, push: Any, start: Any) -> None:
-    """g += mean + dt (gravity + push), then drag, implicitly: a fall's speed ends at g / drag.
+    """g += mean + dt (gravity + push), then implicit drag: a fall's speed tends to g / drag.
 
     mean: [3, L]. numbers: dt, drag, time, gravity (3). push: accelerations [3N, B] of all cloths,
     or empty.
@@ -488,7 +488,7 @@ def move(x: Any, u: Any, old: Any, dt: Any) -> None:
 
 @kernel
 def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any) -> None:
-    """Move pins to targets [steps, 3P, B] or [steps, 3P, 1]; for [0, ...] keep them."""
+    """Move pins to targets [steps, 3P, B] or [steps, 3P, 1]; [0, ...] leaves them in place."""
     for row in range(3 * pins.size):
         at = 3 * pins[row // 3] + row % 3
         for lane in range(x.shape[1]):
@@ -502,7 +502,7 @@ def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any)
 
 @kernel
 def set_velocities(v: Any, x: Any, old: Any, dt: Any) -> None:
-    """v = (x - old) / dt, flushed to 0 below MIN_SPEED."""
+    """v = (x - old) / dt; components below MIN_SPEED become 0."""
     still, rate = x.dtype.type(MIN_SPEED), x.dtype.type(1 / dt)
     for row in range(x.shape[0]):
         for lane in range(0, x.shape[1], lane_count(x)):

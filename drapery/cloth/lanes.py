@@ -21,13 +21,13 @@ from drapery.errors import OptionError
 from drapery.mesh import Array
 
 BLOCK_BYTES = 1 << 18
-"""Positions and velocities of a block; with the kernels' own arrays a block stays in L2."""
+"""Bytes of a block's positions and velocities; with the kernels' scratch arrays it fits in L2."""
 
 
 def to_lanes(values: Array) -> Array:
     """[B, N, 3] as contiguous [3N, L]; copies of the last cloth fill B up to whole registers.
 
-    What `from_lanes` returned is not copied.
+    An array that `from_lanes` returned is not copied.
     """
     rows, count = 3 * values.shape[1], len(values)
     lanes = padded_count(count, values.dtype)
@@ -57,8 +57,11 @@ def padded(values: Array, lanes: int) -> Array:
 
 
 def block_width(particles: int, values: Array, threads: int) -> int:
-    """Cloths in a block: a multiple of a register. Of the widths that stay in cache, the one with
-    the least work for the busiest thread. values: positions, [3N, L]."""
+    """Cloths in a block, a multiple of a register's width.
+
+    Of the widths that fit in the cache, it is the one with the least work for the busiest thread.
+    values: positions, [3N, L].
+    """
     register = lanes_per_register(values.dtype)
     maximum = BLOCK_BYTES // (6 * particles * values.itemsize) // register * register
     maximum = min(256, max(register, maximum))
@@ -71,7 +74,7 @@ def block_width(particles: int, values: Array, threads: int) -> int:
 
 
 def run_blocks(work: Callable[[int, int], None], count: int, width: int, threads: int) -> None:
-    """Call work(first, last) over blocks of `count` lanes; the order does not matter."""
+    """Call work(first, last) for blocks that cover `count` lanes, in any order."""
     blocks = -(-count // width)
     threads = min(threads, blocks)
     if threads <= 1:
@@ -89,7 +92,7 @@ def _pool(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, thread_name_prefix="drapery-cloth")
 
 
-if hasattr(os, "register_at_fork"):  # a forked child has none of its parent's threads
+if hasattr(os, "register_at_fork"):  # a forked child does not have its parent's threads
     os.register_at_fork(after_in_child=_pool.cache_clear)
 
 

@@ -20,7 +20,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Array, face_normals
 
 WELD = 1e-6
-"""Vertices of a loaded mesh nearer than this share of its size are one particle."""
+"""Vertices of a loaded mesh that are nearer than this fraction of its size become one particle."""
 
 
 def from_triangles(
@@ -33,11 +33,11 @@ def from_triangles(
 ) -> Cloth:
     """A cloth in the shape of a triangle mesh.
 
-    Structural springs are its edges; flexion springs join the two vertices opposite each inner
-    edge, and bend the faces at it back. A particle has a third of the mass of its triangles.
+    Structural springs are its edges. Flexion springs join the two vertices opposite each inner edge
+    and resist bending there. A particle has a third of the mass of its triangles.
 
-    positions: at rest [m], shape [N, 3]. triangles: [T, 3]. uvs: [N, 2]; without them the x and y
-    of the rest shape, scaled to 0..1. Otherwise as `grid`. Raises OptionError.
+    positions: at rest [m], shape [N, 3]. triangles: [T, 3]. uvs: [N, 2]; by default the x and y of
+    the rest shape, scaled to 0..1. Other arguments as `grid`. Raises OptionError.
     """
     check_fabric(fabric)
     try:
@@ -108,7 +108,7 @@ def flat_uvs(rest: Array) -> Array:
 def from_mesh(mesh: Any, **options: Any) -> Cloth:
     """A cloth in the shape of a `trimesh.Trimesh`, or of a file that trimesh loads.
 
-    Vertices at the same place, as at the seams of a texture, become one particle. options: those
+    Vertices at the same position, as at the seams of a texture, become one particle. options: those
     of `from_triangles`. Raises OptionError.
     """
     if not hasattr(mesh, "faces"):
@@ -148,7 +148,8 @@ def disc(
 ) -> Cloth:
     """A round cloth about the origin, level and facing up: particle 0, then rings of 6, 12, 18, ….
 
-    rings: around the middle; radius: [m]; otherwise as `grid`. Raises OptionError.
+    rings: number of rings around particle 0. radius: [m]. Other arguments as `grid`. Raises
+    OptionError.
     """
     check_count("disc rings", rings, 1, MAX_PARTICLES)
     check_particles("disc", 1 + 3 * rings * (rings + 1))

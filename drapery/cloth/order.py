@@ -1,7 +1,7 @@
-"""In which order springs are corrected: from the pins outwards.
+"""The order in which springs are corrected: from the pins outwards.
 
-A correction moves an error to the next spring. Outwards from the pins, one sweep moves it from the
-top of a hanging cloth to the free edge; in any other order it moves about one spring.
+A correction moves an error to the next spring. In this order one sweep moves it from the top of a
+hanging cloth to the free edge; in any other order it moves by about one spring.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from drapery.mesh import Array
 def pin_distances(cloth: Cloth) -> Array:
     """Distance of each particle from the nearest pin along the springs at rest [m], [N].
 
-    Infinite where no pin is in reach; 0 everywhere if nothing is pinned.
+    Infinite where no springs lead to a pin; 0 everywhere if nothing is pinned.
     """
     pinned = cloth.inv_mass == 0
     return distances_from(cloth, pinned) if pinned.any() else np.zeros(len(pinned))
@@ -36,17 +36,18 @@ def distances_from(cloth: Cloth, sources: NDArray[np.bool_]) -> Array:
 
 
 def outwards(distances: Array, pairs: NDArray[np.int32], lengths: Array) -> NDArray[np.int64]:
-    """The order of pairs [K, 2] from the pins outwards; those equally far keep theirs."""
+    """The order of pairs [K, 2] from the pins outwards, stable for pairs at equal distance."""
     reach = np.where(np.isfinite(distances), distances, 0.0)[pairs].sum(axis=1)
-    # Equal distances differ in their last bits, and a grid's row must not fall apart.
+    # Equal distances may differ in their last bits; the springs of a row must stay together.
     return np.argsort(np.round(reach / max(lengths.min(initial=np.inf), 1e-12), 3), kind="stable")
 
 
 def across_then_outwards(cloth: Cloth, springs: NDArray[np.integer]) -> NDArray[np.integer]:
-    """These springs [S]: those across the direction to the pins, then those along it, outwards.
+    """These springs [S]: first those across the direction to the pins, then those along it.
 
-    Mixed, row by row, they make projections without a limit unstable on fine grids. A grid's are
-    built in a fit order: all rows, then all columns from the top down.
+    Both are in order outwards from the pins. Alternating rows and columns would make projections
+    without a limit unstable on fine grids. The springs of a grid already have a suitable order: all
+    rows, then all columns from the top down.
     """
     if cloth.grid_shape is not None:
         return springs

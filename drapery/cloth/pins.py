@@ -1,4 +1,4 @@
-"""Which particles are held, and the paths they follow."""
+"""Pinned particles, and the paths they follow."""
 
 from collections.abc import Callable, Sequence
 from typing import Literal
@@ -18,7 +18,7 @@ from the rest positions [m], shape [N, 3], to bools, shape [N]."""
 PinPath = Callable[[float], Array]
 """Where the pinned particles are at a time [s]: positions [m], shape [P, 3] or [B, P, 3].
 
-The order is that of the particles' numbers.
+The P pins are in the order of the particles' numbers.
 """
 PosePath = Callable[[float], tuple[Array, Array]]
 """Rotation [3, 3] and translation [m], [3], of a rigid body at a time [s]."""
@@ -83,16 +83,16 @@ def _named(name: str, rest: Array, grid_shape: tuple[int, int] | None) -> NDArra
 
 
 def carried(cloth_positions: Array, pinned: NDArray[np.integer], pose: PosePath) -> PinPath:
-    """A path on which the pins [P] of positions [N, 3] ride a rigid body.
+    """A path of the pins [P] of positions [N, 3] that move with a rigid body.
 
-    pose: rotation [3, 3] and translation [m] [3] of the body at a time [s]; the identity and 0
-    leave the pins where the positions have them.
+    pose: rotation [3, 3] and translation [m], [3], of the body at a time [s]; the identity and 0
+    leave the pins at their positions.
     """
     places = cloth_positions[pinned]
 
     def path(time: float) -> Array:
         rotation, translation = pose(time)
-        # Summed in a fixed order: a BLAS product's bits differ between machines.
+        # Summed in a fixed order: the bits of a BLAS product differ between machines.
         turned: Array = (places[:, None, :] * np.asarray(rotation)[None]).sum(axis=-1)
         return turned + np.asarray(translation)
 

@@ -11,10 +11,10 @@ from drapery.errors import OptionError
 
 
 class Seam(NamedTuple):
-    """Particles of one cloth that become the same as particles of another, pair by pair.
+    """Pairs of particles of two cloths; `sew` merges each pair into one particle.
 
-    first, second: numbers of two cloths in the list given to `sew`, from 0. first_particles,
-    second_particles: particles of each, [K]; the k-th of one becomes the k-th of the other.
+    first, second: indices of the two cloths in the list given to `sew`. first_particles,
+    second_particles: particles of each, [K]; the k-th of one is merged with the k-th of the other.
     """
 
     first: int
@@ -24,19 +24,19 @@ class Seam(NamedTuple):
 
 
 def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
-    """One cloth of several, in their order, with the particles of each seam made one.
+    """Join several cloths into one; the two particles of each pair in a seam become one.
 
-    A sewn particle has the mean rest position and the sum of the masses; it is pinned if any of
-    its parts is, and has the first one's UVs. Springs keep their lengths; of two springs that
-    come to join the same particles the first stays. All cloths must have the same drag. Raises
+    A merged particle has the mean rest position, the sum of the masses and the UVs of the first of
+    its particles; it is pinned if any of them is. Springs keep their lengths; of two springs that
+    join the same particles only the first stays. All cloths must have the same drag. Raises
     OptionError.
     """
     if not cloths:
-        raise OptionError("nothing to sew: give at first_number one cloth")
+        raise OptionError("nothing to sew: give at least one cloth")
     drags = sorted({cloth.drag for cloth in cloths})
     if len(drags) > 1:
         raise OptionError(
-            f"sewn cloths have drags of {drags[0]:g} and {drags[-1]:g} 1/s; give all the same"
+            f"sewn cloths have drags of {drags[0]:g} and {drags[-1]:g} 1/s; give all the same drag"
         )
     starts = np.cumsum([0, *(len(cloth.inv_mass) for cloth in cloths)])
     number = _merged(int(starts[-1]), _pairs(cloths, starts, seams))
@@ -64,7 +64,7 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
 def _pairs(
     cloths: Sequence[Cloth], starts: NDArray[np.int64], seams: Sequence[Seam]
 ) -> NDArray[np.int64]:
-    """Pairs of particles of all cloths that become one, [K, 2]."""
+    """Pairs of particles to merge, numbered over all cloths, [K, 2]."""
     pairs = [np.zeros((0, 2), np.int64)]
     for place, seam in enumerate(seams):
         sides = []
@@ -82,7 +82,7 @@ def _pairs(
 
 
 def _merged(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
-    """New numbers of `count` particles whose pairs are made one, in the order of the first."""
+    """New numbers of `count` particles after merging pairs, in the order of first occurrence."""
     first_number = np.arange(count)
     while True:
         before = first_number.copy()

@@ -1,7 +1,7 @@
 """The inner loops over one grid laid out as a plane of lanes; see `sheets`.
 
-As in `kernels`, with arrays [3, lanes]. Loops run to the end of a whole register: the
-numbers there change nothing.
+As in `kernels`, with arrays [3, lanes]. Loops run to the end of a whole register; the values in
+the padding have no effect.
 """
 
 from typing import Any
@@ -15,7 +15,7 @@ from drapery.cloth.wind import Gusts
 from drapery.jit import kernel
 
 LIMIT, SOLVE = 0, 1
-"""Forms of `pull`: a longest length, XPBD's constraint."""
+"""The forms of `solve_batches`: a longest length, XPBD's constraint."""
 
 
 @kernel
@@ -42,7 +42,7 @@ def store_plane(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
 
 @kernel
 def directions(x: Any, a: Any, b: Any) -> Any:
-    """From the lanes at a to those at b."""
+    """The vectors from the lanes at a to those at b."""
     return (
         load(x, 0, b) - load(x, 0, a),
         load(x, 1, b) - load(x, 1, a),
@@ -71,7 +71,7 @@ def add_spring_velocities(g: Any, x: Any, batches: Any, work: Any) -> None:
 def move_both(x: Any, batches: Any, entry: Any, work: Any) -> None:
     """x_a += part_i w, x_b -= part_j w, in one loop over the lanes from a.
 
-    work: [3, 2 · L] of which w is the second half, with zeros in front of it.
+    work: [3, 2 · L]; its second half is w, its first half is 0.
     """
     a, start, lead = batches.a[entry], batches.start[entry], work.shape[1] // 2
     shift = batches.b[entry] - a
@@ -89,7 +89,7 @@ def move_both(x: Any, batches: Any, entry: Any, work: Any) -> None:
 def solve_batches(x: Any, batches: Any, begin: Any, end: Any, form: Any, work: Any) -> None:
     """Entries begin..end: x_a += part_i e (x_b - x_a), x_b -= part_j e (x_b - x_a).
 
-    e is the strain of XPBD's constraint, or of lengths over the longest only. work: see
+    e is the strain of XPBD's constraint, or the strain of lengths over the longest one. work: see
     `move_both`.
     """
     lead, none = work.shape[1] // 2, fill(x.dtype.type(0))
@@ -116,7 +116,7 @@ def solve_batches(x: Any, batches: Any, begin: Any, end: Any, form: Any, work: A
 
 @kernel
 def place(y: Any, sheet: Any, targets: Any, turn: Any, cloth: Any) -> None:
-    """Move pins along their path, or keep them; then fill the planes of anchors."""
+    """Move pins along their path, or leave them in place; then fill the planes of anchors."""
     for p in range(sheet.pins.size):
         if targets.shape[0] > 0:
             which = cloth if targets.shape[2] > 1 else 0
@@ -166,7 +166,7 @@ def own_gusts(gusts: Any, cloth: Any, samples: Any) -> Any:
 def add_wind(
     g: Any, y: Any, v: Any, sheet: Any, gusts: Any, number: Any, time: Any, dt: Any, scratch: Any
 ) -> None:
-    """g += dt/m · F of one wind; see `kernels.add_wind_velocities`. v may be g.
+    """g += dt/m · F of one wind; see `kernels.add_wind_velocities`. v may be the same array as g.
 
     scratch: at, wind and work of the samples, and work [6, width and two registers].
     """
@@ -233,12 +233,12 @@ def add_push(g: Any, sheet: Any, push: Any, dt: Any, cloth: Any) -> None:
 
 @kernel
 def transform(out: Any, values: Any, matrix: Any, sheet: Any) -> None:
-    """Each row: out = sum_c values[c] matrix[c]; lanes beside the grid are 0."""
+    """For each row: out = sum_c values[c] matrix[c]; lanes beside the grid are 0."""
     width, none = sheet.width, fill(out.dtype.type(0))
     for row in range(sheet.rows):
         line = row * width
         for lane in range(0, width, lane_count(out)):
-            # Three axes and two halves of the sum: enough for the processor to do at once.
+            # Three axes and two halves of the sum: enough independent work for the processor.
             x = y = z = none
             u = v = w = none
             for c in range(0, width, 2):
@@ -253,7 +253,7 @@ def transform(out: Any, values: Any, matrix: Any, sheet: Any) -> None:
 
 @kernel
 def solve_columns(w: Any, filter: Any, sheet: Any) -> None:
-    """Each wave's column by its band of two, in place: L, D and back by the transpose of L."""
+    """Solve the band matrix of each wave's column in place: L, D, then the transpose of L."""
     width, count = sheet.width, filter.inverse.shape[0]
     for r in range(1, count):
         for lane in range(0, width, lane_count(w)):
@@ -331,7 +331,7 @@ def move(y: Any, g: Any, old: Any, dt: Any, sheet: Any) -> None:
 
 @kernel
 def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
-    """Drag over dt, before gravity is added: see `xpbd.add_pushes`."""
+    """Apply drag over dt before gravity is added; see `xpbd.add_pushes`."""
     F = v.dtype.type
     slow = F(1 / (1 + dt * numbers[1]))
     for axis in range(3):
@@ -343,7 +343,7 @@ def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
 
 @kernel
 def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, substep: Any) -> None:
-    """y moves as in the last substep, in the first one with v, and falls; old is y before."""
+    """Move y as in the last substep (in the first one with v) and by gravity; old is y before."""
     F = y.dtype.type
     h = F(numbers[0])
     for axis in range(3):
@@ -357,7 +357,7 @@ def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, substep: Any) -> N
 
 @kernel
 def set_velocities(v: Any, y: Any, old: Any, h: Any, sheet: Any) -> None:
-    """v = (y - old) / h, flushed to 0 below MIN_SPEED."""
+    """v = (y - old) / h; components below MIN_SPEED become 0."""
     still, rate = y.dtype.type(MIN_SPEED), y.dtype.type(1 / h)
     for axis in range(3):
         for lane in range(0, sheet.size, lane_count(y)):

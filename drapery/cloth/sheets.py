@@ -3,10 +3,10 @@
 A batch fills the lanes of `kernels` with cloths; one cloth alone would leave most lanes empty. So
 the particles of a fine grid become the lanes, [3, lanes]: lane r · width + c is the particle in
 row r and column c, and rows are padded to whole registers. A constraint between particles some
-rows and columns apart joins lanes a constant shift apart. One loop solves a batch of constraints
-that share no particle: every second one of the whole plane or, down the columns, one row after the
-other, which is exact Gauss-Seidel along a hanging cloth. Lanes beside the grid stay at the origin.
-`python -m benchmarks.sheets` measures what this is worth.
+rows and columns apart joins lanes that are a constant shift apart. One loop solves a batch of
+constraints that share no particle: every second constraint of the whole plane or, down the columns,
+one row after the other, which is exact Gauss-Seidel along a hanging cloth. Lanes beside the grid
+stay at the origin. `python -m benchmarks.sheets` measures the gain in speed.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,33 +15,32 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth.attachments import link_groups
+from drapery.cloth.attachments import attachment_groups
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces
 from drapery.mesh import Array
 
 MIN_COLUMNS = 16
-"""Narrower grids gain nothing."""
+"""The fewest columns of a grid that is faster as a plane of lanes."""
 MAX_PINS = 4
-"""A grid with another pattern of pins than its top row may have so many."""
+"""The most pins of a grid whose pins are not its top row."""
 REGISTER = 8
 """Rows are padded to a multiple of this, a register of 256 bits."""
 RELAXATION = 0.75
-"""Part of the corrections that is applied along rows, where all are made at once."""
+"""Part of the corrections that is applied along rows, where all are computed at once."""
 LANES = 16
-"""Loops run to a multiple of this, the greatest count of numbers that `simd` loads at once."""
+"""Loops run to a multiple of this: the largest number of values that `simd` loads at once."""
 
 
 class SheetLayout(NamedTuple):
-    """Where a grid's particles are.
+    """The lanes of a grid's particles.
 
     rows, columns: of the grid. width: lanes a row. size: lanes of the grid. plane: lanes of the
-    grid and room for the longest shift; planes of anchors follow it. anchors: the pin whose place
-    fills each such plane, [K], or -1 for each column's own. pins: particles, [P]. free: 1 for
-    those that move, [size]. inv_mass: [1/kg], [size]. controls: wind samples, [S]. above: the
-    first of the two sample lines around each row, [R]; low: how far the row is towards the
-    second, [R]. across: weights of sample columns, [C', width and
-    more].
+    grid and empty lanes for the longest shift; planes of anchors follow it. anchors: the pin whose
+    position fills each such plane, [K], or -1 for the pin of each column. pins: particles, [P].
+    free: 1 for particles that move, [size]. inv_mass: [1/kg], [size]. controls: wind samples, [S].
+    above: the first of the two sample lines around each row, [R]; low: the weight of the second,
+    [R]. across: weights of sample columns, [C', at least width].
     """
 
     rows: int
@@ -60,11 +59,11 @@ class SheetLayout(NamedTuple):
 
 
 class ConstraintBatches(NamedTuple):
-    """Constraints between lanes a + n and b + n for n below their number of lanes, in order.
+    """Batches of constraints in order; entry e joins lanes a[e] + n and b[e] + n, n < lanes[e].
 
-    a, b, lanes, start: [E]; the values of entry e begin at start[e]. held: whether no a moves, [E].
-    crossing: whether lanes may be both an a and a b, [E]. values: [3, V]; length [m], then the
-    parts of the difference that each end takes: 0 for none and between entries.
+    a, b, lanes, start: [E]; the values of entry e begin at start[e]. held: whether the particles at
+    a are fixed, [E]. crossing: whether a lane may be at both ends, [E]. values: [3, V]; length [m],
+    then the parts of the difference that each end takes: 0 for no constraint and between entries.
     """
 
     a: NDArray[np.int64]
@@ -176,8 +175,8 @@ def anchored(sheet: SheetLayout, pairs: Pairs) -> Iterator[ConstraintBatch]:
 
 
 def limits(sheet: SheetLayout, cloth: Cloth, limit: float, sweeps: int) -> ConstraintBatches:
-    """`attachments.link_groups` in their order; those along rows are taken at once, in part."""
-    groups = [Pairs(*group) for group in link_groups(cloth, limit, sweeps)]
+    """`attachment_groups` in their order; those along rows are corrected at once, in part."""
+    groups = [Pairs(*group) for group in attachment_groups(cloth, limit, sweeps)]
     batches: list[ConstraintBatch] = []
     for group in groups:
         held = group is groups[0] or group is groups[-1]
@@ -194,9 +193,9 @@ def together(sheet: SheetLayout, pairs: Pairs) -> Iterator[ConstraintBatch]:
 def in_turn(sheet: SheetLayout, pairs: Pairs, part: float = 1.0) -> Iterator[ConstraintBatch]:
     """Pairs of particles in batches of which none uses a particle twice.
 
-    Straight down the columns these are rows from the top; in other directions every second pair.
-    With a part below 1, such pairs are taken at once instead, with that part of their corrections:
-    the whole of them would keep the shortest waves going.
+    Down the columns these are rows from the top; in other directions every second pair. With a part
+    below 1, pairs in other directions are corrected at once, each by that part of its correction:
+    the whole correction would not damp the shortest waves.
     """
     row, column = np.divmod(np.arange(sheet.size), sheet.width)
     for shift, values in _by_shift(sheet, pairs):

@@ -161,7 +161,7 @@ def flush_denormals(typing: Any, value: Any, least: Any) -> Any:
 
 @_intrinsic
 def maximum(typing: Any, a: Any, b: Any) -> Any:
-    """The larger of each pair; b where they cannot be compared."""
+    """The larger of each pair; b where one is NaN."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return builder.select(builder.fcmp_ordered(">", *args), *args)
@@ -171,7 +171,7 @@ def maximum(typing: Any, a: Any, b: Any) -> Any:
 
 @_intrinsic
 def minimum(typing: Any, a: Any, b: Any) -> Any:
-    """The smaller of each pair; b where they cannot be compared."""
+    """The smaller of each pair; b where one is NaN."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return builder.select(builder.fcmp_ordered("<", *args), *args)

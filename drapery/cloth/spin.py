@@ -1,9 +1,9 @@
 """Desbrun's second correction (1999, section 3.3): the filter must not turn a free cloth.
 
-Internal forces have no net torque, filtered ones have some. The paper takes dt/m in place of the
-inverse of the moment of inertia, which undoes part of it, and for hundreds of particles too much;
-the exact correction solves the 3 x 3 inertia for the rotation that undoes all. A cloth with pins
-has none: its pins' torque is no error.
+Internal forces have no net torque, but filtered forces do. The paper uses dt/m instead of the
+inverse of the moment of inertia; that removes part of the torque, and too much of it for hundreds
+of particles. The exact correction solves the 3 x 3 inertia for the rotation that removes all of it.
+A cloth with pins is not corrected: the torque of its pins is real.
 """
 
 from typing import Literal, NamedTuple
@@ -15,7 +15,7 @@ Correction = Literal["exact", "paper", "none"]
 
 
 class Spin(NamedTuple):
-    """mass: [kg], [N]; total: of them; dt: the step [s]."""
+    """mass: [kg], [N]. total: the sum of the masses [kg]. dt: the step [s]."""
 
     mass: Array
     total: float

@@ -15,7 +15,7 @@ MAX_CLOTHS = 100_000_000
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Where B cloths are and how they move.
+    """Positions and velocities of B cloths at one time.
 
     positions: [m], shape [B, N, 3].
     velocities: [m/s], shape [B, N, 3].
@@ -28,9 +28,9 @@ class State:
 
 
 def rest_state(cloth: Cloth, count: int = 1, dtype: DTypeLike = np.float32) -> State:
-    """`count` cloths that do not move, in their rest shape: a start for `simulate`.
+    """`count` cloths in their rest shape with velocity 0: a start for `simulate`.
 
-    dtype: of positions and velocities, float32 or float64; the simulation keeps it.
+    dtype: of positions and velocities, float32 or float64; the simulation uses the same type.
     Raises OptionError.
     """
     check_count("count", count, 1, MAX_CLOTHS)

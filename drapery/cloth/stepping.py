@@ -88,13 +88,13 @@ def simulate(
     count: int = 1,
     collisions: Collisions | None = None,
 ) -> Iterator[State]:
-    """States of a moving cloth without end: the start, then one after every `every` steps.
+    """An endless iterator of states: the start, then one state after every `every` steps.
 
-    solver: SolverDesbrun() unless given. forces: gravity alone unless given. dt: one step [s].
-    start: the rest shape unless given, `count` times. pins: a path for the pinned particles.
-    collisions: what the cloth meets after every step. Cut it with `itertools.islice`.
-    The call raises OptionError for wrong arguments; the iterator does where a force or a path
-    gives what cannot be used, or the cloth is torn to infinity.
+    solver: `SolverDesbrun()` by default. forces: by default only gravity. dt: one step [s].
+    start: by default `count` cloths in the rest shape. pins: a path of the pinned particles.
+    collisions: resolved after every step. Use `itertools.islice` to take a number of states.
+    The call raises OptionError for wrong arguments. The iterator raises it where a force or a path
+    returns a wrong value, and where positions become infinite.
     """
     check_step(dt, every)
     moving = MovingCloth.begin(cloth, solver, dt, start=start, count=count, collisions=collisions)

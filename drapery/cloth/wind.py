@@ -29,7 +29,7 @@ UNBOUND_CELLS = 4096.0
 class Wind:
     """A wind that presses on faces: force = pressure · area · ((wind - velocity) · n) n.
 
-    Cloth edge-on to the wind feels none; cloth that moves with it feels none either.
+    The force is 0 on a cloth that is edge-on to the wind and on a cloth that moves with it.
 
     velocity: mean wind [m/s], each component from -1e6 to 1e6.
     gusts: turbulence intensity, the rms of the gusts along the wind over its mean speed, 0 to 1000.
@@ -37,11 +37,11 @@ class Wind:
     sine: amplitude of a regular swell over the mean speed, 0 to 1000.
     sine_period: period of the swell [s], 0.001 to 1e9.
     seed: chooses the gusts; a whole number.
-    period: the wind repeats exactly after this time [s], 0.001 to 1e9; the period of the swell and
+    period: time [s] after which the wind repeats exactly, 0.001 to 1e9; the period of the swell and
         the speed of the gusts are rounded to fit. None: it does not repeat for hours.
     pressure: force per area and speed [N s/m³], 0 to 1e6.
     phases: time offset of each cloth of a batch [s], shape [B] or one number.
-    origins: where each cloth stands in the wind [m], shape [B, 3] or [3].
+    origins: position of each cloth in the wind [m], shape [B, 3] or [3].
     Raises OptionError.
     """
 

@@ -1,9 +1,9 @@
-"""Many cloths of several topologies, each simulated as finely as its distance deserves.
+"""Many cloths of several topologies, with a level of detail that depends on the distance.
 
-Cloths come and go while the world runs. Those near the eye are simulated on their own grid, those
-farther away on every second row and column; the rest follow a stiff motion or stand still. At
-most `Detail.maximum` are simulated at once, the nearest first. When a cloth changes its level of
-detail, what it showed before fades into what it shows now, so nothing jumps.
+Cloths can be added and removed while the world runs. Cloths near the eye are simulated on their
+full grid, cloths farther away on every second row and column; the others follow a stiff motion or
+do not move. At most `Detail.maximum` are simulated at once, the nearest first. When a cloth changes
+its level of detail, its shape fades from the old one to the new one, so it does not jump.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -29,7 +29,7 @@ FULL, HALF, STIFF = 0, 1, 2
 
 MAX_DISTANCE = 1e9
 HYSTERESIS = 1.1
-"""A cloth goes back to a finer level only when it is nearer than the limit by this factor."""
+"""A cloth returns to a finer level only when it is nearer than the limit by this factor."""
 
 ForcesAt = Callable[[Array], Sequence[Force]]
 """The forces on cloths at places [B, 3]; a wind takes the places as its origins."""
@@ -42,7 +42,7 @@ StiffMotion = Callable[[Cloth, Array, float], Array]
 class Detail:
     """How finely cloths are simulated.
 
-    full, half: distances from the eye [m] up to which cloths are simulated, on their own grid and
+    full, half: distances from the eye [m] up to which cloths are simulated, on their full grid and
         on every second row and column.
     maximum: how many cloths are simulated at once.
     fade: how long a change of level takes to show [s].
@@ -62,10 +62,10 @@ class Detail:
 
 
 class WorldView(NamedTuple):
-    """What a world shows of all cloths of one topology.
+    """The shapes of all cloths of one topology.
 
-    cloth: their topology. ids: [B]. places: [m], [B, 3]. positions: of the particles in each
-    cloth's own frame [m], [B, N, 3]; add its place. levels: FULL, HALF or STIFF, [B].
+    cloth: their topology. ids: [B]. places: of the cloths [m], [B, 3]. positions: of the particles
+    relative to the place of their cloth [m], [B, N, 3]. levels: FULL, HALF or STIFF, [B].
     """
 
     cloth: Cloth
@@ -79,7 +79,8 @@ class WorldView(NamedTuple):
 class _ClothBatch:
     """All cloths of one topology: a row for each in every array.
 
-    offsets: what is still to fade out [m], [B, N, 3]; remaining: for how long [s], [B].
+    offsets: from the new shape to the old one, which fade out [m], [B, N, 3]. remaining: time until
+    they are 0 [s], [B].
     """
 
     cloth: Cloth
@@ -102,7 +103,7 @@ class _ClothBatch:
             setattr(self, name, values[chosen])
 
     def extend(self, ids: NDArray[np.int64], places: Array) -> None:
-        """Add cloths at rest, on their own grid."""
+        """Add cloths at rest, on their full grid."""
         count = len(ids)
         rest = np.broadcast_to(self.cloth.rest_positions, (count, *self.cloth.rest_positions.shape))
         still = np.zeros_like(rest)
@@ -114,11 +115,12 @@ class _ClothBatch:
 
 @dataclass
 class World:
-    """Cloths of several topologies in one place and time.
+    """Cloths of several topologies that are simulated together.
 
-    dt: one step [s]. solver: one whose state holds nothing of single cloths (SolverDesbrun,
-    SolverXPBD). forces: the forces on cloths at given places. stiff: the motion of cloths that
-    are not simulated; None leaves them as they were. detail: how finely cloths are simulated.
+    dt: one step [s]. solver: one whose solver state does not depend on single cloths
+    (SolverDesbrun, SolverXPBD). forces: the forces on cloths at given places. stiff: the motion of
+    cloths that are not simulated; None leaves their shape unchanged. detail: how finely cloths are
+    simulated.
     time: [s]. Raises OptionError.
     """
 
@@ -135,10 +137,10 @@ class World:
         check_step(self.dt, 1)
 
     def add(self, cloth: Cloth, places: Array) -> NDArray[np.int64]:
-        """Hang cloths of one topology at places [m], [B, 3]; returns their ids, [B].
+        """Add cloths of one topology at places [m], [B, 3]; returns their ids, [B].
 
-        An id never changes and is never used again. Give the same Cloth object for all cloths
-        that are to step together: it is prepared once. Raises OptionError.
+        An id never changes and is never used again. Use the same Cloth object for all cloths of a
+        topology: they are prepared once and stepped together. Raises OptionError.
         """
         places = _points("places", places).reshape(-1, 3)
         if id(cloth) not in self._batches:
@@ -149,11 +151,11 @@ class World:
         return ids
 
     def remove(self, ids: Sequence[int] | NDArray[np.int64]) -> None:
-        """Take cloths away. Raises OptionError for an id that is not here."""
+        """Remove cloths. Raises OptionError for an unknown id."""
         wanted = np.asarray(ids, np.int64).reshape(-1)
         missing = np.setdiff1d(wanted, self.ids())
         if missing.size:
-            raise OptionError(f"cloth {missing[0]} is not here; it may have been removed before")
+            raise OptionError(f"cloth {missing[0]} is not in the world; use ids that `ids` lists")
         for batch in self._batches.values():
             batch.select(~np.isin(batch.ids, wanted))
 
@@ -162,14 +164,14 @@ class World:
         return np.concatenate([np.empty(0, np.int64), *(b.ids for b in self._batches.values())])
 
     def shown(self) -> Iterator[WorldView]:
-        """What there is to see, topology by topology in the order in which they were added."""
+        """The shapes of all cloths, one `WorldView` per topology, in the order of adding."""
         for batch in self._batches.values():
             weight = _weight(batch.remaining, self.detail.fade)
             faded = batch.positions + weight * batch.offsets
             yield WorldView(batch.cloth, batch.ids, batch.places, faded, batch.levels)
 
     def step(self, eye: Array) -> None:
-        """Move all cloths on by dt, seen from a point [m], [3]. Raises OptionError."""
+        """Advance all cloths by dt. eye: the viewer's position [m], [3]. Raises OptionError."""
         eye = _points("eye", eye).reshape(3)
         batches = list(self._batches.values())
         for batch, levels in zip(batches, self._wanted_levels(batches, eye), strict=True):
@@ -198,20 +200,20 @@ class World:
         by_batch = [self._by_distance(*pair) for pair in zip(batches, distances, strict=True)]
         distance, level = np.concatenate(distances), np.concatenate(by_batch)
         simulated = np.flatnonzero(level < STIFF)
-        # The nearest first; of two at one distance the older.
+        # The nearest first; of two at the same distance the older one.
         order = simulated[np.argsort(distance[simulated], kind="stable")]
         level[order[self.detail.maximum :]] = STIFF
         return np.split(level, np.cumsum([len(batch.ids) for batch in batches])[:-1])
 
     def _by_distance(self, batch: _ClothBatch, distance: Array) -> NDArray[np.int8]:
         limits = np.array([self.detail.full, self.detail.half])
-        # A cloth comes back to a finer level only where it is nearer than the limit by a factor.
+        # A cloth returns to a finer level only if it is nearer than the limit by a factor.
         slack = np.where(batch.levels[:, None] > np.arange(2), 1 / HYSTERESIS, 1.0)
         level = (distance[:, None] > limits * slack).sum(axis=1).astype(np.int8)
         return np.where((level == HALF) & (batch.coarse is None), FULL, level).astype(np.int8)
 
     def _change(self, batch: _ClothBatch, levels: NDArray[np.int8]) -> None:
-        """Give cloths their new levels; what they showed fades into what they will show."""
+        """Give cloths their new levels; their shapes fade from the old ones to the new ones."""
         rows = np.flatnonzero(levels != batch.levels)
         if not rows.size:
             return
@@ -219,7 +221,7 @@ class World:
         shown = batch.positions[rows] + weight * batch.offsets[rows]
         batch.levels[rows] = levels[rows]
         finer = levels[rows] == FULL
-        # A cloth that is back on its own grid continues from what it shows; others start elsewhere.
+        # A cloth that returns to its full grid continues from its visible shape; others do not.
         batch.positions[rows[finer]] = shown[finer]
         target = self._target(batch, rows)
         batch.offsets[rows] = shown - target
@@ -227,7 +229,7 @@ class World:
         batch.remaining[rows] = self.detail.fade
 
     def _target(self, batch: _ClothBatch, rows: NDArray[np.intp]) -> Array:
-        """What cloths show at their present level, before any fading."""
+        """The shapes of cloths at their present level, before any fading."""
         target = batch.positions[rows]
         half, stiff = batch.levels[rows] == HALF, batch.levels[rows] == STIFF
         if half.any():
@@ -327,7 +329,7 @@ def _shape(cloth: Cloth) -> tuple[int, int]:
 
 
 def _weight(remaining: Array, fade: float) -> Array:
-    """How much of what was before still shows, shape [B, 1, 1]: smooth at both ends."""
+    """The weight of the old shape, shape [B, 1, 1]; its slope is 0 at both ends of the fade."""
     s = remaining / fade if fade > 0 else np.zeros_like(remaining)
     weight: Array = (s * s * (3 - 2 * s))[:, None, None]
     return weight

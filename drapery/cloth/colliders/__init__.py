@@ -1,8 +1,8 @@
-"""What cloth can meet: shapes, their motion, and their surfaces.
+"""Colliders: shapes, their motion and their surfaces.
 
-A `Collider` is a shape with a path, a restitution and a friction. A shape is one of those here, or
-any object with a signed distance of its own, see `SignedDistance`. Lengths are in metres, times in
-seconds, angles in degrees.
+A `Collider` is a shape with a path, a restitution and a friction. A shape is one of the built-in
+shapes or any object that has a signed distance, see `SignedDistance`. Lengths are in metres, times
+in seconds, angles in degrees.
 """
 
 from drapery.cloth.colliders.check import check_collider

@@ -20,7 +20,7 @@ HALF = (0.5, 0.5, 0.5)
 def blocks_distance(filled: Grid, p: Vector) -> tuple[float, Vector]:
     """filled: 1 where there is a cube, shape [I, J, K]; p: relative to the grid's corner.
 
-    Beyond one cube's length the answer is a lower bound, which is all that a sweep needs.
+    Farther away than one cube's length the result is a lower bound, which is enough for a sweep.
     """
     i, j, k = int(np.floor(p[0])), int(np.floor(p[1])), int(np.floor(p[2]))
     if _is_filled(filled, i, j, k):

@@ -1,6 +1,6 @@
-"""A tree of boxes over triangles: median splits, nodes in depth-first order.
+"""A bounding volume hierarchy of boxes over triangles: median splits, nodes in depth-first order.
 
-So a node's first half is the next node, and its second half is where the first one's nodes end.
+So a node's first child is the next node, and its second child follows the first child's last node.
 """
 
 from typing import NamedTuple
@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from drapery.mesh import Array
 
 LEAF = 4
-"""Triangles in a leaf: a box test costs about as much as a triangle or two."""
+"""Triangles in a leaf: a test of a box takes about as long as that of one or two triangles."""
 
 
 class Tree(NamedTuple):
     """order: triangle indices, shape [T]; boxes: low and high corners, shape [M, 2, 3];
-    links: of each node, the end of its nodes and its first triangle and their end, shape [M, 3]
-    (inner nodes have none: both are 0); roots: the first node of each part, shape [P].
+    links: of each node, the end of its subtree, and the first and the end of its triangles, shape
+    [M, 3] (both 0 for inner nodes); roots: the first node of each part, shape [P].
     """
 
     order: NDArray[np.int32]

@@ -5,15 +5,15 @@ import numpy as np
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.packing import distance, outward
-from drapery.cloth.colliders.vectors import along, row
+from drapery.cloth.colliders.vectors import add_scaled, row
 from drapery.errors import OptionError
 from drapery.jit import entry_point
 from drapery.mesh import Array
 
 MARGIN = 0.25
-"""How far samples reach over the bounds, as a part of their size."""
+"""How far samples extend beyond the bounds, as a fraction of their size."""
 ENDLESS = 2.0
-"""Where samples end that have no bounds [m]."""
+"""Coordinate [m] at which samples end where the bounds are infinite."""
 ON_SURFACE = 1e-7
 SLACK = 1e-6
 """Tolerance of lengths, absolute [m] and relative."""
@@ -28,7 +28,7 @@ def check_collider(collider: Collider, count: int = 2000) -> None:
     - a part of the surface lies outside the bounds;
     - at some point outside, the signed distance is more than the distance to the surface, as for
       a function that grows faster than its argument (Lipschitz constant over 1);
-    - the path gives a position or rotation that is not finite, or a matrix that is no rotation.
+    - the path gives a position or rotation that is not finite, or a matrix that is not a rotation.
 
     count: sample points, pseudo-random and the same in every run.
     """
@@ -87,10 +87,13 @@ def _check_path(name: str, collider: Collider) -> None:
         fits = position.shape == (3,) and rotation.shape == (3, 3)
         if not (fits and np.isfinite(position).all() and np.isfinite(rotation).all()):
             raise OptionError(
-                f"{name}: its path at {time} s is no pose; give finite [3] and [3, 3]"
+                f"{name}: its path at {time} s is not a pose; give finite [3] and [3, 3]"
             )
         if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6):
-            raise OptionError(f"{name}: its path at {time} s has a rotation that is no rotation")
+            raise OptionError(
+                f"{name}: its path at {time} s has a matrix that is not a rotation; give an "
+                "orthonormal right-handed one"
+            )
 
 
 @entry_point
@@ -104,13 +107,13 @@ def sample_distances(field: Field, points: Array) -> Array:
 
 @entry_point
 def to_surface(field: Field, points: Array) -> Array:
-    """Points [M, 3] moved to the surface along its directions; some may not arrive."""
+    """Points [M, 3] moved to the surface along its directions; some may not reach it."""
     moved = np.empty_like(points)
     for i in range(len(points)):
         p = row(points, i)
         for _ in range(64):
             d, direction = distance(field, p, np.inf)
-            p = along(p, -d, outward(field, p, direction))
+            p = add_scaled(p, -d, outward(field, p, direction))
         for axis in range(3):
             moved[i, axis] = p[axis]
     return moved

@@ -16,11 +16,11 @@ from drapery.errors import OptionError
 class Collider:
     """A shape that cloth cannot enter.
 
-    shape: a Sphere, Capsule, Box, Plane, Voxels or TriangleMesh, or any object with a signed
-        distance of its own, see `SignedDistance`.
+    shape: a Sphere, Capsule, Box, Plane, Voxels or TriangleMesh, or any object that has a signed
+        distance, see `SignedDistance`.
     path: the shape's pose as a function of time [s]; `still` by default.
-    restitution: part of the approach speed that a bounce gives back, 0 to 1.
-    friction: Coulomb's coefficient, at least 0.
+    restitution: speed after a bounce over the approach speed, 0 to 1.
+    friction: Coulomb's coefficient, 0 or more.
 
     Raises OptionError for numbers out of range, and for a signed distance that numba cannot
     compile or that does not return one finite number.
@@ -42,5 +42,5 @@ class Collider:
         object.__setattr__(self, "packed", pack(self.shape))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Another process packs the shape again: addresses of functions hold in one process."""
+        """Pickle without the packed field: addresses of functions are valid in one process only."""
         return Collider, (self.shape, self.path, self.restitution, self.friction)

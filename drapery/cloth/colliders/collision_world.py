@@ -1,8 +1,8 @@
-"""The collision stage of a step: cloths against themselves and against colliders.
+"""The collision response of a step: cloths against themselves and against colliders.
 
-A solver's step moves the cloth as if nothing stood in its way. Then this stage corrects positions
-and velocities, and the next step goes on from there. So every solver collides alike, whatever the
-layout of its own arrays.
+A solver's step moves the cloth without regard to colliders. Then positions and velocities are
+corrected here, and the next step starts from the corrected state. So collisions are the same for
+every solver, whatever the layout of its arrays.
 
 Against colliders the sample points of the cloth are tested: its particles and, on the faces between
 them, a lattice of points that move with their triangle. A push on such a point is shared by the
@@ -25,7 +25,7 @@ from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.pose import Pose
 from drapery.cloth.colliders.sampling import SamplePoints
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, ContactParams, RigidSweep, sweep_point
-from drapery.cloth.colliders.vectors import Vector, along, norm, row, scale, subtract
+from drapery.cloth.colliders.vectors import Vector, add_scaled, norm, row, scale, subtract
 from drapery.cloth.contact import SelfContact, separate_all
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
@@ -34,11 +34,11 @@ from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 THINNEST = 1e-4
-"""The least distance kept from a surface [m]: normals are well known only off the surface."""
+"""The least distance kept from a surface [m]: on the surface itself normals are not reliable."""
 
 
 class ClothMotion(NamedTuple):
-    """Cloths on their way through the stage: positions at the step's start and now [m] and
+    """Cloths during the collision response: positions at the step's start and now [m] and
     velocities [m/s], shape [B, N, 3]; which particles bounced, [B, N]."""
 
     start: Array
@@ -49,17 +49,17 @@ class ClothMotion(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class CollisionWorld:
-    """All that one cloth collides with, ready for its steps.
+    """What one cloth collides with, prepared once for all its steps.
 
     It holds no state of a step, so several threads may use one object at the same time.
 
     inv_mass: [1/kg], shape [N].
-    colliders: one after another; where they touch each other, the last one decides.
+    colliders: applied one after another; where two overlap, the last one decides.
     points: of the cloth, see `sample_points`.
     radius: distance kept from every surface, half the cloth's thickness [m]; at least `THINNEST`.
     self_contact: None lets the cloth pass through itself.
-    links: springs to shorten where colliders stretched them; then colliders come again, `rounds`
-        times in all.
+    attachments: springs to shorten where colliders stretched them. Colliders are then applied
+        again, `rounds` times in all.
     threads: None for as many as there are processors.
     """
 
@@ -68,21 +68,20 @@ class CollisionWorld:
     points: SamplePoints
     radius: float
     self_contact: SelfContact | None = None
-    links: Attachments | None = None
+    attachments: Attachments | None = None
     rounds: int = 1
     threads: int | None = None
 
     def resolve(self, before: State, after: State) -> State:
-        """The state after a step, with everything that entered a collider or the cloth itself
-        brought back.
+        """The state after a step, with penetrations of colliders and of the cloth itself resolved.
 
-        before, after: the states at the start and the end of the solver's step; pinned particles
-        keep their places. Raises OptionError for a step without duration, and for a collider whose
+        before, after: the states at the start and the end of the solver's step. Pinned particles
+        are not moved. Raises OptionError for a step without duration, and for a collider whose
         signed distance is not a number somewhere near the cloth.
         """
         dt = after.time - before.time
         if not dt > 0:
-            raise OptionError(f"a collision step of {dt} s is out of range; let the time grow")
+            raise OptionError(f"a collision step of {dt} s is out of range; use a time above 0 s")
         start, x, v = (
             np.array(a, float, order="C")
             for a in (before.positions, after.positions, after.velocities)
@@ -108,8 +107,8 @@ class CollisionWorld:
         for number in range(self.rounds):
             for collider, sweep in zip(self.colliders, sweeps, strict=True):
                 self._collide_block(first, last, collider, sweep, motion, active, dt)
-            if number + 1 < self.rounds and self.links is not None:
-                shorten_all(first, last, motion.x, self.links, active)
+            if number + 1 < self.rounds and self.attachments is not None:
+                shorten_all(first, last, motion.x, self.attachments, active)
         update_velocities(first, last, motion, solved, speeds, dt)
 
     def _collide_block(
@@ -197,28 +196,28 @@ def collide_one(
 
 @entry_point
 def shorten_all(
-    first: int, last: int, x: Array, links: Attachments, active: NDArray[np.bool_]
+    first: int, last: int, x: Array, attachments: Attachments, active: NDArray[np.bool_]
 ) -> None:
-    """Shorten each link that is too long; cloths without one are done."""
+    """Shorten each pair that is too long; cloths without one become inactive."""
     for cloth in range(first, last):
         if active[cloth]:
-            active[cloth] = shorten_one(x[cloth], links)
+            active[cloth] = shorten_one(x[cloth], attachments)
 
 
 @kernel
-def shorten_one(x: Array, links: Attachments) -> bool:
-    """Whether there was a link to shorten."""
+def shorten_one(x: Array, attachments: Attachments) -> bool:
+    """Shorten the pairs of one cloth that are too long; returns whether there was one."""
     found = False
-    for s in range(len(links.longest)):
-        i, j = links.pairs[s, 0], links.pairs[s, 1]
+    for s in range(len(attachments.longest)):
+        i, j = attachments.pairs[s, 0], attachments.pairs[s, 1]
         offset = subtract(row(x, j), row(x, i))
         length = norm(offset)
-        if length > links.longest[s]:
+        if length > attachments.longest[s]:
             found = True
-            part = 1 - links.longest[s] / length
+            part = 1 - attachments.longest[s] / length
             for axis in range(3):
-                x[i, axis] += links.share_i[s] * part * offset[axis]
-                x[j, axis] -= links.share_j[s] * part * offset[axis]
+                x[i, axis] += attachments.share_i[s] * part * offset[axis]
+                x[j, axis] -= attachments.share_j[s] * part * offset[axis]
     return found
 
 
@@ -228,8 +227,8 @@ def update_velocities(
 ) -> None:
     """Give particles that were moved here, and did not bounce, the velocity of their motion over
     the step. Otherwise a cloth that its solver pulls into a surface at every step would keep the
-    speed of that pull. The speed grows neither over that before the stage nor over that of an
-    impact.
+    speed of that pull. The new speed is at most the speed before the collision response, or that
+    of an impact.
 
     solved, speeds: positions [m] and velocities [m/s] before colliders, of cloths first..last.
     """
@@ -253,8 +252,7 @@ def same(x: Array, y: Array, i: int) -> bool:
 
 @kernel
 def inverse_mass_at(particles: NDArray[np.int32], weights: Array, inv_mass: Array) -> float:
-    """Inverse of the mass [1/kg] that a push on the point meets; 0 if all its particles are
-    pinned."""
+    """Inverse of the effective mass [1/kg] of a sample point; 0 if all its particles are pinned."""
     total = 0.0
     for corner in range(3):
         total += weights[corner] * weights[corner] * inv_mass[particles[corner]]
@@ -267,7 +265,7 @@ def interpolate(rows: Array, particles: NDArray[np.int32], weights: Array) -> Ve
     total = (0.0, 0.0, 0.0)
     for corner in range(3):
         i = particles[corner]
-        total = along(total, weights[corner], (rows[i, 0], rows[i, 1], rows[i, 2]))
+        total = add_scaled(total, weights[corner], (rows[i, 0], rows[i, 1], rows[i, 2]))
     return total
 
 

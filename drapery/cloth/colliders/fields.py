@@ -15,7 +15,7 @@ NO_LINKS = np.zeros((0, 3), np.int32)
 
 
 class Field(NamedTuple):
-    """A shape as the kernels read it. Flat, as a parallel loop takes no tuple within a tuple.
+    """A shape as the kernels read it. It is flat: a parallel loop accepts no nested tuples.
 
     kind: one of the constants above; numbers: what its kernel documents; bounds: low and high
     corner [m], shape [2, 3]; inradius: of the largest ball inside a convex shape [m], 0 for a shape

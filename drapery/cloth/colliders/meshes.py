@@ -13,9 +13,9 @@ from drapery.mesh import Array, Triangles, face_normals
 def mesh_collider(vertices: ArrayLike, triangles: ArrayLike) -> TriangleMesh:
     """A collider from vertices [V, 3] in metres and triangles [T, 3].
 
-    Vertices at the same place are welded, triangles without area are dropped, closed parts that
-    are inside out are turned. Raises OptionError for shapes, indices or numbers that no surface
-    can have.
+    Vertices at the same position are merged, triangles without area are removed, and closed parts
+    that are inside out are reversed. Raises OptionError for arrays of wrong shape, indices out of
+    range and numbers that are not finite.
     """
     points, faces = _checked(np.asarray(vertices, float), np.asarray(triangles))
     points, faces = _welded(points, faces)
@@ -27,13 +27,16 @@ def mesh_collider(vertices: ArrayLike, triangles: ArrayLike) -> TriangleMesh:
 
 
 def load_mesh(path: str | Path, scale: float = 1.0) -> TriangleMesh:
-    """A collider from any file that trimesh reads (OBJ, STL, PLY, glTF, …), `scale` m a unit."""
+    """A collider from any file that trimesh reads (OBJ, STL, PLY, glTF, …).
+
+    scale: metres in one unit of the file. Raises OptionError for a file that cannot be read.
+    """
     import trimesh
 
     try:
         mesh = trimesh.load_mesh(path)
         vertices, faces = mesh.vertices, mesh.faces
-    except Exception as fault:  # trimesh's readers raise whatever they stumble over
+    except Exception as fault:  # trimesh's readers raise errors of many types
         raise OptionError(f"mesh {path}: not a surface that trimesh reads ({fault})") from None
     return mesh_collider(np.asarray(vertices) * scale, faces)
 
@@ -41,8 +44,9 @@ def load_mesh(path: str | Path, scale: float = 1.0) -> TriangleMesh:
 def height_collider(heights: ArrayLike, cell: float = 1.0, depth: float = 1.0) -> TriangleMesh:
     """Solid ground under a height map.
 
-    heights: height of the ground [m] over x = column · cell, z = row · cell; shape [R, C].
-    depth: how far the ground reaches below its lowest point [m].
+    heights: height of the ground [m] at x = column · cell, z = row · cell; shape [R, C].
+    cell: distance between neighbouring heights [m]. depth: thickness of the ground below its
+    lowest point [m]. Raises OptionError.
     """
     surface = np.asarray(heights, float)
     if surface.ndim != 2 or min(surface.shape) < 2 or not np.isfinite(surface).all():
@@ -105,7 +109,7 @@ def _parts(triangles: Triangles, count: int) -> NDArray[np.int32]:
 
 
 def _closed(triangles: Triangles, part: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """Whether every edge of a part is walked exactly once each way."""
+    """Whether each edge of a part occurs exactly once in each direction, [P]."""
     half_edges = np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)]).astype(np.int64)
     count = int(triangles.max()) + 1
     there, uses = np.unique(half_edges @ np.array([count, 1]), return_counts=True)

@@ -34,7 +34,7 @@ from drapery.jit import entry_point, kernel
 
 UP = (0.0, 1.0, 0.0)
 DIFFERENCE = 1e-5
-"""Half the width [m] of a central difference: its error and that of rounding are about equal."""
+"""Half the width [m] of a central difference: truncation and rounding errors are about equal."""
 
 
 @entry_point
@@ -42,7 +42,7 @@ def distance(field: Field, p: Vector, limit: float) -> tuple[float, Vector]:
     """Signed distance [m] and outward unit direction at p, in the shape's frame.
 
     Exact below `limit` [m]; above it any number of at least `limit` or a lower bound. The
-    direction of user-defined shapes is left to `outward`, which costs more distances.
+    direction of user-defined shapes comes from `outward`, which evaluates more distances.
     """
     if field.kind == USER_DEFINED:
         return call_distance(field.distance_address, p[0], p[1], p[2], field.numbers), UP

@@ -12,7 +12,7 @@ from drapery.mesh import Array
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """A point p of a shape stands in the world at rotation · p + position.
+    """A rigid pose: the point p of a shape is at rotation · p + position in the world.
 
     position: [m], shape [3].
     rotation: rotation matrix, shape [3, 3].
@@ -23,7 +23,7 @@ class Pose:
 
 
 Path = Callable[[float], Pose]
-"""The pose at a time [s]; the collision stage calls it for the start and the end of every step."""
+"""The pose at a time [s]; it is called for the start and the end of every step."""
 
 STILL = Pose()
 
@@ -34,15 +34,16 @@ def still(time: float) -> Pose:
 
 
 def straight(velocity: tuple[float, float, float]) -> Path:
-    """The path of a collider that leaves its place at time 0 with this velocity [m/s]."""
+    """The path of a collider that moves from the origin at time 0 with this velocity [m/s]."""
     step = np.asarray(velocity, float)
     return lambda time: Pose(position=step * time)
 
 
 def swinging(pivot: tuple[float, float, float], swing: float, period: float, phase: float) -> Path:
-    """The path of a leg that walks: it swings about the x axis through `pivot` [m].
+    """The path of a walking leg: it swings about the x axis through `pivot` [m].
 
-    swing: largest angle to either side [degrees]; period [s]; phase: part of a period, 0 to 1.
+    swing: largest angle to either side [degrees]. period: [s]. phase: fraction of a period, 0 to 1.
+    Raises OptionError for a period that is not above 0.
     """
     centre = np.asarray(pivot, float)
     if not period > 0:

@@ -1,4 +1,4 @@
-"""Signed distance and outward direction of the round and the flat shapes.
+"""Signed distance and outward direction of spheres, capsules, planes and boxes.
 
 Each kernel takes the shape's numbers and a point in the shape's frame, and gives the distance [m],
 negative inside, and the unit direction in which it grows fastest.
@@ -6,12 +6,12 @@ negative inside, and the unit direction in which it grows fastest.
 
 from drapery.cloth.colliders.vectors import (
     Vector,
-    along,
+    add_scaled,
     dot,
     norm,
+    rotated,
+    rotated_back,
     subtract,
-    turned,
-    turned_back,
     unit,
 )
 from drapery.jit import kernel
@@ -33,7 +33,7 @@ def capsule_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     axis = subtract((numbers[3], numbers[4], numbers[5]), start)
     square = dot(axis, axis)
     part = dot(subtract(p, start), axis) / square if square > 0 else 0.0
-    offset = subtract(p, along(start, min(max(part, 0.0), 1.0), axis))
+    offset = subtract(p, add_scaled(start, min(max(part, 0.0), 1.0), axis))
     length = norm(offset)
     if length > 1e-300:
         return length - numbers[6], unit(offset, length)
@@ -42,7 +42,7 @@ def capsule_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
 
 @kernel
 def _across(axis: Vector) -> Vector:
-    """A unit vector at a right angle to the axis: for points on it, where all sides are equal."""
+    """A unit vector at a right angle to the axis, for points on the axis."""
     x, y, z = axis
     side = (-y, x, 0.0) if abs(x) + abs(y) > abs(z) * 1e-6 else (1.0, 0.0, 0.0)
     return unit(side, norm(side))
@@ -59,9 +59,9 @@ def plane_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
 def box_distance(numbers: Array, p: Vector) -> tuple[float, Vector]:
     """numbers: centre, half edge lengths, rotation row by row."""
     rotation = numbers[6:15].reshape(3, 3)
-    local = turned_back(rotation, subtract(p, (numbers[0], numbers[1], numbers[2])))
+    local = rotated_back(rotation, subtract(p, (numbers[0], numbers[1], numbers[2])))
     distance, normal = cuboid_distance((numbers[3], numbers[4], numbers[5]), local)
-    return distance, turned(rotation, normal)
+    return distance, rotated(rotation, normal)
 
 
 @kernel

@@ -20,9 +20,11 @@ class SamplePoints(NamedTuple):
 def sample_points(cloth: Cloth, order: int = 2) -> SamplePoints:
     """The points of a cloth to test, face points first and particles last.
 
-    order: parts into which each side of a face is cut. 1 tests the particles alone, 2 also the
+    order: parts into which each side of a face is cut. 1 tests only the particles, 2 also the
         middles of all edges, 3 two points on every edge and the middle of every face, and so on.
-        Choose it so that the points lie closer than the thinnest collider is wide.
+        Choose it so that the distance between points is less than the thinnest collider.
+
+    Raises OptionError.
     """
     if not 1 <= order <= 16:
         raise OptionError(f"collision order {order} is out of range; use a whole number 1 to 16")

@@ -1,4 +1,4 @@
-"""The built-in shapes of colliders, in their own frame. A collider's path moves them."""
+"""The built-in shapes of colliders, in the shape's frame. A collider's path moves them."""
 
 from dataclasses import dataclass, field
 
@@ -77,11 +77,13 @@ class Plane:
 
 @dataclass(frozen=True, eq=False)
 class Voxels:
-    """Cubes of one size on a grid: a piece of a world of blocks, or a creature made of them.
+    """Cubes of one size on a grid: part of a world of blocks, or a creature made of blocks.
 
     cells: integer cell coordinates, shape [M, 3]; cell (i, j, k) fills [i, i+1] x [j, j+1] x
-        [k, k+1] times `size`. Faces between two filled cells do not exist for a cloth.
+        [k, k+1] times `size`. Faces between two filled cells never touch a cloth.
     size: edge length [m].
+
+    Raises OptionError.
     """
 
     cells: NDArray[np.integer]
@@ -96,19 +98,19 @@ class Voxels:
         extent = cells.max(axis=0).astype(float) - cells.min(axis=0) + 1
         if extent.prod() > MAX_CELLS:
             raise OptionError(
-                f"Voxels spanning {extent.astype(int)} cells: split them, {MAX_CELLS} is the most"
+                f"Voxels spanning {extent.astype(int)} cells: split them; use at most {MAX_CELLS}"
             )
         _lengths("Voxels size", self.size)
 
 
 @dataclass(frozen=True, eq=False)
 class TriangleMesh:
-    """Any surface of triangles, as `mesh_collider`, `height_collider` and `load_mesh` make it.
+    """A triangle surface; `mesh_collider`, `height_collider` and `load_mesh` make it.
 
-    Connected parts that are closed are solid, and overlapping parts unite; open parts are
+    Connected parts that are closed are solid, and overlapping parts form a union; open parts are
     sheets that stop a cloth on both sides.
 
-    vertices: [m], shape [V, 3]; no two alike.
+    vertices: [m], shape [V, 3]; no two equal.
     triangles: vertex indices, shape [T, 3], int32; counter-clockwise seen from outside.
     part: number of the connected part of each triangle, shape [T].
     solid: whether each part is closed, shape [P].

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from drapery.cloth.colliders.bvh import build_tree
 from drapery.cloth.colliders.fields import SURFACE, Field
 from drapery.cloth.colliders.shapes import TriangleMesh
-from drapery.cloth.colliders.vectors import Vector, along, dot, norm, row, scale, subtract
+from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, row, scale, subtract
 from drapery.jit import kernel
 from drapery.mesh import Array, Triangles, face_normals
 
 FACE, EDGE_AB, EDGE_BC, EDGE_CA, AT_A, AT_B, AT_C = range(7)
-"""Where on a triangle a nearest point lies; also the place of its pseudonormal."""
+"""The feature of a triangle on which a nearest point lies; also the index of its pseudonormal."""
 DEPTH = 64
-"""Room for a walk down the tree: halves of at most a million triangles are 20 deep."""
+"""Size of the stack of a tree traversal: a tree of a million triangles is 20 levels deep."""
 
 
 def pack_surface(mesh: TriangleMesh) -> Field:
@@ -77,13 +77,13 @@ def _units(vectors: Array) -> Array:
 
 @kernel
 def surface_distance(field: Field, p: Vector, limit: float) -> tuple[float, Vector]:
-    """The union of the parts: the least distance. Beyond `limit` [m] the answer is `limit`."""
+    """The distance to the union of the parts: the least of theirs; at most `limit` [m]."""
     best, normal = limit, (0.0, 1.0, 0.0)
     for part in range(len(field.parts)):
         first, solid = field.parts[part]
         apart = _box_square(field.boxes[first], p)
         if apart < limit * limit:
-            # Inside the part's box even a far surface decides between inside and outside.
+            # Inside the part's box even a distant surface decides between inside and outside.
             max_distance = np.inf if solid and apart == 0 else limit
             d, n = _part_distance(field, first, solid, p, max_distance)
             if d < best:
@@ -120,7 +120,7 @@ def _part_distance(
 def _push_children(
     nodes: NDArray[np.int32], apart: Array, waiting: int, field: Field, node: int, p: Vector
 ) -> int:
-    """Put a node's halves on the stack, the nearer one on top; the new height of the stack."""
+    """Put a node's children on the stack, the nearer one on top; returns the new stack size."""
     near, far = node + 1, field.links[node + 1, 0]
     near_apart, far_apart = _box_square(field.boxes[near], p), _box_square(field.boxes[far], p)
     if far_apart < near_apart:
@@ -164,16 +164,16 @@ def closest_on_triangle(corners: Array, p: Vector) -> tuple[Vector, int]:
         return b, AT_B
     vc = d1 * d4 - d3 * d2
     if vc <= 0 and d1 >= 0 and d3 <= 0:
-        return along(a, d1 / (d1 - d3), ab), EDGE_AB
+        return add_scaled(a, d1 / (d1 - d3), ab), EDGE_AB
     cp = subtract(p, c)
     d5, d6 = dot(ab, cp), dot(ac, cp)
     if d6 >= 0 and d5 <= d6:
         return c, AT_C
     vb = d5 * d2 - d1 * d6
     if vb <= 0 and d2 >= 0 and d6 <= 0:
-        return along(a, d2 / (d2 - d6), ac), EDGE_CA
+        return add_scaled(a, d2 / (d2 - d6), ac), EDGE_CA
     va = d3 * d6 - d5 * d4
     if va <= 0 and d4 >= d3 and d5 >= d6:
-        return along(b, (d4 - d3) / ((d4 - d3) + (d5 - d6)), subtract(c, b)), EDGE_BC
+        return add_scaled(b, (d4 - d3) / ((d4 - d3) + (d5 - d6)), subtract(c, b)), EDGE_BC
     inverse = 1 / (va + vb + vc)
-    return along(along(a, vb * inverse, ab), vc * inverse, ac), FACE
+    return add_scaled(add_scaled(a, vb * inverse, ab), vc * inverse, ac), FACE

@@ -1,15 +1,15 @@
-"""One point against one shape over one step: where it first touches, and what it does then.
+"""One point against one shape over one step: the time of impact and the response.
 
-Everything happens in the shape's own frame, where the shape rests and the point moves along the
-straight line from its place in the frame at the start to its place in the frame at the end. So the
-motion of a collider counts as the motion of the point. (A collider that turns bends that line; the
-error is of second order in the angle turned in a step.)
+All of it is computed in the shape's frame, in which the shape rests. The point moves there along
+the straight line from its position at the start of the step to its position at the end. So the
+motion of a collider counts as motion of the point. (If a collider rotates, the true path is curved;
+the error is of second order in the angle of the rotation in a step.)
 
-The touch is found by conservative advancement (Mirtich 1996; on distance fields also known as
-sphere tracing, Hart 1996): the distance to the shape is an advance that cannot cross its surface.
-So no feature is too thin to be met. Between two samples the point comes no nearer to the surface
-than half the radius. A convex shape allows longer advances: along a line its distance is a convex
-function, and the slopes at both ends of an advance bound it from below.
+The time of impact is found by conservative advancement (Mirtich 1996; on distance fields also known
+as sphere tracing, Hart 1996): a point may advance by its distance to the shape without crossing the
+surface. So even very thin features are found. Between two samples the distance of the point from
+the surface stays at least half the radius. A convex shape allows longer advances: its distance is a
+convex function along a line, and the slopes at both ends of an advance bound it from below.
 """
 
 from typing import NamedTuple
@@ -21,31 +21,31 @@ from drapery.cloth.colliders.packing import distance, outward
 from drapery.cloth.colliders.vectors import (
     Vector,
     add,
-    along,
+    add_scaled,
     dot,
     norm,
+    rotated,
+    rotated_back,
     scale,
     subtract,
-    turned,
-    turned_back,
 )
 from drapery.jit import kernel
 from drapery.mesh import Array
 
 TOUCH = 1e-9
-"""Distances [m] that count as none: far above rounding at 1000 m, far below a picture's pixel."""
+"""Distances [m] that count as 0: far above rounding at 1000 m, far below a picture's pixel."""
 CLOSE = 1e-7
-"""How near [m] to the surface the search for the moment of touch must come."""
+"""Tolerance [m] of the search for the time of impact."""
 FINEST = 1e-6
 """The least advance [m] of a point that starts on the surface."""
 MAX_ADVANCES = 1 << 14
-"""Advances in one motion; a point that needs more waits where it is for the next step."""
+"""Most advances in one motion; a point that needs more stops there until the next step."""
 MAX_TOUCHES = 4
-"""Touches in one step: floor, wall, second wall, and one more. After the last the point waits."""
+"""Most contacts in one step: floor, wall, second wall, and one more. Then the point stops."""
 MAX_PUSHES = 8
 MISSED, TOUCHED, BOUNCED = range(3)
 RESTITUTION_THRESHOLD = 0.25
-"""Approach [m/s] below which nothing bounces: more than gravity's gain in a step of 1/60 s."""
+"""Approach speed [m/s] below which nothing bounces: more than gravity adds in a step of 1/60 s."""
 
 
 class RigidSweep(NamedTuple):
@@ -58,7 +58,7 @@ class RigidSweep(NamedTuple):
 
 
 class ContactParams(NamedTuple):
-    """What happens at a touch: distance kept [m], restitution, Coulomb friction."""
+    """Parameters of a contact: distance kept [m], restitution, Coulomb friction."""
 
     radius: float
     restitution: float
@@ -67,12 +67,12 @@ class ContactParams(NamedTuple):
 
 @kernel
 def into_frame(position: Array, rotation: Array, p: Vector) -> Vector:
-    return turned_back(rotation, subtract(p, (position[0], position[1], position[2])))
+    return rotated_back(rotation, subtract(p, (position[0], position[1], position[2])))
 
 
 @kernel
 def out_of_frame(position: Array, rotation: Array, p: Vector) -> Vector:
-    return add(turned(rotation, p), (position[0], position[1], position[2]))
+    return add(rotated(rotation, p), (position[0], position[1], position[2]))
 
 
 @kernel
@@ -97,8 +97,8 @@ def boxes_apart(field: Field, a: Vector, b: Vector, radius: float) -> bool:
 def time_of_impact(field: Field, p: Vector, motion: Vector, radius: float) -> tuple[float, Vector]:
     """The part of `motion` after which p comes nearer than `radius`, and the normal there.
 
-    2 when it never does, NaN where the distance is NaN. A point that starts too near is held only
-    if it goes nearer still.
+    2 when it never does, NaN where the distance is NaN. A point that starts nearer than `radius`
+    is stopped only if it approaches the surface.
     """
     length = norm(motion)
     if length == 0.0:
@@ -111,7 +111,7 @@ def time_of_impact(field: Field, p: Vector, motion: Vector, radius: float) -> tu
     part = 0.0
     for _ in range(MAX_ADVANCES):
         ahead = min(part + advance(field, gap, radius) / length, 1.0)
-        ahead_gap, ahead_normal = distance(field, along(p, ahead, motion), limit)
+        ahead_gap, ahead_normal = distance(field, add_scaled(p, ahead, motion), limit)
         ahead_gap -= radius
         if np.isnan(ahead_gap):
             return ahead_gap, normal
@@ -132,7 +132,7 @@ def time_of_impact(field: Field, p: Vector, motion: Vector, radius: float) -> tu
 
 @kernel
 def advance(field: Field, gap: float, radius: float) -> float:
-    """A length [m] that a point may move before the distance is asked again."""
+    """A length [m] that a point may move before the distance must be evaluated again."""
     if field.inradius > 0.0:
         return max(gap, radius, field.inradius / 8)
     if gap >= 0.0:
@@ -171,7 +171,7 @@ def descend(
         if gap < CLOSE:
             break
         part -= gap / slope
-        gap, normal = distance(field, along(p, part, motion), limit)
+        gap, normal = distance(field, add_scaled(p, part, motion), limit)
         gap -= radius
     return part, normal
 
@@ -196,7 +196,7 @@ def refine_impact(
         if outside < CLOSE:
             break
         middle = low + (high - low) * gap / (gap - depth)
-        d, n = distance(field, along(p, middle, motion), limit)
+        d, n = distance(field, add_scaled(p, middle, motion), limit)
         d -= radius
         if d >= -TOUCH:
             low, outside, normal, gap = middle, d, n, d
@@ -209,7 +209,7 @@ def refine_impact(
 
 @kernel
 def apply_friction(along_surface: Vector, limit: float) -> Vector:
-    """What Coulomb friction leaves: the vector shortened by `limit`, or nothing."""
+    """The tangential vector after Coulomb friction: shortened by `limit`, at least 0."""
     length = norm(along_surface)
     if length <= limit:
         return 0.0, 0.0, 0.0
@@ -218,13 +218,13 @@ def apply_friction(along_surface: Vector, limit: float) -> Vector:
 
 @kernel
 def respond(v: Vector, normal: Vector, restitution: float, friction: float) -> Vector:
-    """A velocity or motion after a touch; one that leaves the surface stays as it is."""
+    """A velocity or motion after a contact; one that leaves the surface does not change."""
     into = -dot(v, normal)
     if into <= 0:
         return v
-    tangent = along(v, into, normal)
+    tangent = add_scaled(v, into, normal)
     left = apply_friction(tangent, friction * (1 + restitution) * into)
-    return along(left, restitution * into, normal)
+    return add_scaled(left, restitution * into, normal)
 
 
 @kernel
@@ -250,7 +250,7 @@ def sweep_point(
         if part > 1.0:
             p = add(p, motion)
             break
-        p = along(p, part, motion)
+        p = add_scaled(p, part, motion)
         normal = outward(field, p, normal)
         v, bounce = impact_velocity(sweep, contact, p, normal, v, dt)
         touch = max(touch, BOUNCED if bounce > 0 else TOUCHED)
@@ -270,8 +270,8 @@ def impact_velocity(
     velocity: Vector,
     dt: float,
 ) -> tuple[Vector, float]:
-    """The velocity after a touch at p, and the restitution that applied."""
-    direction = turned(sweep.rotation1, normal)
+    """The velocity after a contact at p, and the restitution that applied."""
+    direction = rotated(sweep.rotation1, normal)
     carried = surface_velocity(sweep, p, dt)
     relative = subtract(velocity, carried)
     bounce = contact.restitution if -dot(relative, direction) > RESTITUTION_THRESHOLD else 0.0
@@ -282,14 +282,14 @@ def impact_velocity(
 def push_out(
     field: Field, sweep: RigidSweep, contact: ContactParams, p: Vector, velocity: Vector, dt: float
 ) -> tuple[bool, Vector, Vector]:
-    """A point that is too near all the same (it began inside, or waits in a corner) goes out."""
+    """Move a point out that is still too near (it began inside, or stopped in a corner)."""
     pushed = False
     for _ in range(MAX_PUSHES):
         d, normal = distance(field, p, 2 * contact.radius)
         if d >= contact.radius:
             break
         normal = outward(field, p, normal)
-        p = along(p, clear_push(field, p, d, normal, contact.radius), normal)
+        p = add_scaled(p, clear_push(field, p, d, normal, contact.radius), normal)
         velocity, _bounce = impact_velocity(sweep, contact, p, normal, velocity, dt)
         pushed = pushed or d < contact.radius - TOUCH
     return pushed, p, velocity
@@ -297,11 +297,11 @@ def push_out(
 
 @kernel
 def clear_push(field: Field, p: Vector, d: float, normal: Vector, radius: float) -> float:
-    """How far [m] to push a point at distance d out along the normal: to the radius, or less far
-    where the push might cross a surface that lies opposite."""
+    """How far [m] to push a point at distance d out along the normal: to the radius, or less if the
+    push might cross an opposite surface."""
     push = radius - d
     while push > max(abs(d), FINEST):
-        there, _normal = distance(field, along(p, push, normal), 2 * radius)
+        there, _normal = distance(field, add_scaled(p, push, normal), 2 * radius)
         if push <= abs(d) + abs(there) + TOUCH:
             break
         push *= 0.5

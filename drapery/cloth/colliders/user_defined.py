@@ -1,8 +1,8 @@
 """Shapes that a user defines by a signed distance function.
 
 The function is compiled once, when the first collider with it is made, and the kernels call it by
-its address. So the kernels themselves are compiled once for all shapes, and a step costs what the
-function costs.
+its address. So the kernels are compiled once for all shapes. The time of a step depends on the
+time of the function.
 """
 
 import inspect
@@ -33,19 +33,19 @@ class SignedDistance(Protocol):
     """What an object needs to be the shape of a `Collider`. No base class is needed.
 
     signed_distance: a function of (point, parameters), as a static method or an attribute, that
-        numba can compile: numbers, `math` and `numpy` only. point: x, y, z [m] in the shape's own
-        frame, a tuple. parameters: the array below. It returns the distance to the surface [m],
-        negative inside. It may be less than the true distance (advances become shorter), never
-        more: a point may then pass through the shape. `check_collider` tests this.
-    parameters: numbers that the function reads, shape [K]; they may be none.
-    bounds: low and high corner [m], shape [2, 3], of a box in the shape's own frame that holds the
-        whole surface; infinite where the shape has no end.
+        numba can compile: it uses only numbers, `math` and `numpy`. point: a tuple x, y, z [m] in
+        the shape's frame. parameters: the array below. It returns the distance to the surface [m],
+        negative inside. A value below the true distance is correct but slower; a value above it
+        lets points pass through the shape. `check_collider` tests this.
+    parameters: numbers that the function reads, shape [K]; K may be 0.
+    bounds: low and high corner [m], shape [2, 3], of a box in the shape's frame that contains the
+        whole surface; infinite where the shape is unbounded.
 
     An optional attribute `gradient`, a function of (point, parameters) that returns the outward
     unit direction (x, y, z), replaces central differences of the distance.
 
-    Functions are kept for as long as the program runs: use one function with many parameters, not
-    a new function for each collider.
+    Compiled functions stay in memory until the program ends. Use one function with different
+    parameters, not a new function for each collider.
     """
 
     @property
@@ -75,11 +75,11 @@ _GRADIENT = types.void(types.float64, types.float64, types.float64, _pointer, ty
 _compiled: dict[tuple[DistanceFunction, GradientFunction | None], _Compiled] = {}
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _lock = threading.Lock()
-"""Held while a function is looked up or compiled, so that each has one address."""
+"""The lock while a function is looked up or compiled, so that each has one address."""
 
 
 def is_user_defined(shape: object) -> TypeGuard[SignedDistance]:
-    """Whether a shape has a signed distance of its own."""
+    """Whether a shape defines its signed distance."""
     return hasattr(shape, "signed_distance")
 
 
@@ -126,13 +126,13 @@ def _bounds(name: str, value: ArrayLike) -> Array:
         corners = np.zeros(0)
     if corners.shape != (2, 3) or not (corners[0] < corners[1]).all():
         raise OptionError(
-            f"{name}: bounds {value!r} are no box; give its low and high corner [2, 3]"
+            f"{name}: bounds {value!r} are not a box; give its low and high corner [2, 3]"
         )
     return corners
 
 
 def _try(name: str, function: DistanceFunction, parameters: Array) -> None:
-    """Call the function as Python, whose errors are clearer than the compiler's."""
+    """Call the function in Python first: its errors are clearer than the compiler's."""
     if inspect.ismethod(function):
         raise OptionError(f"{name}: signed_distance is a method; make it a static method")
     plain = getattr(function, "py_func", function)

@@ -24,7 +24,7 @@ def scale(s: float, a: Vector) -> Vector:
 
 
 @kernel
-def along(a: Vector, s: float, b: Vector) -> Vector:
+def add_scaled(a: Vector, s: float, b: Vector) -> Vector:
     """a + s b."""
     return a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]
 
@@ -41,7 +41,7 @@ def norm(a: Vector) -> float:
 
 @kernel
 def unit(a: Vector, length: float) -> Vector:
-    """a / length, or straight up where a has no direction."""
+    """a / length, or (0, 1, 0) where a has no direction."""
     if length > 1e-300:
         return a[0] / length, a[1] / length, a[2] / length
     return 0.0, 1.0, 0.0
@@ -54,13 +54,13 @@ def row(rows: Array, i: int) -> Vector:
 
 
 @kernel
-def turned(rotation: Array, a: Vector) -> Vector:
+def rotated(rotation: Array, a: Vector) -> Vector:
     """R a, for a matrix R of shape [3, 3]."""
     return dot(row(rotation, 0), a), dot(row(rotation, 1), a), dot(row(rotation, 2), a)
 
 
 @kernel
-def turned_back(rotation: Array, a: Vector) -> Vector:
-    """R^T a: the inverse of `turned` for a rotation."""
+def rotated_back(rotation: Array, a: Vector) -> Vector:
+    """R^T a: the inverse of `rotated` for a rotation."""
     x = scale(a[0], row(rotation, 0))
-    return along(along(x, a[1], row(rotation, 1)), a[2], row(rotation, 2))
+    return add_scaled(add_scaled(x, a[1], row(rotation, 1)), a[2], row(rotation, 2))

@@ -1,1 +1,1 @@
-"""One file a method; all are `Solver`s."""
+"""The solvers, one file for each method; all follow the `Solver` protocol."""

@@ -19,10 +19,11 @@ MAX_STEPS = 10**9
 
 
 class Solver(Protocol):
-    """A method of stepping cloths. A solver object holds the method's settings and nothing else.
+    """A method of time integration. A solver object holds only the settings of the method.
 
-    What a method needs between steps (filters, previous positions, multipliers) is its solver
-    state: `init` makes one for a cloth and a step, each `step` takes one and returns the next.
+    Data that a method needs between steps (filters, previous positions, multipliers) are in the
+    solver state: `init` makes one for a cloth and a step, each `step` takes one and returns the
+    next.
     """
 
     def init(self, cloth: Cloth, dt: float) -> Any:
@@ -41,8 +42,8 @@ class Solver(Protocol):
     ) -> tuple[State, Any]:
         """The state of the cloths after `steps` steps of dt [s], and the next solver state.
 
-        Several steps in one call give the same result as one step a call, and are faster.
-        pins: a path that the pinned particles follow; None leaves them where they are.
+        Several steps in one call give the same result as one step per call, and are faster.
+        pins: a path that the pinned particles follow; None leaves them in place.
         Raises OptionError.
         """
 
@@ -70,6 +71,6 @@ def check_state(cloth: Cloth, state: State) -> None:
 
 def all_finite(values: Array) -> bool:
     """Whether there is no NaN or infinity."""
-    # A sum is finite only if all are, and far quicker than asking each.
+    # A sum is finite only if all values are, and is much faster than a test of each value.
     with np.errstate(over="ignore", invalid="ignore"):
         return bool(np.isfinite(values.sum(dtype=values.dtype)) or np.isfinite(values).all())

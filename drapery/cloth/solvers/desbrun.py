@@ -1,10 +1,10 @@
 """Desbrun, Schröder, Barr, "Interactive animation of structured deformable objects" (1999).
 
-A predictor-corrector of first order: the springs' linear part is integrated implicitly by a filter
-that is made once per cloth and step, the rest explicitly, and springs that are then too long are
-pulled back (Provot 1995). It is stable for any stiffness and step. The filter damps motion, more
-with stiffer springs. Choose it for many small hanging cloths. It is not implicit Euler (Baraff,
-Witkin 1998), which solves with the true Hessian at every step.
+A predictor-corrector of first order. The linear part of the springs is integrated implicitly by a
+filter that is made once per cloth and step, the other forces explicitly. Springs that are then too
+long are shortened (Provot 1995). It is stable for any stiffness and step. The filter damps motion,
+more with stiffer springs. Choose it for many small hanging cloths. It is not implicit Euler
+(Baraff, Witkin 1998), which solves with the true Hessian at every step.
 
 The paper's force (section 3.2) is printed with the wrong sign: a stretched spring pulls i towards
 j. Its implicit viscosity k dt (v_j - v_i) equals dt H v, and W dt² M⁻¹ H = W - I, so instead of
@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drapery.cloth import kernels, sheet_kernels, simd
-from drapery.cloth.attachments import Attachments, limited_links
+from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.checks import check_choice
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import wind_faces
@@ -51,8 +51,8 @@ from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
 from drapery.jit import entry_point
 
 MAX_CELLS = 60
-"""A step has one substep for so many cells along the longer side of a grid: a gust must not carry a
-particle past several neighbours in one substep."""
+"""A step has one substep per this many cells along the longer side of a grid: a gust must not move
+a particle past several neighbours in one substep."""
 
 
 class DesbrunPlan(NamedTuple):
@@ -71,13 +71,15 @@ class DesbrunSheetPlan(NamedTuple):
 
 @dataclass(frozen=True)
 class SolverDesbrun(KernelSolver):
-    """Desbrun's predictor-corrector (1999), the default; the module says when to choose it.
+    """Desbrun's predictor-corrector (1999), the default solver.
+
+    It is stable for any stiffness and step and fast for many small hanging cloths; it damps motion.
 
     limit: longest length of a structural spring over its rest length, 1 to 1e6.
     sweeps: sweeps of the correction of long springs, a step, 0 to 1000; 0 corrects none.
     angular: how the angular momentum of a cloth without pins is corrected: `exact`, `paper` or
         `none`; see `drapery.cloth.spin`.
-    substeps: of each step, 1 to 1000; None takes one for every 60 cells of a grid's longer side.
+    substeps: of each step, 1 to 1000; None uses one per 60 cells of a grid's longer side.
     threads: 1 to 1000; None uses every processor. The result does not depend on it.
     Raises OptionError.
     """
@@ -100,14 +102,14 @@ class SolverDesbrun(KernelSolver):
         if is_sheet(cloth) and is_regular(cloth) and (pinned or self.angular == "none"):
             fine = sheet_plan(cloth, h, self.limit, self.sweeps)
             return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
-        attachments = limited_links(cloth, self.limit, self.sweeps)
+        attachments = stretch_limits(cloth, self.limit, self.sweeps)
         spin = spin_correction(cloth, h, self.angular)
         plan = DesbrunPlan(body_of(cloth), cloth_filter(cloth, h), attachments, spin)
         return SolverState(plan, dt, substeps, _advance)
 
 
 def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> DesbrunSheetPlan:
-    """The plan of a fine grid, a plane of lanes."""
+    """The plan of a fine grid, which is laid out as a plane of lanes."""
     sheet = sheet_of(cloth, *wind_faces(cloth))
     pairs = cloth.spring_pairs
     part_i, part_j = (dt * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
@@ -133,7 +135,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     wind = simd.empty_lanes(3 * body.controls.size, width, batch.x)
     work = simd.empty_lanes(18, width, batch.x)
     for block in range(first, last, width):
-        # The last block overlaps the one before, so that all have one width.
+        # The last block overlaps the one before, so all blocks have the same width.
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
@@ -143,7 +145,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.subtract_frame(both[0], u, mean)
             kernels.add_spring_velocities(both[0], y, body.springs, body.inv_mass, dt)
             kernels.filter_velocities(both, plan.filter, body.pins)
-            kernels.keep_spin(g, y, u, plan.spin, work)
+            kernels.restore_angular_momentum(g, y, u, plan.spin, work)
             for number in range(batch.gusts.seeds.size):
                 kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
                 pressure = batch.gusts.numbers[number, 16]

@@ -1,4 +1,4 @@
-"""What solvers share: from states to lanes, through the kernel of a method, and back to states.
+"""Code that all solvers share: states to lanes, the kernel of a method, and lanes to states.
 
 A method provides its plan (constant arrays) and a kernel that steps the lanes first..last.
 """
@@ -25,8 +25,8 @@ from drapery.mesh import Array
 
 MAX_SUBSTEPS = MAX_SWEEPS = MAX_THREADS = 1000
 MAX_SWING = 0.3
-"""Radians that the fastest spring may swing in a substep. Symplectic methods are stable up to 2;
-the limit on stretch, with a sweep or two a substep, needs smaller substeps."""
+"""Phase [radians] of the fastest spring's oscillation in a substep. Symplectic methods are stable
+up to 2; the limit on stretch, with one or two sweeps a substep, needs smaller substeps."""
 
 
 class Springs(NamedTuple):
@@ -38,7 +38,7 @@ class Springs(NamedTuple):
 
 
 class ClothBody(NamedTuple):
-    """What every method needs of a cloth. controls: particles where the wind is sampled, [C]."""
+    """What every method needs of a cloth. controls: particles at which wind is sampled, [C]."""
 
     springs: Springs
     faces: Faces
@@ -51,7 +51,8 @@ class Batch(NamedTuple):
     """B cloths as a kernel reads and writes them, lanes [3N, B].
 
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
-    targets: where pins go, substep by substep; push: custom accelerations; width: of a block.
+    targets: positions of the pins after each substep. push: accelerations by user-defined forces.
+    width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
         0 where every solve reached the tolerance, [B].
     """
@@ -70,10 +71,10 @@ class Batch(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SolverState:
-    """A method's plan for one cloth and step, in each floating-point type asked for.
+    """A method's plan for one cloth and step, in each floating-point type that is used.
 
     kernel: called with first, last, plan, batch, steps, substeps and the options; it steps whole
-    registers of cloths, or each alone.
+    registers of cloths, or one cloth at a time.
     """
 
     plan: Any
@@ -91,7 +92,7 @@ class SolverState:
 
 
 def cast_all(plan: Any, dtype: Any) -> Any:
-    """A named tuple, of tuples to any depth, with its floating-point arrays as `dtype`."""
+    """A named tuple, possibly nested, with its floating-point arrays as `dtype`."""
     parts = (cast_all(part, dtype) if isinstance(part, tuple) else part for part in plan)
     return lanes.cast(type(plan)(*parts), dtype)
 
@@ -137,7 +138,7 @@ class KernelSolver:
         return state, solver_state
 
     def warn_unsolved(self, residual: float) -> None:
-        """For solvers that iterate: say that a residual stayed so many times over the tolerance."""
+        """For solvers that iterate: warn of a residual, given as a multiple of the tolerance."""
 
 
 def _advance(
@@ -161,7 +162,7 @@ def _advance(
     lanes.run_blocks(work, count if solver_state.alone else batch.x.shape[1], batch.width, threads)
     if not all_finite(batch.new_x):
         raise OptionError(
-            f"the cloth was torn to infinity within {steps} steps of {solver_state.dt:g} s; "
+            f"positions became infinite within {steps} steps of {solver_state.dt:g} s; "
             "use a smaller dt, weaker forces or another solver"
         )
     time = state.time + steps * solver_state.dt
@@ -184,7 +185,7 @@ def batch_of(
     return Batch(
         x,
         v,
-        # Cloths stepped alone leave the lanes that fill up the last register as they were.
+        # Cloths that are stepped one at a time do not write the padding of the last register.
         x.copy() if solver_state.alone else np.empty_like(x),
         v.copy() if solver_state.alone else np.empty_like(v),
         loads.gusts._replace(
@@ -200,10 +201,10 @@ def batch_of(
 
 
 def explicit_substeps(cloth: Cloth, dt: float) -> int:
-    """Substeps of at most `MAX_SWING` radians of the fastest swing.
+    """Substeps of at most `MAX_SWING` radians of the fastest oscillation.
 
     Gershgorin's circles bound the squares of the frequencies: 2/m times a particle's stiffness.
-    Raises OptionError past `MAX_SUBSTEPS`.
+    Raises OptionError if more than `MAX_SUBSTEPS` are needed.
     """
     stiffness = np.zeros(len(cloth.inv_mass))
     for end in range(2):
@@ -224,14 +225,14 @@ def chosen_substeps(wanted: int | None, cloth: Cloth, dt: float) -> int:
 
 
 def half_shares(cloth: Cloth, pairs: NDArray[np.integer]) -> Array:
-    """Of a correction half for each end, all of it if the other is pinned, [K, 2]."""
+    """Each end's part of a correction, [K, 2]: half, or all of it if the other end is pinned."""
     free = cloth.inv_mass[pairs] > 0
     shares: Array = free / free.sum(axis=1, keepdims=True)
     return shares
 
 
 def movable(cloth: Cloth) -> NDArray[np.bool_]:
-    """Springs that are not between two pins, [S]."""
+    """Whether a spring has an end that is not pinned, [S]."""
     return np.asarray((cloth.inv_mass[cloth.spring_pairs] > 0).any(axis=1))
 
 
@@ -279,7 +280,7 @@ def add_loads(
 
 @kernel
 def fall(g: Any, inv_mass: Any, numbers: Any, push: Any, h: Any, start: Any) -> None:
-    """g += h (gravity + push), then drag, implicitly: the speed of a fall ends at g / drag."""
+    """g += h (gravity + push), then implicit drag: the speed of a fall tends to g / drag."""
     F = g.dtype.type
     slow = F(1 / (1 + h * numbers[1]))
     for row in range(g.shape[0]):
@@ -306,7 +307,7 @@ def kick(
 
 @kernel
 def load_block(batch: Any, body: Any, start: Any, last: Any) -> Any:
-    """A block: positions, velocities, two arrays like them, one for all winds, one for work."""
+    """The arrays of a block: positions, velocities, two like them, all winds, and scratch."""
     rows, width = batch.x.shape[0], min(batch.width, last - start)
     y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
     g, old = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)

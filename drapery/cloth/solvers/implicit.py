@@ -2,12 +2,11 @@
 
 Order 1. Each step solves (M - dt ∂f/∂v - dt² ∂f/∂x) Δv = dt (f + dt ∂f/∂x v) once, with the true
 Jacobian of every spring, by conjugate gradients with their constraint filter: a pinned particle's
-Δv is prescribed and takes no part in the search. It is stable at any stiffness, damps what swings
-faster than the step, and costs tens of products with the matrix a step. Their cloth is held by
-stiffness alone; here `attachments` also keep it from stretching, since stiffness differs much
-between cloths, and sweeps=0 is the plain method. Choose it where stiffness in N/m matters and
-steps are long. It is not desbrun, which replaces the Jacobian by a constant matrix that is
-inverted once.
+Δv is prescribed and not changed by the search. It is stable at any stiffness, damps oscillations
+that are faster than the step, and needs tens of products with the matrix a step. In the paper only
+stiffness resists stretch; here `attachments` limit it too, since stiffness differs much between
+cloths. sweeps=0 is the method of the paper. Choose it where stiffness in N/m matters and steps are
+long. It is not desbrun, which replaces the Jacobian by a constant matrix that is inverted once.
 
 A compressed spring's Jacobian is indefinite; as in Choi and Ko, "Stable but responsive cloth"
 (SIGGRAPH 2002), the part across the spring is then left out, so the matrix is positive definite.
@@ -20,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drapery.cloth import kernels, simd
-from drapery.cloth.attachments import Attachments, limited_links
+from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.kernels import direction
@@ -55,14 +54,16 @@ class ImplicitPlan(NamedTuple):
 
 @dataclass(frozen=True)
 class SolverImplicit(KernelSolver):
-    """Baraff and Witkin's implicit Euler (1998); the module says when to choose it.
+    """Baraff and Witkin's implicit Euler (1998).
+
+    It is stable at any stiffness. Choose it where stiffness in N/m matters and steps are long.
 
     damping: of springs along their length, over their stiffness [s], 0 to 1e6.
     tolerance: residual over right-hand side at which the conjugate gradients stop, 1e-12 to 0.1.
     iterations: most iterations of the conjugate gradients, 1 to 10,000. A step that needs more
-        warns and holds the residual in its message.
+        gives a warning with the residual.
     limit: longest length of a structural spring over its rest length, 1 to 1e6.
-    sweeps: sweeps of the attachments that keep the limit, a substep, 0 to 1000; 0 for none.
+    sweeps: sweeps of the attachments that enforce the limit, a substep, 0 to 1000; 0 for none.
     substeps: of each step, 1 to 1000.
     threads: 1 to 1000; None uses every processor. The result does not depend on it.
     Raises OptionError.
@@ -87,7 +88,7 @@ class SolverImplicit(KernelSolver):
         check_step(dt, 1)
         free = cloth.inv_mass > 0
         mass = np.where(free, 1 / np.where(free, cloth.inv_mass, 1), 0.0)
-        attachments = limited_links(cloth, self.limit, self.sweeps)
+        attachments = stretch_limits(cloth, self.limit, self.sweeps)
         plan = ImplicitPlan(body_of(cloth), attachments, mass, np.array([self.damping]))
         return SolverState(plan, dt, self.substeps, _advance, (self.iterations, self.tolerance))
 
@@ -102,10 +103,10 @@ class SolverImplicit(KernelSolver):
 
 @kernel
 def linearise(blocks: Any, b: Any, y: Any, u: Any, springs: Any, damping: Any, h: Any) -> None:
-    """Every spring's part of the matrix, and of the right-hand side, which is added to b.
+    """Compute each spring's part of the matrix, and add its part of the right-hand side to b.
 
-    blocks: [5S, L]; of a spring, its direction n (3), and the parts of the matrix across and along
-    it: A = across I + along n nᵀ, with h² and h of the equation included.
+    blocks: [5S, L]; for each spring its direction n (3), and the parts of the matrix across and
+    along it: A = across I + along n nᵀ, with h² and h of the equation included.
     """
     F = y.dtype.type
     tiny, none, one = F(kernels.TINY), fill(F(0)), F(1)
@@ -123,7 +124,7 @@ def linearise(blocks: Any, b: Any, y: Any, u: Any, springs: Any, damping: Any, h
             for place, value in enumerate((nx, ny, nz, across, along)):
                 store(blocks, 5 * s + place, lane, value)
             ux, uy, uz = direction(u, i, j, lane)
-            # h (f + h ∂f/∂x v): the spring pulls by its strain now, and by what it will gain.
+            # h (f + h ∂f/∂x v): the force by the present strain plus its change over h.
             pull = h * k * (d - rest) + along * (nx * ux + ny * uy + nz * uz)
             fx, fy, fz = pull * nx + across * ux, pull * ny + across * uy, pull * nz + across * uz
             pull_together(b, i, j, lane, fx, fy, fz)
@@ -131,7 +132,7 @@ def linearise(blocks: Any, b: Any, y: Any, u: Any, springs: Any, damping: Any, h
 
 @kernel
 def pull_together(x: Any, i: Any, j: Any, lane: Any, fx: Any, fy: Any, fz: Any) -> None:
-    """A force on one end of a spring, and its opposite on the other."""
+    """Add a force to one end of a spring and its opposite to the other end."""
     store(x, i, lane, load(x, i, lane) + fx)
     store(x, i + 1, lane, load(x, i + 1, lane) + fy)
     store(x, i + 2, lane, load(x, i + 2, lane) + fz)
@@ -184,7 +185,7 @@ def multiply(out: Any, p: Any, mass: Any, blocks: Any, springs: Any) -> None:
 
 @kernel
 def clear_pins(values: Any, mass: Any) -> None:
-    """The filter: what the search may not change."""
+    """The constraint filter: set the rows of pinned particles to 0."""
     none = values.dtype.type(0)
     for row in range(values.shape[0]):
         if mass[row // 3] == 0:
@@ -194,7 +195,7 @@ def clear_pins(values: Any, mass: Any) -> None:
 
 @kernel
 def dots(out: Any, p: Any, weight: Any, q: Any) -> None:
-    """Of each lane, sum p weight q in the order of rows, in double precision, [L]."""
+    """For each lane the sum of p weight q in the order of rows, in double precision, [L]."""
     for lane in range(out.size):
         out[lane] = 0.0
     for row in range(p.shape[0]):
@@ -217,9 +218,9 @@ def solve(
     """A dv = b by modified preconditioned conjugate gradients (Baraff, Witkin 1998).
 
     dv: the pins' prescribed changes on entry, 0 elsewhere. r: b on entry, overwritten.
-    residuals: of lanes that have not converged, the larger of the value and the residual over the
-    tolerance, [L]. scratch: [4, 3N, L].
-    A lane that has converged moves no more, so lanes do not depend on each other.
+    residuals: for lanes that have not converged, the larger of the given value and the residual
+    over the tolerance, [L]. scratch: [4, 3N, L].
+    A lane that has converged does not change any more, so lanes do not depend on each other.
     """
     F = dv.dtype.type
     inverse, c, q, ones = scratch[0], scratch[1], scratch[2], scratch[3]
@@ -268,7 +269,7 @@ def solve(
 
 @kernel
 def keep_momentum(dv: Any, r: Any, mass: Any) -> None:
-    """Give a free cloth as a whole what the search left over: the residual's sum over the mass."""
+    """Conserve a free cloth's momentum: add the sum of the residual over the mass to all of dv."""
     total = 0.0
     for particle in range(mass.size):
         total += mass[particle]
@@ -285,7 +286,7 @@ def keep_momentum(dv: Any, r: Any, mass: Any) -> None:
 def lead_pins(
     dv: Any, y: Any, u: Any, pins: Any, targets: Any, step: Any, start: Any, h: Any
 ) -> None:
-    """The velocity change that brings the pins where they go in this step, and none elsewhere."""
+    """Set dv to the velocity change that moves the pins to their targets, and to 0 elsewhere."""
     none = dv.dtype.type(0)
     for row in range(dv.shape[0]):
         for lane in range(dv.shape[1]):

@@ -5,10 +5,10 @@ before it Jakobsen, "Advanced character physics" (GDC 2001). Three things are ad
 cloth keeps its size: small substeps (Macklin et al. 2019, "Small steps in physics simulation"),
 constraints in order from the pins outwards, and attachments of every length (see `attachments`).
 
-The order is 1. It is stable for any step. Stiffness is not in N/m: the number of passes makes a
-cloth stiff, and the stiffness of its springs is not used. Choose it for cheap cloth that hardly
-stretches and for pixel-art capes. It is not xpbd, whose compliance means the same at any dt, and
-not verlet, although it is often called so: here no forces act between particles.
+The order is 1. It is stable for any step. Stiffness is not in N/m: it depends on the number of
+passes, and the stiffness of the springs is not used. Choose it for fast cloth that hardly stretches
+and for pixel-art capes. It differs from xpbd, whose compliance does not depend on dt, and from
+verlet, although it is often called that: here no forces act between particles.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels
-from drapery.cloth.attachments import Attachments, limited_links
+from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.checks import check_choice, check_count, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.kernels import add, direction
@@ -42,13 +42,13 @@ from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 TOLERATED = 1.005
-"""Pairs farther apart than this many times their longest length get another sweep."""
+"""A pair farther apart than this factor times its longest length causes another sweep."""
 BEYOND = 1e6
-"""No pair comes this many times its longest length apart."""
+"""A factor of the longest length that no pair reaches."""
 
 
 class PBDConstraints(NamedTuple):
-    """Distances between pairs [C, 2]: from `minimum` to `maximum` [m], [C]; the part of a
+    """Distances of pairs [C, 2] between `minimum` and `maximum` [m], [C], and the part of a
     correction that each end takes."""
 
     pairs: NDArray[np.int32]
@@ -68,20 +68,22 @@ class PBDPlan(NamedTuple):
 
 @dataclass(frozen=True)
 class SolverPBD(KernelSolver):
-    """Position based dynamics (2007); the module says when to choose it.
+    """Position based dynamics (Müller et al. 2007).
+
+    It is stable for any step. Choose it for fast cloth that hardly stretches and for pixel art.
 
     passes: passes of relaxation, a substep, 0 to 1000.
     substeps: of each step, 1 to 1000.
-    constraint: `equal` keeps distances as they are at rest; `at-most` lets them shrink, for capes.
+    constraint: `equal` holds distances at their rest length; `at-most` lets them shrink, for capes.
     stiffness: part of a correction that one pass makes, for structural, shear and flexion springs,
         0 to 1 each.
-    order: `pins` takes springs from the pins outwards, `given` as the cloth lists them.
+    order: `pins` corrects springs from the pins outwards, `given` in the order of the cloth.
     shares: `mass` divides a correction by inverse mass; with `half` each end that is not pinned
         moves half of it, even if the other end is pinned.
     limit: longest length of a structural spring over its rest length, 1 to 1e6; `attachments`
-        keep it.
-    sweeps: most sweeps over springs that are still too long, a substep, 0 to 1000; 0 also leaves
-        out the attachments.
+        enforce it.
+    sweeps: most sweeps over springs that are still too long, a substep, 0 to 1000; 0 also removes
+        the attachments.
     damping: rate at which all velocities decay [1/s], 0 to 1e6.
     threads: 1 to 1000; None uses every processor. The result does not depend on it.
     Raises OptionError.
@@ -112,7 +114,7 @@ class SolverPBD(KernelSolver):
 
     @classmethod
     def plain(cls, passes: int = 6) -> "SolverPBD":
-        """The tutorial loop: equal structural distances in the given order, halves, no more."""
+        """The loop of tutorials: equal structural distances in the given order, halved shares."""
         return cls(
             passes=passes,
             substeps=1,
@@ -137,7 +139,7 @@ class SolverPBD(KernelSolver):
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
         keep = np.array([1 / (1 + self.damping * dt / self.substeps)])
-        attachments = limited_links(cloth, self.limit, min(self.sweeps, 1))
+        attachments = stretch_limits(cloth, self.limit, min(self.sweeps, 1))
         plan = PBDPlan(
             body_of(cloth),
             self._constraints(cloth),
@@ -163,15 +165,15 @@ class SolverPBD(KernelSolver):
 
 
 def bending_first(cloth: Cloth, springs: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Flexion, shear, structural springs, each kind from the pins outwards: the last word is the
-    structural ones'. Places in `springs`."""
+    """Indices in `springs`: flexion, shear, then structural springs, each kind from the pins
+    outwards. Structural springs come last, so their lengths are the most accurate."""
     pairs, lengths = cloth.spring_pairs[springs], cloth.spring_length[springs]
     order = outwards(pin_distances(cloth), pairs, lengths)
     return order[np.argsort(-cloth.spring_kind[springs][order].astype(int), kind="stable")]
 
 
 def stretched(cloth: Cloth, limit: float) -> Attachments:
-    """The structural springs from the pins outwards, `limit` times their rest length long."""
+    """The structural springs from the pins outwards, at most `limit` times their rest length."""
     chosen = sweep_order(cloth, np.flatnonzero(cloth.spring_kind == STRUCTURAL))
     pairs = cloth.spring_pairs[chosen]
     part_i, part_j = mass_shares(cloth, pairs).T.copy()
@@ -203,9 +205,9 @@ def relax(y: Any, constraints: Any) -> None:
 
 @kernel
 def shorten_too_long(y: Any, attachments: Any, sweeps: Any, factors: Any) -> None:
-    """Sweeps over the lanes in which a pair is too far apart, each lane until it has none.
+    """Sweep over the lanes in which a pair is too far apart, each lane until it has none.
 
-    factors: scratch; its first row is the part of `longest` that a lane keeps to.
+    factors: scratch; its first row is each lane's factor of `longest`.
     """
     for _ in range(sweeps):
         if not mark_too_long(factors[0], y, attachments):

@@ -1,12 +1,12 @@
 """Provot, "Deformation constraints in a mass-spring model to describe rigid cloth behaviour"
 (Graphics Interface 1995): Euler's method, then the dynamic inverse.
 
-Order 1: v' = v + dt a(x), x' = x + dt v' (nowadays called symplectic Euler). Then every over-long
-spring is pulled back to its longest length, one after another in the order in which
-the cloth lists them; both ends share the correction, a pinned end takes none of it. The velocities
-follow the corrected places. Explicit, so substeps are taken as the stiffest spring needs. To be
-chosen to see where all the others come from. Not to be confused with desbrun, which ends with the
-same correction but integrates implicitly, or with verlet, which corrects in Jacobi order.
+Order 1: v' = v + dt a(x), x' = x + dt v' (nowadays called symplectic Euler). Then every spring that
+is too long is shortened to its longest length, one after another in the order of the cloth. Both
+ends share the correction; a pinned end takes none of it. The velocities are computed from the
+corrected positions. The method is explicit, so the stiffest spring decides the number of substeps.
+Choose it to compare the other methods with their origin. It differs from desbrun, which ends with
+the same correction but integrates implicitly, and from verlet, which corrects in Jacobi order.
 """
 
 from dataclasses import dataclass
@@ -40,12 +40,12 @@ class ProvotPlan(NamedTuple):
 
 @dataclass(frozen=True)
 class SolverProvot(KernelSolver):
-    """Provot's explicit method (1995); the module says when to choose it.
+    """Provot's explicit method (1995), the origin of the others.
 
     limit: longest length of a structural or shear spring over its rest length, 1 to 1e6; Provot
         allows 1.1.
     sweeps: sweeps of the correction of long springs, a substep, 0 to 1000.
-    substeps: of each step, 1 to 1000; None takes as many as the stiffest spring needs.
+    substeps: of each step, 1 to 1000; None uses as many as the stiffest spring needs.
     threads: 1 to 1000; None uses every processor. The result does not depend on it.
     Raises OptionError.
     """
@@ -60,13 +60,13 @@ class SolverProvot(KernelSolver):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
-        plan = ProvotPlan(body_of(cloth), listed_links(cloth, self.limit))
+        plan = ProvotPlan(body_of(cloth), listed_attachments(cloth, self.limit))
         substeps = chosen_substeps(self.substeps, cloth, dt)
         return SolverState(plan, dt, substeps, _advance, (self.sweeps,))
 
 
-def listed_links(cloth: Cloth, limit: float) -> Attachments:
-    """The structural and shear springs, as listed; flexion springs only bend."""
+def listed_attachments(cloth: Cloth, limit: float) -> Attachments:
+    """The structural and shear springs in the cloth's order; flexion springs have no limit."""
     chosen = (cloth.spring_kind != FLEXION) & movable(cloth)
     pairs = cloth.spring_pairs[chosen]
     part_i, part_j = half_shares(cloth, pairs).T.copy()

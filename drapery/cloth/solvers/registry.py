@@ -19,7 +19,7 @@ SOLVERS = {
 
 
 def solver(name: str, **options: Any) -> Solver:
-    """A solver by its name, with options by theirs: `solver("xpbd", substeps=8)`.
+    """A solver by its name, with keyword options: `solver("xpbd", substeps=8)`.
 
     Raises OptionError for an unknown name or option.
     """

@@ -1,13 +1,13 @@
 """Störmer-Verlet on springs, with Provot's limit on stretch taken in Jacobi order.
 
-Verlet, "Computer experiments on classical fluids" (Phys. Rev. 159, 1967); the over-extension limit
-is that of Provot, "Deformation constraints in a mass-spring model" (Graphics Interface 1995), with
-all corrections summed from the same places and then applied together.
+Verlet, "Computer experiments on classical fluids" (Phys. Rev. 159, 1967). The limit on stretch is
+that of Provot, "Deformation constraints in a mass-spring model" (Graphics Interface 1995), with all
+corrections summed from the same positions and then applied together.
 
-Order 2 while nothing is over-long. The step is written with velocities (Swope et al. 1982): half a
-kick, a drift, half a kick; the places are those of x_{n+1} = 2 x_n - x_{n-1} + a dt². Explicit, so
-substeps are taken as the stiffest spring needs. It loses no energy by itself: use Drag. To be
-chosen for lively, springy cloth and for teaching. Not to be confused with the "Verlet integration"
+Order 2 while no spring is too long. The step is written with velocities (Swope et al. 1982): half a
+kick, a drift, half a kick; the positions are those of x_{n+1} = 2 x_n - x_{n-1} + a dt². The method
+is explicit, so the stiffest spring decides the number of substeps. It does not lose energy: use
+Drag. Choose it for lively, springy cloth and for teaching. It differs from the "Verlet integration"
 of position based dynamics (pbd), which has no springs.
 """
 
@@ -47,14 +47,14 @@ class VerletPlan(NamedTuple):
 
 @dataclass(frozen=True)
 class SolverVerlet(KernelSolver):
-    """Velocity Verlet with a limit on stretch; the module says when to choose it.
+    """Velocity Verlet (1967) with Provot's limit on stretch, for lively, springy cloth.
 
     limit: longest length of a structural spring over its rest length, 1 to 1e6; Provot allows 1.1.
     sweeps: sweeps of the correction of long springs, a substep, 0 to 1000.
-    relaxation: part of a sweep's summed corrections that is applied, 0 to 1. The plain method
-        applies all of it and explodes where neighbouring springs are too long by turns; up to 2/3
-        is stable (the sum moves a spring's ends up to twice too far, and the velocity keeps it).
-    substeps: of each step, 1 to 1000; None takes as many as the stiffest spring needs.
+    relaxation: part of a sweep's summed corrections that is applied, 0 to 1. With 1 the method
+        becomes unstable where neighbouring springs are too long alternately; up to 2/3 it is stable
+        (the sum may move the ends of a spring twice as far as needed).
+    substeps: of each step, 1 to 1000; None uses as many as the stiffest spring needs.
     threads: 1 to 1000; None uses every processor. The result does not depend on it.
     Raises OptionError.
     """
@@ -71,13 +71,13 @@ class SolverVerlet(KernelSolver):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
-        plan = VerletPlan(body_of(cloth), half_links(cloth, self.limit, self.relaxation))
+        plan = VerletPlan(body_of(cloth), half_attachments(cloth, self.limit, self.relaxation))
         substeps = chosen_substeps(self.substeps, cloth, dt)
         return SolverState(plan, dt, substeps, _advance, (self.sweeps,))
 
 
-def half_links(cloth: Cloth, limit: float, relaxation: float) -> Attachments:
-    """The structural springs, each end to take half of a correction times the relaxation."""
+def half_attachments(cloth: Cloth, limit: float, relaxation: float) -> Attachments:
+    """The structural springs; each end takes half of a correction times the relaxation."""
     chosen = (cloth.spring_kind == STRUCTURAL) & movable(cloth)
     pairs = cloth.spring_pairs[chosen]
     longest = cloth.spring_length[chosen] * limit
@@ -87,7 +87,7 @@ def half_links(cloth: Cloth, limit: float, relaxation: float) -> Attachments:
 
 @kernel
 def shorten_together(y: Any, attachments: Any, sums: Any) -> None:
-    """One Jacobi sweep: corrections from the same places are summed, then applied."""
+    """One Jacobi sweep: corrections from the same positions are summed, then applied."""
     none = y.dtype.type(0)
     for row in range(y.shape[0]):
         for lane in range(y.shape[1]):

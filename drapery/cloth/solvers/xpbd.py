@@ -2,18 +2,19 @@
 
 Macklin, Müller, Chentanez, "XPBD: position-based simulation of compliant constrained dynamics"
 (MIG 2016), and Macklin et al., "Small steps in physics simulation" (SCA 2019): n substeps of one
-iteration are better than one step of n. The order is 1. It is stable at any stiffness and damps
-little, less with more substeps. Choose it for cloth that hardly stretches, for fine grids and for
-lively motion. It is not position based dynamics (pbd), whose stiffness depends on the step.
+iteration are better than one step of n iterations. The order is 1. It is stable at any stiffness
+and damps little, less with more substeps. Choose it for cloth that hardly stretches, for fine grids
+and for lively motion. It differs from position based dynamics (pbd), whose stiffness depends on the
+step.
 
 A spring of rest length l is the constraint (d² - l²) / (d² + l²) · d = 0, which is d - l to second
 order and needs no square root (Jakobsen, "Advanced character physics", GDC 2001). With one
 iteration a substep its multiplier starts from 0 (2016, eq. 18): Δλ = -C / (w_i + w_j + α / h²).
 
-Soft springs take part in a few of a step's n substeps only, in t of them with α / (h dt / t) in
-place of α / h²: as in multiple time stepping (Tuckerman, Berne, Martyna 1992), the short steps are
-spent on what is stiff. Wind and other loads but for gravity act once a step. Long range
-attachments (`drapery.cloth.attachments`) keep coarse errors from having to travel spring by spring.
+Soft springs are solved in only t of the n substeps of a step, with α / (h dt / t) instead of
+α / h². This is multiple time stepping (Tuckerman, Berne, Martyna 1992): the short steps are used
+for the stiff springs. Gravity acts in every substep, wind and other loads once a step. Long-range
+attachments (`drapery.cloth.attachments`) correct errors over many springs at once.
 """
 
 from dataclasses import dataclass
@@ -56,23 +57,23 @@ from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
 SLACK = 1.02
-"""Attachments are this much longer than the cloth at rest, so they act on stretched cloth only."""
+"""Attachments are longer than at rest by this factor, so they act only on stretched cloth."""
 NEAR = 2
-"""Particles at most so many springs from a pin need no attachment."""
+"""Particles at most this many springs from a pin need no attachment."""
 FINE = 30
-"""Sheets with more particles along one side also have the limits of desbrun, once a step."""
+"""The most particles along a side of a sheet without desbrun's limits, which act once a step."""
 LIMIT, SWEEPS = 1.02, 1
 """Settings of those limits."""
 MAX_FINE_SUBSTEPS = 26
-"""Most substeps of such sheets. In shorter steps rounded positions would shake cells so small."""
+"""Most substeps of larger sheets. In shorter steps rounding would shake their small cells."""
 INTERVAL = 2
-"""Attachments take part in the last of so many substeps."""
+"""Attachments act in the last of every this many substeps."""
 SOFT_RATE = 3.0
-"""Soft springs take part this many times as often as an explicit step would need."""
+"""Soft springs are solved this many times as often as an explicit step would need."""
 
 
 class XPBDConstraints(NamedTuple):
-    """Springs in the order in which they are solved; those of substep n are begin[n] ... .
+    """Springs in the order of solving; those of substep n are from begin[n] to begin[n + 1].
 
     pairs: [K, 2]. square: rest lengths squared [m²], [K]. share_i, share_j: w / (w_i + w_j + α~).
     begin: [substeps + 1].
@@ -103,12 +104,15 @@ class XPBDSheetPlan(NamedTuple):
 
 @dataclass(frozen=True)
 class SolverXPBD(KernelSolver):
-    """Extended position based dynamics (2016) in small steps; the module says when to choose it.
+    """Extended position based dynamics (Macklin et al. 2016) in small steps (2019).
 
-    substeps: of each step, 1 to 1000; None takes as many as the fineness of the cloth needs.
-    compliance: of structural, shear and flexion springs [m/N], 0 to 1e12 each; None takes the
-        inverse of each spring's own stiffness. By default structural springs do not stretch.
-    attach: whether long range attachments hold particles to their pins.
+    It is stable at any stiffness and damps little. Choose it for cloth that hardly stretches, for
+    fine grids and for lively motion.
+
+    substeps: of each step, 1 to 1000; None chooses them by the number of springs to the pins.
+    compliance: of structural, shear and flexion springs [m/N], 0 to 1e12 each; None uses the
+        inverse of each spring's stiffness. By default structural springs do not stretch.
+    attach: whether long-range attachments limit the distance of particles from their pins.
     threads: 1 to 1000; None uses every processor. The result does not depend on it.
     Raises OptionError.
     """
@@ -130,7 +134,7 @@ class SolverXPBD(KernelSolver):
         check_step(dt, 1)
         substeps = self.substeps or enough_substeps(cloth)
         constraints = solved_springs(cloth, self._compliances(cloth), dt, substeps)
-        attachments = self._links(cloth)
+        attachments = self._attachments(cloth)
         if is_sheet(cloth):
             fine = sheet_plan(cloth, constraints, attachments)
             return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
@@ -145,7 +149,7 @@ class SolverXPBD(KernelSolver):
                 own[cloth.spring_kind == kind] = value
         return own
 
-    def _links(self, cloth: Cloth) -> Attachments:
+    def _attachments(self, cloth: Cloth) -> Attachments:
         pairs, max_distance = long_range_attachments(cloth, SLACK)
         own = cloth.spring_length[cloth.spring_kind == STRUCTURAL]
         far = self.attach & (max_distance > (NEAR + 0.5) * SLACK * own.mean())
@@ -154,13 +158,13 @@ class SolverXPBD(KernelSolver):
 
 
 def is_fine(cloth: Cloth) -> bool:
-    """Whether a cloth is a sheet that also has desbrun's limits, once a step."""
+    """Whether a cloth is a sheet to which desbrun's limits also apply, once a step."""
     return is_sheet(cloth) and max(cloth.grid_shape or (1,)) > FINE
 
 
 def enough_substeps(cloth: Cloth) -> int:
-    """Substeps at which a hanging cloth stretches a few per cent at most in a strong wind: one for
-    every two or three springs between it and its pins, or across a cloth without pins."""
+    """Substeps with which a hanging cloth stretches by a few per cent at most in a strong wind: one
+    for every two or three springs to its pins, or across a cloth without pins."""
     if is_fine(cloth):
         return min(MAX_FINE_SUBSTEPS, -(-max(cloth.grid_shape or (1,)) * 10 // 25))
     if cloth.grid_shape is not None:
@@ -172,7 +176,7 @@ def enough_substeps(cloth: Cloth) -> int:
 
 
 def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> XPBDConstraints:
-    """The springs of each substep in order: all stiff ones and the soft ones that are due."""
+    """The springs of each substep in order: all stiff ones and the soft ones of that substep."""
     w = cloth.inv_mass[cloth.spring_pairs].sum(axis=1)
     times = turns_a_step(compliance, w, dt, substeps)
     first = _first_turns(cloth, times < substeps, substeps)
@@ -195,19 +199,19 @@ def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) ->
 
 
 def turns_a_step(compliance: Array, w: Array, dt: float, substeps: int) -> NDArray[np.int64]:
-    """How many of a step's substeps each spring takes part in, [S].
+    """In how many of a step's substeps each spring is solved, [S].
 
-    The fewest that keep its swing, of frequency sqrt(w / α) and twice that among neighbours, well
-    inside the limit of an explicit step, times it takes part.
+    A spring oscillates with a frequency of sqrt(w / α), and twice that with its neighbours. The
+    number is the least at which that is well below the limit of an explicit step.
     """
     swing = SOFT_RATE * dt * np.sqrt(w / np.maximum(compliance, 1e-30))
     return np.clip(np.ceil(swing), 1, substeps).astype(np.int64)
 
 
 def _first_turns(cloth: Cloth, soft: NDArray[np.bool_], substeps: int) -> NDArray[np.int64]:
-    """The substep in which each soft spring is taken first, [S]: evenly spread.
+    """The substep in which each soft spring is solved first, [S], evenly spread over the substeps.
 
-    A grid's springs of one direction are taken together.
+    Springs of one direction of a grid are solved together.
     """
     shifts = cloth.spring_pairs[:, 1] - cloth.spring_pairs[:, 0]
     if cloth.grid_shape is None:
@@ -221,7 +225,7 @@ def _first_turns(cloth: Cloth, soft: NDArray[np.bool_], substeps: int) -> NDArra
 def sheet_plan(
     cloth: Cloth, constraints: XPBDConstraints, attachments: Attachments
 ) -> XPBDSheetPlan:
-    """The plan of a fine grid, a plane of lanes."""
+    """The plan of a fine grid, which is laid out as a plane of lanes."""
     sheet = sheet_of(cloth, *wind_faces(cloth))
     batches: list[ConstraintBatch] = []
     begin = [0]
@@ -261,8 +265,8 @@ def solve(x: Any, constraints: Any, substep: Any) -> None:
 
 
 @kernel
-def hold(x: Any, attachments: Any) -> None:
-    """Particles that are too far from their pins are pulled back; see the module for the form."""
+def apply_attachments(x: Any, attachments: Any) -> None:
+    """Move particles that are too far from their pins back; see the module for the constraint."""
     for s in range(attachments.longest.size):
         pin, i = 3 * np.intp(attachments.pairs[s, 0]), 3 * np.intp(attachments.pairs[s, 1])
         limit = attachments.longest[s] * attachments.longest[s]
@@ -275,7 +279,7 @@ def hold(x: Any, attachments: Any) -> None:
 
 @kernel
 def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -> None:
-    """New positions, into old: x moves as in the last substep, in the first one with v, and falls.
+    """New positions, into old: x moves as in the last substep (at first by v) and by gravity.
 
     The old positions are overwritten; the caller swaps the two arrays. Pins: see `place_pins`.
     """
@@ -293,9 +297,9 @@ def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -
 
 @kernel
 def add_pushes(u: Any, inv_mass: Any, numbers: Any, push: Any, dt: Any, start: Any) -> None:
-    """u += dt push, then drag over dt, implicitly: see `kernels.add_uniform`.
+    """u += dt push, then implicit drag over dt; see `kernels.add_uniform`.
 
-    Gravity comes later, in the substeps; drag is that of the speed with it.
+    Gravity is added later, in the substeps; the drag already includes that speed.
     """
     F = u.dtype.type
     slow = F(1 / (1 + dt * numbers[1]))
@@ -324,7 +328,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     wind = simd.empty_lanes(3 * body.controls.size, width, batch.x)
     work = simd.empty_lanes(18, width, batch.x)
     for block in range(first, last, width):
-        # The last block overlaps the one before, so that all have one width.
+        # The last block overlaps the one before, so all blocks have the same width.
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
@@ -342,7 +346,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
                 kernels.place_pins(y, old, body.pins, batch.targets, turn, start)
                 solve(y, plan.constraints, substep)
                 if (substeps - substep) % INTERVAL == 1:
-                    hold(y, plan.attachments)
+                    apply_attachments(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
