@@ -40,7 +40,7 @@ def unknown(name: object, known: frozenset[str]) -> str:
     shown = str(name)[:40]
     close = difflib.get_close_matches(shown, known, 1)
     hint = f"did you mean {close[0]}?" if close else "leave it out"
-    return f"{shown!r} is no option; {hint}"
+    return f"{shown!r} is not an option; {hint}"
 
 
 def one_line(text: str) -> str:

@@ -115,7 +115,7 @@ PLACES = {
 
 @pytest.mark.parametrize("padding", [1, 5, 20, 40, 300])
 @pytest.mark.parametrize("era", PLACES)
-def test_a_chunk_of_every_age_tells_the_base_dye(era: str, padding: int):
+def test_a_chunk_of_every_version_gives_the_base_dye(era: str, padding: int):
     place, entity_era = PLACES[era]
     name = None if era == "1.12" else make.block_id(RED)
     tree = make.chunk(era, {place: (name, make.entity(RED, entity_era))}, padding)
@@ -128,7 +128,7 @@ def test_a_section_of_one_state_has_no_indices():
     assert found(make.nbt_file(tree)) == {"block 0,0,0": RED}
 
 
-def test_entities_wear_banners():
+def test_banners_on_entities_are_found():
     captain = {
         "id": "minecraft:pillager",
         "Pos": make.List[make.nbtlib.Double]([1.2, 64.0, -3.7]),
@@ -266,7 +266,7 @@ def test_links_out_of_a_world_are_not_followed(tmp_path: Path):
     assert len(errors) == 1 and "c.3.0.mcc is missing" in str(errors[0])
 
 
-def test_files_are_told_by_their_bytes(tmp_path: Path):
+def test_files_are_recognised_by_their_bytes(tmp_path: Path):
     schematic = make.nbt_file(make.schem(3, (6, 4, 7), STANDING))
     region = make.region({(3, 0): RED_CHUNK})
     assert len(list(banners_in(make.save(tmp_path / "one.txt", schematic)))) == 4
@@ -296,7 +296,7 @@ def test_files_that_are_none_are_refused_by_name(
         list(banners_in(make.save(tmp_path / name, data)))
 
 
-def test_a_bedrock_world_is_told_what_to_do(tmp_path: Path):
+def test_the_error_for_a_bedrock_world_names_the_remedy(tmp_path: Path):
     make.save(tmp_path / "db" / "CURRENT", b"MANIFEST-000001")
     with pytest.raises(DesignError, match=r"world of Bedrock Edition.*structure block"):
         list(banners_in(tmp_path))
@@ -339,7 +339,7 @@ def test_a_chunk_that_a_thousand_places_list_is_read_once(tmp_path: Path):
     assert [one.banner for one in banners_in(path, errors.append)] == [RED] * 16
     assert time.process_time() - start < 1
     assert len(errors) == 1023
-    assert str(errors[0]).startswith("r.0.0.mca chunk 1,0: lies where chunk 0,0 lies")
+    assert str(errors[0]).startswith("r.0.0.mca chunk 1,0: overlaps chunk 0,0 at byte")
 
 
 @pytest.mark.parametrize("name", ["r.--5.0.mca", "r.-.0.mca", "r.٣.0.mca", "r.²-1.0.mca"])
@@ -361,7 +361,7 @@ def test_a_schematic_of_nothing_but_banners_is_too_much():
         found(make.nbt_file(tree))
 
 
-def test_folders_that_are_no_world_and_missing_paths_are_refused(tmp_path: Path):
+def test_folders_without_a_world_and_missing_paths_are_refused(tmp_path: Path):
     with pytest.raises(DesignError, match="not a world"):
         list(banners_in(tmp_path))
     with pytest.raises(DesignError, match="no such file"):

@@ -107,7 +107,7 @@ def test_show_writes_and_reads_a_form_of_bytes_by_its_name(drapery: Run, tmp_pat
     assert drapery("show", "red border:black", "-o", path, "--as", "schem")[0] == 0
     assert drapery("show", path, "--from", "schem", "--as", "text")[1] == "red border:black\n"
     for words, fault in (
-        ((path, "--from", "litematic"), "the file is NBT but no Litematica schematic"),
+        ((path, "--from", "litematic"), "the file is NBT but not a Litematica schematic"),
         ((path, "--from", "give"), "neither text nor a known kind of file"),
         ((path, "--from", "schemm"), "did you mean 'schem'?"),
         (("white", "--from", "schem"), "this is a text; give a file"),

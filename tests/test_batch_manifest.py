@@ -104,7 +104,7 @@ def test_all_faults_are_listed_with_their_lines(tmp_path: Path, drapery: Run) ->
             ("line 2", "size (width) 0 is out "),
             ("line 3", "wind 'x' is not a numb"),
             ("line 3", "design"),
-            ("line 4", "'colour' is no option;"),
+            ("line 4", "'colour' is not an option;"),
             ("line 6", "A.png is written by li"),
             ("line 7", "'../up.png' is not a f"),
             ("line 8", "design"),
@@ -146,7 +146,7 @@ def test_broken_text_is_placed(name: str, text: str, place: str, tmp_path: Path)
         ("jobs: [{design: red}]\nother: 1\n", "a list of jobs"),
     ],
 )
-def test_yaml_that_is_no_manifest_is_one_line(text: str, reason: str, tmp_path: Path) -> None:
+def test_yaml_that_is_not_a_manifest_is_one_line(text: str, reason: str, tmp_path: Path) -> None:
     with pytest.raises(OptionError, match=reason) as caught:
         read_manifest(write(tmp_path / "m.yaml", text))
     assert len(str(caught.value)) < 1000

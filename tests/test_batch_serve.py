@@ -95,13 +95,13 @@ BAD = {
     "design=red&grid=99x99": "2 to 33",
     "design=red&time=3600": "0 to 60",
     "design=red&view=up": "view 'up' is not known",
-    "design=red&pack=/tmp": "'pack' is no option",
-    "design=red&packs=/tmp": "'packs' is no option",
-    "design=red&texture=/tmp/x.png": "'texture' is no option",
-    "design=red&backend=pyrender": "'backend' is no option",
+    "design=red&pack=/tmp": "'pack' is not an option",
+    "design=red&packs=/tmp": "'packs' is not an option",
+    "design=red&texture=/tmp/x.png": "'texture' is not an option",
+    "design=red&backend=pyrender": "'backend' is not an option",
     "design=red&kind=cape": "which an address cannot name",
     "design=red&design=blue": "given twice",
-    "design=red&seconds=3": "'seconds' is no option",
+    "design=red&seconds=3": "'seconds' is not an option",
     "design=red&facing=east": "facing east applies only to banners on a wall",
 }
 

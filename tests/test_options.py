@@ -179,7 +179,7 @@ def test_options_that_fit_together_are_judged_together() -> None:
     assert read == ["wind 99 is out of range; use 0 to 40 m/s"]
 
 
-def test_checks_take_numpy_numbers_and_no_truth_values() -> None:
+def test_checks_accept_numpy_numbers_but_not_booleans() -> None:
     within("wind", np.float32(3), 0, 40)
     whole("seed", np.int64(3), 0, 40)
     one_of("samples", np.int64(4), (1, 4, 16))
@@ -225,9 +225,9 @@ def test_forces_are_given_as_objects() -> None:
 
 
 @pytest.mark.parametrize("name", ["fabric", "forces"])
-def test_what_only_a_program_can_build_is_no_text_option(name: str) -> None:
+def test_options_that_take_objects_are_not_text_options(name: str) -> None:
     assert name not in NAMED_OPTIONS
-    assert check_options({name: "wool"}, Path()) == [f"{name!r} is no option; leave it out"]
+    assert check_options({name: "wool"}, Path()) == [f"{name!r} is not an option; leave it out"]
 
 
 @pytest.mark.parametrize("name", ["solver", "fabric", "wind", "view"])
@@ -237,7 +237,7 @@ def test_an_unfit_object_is_refused(name: str) -> None:
             Settings(**{name: wrong})  # type: ignore[arg-type]
 
 
-def test_paths_are_told_from_what_lies_in_memory() -> None:
+def test_paths_and_packs_in_memory_are_distinguished() -> None:
     assert Settings(packs=("a.zip", Path("b"))).pack_paths == ("a.zip", Path("b"))
     with pytest.raises(OptionError, match="packs: one is in memory"):
         Settings(packs=(Anything(read=1, label="x"),)).pack_paths  # type: ignore[arg-type] # noqa: B018

@@ -139,7 +139,7 @@ def test_what_the_live_banner_has_alone_is_said() -> None:
     assert "not the scene" in difference(ViewportRequest(scene="sail"), "glb")
 
 
-def test_no_wind_is_no_wind_in_the_file_too(page: Page) -> None:
+def test_a_file_without_wind_is_exported_without_wind(page: Page) -> None:
     page.run(
         "[...document.querySelectorAll('#panel-motion .q-toggle')]"
         ".find((each) => each.innerText.includes('Wind on')).click()"
@@ -185,9 +185,9 @@ def test_the_link_brings_the_design_back(page: Page) -> None:
     assert "Lime Creeper" in again.run("return document.querySelector('.face').alt").title()
 
 
-def test_a_bad_link_is_told_and_the_page_goes_on(chromium: Any, studio: Studio) -> None:
+def test_a_bad_link_is_reported_and_the_page_continues(chromium: Any, studio: Studio) -> None:
     page = Page(chromium, studio, "?d=a<script>alert(1)</script>")
-    assert "has letters that no link has" in page.notice("link")
+    assert "has characters that no link has" in page.notice("link")
     assert page.text("#as-command") == "drapery render white -o banner.png"
 
 
@@ -410,7 +410,7 @@ def fetch(
         connection.close()
 
 
-def test_no_address_reads_what_is_not_its_own(page: Page) -> None:
+def test_an_address_reads_only_its_own_files(page: Page) -> None:
     token, secret = page.token, page.studio.folder / "secret.txt"
     secret.write_text("secret words")
     up = (

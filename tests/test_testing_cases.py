@@ -31,7 +31,7 @@ def file_of(folder: Path, text: str) -> Path:
     return path
 
 
-def test_capes_and_rotations_are_kept_and_found_again(drapery: Run, tmp_path: Path) -> None:
+def test_capes_and_rotations_are_stored_and_found_again(drapery: Run, tmp_path: Path) -> None:
     Image.new("RGBA", (64, 32), "red").save(tmp_path / "cape.png")
     file = file_of(tmp_path, CASES)
     assert drapery("golden", "update", file)[0] == 0
@@ -45,11 +45,11 @@ def test_a_bad_option_names_its_case(drapery: Run, tmp_path: Path) -> None:
     assert code == 2 and "case 'one': wind 999" in err.splitlines()[-1]
 
 
-def test_a_word_that_is_no_option_is_told_with_the_next_best(drapery: Run, tmp_path: Path) -> None:
+def test_an_unknown_option_is_reported_with_the_nearest_name(drapery: Run, tmp_path: Path) -> None:
     file = file_of(tmp_path, ONE_CASE + "wnid = 9\nhashed = true\n")
     code, _, err = drapery("golden", "check", file)
     assert (code, err.count("\n")) == (2, 1)
-    assert "case 'one': 'wnid' is no option; did you mean wind?" in err
+    assert "case 'one': 'wnid' is not an option; did you mean wind?" in err
 
 
 @pytest.mark.parametrize("command", ["update", "check"])

@@ -1,4 +1,4 @@
-"""What a banner is, how it is written down, and the sheets of texels that it is made of.
+"""Designs of banners, the text and file forms that hold them, and the sheets of their texels.
 
     from drapery.banner import FLAG_REGIONS, composite, flag_layers, parse_banner, write_banner
     from drapery.packs import open_packs

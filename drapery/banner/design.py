@@ -1,4 +1,4 @@
-"""What a banner is: a base dye and layers of (pattern, dye), lowest first."""
+"""The design of a banner: a base dye and layers of (pattern, dye), lowest first."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class Layer:
     pattern: the id without `minecraft:`, or `namespace:path` for a pattern of a data pack.
     dye: one of the sixteen dye names.
 
-    Other names of a pattern or dye become these. Raises DesignError for an unknown name.
+    Other known names of a pattern or dye are converted. Raises DesignError for an unknown name.
     """
 
     pattern: str
@@ -70,9 +70,9 @@ class Banner:
 
 
 def use_parser(parser: Callable[[str], Banner]) -> None:
-    """Set what `Banner.parse` calls; the package `drapery.banner` does so when it is imported.
+    """Set the function that `Banner.parse` calls; `drapery.banner` does so when it is imported.
 
-    The forms build banners, so they import this module, and this module cannot import them.
+    The forms import this module to build banners, so this module cannot import the forms.
     """
     _parsers.append(parser)
 

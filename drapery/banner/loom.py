@@ -1,4 +1,4 @@
-"""A design at the loom: its steps, and the layers that change nothing."""
+"""How to make a design at the loom: its steps, and the layers that have no effect."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -121,7 +121,7 @@ def _write_into_address(session: Session) -> None:
     client = ui.context.client
 
     def write() -> None:
-        # It has only letters of base64url, none of which can end the text.
+        # It has only characters of base64url, none of which can end the text.
         link = write_link(session.sketch, session.settings)
         client.run_javascript(f'studio.writeAddress("{link}")')
 

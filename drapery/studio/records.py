@@ -58,7 +58,7 @@ def identity(design: Design) -> tuple[str, tuple[str, ...]]:
 
 
 def words_of(design: Design) -> str:
-    """The text in which `search` looks, in small letters."""
+    """The text in which `search` looks, in lower case."""
     sketch = design.sketch
     shown = [PATTERNS[s.pattern].title for s in sketch.strokes if s.pattern in PATTERNS]
     named = [f"{stroke.pattern} {stroke.dye}" for stroke in sketch.strokes]
@@ -77,11 +77,11 @@ def checked(design: Design) -> Design:
 
 
 def checked_tags(tags: Iterable[object]) -> tuple[str, ...]:
-    """The tags in small letters, each once. Raises DesignError."""
+    """The tags in lower case, each once. Raises DesignError."""
     names = []
     for tag in tags:
         if not isinstance(tag, str) or len(tag) > MAX_TAG or not tag.isprintable() or "," in tag:
-            raise DesignError(f"a tag is a word or two of at most {MAX_TAG} letters, no comma")
+            raise DesignError(f"a tag is a word or two of at most {MAX_TAG} characters, no comma")
         names.append(" ".join(tag.lower().split()))
     unique = tuple(dict.fromkeys(name for name in names if name))
     if len(unique) > MAX_TAGS:

@@ -1,6 +1,6 @@
-"""A sketch and the options of its picture as letters that an address can hold.
+"""A sketch and the options of its picture as characters that an address can hold.
 
-They are one letter for the version, then a zlib stream of the JSON of `as_tree` in base64 for
+They are one character for the version, then a zlib stream of the JSON of `as_tree` in base64 for
 addresses (RFC 4648, section 5) without padding. They never name a file: packs and textures are
 left out.
 """
@@ -20,7 +20,7 @@ from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
 
 VERSION = "a"
 MAX_LINK = 4096
-"""Letters of a link; a sketch of sixteen layers takes about 400."""
+"""Most characters of a link; a sketch of sixteen layers takes about 400."""
 MAX_JSON = 16 << 10
 """What a link may unpack to [bytes]."""
 
@@ -33,7 +33,7 @@ _REMEDY = "copy the whole link again"
 
 
 def write_link(sketch: Sketch, settings: Settings) -> str:
-    """The sketch and the options that differ from their default, as letters of an address.
+    """The sketch and the options that differ from their default, as part of an address.
 
     settings: its packs, texture and backend are left out.
     """
@@ -46,9 +46,9 @@ def read_link(text: str) -> tuple[Sketch, Settings]:
     """What `write_link` wrote. Raises DesignError for any other text."""
     word = text.strip()
     if len(word) > MAX_LINK:
-        raise DesignError(f"the link has {len(word)} letters, over {MAX_LINK}; {_REMEDY}")
+        raise DesignError(f"the link has {len(word)} characters, over {MAX_LINK}; {_REMEDY}")
     if not word or not _LETTERS.issuperset(word):
-        raise DesignError(f"the link is empty or has letters that no link has; {_REMEDY}")
+        raise DesignError(f"the link is empty or has characters that no link has; {_REMEDY}")
     if word[0] != VERSION:
         raise DesignError(
             f"the link has version {word[0]!r}; this Drapery reads {VERSION!r}; update Drapery"
@@ -123,7 +123,7 @@ def settings_of(words: object) -> Settings:
 def checked_title(title: object) -> str:
     """The title without blanks around it. Raises DesignError if it is not one printable line."""
     if not isinstance(title, str) or len(title) > MAX_TITLE or not title.isprintable():
-        raise DesignError(f"the title must be a line of at most {MAX_TITLE} letters; shorten it")
+        raise DesignError(f"the title must be a line of at most {MAX_TITLE} characters; shorten it")
     return title.strip()
 
 
@@ -135,9 +135,9 @@ def _places(hidden: object, count: int) -> frozenset[int]:
     return frozenset(hidden)
 
 
-def _inflated(letters: str) -> bytes:
+def _inflated(text: str) -> bytes:
     try:
-        squeezed = urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
+        squeezed = urlsafe_b64decode(text + "=" * (-len(text) % 4))
         stream = zlib.decompressobj()
         data = stream.decompress(squeezed, MAX_JSON + 1)
     except (ValueError, zlib.error):
@@ -147,7 +147,7 @@ def _inflated(letters: str) -> bytes:
             f"the link unpacks to over {MAX_JSON} bytes, more than any design has; {_REMEDY}"
         )
     if not stream.eof or stream.unused_data:
-        raise DesignError(f"the link is cut short or has letters after its end; {_REMEDY}")
+        raise DesignError(f"the link is cut short or has characters after its end; {_REMEDY}")
     return data
 
 

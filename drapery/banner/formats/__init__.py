@@ -1,4 +1,4 @@
-"""Every written form of a banner, one file a form."""
+"""The text and file forms of a banner, one module for each form."""
 
 from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.registry import (

@@ -27,12 +27,12 @@ def _nbt_form(
     find: Find,
     write: Callable[[Banner], bytes] | None = None,
 ) -> BinaryForm:
-    """A form that its suffix recognises; a file of another layout is refused."""
+    """A form that is recognised by its suffix; a file of another layout is refused."""
 
     def read(data: bytes) -> Iterator[FoundBanner]:
         tree = read_nbt(data, name)
         if not recognises(tree):
-            raise DesignError(f"{name}: the file is NBT but no {title}; leave the form out")
+            raise DesignError(f"{name}: the file is NBT but not a {title}; leave the form out")
         return find(tree)
 
     return BinaryForm(name, title, suffixes, _by_suffix(suffixes), read, write)

@@ -1,4 +1,4 @@
-"""What files of placed blocks share: reading their parts, and the banners of blocks."""
+"""Helpers for files of placed blocks: they read their parts, and the banners of blocks."""
 
 from collections.abc import Callable, Iterator
 from typing import Any, TypeAlias
@@ -85,7 +85,7 @@ def state_name(state: DataTree) -> str | None:
 def banners_of_block(
     entity: dict[str, DataTree], block: str | None, where: str, on_error: OnError
 ) -> Iterator[FoundBanner]:
-    """The banner that a block entity is, or otherwise the banners that it contains.
+    """The banner of a block entity that is one, otherwise the banners that it contains.
 
     block: the block's id, which names the base dye since 1.13, or None if it is unknown.
     """
@@ -109,7 +109,7 @@ def plain_banners(blocks: dict[Spot, str], where: str) -> Iterator[FoundBanner]:
 def banners_of_entities(
     entities: list[dict[str, DataTree]], where: str, on_error: OnError
 ) -> Iterator[FoundBanner]:
-    """The banners that mobs wear, frames show and minecarts carry."""
+    """The banners of entities: on mobs, in item frames, in minecarts."""
     for entity in entities:
         inner = entity.get("nbt", entity.get("Data", entity))
         inner = inner if isinstance(inner, dict) else entity

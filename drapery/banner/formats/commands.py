@@ -1,6 +1,6 @@
 """Commands of every Java version, and the item and block arguments that they hold.
 
-Of a command only the parts that define the banner are read: the word that names a banner or
+Only the parts of a command that define the banner are read: the word that names a banner or
 shield, the brackets and braces after it, and, up to 1.12, the numbers between them.
 """
 
@@ -39,14 +39,14 @@ def command_of(text: str) -> str | None:
 
 
 def read_command(text: str, *, line: int = 1) -> list[FoundBanner]:
-    """All banners in one command, or in an item or block argument alone.
+    """All banners in one command, or in an item or block argument without a command.
 
     `/give @p minecraft:white_banner[…] 1`, `setblock ~ ~ ~ red_banner[rotation=4]{…}`,
     `red_banner{…}`, `summon item_frame ~ ~ ~ {Item:{…}}`.
 
     line: the number of the text's first line, for errors.
 
-    Raises DesignError with the place, also where there is no banner.
+    Raises DesignError with the place, also if there is no banner.
     """
     parts = _last_run(parse_command(text, line=line))
     found = list(_found(parts))

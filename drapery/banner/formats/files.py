@@ -49,8 +49,8 @@ LAYOUTS = (
 def banners_in(path: str | Path, on_error: OnError = raise_error) -> Iterator[FoundBanner]:
     """Every banner of a file or of a world's folder, with its place.
 
-    Files are NBT (structures, schematics, Litematica, Bedrock's, players, items) and regions. Their
-    bytes decide what they are, not their names. Links out of a world are not followed.
+    Files are NBT (structures, schematics, Litematica, Bedrock's, players, items) and regions. They
+    are recognised by their bytes, not by their names. Links out of a world are not followed.
 
     on_error: called with the error of one broken banner, chunk or file of a world, after which
         the search continues; by default the error is raised.

@@ -51,8 +51,8 @@ def find_banners(
     """Every banner and patterned shield in the tree, in the order of the text.
 
     Every mapping and list is searched: containers, shulker boxes, bundles, equipment, frames.
-    Plain shields have no design and are skipped. The search does not recurse, so depth is no
-    limit.
+    Plain shields have no design and are skipped. The search does not recurse, so its depth is not
+    limited.
 
     where: the start of every path, such as a block's position.
     block_of: gives the block of a block entity, whose id names the base dye since 1.13.

@@ -1,9 +1,9 @@
 """Decompression of lz4-java's block streams, in which a server may save its chunks.
 
-A stream is a sequence of blocks. Each begins with the eight letters LZ4Block; a byte whose high
-half is 1 for uncompressed bytes and 2 for LZ4 (its low half is the writer's block size); and three
-little-endian numbers of 32 bits: the length in the stream, the length unpacked, and a checksum. A
-block of length 0 ends the stream.
+A stream is a sequence of blocks. Each begins with the eight characters LZ4Block, then a byte whose
+high half is 1 for uncompressed bytes and 2 for LZ4 (its low half is the writer's block size), then
+three little-endian numbers of 32 bits: the length in the stream, the length after decompression,
+and a checksum. A block of length 0 ends the stream.
 """
 
 import struct

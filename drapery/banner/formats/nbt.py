@@ -54,7 +54,8 @@ class Codec(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Numbers:
-    """An array or a long list of numbers, within the file's bytes. True, and equal to no other."""
+    """An array or a long list of numbers within the file's bytes. It is truthy and equals only
+    itself."""
 
     data: bytes
     start: int
@@ -70,11 +71,11 @@ class Numbers:
 
 
 class _BytesError(Exception):
-    """A fault in the bytes, before it is known of which file they are."""
+    """A fault in the bytes; the caller adds the name of the file."""
 
 
 class _List(NamedTuple):
-    """A list whose children are compounds or lists, and not all read yet."""
+    """A list of compounds or lists that are not all read yet."""
 
     items: list[DataTree]
     kind: int
@@ -86,7 +87,7 @@ Container: TypeAlias = dict[str, DataTree] | _List
 
 @dataclass
 class _Cursor:
-    """Where the reading is: the place in the bytes, the tags still allowed, the names seen."""
+    """The state of reading: the place in the bytes, the tags still allowed, the names so far."""
 
     data: bytes
     at: int
@@ -103,11 +104,11 @@ class _Cursor:
 def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, DataTree]:
     """The root compound of an NBT file: gzip, zlib or raw, in either byte order.
 
-    where: the file's name, for errors. order: None finds it out. Bedrock's `.dat` header of
-    eight bytes is passed over.
+    where: the file's name, for errors. order: the byte order; None detects it. Bedrock's `.dat`
+    header of eight bytes is skipped.
 
-    Raises DesignError, naming the file and the byte, for files that are no NBT, end too early,
-    or go over MAX_BYTES, MAX_DEPTH or MAX_TAGS.
+    Raises DesignError, naming the file and the byte, for files that are not NBT, end too early,
+    or exceed MAX_BYTES, MAX_DEPTH or MAX_TAGS.
     """
     data = inflate(data, where)
     start = 8 if _has_bedrock_header(data) else 0
@@ -122,7 +123,7 @@ def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, D
 
 
 def is_nbt(head: bytes, size: int | None = None) -> bool:
-    """Whether an unwrapped file opens as NBT does: with a compound whose name is short.
+    """Whether an uncompressed file begins as NBT does: with a compound whose name is short.
 
     head: its first bytes. size: of the whole file, if that is more [bytes].
     """
@@ -130,16 +131,16 @@ def is_nbt(head: bytes, size: int | None = None) -> bool:
 
 
 def _has_bedrock_header(head: bytes, size: int | None = None) -> bool:
-    """Bedrock's level.dat opens with a version and the length of what follows."""
+    """Whether the bytes begin as Bedrock's level.dat: a version and the length of the rest."""
     size = len(head) if size is None else size
     return head[8:9] == b"\n" and int.from_bytes(head[4:8], "little") == size - 8
 
 
 def _guess_order(data: bytes) -> Order:
-    """The order in which the first name that has a length is the shorter one.
+    """The byte order in which the length of the first name is shorter.
 
     Names are far shorter than 256 bytes; read in the wrong order, such a length is at least
-    256. The root's name may be empty: then its first child's tells.
+    256. If the root's name is empty, the name of its first child decides.
     """
     for at in (1, 4):
         big = int.from_bytes(data[at : at + 2], "big")
@@ -187,7 +188,9 @@ def _fill_compound(cursor: _Cursor, node: dict[str, DataTree]) -> Container | No
         stop = start + length_of(data, cursor.at + 1)[0]
         name = names.get(data[start:stop]) or _new_name(names, data[start:stop])
         if kind > _LAST:
-            raise _BytesError(f"{kind} at byte {cursor.at} is no kind of tag; save the file again")
+            raise _BytesError(
+                f"{kind} at byte {cursor.at} is not a kind of tag; save the file again"
+            )
         cursor.spend(_COST[kind])
         reader = readers[kind]
         if reader:
@@ -212,7 +215,7 @@ def _fill_list(cursor: _Cursor, unfinished: _List) -> Container | None:
 
 
 def _open(cursor: _Cursor, kind: int) -> tuple[DataTree, Container | None]:
-    """The value of a compound or list that begins here, and what of it is still to be filled."""
+    """The value of a compound or list that begins here, and the part of it that is not filled."""
     if kind == _COMPOUND:
         node: dict[str, DataTree] = {}
         return node, node

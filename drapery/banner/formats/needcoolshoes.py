@@ -9,8 +9,8 @@ from drapery.banner.design import MAX_LAYERS, Banner, Layer
 from drapery.banner.formats.urls import (
     COLOURS,
     Address,
+    character,
     is_bare_code,
-    letter,
     refuse,
     refuse_pattern,
     site_address,
@@ -89,7 +89,7 @@ def _layer(text: str, code: str, place: int) -> Layer:
     high, low = _index(text, code, place), _index(text, code, place + 1)
     index = high >> 4 << 6 | low
     if index >= len(PATTERN_ORDER):
-        refuse(SITE, text, f"{letter(code, place + 1)} is not the code of a pattern", REMEDY)
+        refuse(SITE, text, f"{character(code, place + 1)} is not the code of a pattern", REMEDY)
     return Layer(PATTERN_ORDER[index], _dye(text, code, place))
 
 
@@ -100,5 +100,5 @@ def _dye(text: str, code: str, place: int) -> str:
 def _index(text: str, code: str, place: int) -> int:
     index = ALPHABET.find(code[place])
     if index < 0:
-        refuse(SITE, text, f"{letter(code, place)} is not in the site's alphabet", REMEDY)
+        refuse(SITE, text, f"{character(code, place)} is not in the site's alphabet", REMEDY)
     return index

@@ -7,8 +7,8 @@ character stands for its place in the alphabet, from 0; patterns 0 and 1 do not 
 from drapery.banner.design import MAX_LAYERS, Banner, Layer
 from drapery.banner.formats.urls import (
     COLOURS,
+    character,
     is_bare_code,
-    letter,
     refuse,
     refuse_pattern,
     site_address,
@@ -83,19 +83,19 @@ def _code(text: str) -> str:
 def _layer(text: str, code: str, place: int) -> Layer:
     index = _index(text, code, place + 1) - FIRST_PATTERN
     if not 0 <= index < len(PATTERN_ORDER):
-        refuse(SITE, text, f"{letter(code, place + 1)} is not the code of a pattern", REMEDY)
+        refuse(SITE, text, f"{character(code, place + 1)} is not the code of a pattern", REMEDY)
     return Layer(PATTERN_ORDER[index], _dye(text, code, place))
 
 
 def _dye(text: str, code: str, place: int) -> str:
     index = _index(text, code, place)
     if index >= len(COLOURS):
-        refuse(SITE, text, f"{letter(code, place)} is not the code of a dye", REMEDY)
+        refuse(SITE, text, f"{character(code, place)} is not the code of a dye", REMEDY)
     return COLOURS[index]
 
 
 def _index(text: str, code: str, place: int) -> int:
     index = ALPHABET.find(code[place])
     if index < 0:
-        refuse(SITE, text, f"{letter(code, place)} is not in the site's alphabet", REMEDY)
+        refuse(SITE, text, f"{character(code, place)} is not in the site's alphabet", REMEDY)
     return index

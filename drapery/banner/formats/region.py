@@ -27,8 +27,9 @@ MAX_CHUNK = 16 * 2**20
 """Most bytes of an unpacked chunk; usual ones have under 300 KiB."""
 
 MAX_RATIO = 100
-"""All chunks together may unpack to this many times the size of the file, so that not every
-chunk can be a bomb. A chunk takes at least a sector; one of air unpacks to about twenty."""
+"""All chunks together may decompress to this many times the size of the file. It limits files in
+which every chunk is a compression bomb. A chunk takes at least a sector, and a chunk of air becomes
+about twenty sectors."""
 
 MAX_BANNERS = 20_000
 """Most banners of one chunk, which has 98,304 blocks."""
@@ -125,7 +126,7 @@ def _check_place(owners: dict[int, str], sector: int, chunk: str, where: str) ->
     owner = owners.setdefault(sector, chunk)
     if owner != chunk:
         raise DesignError(
-            f"{where}: lies where chunk {owner} lies, at byte {sector * SECTOR};"
+            f"{where}: overlaps chunk {owner} at byte {sector * SECTOR};"
             " let the game repair the world"
         )
 

@@ -35,7 +35,7 @@ from drapery.banner.names import shown
 from drapery.errors import DesignError
 
 MAX_COMMANDS = 20_000
-"""Most commands in one text, each on a line of its own."""
+"""Most commands in one text, one per line."""
 
 _HEAD = 8192
 
@@ -201,7 +201,7 @@ def _unknown(form: str) -> DesignError:
 
 
 def binary_forms() -> dict[str, BinaryForm]:
-    """Every form of files by name. They need numpy, which is not loaded to read texts."""
+    """Every form of files by name. Importing them loads numpy, which texts do not need."""
     from drapery.banner.formats.binary import BINARY_FORMS
 
     return BINARY_FORMS

@@ -1,7 +1,6 @@
 """An entity that holds banners: `/summon item_frame ~ ~ ~ {Item:{id:"minecraft:red_banner"}}`.
 
-Frames, dropped items, armour stands and mobs that wear or carry a banner, in the spelling of every
-version.
+Frames, dropped items, armour stands and mobs with a banner, in the spelling of every version.
 """
 
 from drapery.banner.design import Banner

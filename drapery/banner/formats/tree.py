@@ -1,4 +1,4 @@
-"""Banners from plain trees of dict, list, str and numbers, as SNBT, NBT and JSON give them.
+"""Banners from plain trees of dict, list, str and numbers, which SNBT, NBT and JSON become.
 
 Mappings may be any `dict` and sequences any `list`, so nbtlib's tags fit. Every DesignError begins
 with the path of its place in the tree, such as `components.banner_patterns[2].color`.

@@ -28,7 +28,7 @@ def read(text: str) -> list[FoundBanner]:
 
 
 def read_wynncraft(text: str) -> list[FoundBanner]:
-    """As `read`, but a design in JSON is taken for Wynncraft's, whose names are Bukkit's."""
+    """As `read`, but a design in JSON is read as Wynncraft's, with Bukkit's names."""
     tree = read_text(text)
     return [FoundBanner(wynncraft.from_tree(tree))] if wynncraft.may_be(tree) else _all(tree)
 

@@ -1,4 +1,4 @@
-"""What the forms of web addresses share: splitting the address, and its errors."""
+"""Helpers for the forms of web addresses: they split an address and raise its errors."""
 
 from dataclasses import dataclass
 from typing import NoReturn
@@ -78,7 +78,7 @@ def clip(text: str, limit: int = 60) -> str:
     return repr(text if len(text) <= limit else text[: limit - 1] + "…")
 
 
-def letter(code: str, place: int) -> str:
+def character(code: str, place: int) -> str:
     """A character of a code as errors name it."""
     return f"{code[place]!r} at character {place + 1} of the code"
 

@@ -20,7 +20,7 @@ EXAMPLE = (
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is JSON with the keys that this form alone has."""
+    """Whether the text is JSON with keys that only this form has."""
     return text.lstrip().startswith("{") and any(k in text for k in ('"colour"', '"tier"'))
 
 

@@ -1,4 +1,4 @@
-"""Resource packs: folders, zips and jars, stacked over our own art."""
+"""Resource packs: folders, zips, jars and packs in memory, over our own art."""
 
 from drapery.banner.packs.stack import Packs, open_packs
 

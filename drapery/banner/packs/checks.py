@@ -1,4 +1,4 @@
-"""What folders and zips of packs share: the signs of a pack, limits, and words of errors."""
+"""Helpers for packs in folders and zips: how to recognise a pack, limits, and error texts."""
 
 from collections.abc import Iterable
 
@@ -31,5 +31,5 @@ def listed(names: Iterable[str]) -> str:
 
 
 def reason(error: BaseException) -> str:
-    """Why something failed, in the system's words."""
+    """The system's message for an error."""
     return getattr(error, "strerror", None) or str(error) or type(error).__name__

@@ -18,8 +18,9 @@ MAX_CHECKED_BYTES = 512 << 20
 class PackReport:
     """One pack of a stack.
 
-    format: the resource format that it is read as, or None; overlays: the folders that count.
-    has, lacks: of the 43 patterns. added: patterns of its own. shields: of the 43, for shields.
+    format: the resource format that it is read as, or None. overlays: the folders in use.
+    has, lacks: of the 43 patterns. added: other patterns that it defines. shields: those of the 43
+    patterns that it has for shields.
     bases: which of banner_base, shield_base and shield_base_nopattern it has.
     overrides: pairs of a pattern and the pack below whose sheet it overrides.
     sides: pairs of a sheet's side [px] and how many have it, small ones first.

@@ -40,7 +40,7 @@ def _regex(text: Any, name: str) -> re.Pattern[str] | None:
     if text is None:
         return None
     if not isinstance(text, str) or len(text) > _MAX_LENGTH:
-        raise PackError(f"{name} must be a regular expression of up to {_MAX_LENGTH} letters")
+        raise PackError(f"{name} must be a regular expression of up to {_MAX_LENGTH} characters")
     if not _is_cheap(text):
         raise PackError(
             f"{name} {text!r} could search for hours: use at most 3 of * and +, and repeat no group"

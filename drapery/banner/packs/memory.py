@@ -19,13 +19,13 @@ ImageArray = NDArray[np.uint8] | NDArray[np.bool_]
 class MemoryPack:
     """A resource pack from arrays, for `open_packs`, alone or among paths.
 
-    patterns: banner sheets by pattern id: `creeper`, or `mymod:heart` for a pattern of your own,
-        which a `Layer` can then name. Sheets are square, at most MAX_SHEET [px] a side.
+    patterns: banner sheets by pattern id: `creeper`, or `mymod:heart` for a new pattern, which a
+        `Layer` can then name. Sheets are square, at most MAX_SHEET [px] a side.
     shields: shield sheets by pattern id.
     textures: any texture by its id: `minecraft:block/stone`, `minecraft:entity/banner/banner_base`,
         `minecraft:entity/banner/creeper_n` for a LabPBR map.
     contents: further files by their name in the pack: `pack.mcmeta`, an `.mcmeta` of an animation.
-    label: what messages call the pack.
+    label: the name of the pack in messages.
 
     Arrays are uint8 [H, W, 4] (sRGB with straight alpha), or uint8 or bool [H, W] (a mask: white
     with this alpha, bool meaning 0 or 255). They are copied.
@@ -60,7 +60,7 @@ class MemoryPack:
 
     @property
     def label(self) -> str:
-        """What messages call the pack."""
+        """The name of the pack in messages."""
         return self._label
 
     def read(self, name: str, limit: int) -> bytes | None:

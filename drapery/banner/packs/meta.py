@@ -88,7 +88,7 @@ def read_json(data: bytes, name: str) -> Any:
 
 
 def parse_meta(data: bytes, name: str) -> PackMeta:
-    """Read `pack.mcmeta`. name: what errors call it. Raises PackError."""
+    """Read `pack.mcmeta`. name: the name of the file in errors. Raises PackError."""
     root = read_json(data, name)
     pack = _object(root, "pack", name)
     declared = pack.get("pack_format")

@@ -25,7 +25,7 @@ class Pack:
 
     @property
     def label(self) -> str:
-        """What messages call it."""
+        """The name of the pack in messages."""
         return self.source.label
 
     def read(self, name: str, limit: int) -> bytes | None:
@@ -56,7 +56,7 @@ class Pack:
 
 
 def open_pack(path: str | Path | PackSource, format: int | None = None) -> Pack:
-    """One pack by itself, without our own art below it.
+    """One pack, without our own art below it.
 
     path: a folder, zip or jar, or a source of files such as MemoryPack.
     format: the resource format of the game; None is the newest that the pack supports.
@@ -64,7 +64,7 @@ def open_pack(path: str | Path | PackSource, format: int | None = None) -> Pack:
     """
     source = open_source(path)
     meta = _read_meta(source)
-    # Data packs have format numbers of their own, to which a resource format does not apply.
+    # Data packs use other format numbers, so a resource format does not apply to them.
     wanted = format if source.folders("assets") else None
     roots = (*(f"{name}/" for name in meta.directories(wanted)), "")
     return Pack(source, meta, roots, meta.newest() if format is None else format)

@@ -25,7 +25,7 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 def png_size(data: bytes, name: str) -> tuple[int, int]:
     """Width and height [px] from the header; nothing is decoded.
 
-    name: what errors call the file. Raises PackError.
+    name: the file's name in errors. Raises PackError.
     """
     if data[:8] != _SIGNATURE or data[12:16] != b"IHDR" or len(data) < 33:
         raise PackError(f"{name} is not a PNG file: save it as one")
@@ -41,11 +41,11 @@ def png_size(data: bytes, name: str) -> tuple[int, int]:
 def read_png(data: bytes, name: str) -> Texels:
     """The texels of a PNG file of any mode, shape [H, W, 4].
 
-    Of 16 bits a channel only the upper eight count, as in the game.
-    name: what errors call the file. Raises PackError.
+    Only the upper eight of 16 bits a channel are used, as in the game.
+    name: the file's name in errors. Raises PackError.
     """
     png_size(data, name)
-    # The plug-in alone: PIL.Image.open would load those of every common format first.
+    # Only this plug-in: PIL.Image.open would load those of all common formats first.
     from PIL.PngImagePlugin import PngImageFile
 
     try:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from drapery.banner.packs.png import Texels
 
 MAX_COMPOSITE = 2048
-"""Largest side of a sheet that is made of several, where none of them is larger [px]."""
+"""Largest side of a sheet that combines several smaller ones [px]."""
 
 
 def common_side(sides: Iterable[int]) -> int:

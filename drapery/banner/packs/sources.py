@@ -16,11 +16,11 @@ from drapery.errors import PackError
 
 @runtime_checkable
 class PackSource(Protocol):
-    """The files of one pack: a folder, a zip, arrays in memory, or a class of your own."""
+    """The files of one pack: a folder, a zip, arrays in memory, or a user-defined class."""
 
     @property
     def label(self) -> str:
-        """What messages call the pack."""
+        """The name of the pack in messages."""
 
     def read(self, name: str, limit: int) -> bytes | None:
         """The bytes of a file, or None if it does not exist.

@@ -1,7 +1,7 @@
 """Resource packs over our own art: patterns, bases and other textures as texels.
 
-A pack is a folder, a zip, a client jar or a pack in memory. Of several, the later one overrides the
-earlier, file by file; the overlays of a pack, named in its `pack.mcmeta`, override its own files.
+A pack is a folder, a zip, a client jar or a pack in memory. A later pack overrides the files of
+earlier ones. The overlays of a pack, named in its `pack.mcmeta`, override its other files.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -150,7 +150,7 @@ class Packs:
         return tuple(file for file in found if file is not None)
 
     def warnings(self) -> tuple[str, ...]:
-        """What a user should know of the textures read so far, one line each."""
+        """Warnings about the textures read so far, one line each."""
         lines = list(self._notes)
         if self._missing:
             names = ", ".join(self._missing)
@@ -160,7 +160,7 @@ class Packs:
         if self._black:
             names = ", ".join(self._black)
             lines.append(
-                f"black covers all below, as the game draws it: {names}"
+                f"drawn with opaque black, as the game draws it: {names}"
                 " (masks from before 1.15? use format 4 to read them as masks)"
             )
         if (self._ours or self._missing) and len(self.packs) > 1 and not self._used:
@@ -193,7 +193,7 @@ class Packs:
         return self._read(self._find([texture_file(full)]), full)
 
     def _read(self, found: PackFile | None, name: str, *, is_sheet: bool = False) -> Texture:
-        """A texture as its file says, or the checker. Notes the name for the warnings.
+        """The texture of a file, or the checker if it is None. Notes the name for the warnings.
 
         is_sheet: whether it must be square, which is checked before anything is decoded.
         """
@@ -212,7 +212,8 @@ class Packs:
         return cut_frames(read_png(found.data, place), layout)
 
     def _map(self, found: PackFile | None, ending: str) -> Texels | None:
-        """The map beside a texture, from its pack or one above; those below belong to another."""
+        """The map beside a texture, from its pack or one above. Maps of lower packs belong to
+        other textures."""
         beside = self._find_map(found, ending)
         return None if beside is None else read_png(beside.data, self._place(beside))
 
@@ -295,16 +296,16 @@ PackLike = str | Path | PackSource | Pack | Packs
 
 
 def open_packs(packs: PackLike | Sequence[PackLike] = (), *, format: int | None = None) -> Packs:
-    """A stack of packs over our own art; of several, the later lie over the earlier.
+    """A stack of packs over our own art; later packs override earlier ones.
 
     packs: folders, zips or client jars, packs in memory, or packs already opened. An opened stack
-        is returned as it is; in a list, its packs count without our own art.
-    format: the resource format of the game to be (46 is 1.21.4); it chooses overlays, the place of
-        the base texture and whether patterns are masks. None takes each pack as in the newest
-        version that it claims to support.
+        is returned unchanged; in a list, its packs are used without our own art.
+    format: the resource format of the game version to draw (46 is 1.21.4); it selects overlays, the
+        place of the base texture and whether patterns are masks. None reads each pack as the newest
+        version that it claims to support does.
 
     Raises PackError for a pack that cannot be opened, and for a stack that was opened for another
-    format. A broken file in a pack raises when it is asked for.
+    format. A broken file in a pack raises PackError when it is read.
     """
     if isinstance(packs, Packs):
         return _of_format(packs, format)

@@ -88,7 +88,7 @@ class FrameLayout:
 def frame_layout(width: int, height: int, mcmeta: bytes | None, name: str) -> FrameLayout:
     """The frames of a picture of this size [px], by its `.mcmeta` (None: it has none).
 
-    name: what errors call the `.mcmeta`. Raises PackError.
+    name: the name of the `.mcmeta` in errors. Raises PackError.
     """
     root = read_json(mcmeta, name) if mcmeta is not None else {}
     animation = root.get("animation") if isinstance(root, dict) else None
@@ -157,7 +157,7 @@ def looks_like_mask(texels: Texels) -> bool:
 
 
 def from_mask(mask: Texels, base: Texels) -> Texels:
-    """The sheet of today that looks as a mask over a base did: the base's colours, alpha from red.
+    """A sheet of the present kind that looks like a mask over a base: its colours, alpha from red.
 
     Its side is that of `common_side`.
     """

@@ -98,7 +98,7 @@ def _indexed(archive: "ZipFile", label: str) -> ZipSource:
     for name, _ in named:
         if name.startswith("/") or name[1:2] == ":" or ".." in name.split("/"):
             raise PackError(
-                f"pack {label}: the name {name[:80]!r} leads out of the pack: do not trust it"
+                f"pack {label}: the name {name[:80]!r} leads out of the pack: do not use this pack"
             )
     root = _root_in_zip([name for name, _ in named], label)
     entries: dict[str, ZipInfo] = {}
