@@ -16,7 +16,7 @@ from zipfile import ZipFile
 from beet import BannerPattern, Context, ErrorMessage, PluginOptions, configurable
 from beet.library.base import Pack
 
-from drapery.banner.patterns import PATTERNS
+from drapery.banner import PATTERNS
 from drapery.errors import DraperyError
 from drapery.settings import Settings
 from drapery.testing.case_check import check_cases, update_cases

@@ -2,7 +2,6 @@
 
 import ast
 import tomllib
-from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
@@ -58,13 +57,12 @@ KNOWS_NO_SETTINGS = {"cloth", "banner", "packs", "render", "assets"}
 """Packages that others use without Drapery's options."""
 
 PUBLIC = {
-    *("drapery", "drapery.cloth", "drapery.cloth.colliders", "drapery.render", "drapery.style"),
-    *("drapery.packs", "drapery.testing", "drapery.batch", "drapery.banner.formats"),
+    *("drapery", "drapery.cloth", "drapery.cloth.colliders", "drapery.banner", "drapery.packs"),
+    *("drapery.render", "drapery.style", "drapery.scenes", "drapery.pictures"),
+    *("drapery.comparison", "drapery.sheets", "drapery.testing", "drapery.batch"),
     *(f"drapery.{name}" for name in FOUNDATION),
 }
 """Modules whose names others may import."""
-PRIVATE_IMPORTS = {"batch": 14, "beet": 1, "commands": 45, "serve": 2, "studio": 78, "testing": 22}
-"""Imports of other modules by each application that are left. The numbers may only fall."""
 
 
 @cache
@@ -154,8 +152,7 @@ def private_imports(package: str) -> list[str]:
 
 @pytest.mark.parametrize("package", sorted(APPLICATIONS))
 def test_applications_import_public_names(package: str) -> None:
-    found = private_imports(package)
-    assert len(found) <= PRIVATE_IMPORTS.get(package, 0), "\n".join(found)
+    assert not private_imports(package)
 
 
 def test_every_package_is_installed() -> None:
@@ -187,7 +184,3 @@ def test_class_names_are_unique() -> None:
                 if isinstance(node, ast.ClassDef):
                     places.setdefault(node.name, []).append(f"{path.relative_to(ROOT)}")
     assert not {name: found for name, found in places.items() if len(found) > 1}
-
-
-if __name__ == "__main__":
-    print(Counter({package: len(private_imports(package)) for package in APPLICATIONS}))

@@ -193,7 +193,7 @@ def _objects(settings: Settings, options: Mapping[str, Any]) -> list[str]:
 
 
 def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
-    from drapery.banner.formats import read_design
+    from drapery.banner import read_design
 
     try:
         if text is None:
@@ -326,7 +326,7 @@ def _unusable(requests: Iterable[PictureRequest]) -> Iterator[ManifestFault]:
 def _verdict(request: PictureRequest) -> str | None:
     from drapery.packs import open_packs
     from drapery.render import backend
-    from drapery.style.kinds import check_kind
+    from drapery.style import check_kind
 
     settings = request.settings
     try:

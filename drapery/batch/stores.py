@@ -59,7 +59,7 @@ class LocalStore:
 
     def write(self, name: str, data: bytes) -> None:
         """See `Store`."""
-        from drapery.render.encode.output import replacing
+        from drapery.render import replacing
 
         with replacing(self.prepare(name)) as beside:
             beside.write_bytes(data)

@@ -30,8 +30,8 @@ def run(
     **words: Any,
 ) -> None:
     """Draw a banner waving in the wind, as a seamless loop."""
-    from drapery.pictures import iter_frames
-    from drapery.render.encode import check_animation_target, save_animation
+    from drapery import iter_frames
+    from drapery.render import check_animation_target, save_animation
     from drapery.settings import Settings, background_colour, frame_count
 
     settings = Settings(**o.options_of(words))

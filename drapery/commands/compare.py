@@ -10,9 +10,8 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice
 
 if TYPE_CHECKING:
-    from drapery.comparison.pairs import Comparison
-    from drapery.comparison.variants import Variant
-    from drapery.render.frame import Frame
+    from drapery.comparison import Comparison, Variant
+    from drapery.render import Frame
 
 ENDINGS = (".png", ".gif", ".html", ".json")
 
@@ -53,8 +52,7 @@ def run(
     **words: Any,
 ) -> None:
     """Compare pictures with the first; exit code 0 same, 1 different, 2 bad input."""
-    from drapery.comparison.pairs import compare_variants
-    from drapery.comparison.variants import draw_variants
+    from drapery.comparison import compare_variants, draw_variants
     from drapery.option import within
     from drapery.settings import Settings
 
@@ -80,14 +78,14 @@ def run(
 
 
 def _cost(variant: "Variant") -> dict[str, float]:
-    from drapery.comparison.cost import cost_of
+    from drapery.comparison import cost_of
 
     measured = cost_of(variant)
     return {"quads": measured.quads, "ms_per_frame": measured.milliseconds}
 
 
 def _close(pair: "Comparison", tolerance: int, pixels: int) -> bool:
-    from drapery.comparison.metrics import measure
+    from drapery.comparison import measure
 
     frames = pair.first.frame.pixels, pair.other.frame.pixels
     return measure(*frames, slack=tolerance).changed <= pixels
@@ -96,7 +94,7 @@ def _close(pair: "Comparison", tolerance: int, pixels: int) -> bool:
 def _check_target(target: Path) -> None:
     """Check a target before anything is drawn. Raises OptionError or OutputError."""
     from drapery.errors import OptionError
-    from drapery.render.encode.output import check_writable
+    from drapery.render import check_writable
 
     if target.suffix.lower() not in ENDINGS:
         raise OptionError(f"{target}: the ending of a comparison is one of {', '.join(ENDINGS)}")
@@ -104,10 +102,8 @@ def _check_target(target: Path) -> None:
 
 
 def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, float]]) -> None:
-    from drapery.comparison.pairs import pair_entry, pair_sheet
-    from drapery.comparison.report import html_report, write_text
-    from drapery.render.contact import stack_frames
-    from drapery.render.frame import Animation
+    from drapery.comparison import html_report, pair_entry, pair_sheet, write_text
+    from drapery.render import Animation, stack_frames
 
     ending = target.suffix.lower()
     if ending == ".png":

@@ -21,10 +21,10 @@ def run(
     format: o.FormatOption = None,
 ) -> None:
     """Write the plain 20 x 40 face of a banner, enlarged."""
-    from drapery.banner.formats import read_design
+    from drapery import draw_face
+    from drapery.banner import read_design
     from drapery.option import within
-    from drapery.pictures import draw_face
-    from drapery.render.encode import check_still_target
+    from drapery.render import check_still_target
 
     within("scale", scale, 1, MAX_SCALE, "pixels")
     check_still_target(out)

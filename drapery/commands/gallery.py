@@ -9,7 +9,7 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
 
 if TYPE_CHECKING:
-    from drapery.scenes.catalogue import SceneEntry
+    from drapery.scenes import SceneEntry
 
 _PAGE = """<!doctype html>
 <html lang="en">
@@ -61,13 +61,12 @@ def run(
 ) -> None:
     """Make the gallery: all scenes, and an index page."""
     from drapery.option import one_of
-    from drapery.render.encode.output import replacing
-    from drapery.scenes.catalogue import find
-    from drapery.scenes.catalogue import names as all_names
+    from drapery.render import replacing
+    from drapery.scenes import find_scene, scene_names
     from drapery.settings import OPTIONS
 
     one_of("as", kind, KINDS)
-    scenes = [find(name) for name in names or all_names()]
+    scenes = [find_scene(name) for name in names or scene_names()]
     pixels = OPTIONS["size"].parse(size)
     _make_folder(out)
     entries = []
@@ -84,8 +83,8 @@ def _play(
 ) -> None:
     from dataclasses import replace
 
-    from drapery.render.encode import check_animation_target, save_animation
-    from drapery.scenes.drawing import scene_frames
+    from drapery.render import check_animation_target, save_animation
+    from drapery.scenes import scene_frames
     from drapery.settings import frame_count
 
     check_animation_target(target)

@@ -9,8 +9,8 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice
 
 if TYPE_CHECKING:
-    from drapery.banner.design import Banner
-    from drapery.banner.packs import Packs
+    from drapery import Banner
+    from drapery.packs import Packs
 
 
 def run(
@@ -33,13 +33,12 @@ def run(
     backend: o.BackendOption = "auto",
 ) -> None:
     """Take a banner apart: its loom steps, hidden layers, and an exploded view."""
-    from drapery.banner.formats import read_design
-    from drapery.banner.packs import open_packs
+    from drapery.banner import read_design
+    from drapery.packs import open_packs
     from drapery.pictures import draw_scenes
-    from drapery.scenes.exploded import apart
+    from drapery.scenes import exploded_view
     from drapery.settings import OPTIONS, Settings
-    from drapery.sheets.faces import steps_sheet
-    from drapery.sheets.sheet import check_sheet_target
+    from drapery.sheets import check_sheet_target, steps_sheet
 
     settings = Settings(
         packs=tuple(packs or ()),
@@ -57,14 +56,14 @@ def run(
     _print_hidden(banner, opened)
     with compile_notice():
         if out is not None:
-            (frame,) = draw_scenes([apart(banner, opened, settings)], opened, settings)
+            (frame,) = draw_scenes([exploded_view(banner, opened, settings)], opened, settings)
             frame.save(out)
         if steps is not None:
             steps_sheet(banner, opened).save(steps)
 
 
 def _print_steps(banner: "Banner") -> None:
-    from drapery.banner.loom import fits_loom, loom_steps
+    from drapery.banner import fits_loom, loom_steps
 
     print(f"start with a {banner.base.replace('_', ' ')} banner")
     for number, step in enumerate(loom_steps(banner), 1):
@@ -76,8 +75,7 @@ def _print_steps(banner: "Banner") -> None:
 
 
 def _print_hidden(banner: "Banner", packs: "Packs") -> None:
-    from drapery.banner.formats import write_banner
-    from drapery.banner.loom import simplify
+    from drapery.banner import simplify, write_banner
 
     fewer = simplify(banner, packs)
     if fewer != banner:

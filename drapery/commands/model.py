@@ -31,7 +31,7 @@ def run(
     **words: Any,
 ) -> None:
     """Write a banner, shield, cape or elytra as a 3-D file: a waving GLB, or one pose."""
-    from drapery.pictures import save_model
+    from drapery import save_model
     from drapery.settings import Settings
 
     settings = Settings(**o.options_of(words))

@@ -11,7 +11,7 @@ from drapery.option import Option
 from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options
 
 if TYPE_CHECKING:
-    from drapery.banner.design import Banner
+    from drapery import Banner
 
 DesignArgument = Annotated[
     str,
@@ -116,7 +116,7 @@ def options_of(words: Mapping[str, Any]) -> Options:
 
 def design_of(words: Mapping[str, Any]) -> "Banner | None":
     """The design that a command is given, if it is given any. Raises DesignError."""
-    from drapery.banner.formats import read_design
+    from drapery.banner import read_design
 
     text = words["design"]
     if text is None:

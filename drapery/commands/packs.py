@@ -8,7 +8,7 @@ import typer
 from drapery.commands import options as o
 
 if TYPE_CHECKING:
-    from drapery.banner.packs.contents import PackReport
+    from drapery.packs import PackReport
 
 
 def run(
@@ -27,11 +27,9 @@ def run(
     format: o.FormatOption = None,
 ) -> None:
     """List what packs have, lack and override; exit code 1 if something in them is broken."""
-    from drapery.banner.packs import open_packs
-    from drapery.banner.packs.contents import describe_packs
+    from drapery.packs import describe_packs, open_packs
     from drapery.settings import check_format
-    from drapery.sheets.faces import contents_sheet
-    from drapery.sheets.sheet import check_sheet_target
+    from drapery.sheets import check_sheet_target, contents_sheet
 
     check_format(format)
     if out is not None:

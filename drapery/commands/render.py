@@ -19,8 +19,8 @@ def run(
     **words: Any,
 ) -> None:
     """Draw a banner, shield, cape or elytra and write one picture."""
-    from drapery.pictures import draw
-    from drapery.render.encode import check_still_target
+    from drapery import draw
+    from drapery.render import check_still_target
 
     options = o.options_of(words)
     check_still_target(out)

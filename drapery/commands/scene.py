@@ -60,12 +60,11 @@ def _play(
     size: str,
     backend: str,
 ) -> None:
-    from drapery.render.encode import check_animation_target, check_still_target, save_animation
-    from drapery.scenes.catalogue import Clip, find
-    from drapery.scenes.drawing import scene_frames
+    from drapery.render import check_animation_target, check_still_target, save_animation
+    from drapery.scenes import Clip, find_scene, scene_frames
     from drapery.settings import OPTIONS, frame_count
 
-    scene, words = find(name), _words(parameters)
+    scene, words = find_scene(name), _words(parameters)
     is_still = out.lower().endswith(".png") and not out.lower().endswith(".sheet.png")
     (check_still_target if is_still else check_animation_target)(out)
     own = scene.clip
@@ -106,18 +105,18 @@ def _words(parameters: list[str]) -> dict[str, str]:
 
 
 def _show_list() -> None:
-    from drapery.scenes.catalogue import find, names
+    from drapery.scenes import find_scene, scene_names
 
-    for name in names():
-        print(f"{name:16} {find(name).summary}")
+    for name in scene_names():
+        print(f"{name:16} {find_scene(name).summary}")
 
 
 def _show_parameters(name: str) -> None:
     from dataclasses import fields
 
-    from drapery.scenes.catalogue import find
+    from drapery.scenes import find_scene
 
-    scene = find(name)
+    scene = find_scene(name)
     print(scene.summary)
     defaults = scene.parameters()
     for field in fields(defaults):

@@ -31,11 +31,10 @@ def write_patterns(
     format: o.FormatOption = None,
 ) -> None:
     """All patterns in all dyes."""
-    from drapery.banner.names import dye_name
-    from drapery.banner.packs import open_packs
+    from drapery.banner import dye_name
+    from drapery.packs import open_packs
     from drapery.settings import check_format
-    from drapery.sheets.faces import patterns_sheet
-    from drapery.sheets.sheet import check_sheet_target
+    from drapery.sheets import check_sheet_target, patterns_sheet
 
     _check_scale(scale)
     check_sheet_target(out)
@@ -58,8 +57,7 @@ def write_rotations(
 ) -> None:
     """One thing in all sixteen rotations."""
     from drapery.settings import Settings
-    from drapery.sheets.drawn import rotations_sheet
-    from drapery.sheets.sheet import check_sheet_target
+    from drapery.sheets import check_sheet_target, rotations_sheet
 
     settings = Settings(**o.options_of(words | {"view": view, "size": size}))
     check_sheet_target(out)
@@ -89,10 +87,9 @@ def write_packs(
     backend: o.BackendOption = "auto",
 ) -> None:
     """One design over our own art and over each of many packs."""
-    from drapery.banner.formats import read_design
+    from drapery.banner import read_design
     from drapery.settings import OPTIONS, Settings
-    from drapery.sheets.drawn import packs_sheet
-    from drapery.sheets.sheet import check_sheet_target
+    from drapery.sheets import check_sheet_target, packs_sheet
 
     _check_scale(scale)
     check_sheet_target(out)
@@ -118,8 +115,7 @@ def _check_scale(scale: int) -> None:
 
 def _dyes(text: str) -> tuple[str, ...]:
     """Dyes from a list with commas, or all. Raises DesignError."""
-    from drapery.banner.dyes import DYE_NAMES
-    from drapery.banner.names import dye_name
+    from drapery.banner import DYE_NAMES, dye_name
 
     if text == "all":
         return DYE_NAMES

@@ -131,7 +131,7 @@ def _request(
     values: dict[str, str], settings: Settings, ending: str, limits: PictureLimits
 ) -> PictureRequest:
     from drapery import Banner
-    from drapery.style.kinds import check_kind
+    from drapery.style import check_kind
 
     text = values.get("design", "")
     if not text:

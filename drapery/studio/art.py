@@ -6,21 +6,9 @@ from zlib import crc32
 import numpy as np
 
 from drapery import Banner, Layer
-from drapery.banner.packs.png import read_png
-from drapery.banner.packs.resampling import resize
-from drapery.banner.sprites import (
-    FLAG_REGIONS,
-    SHIELD_REGIONS,
-    UNITS,
-    SheetRegion,
-    composite,
-    flag_layers,
-    shield_layers,
-)
-from drapery.packs import Packs
-from drapery.pictures import face_pixels
-from drapery.render.encode.png import png_bytes
-from drapery.render.frame import Pixels
+from drapery.banner import FLAG_REGIONS, SHIELD_REGIONS, composite, flag_layers, shield_layers
+from drapery.packs import Packs, Texels, read_png
+from drapery.render import png_bytes
 from drapery.studio.document import Document
 
 FACE_SCALE = 8
@@ -34,9 +22,10 @@ GAP = 2
 def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
     """The plain face, 20 x 40 units of `scale` pixels; of a shield 12 x 22. Raises PackError."""
     if banner.kind == "banner":
-        return png_bytes(face_pixels(banner, packs, scale))
-    sheet = composite(shield_layers(banner, packs))
-    return png_bytes(_sampled(SHIELD_REGIONS["front"], sheet, scale))
+        region, layers = FLAG_REGIONS["front"], flag_layers(banner, packs)
+    else:
+        region, layers = SHIELD_REGIONS["front"], shield_layers(banner, packs)
+    return png_bytes(region.sample(composite(layers), scale))
 
 
 def pattern_names(packs: Packs) -> tuple[str, ...]:
@@ -83,19 +72,9 @@ def thumbnail(banner: Banner, packs: Packs) -> bytes:
     return png_bytes(face[step // 2 :: step, step // 2 :: step].copy())
 
 
-def _cell(packs: Packs, banner: Banner) -> Pixels:
-    # Sampled before compositing: the textures of fine packs have 256 times the texels.
-    layers = [(resize(texels, UNITS), rgb) for texels, rgb in flag_layers(banner, packs)]
-    return _sampled(FLAG_REGIONS["front"], composite(layers), 1)
-
-
-def _sampled(region: SheetRegion, sheet: Pixels, scale: int) -> Pixels:
-    """A region at `scale` pixels a unit, each the nearest texel to its middle."""
-    texels = region.crop(sheet)
-    height, width = (region.bottom - region.top) * scale, (region.right - region.left) * scale
-    down = (np.arange(height) * 2 + 1) * texels.shape[0] // (2 * height)
-    across = (np.arange(width) * 2 + 1) * texels.shape[1] // (2 * width)
-    return np.ascontiguousarray(texels[down][:, across])
+def _cell(packs: Packs, banner: Banner) -> Texels:
+    # Small sheets are enough: the textures of fine packs have 256 times the texels.
+    return FLAG_REGIONS["front"].sample(composite(flag_layers(banner, packs), side=64), 1)
 
 
 def sheet_address(document: Document, dye: str) -> str:

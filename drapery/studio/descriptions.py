@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from drapery.banner.dyes import Dye
-from drapery.banner.patterns import PATTERNS
+from drapery.banner import PATTERNS, Dye
 from drapery.option import Option
 from drapery.studio.sketch import Sketch
 

@@ -87,8 +87,7 @@ def _face(order: Order, path: Path, on_progress: Progress) -> None:
 
 def _loop(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery import iter_frames
-    from drapery.render import save_animation
-    from drapery.render.encode import check_animation_target
+    from drapery.render import check_animation_target, save_animation
 
     total = count_frames(order)
     on_progress(0, total)
@@ -99,9 +98,8 @@ def _loop(order: Order, path: Path, on_progress: Progress) -> None:
 
 def _model(order: Order, path: Path, on_progress: Progress) -> None:
     from drapery.packs import open_packs
-    from drapery.render import save_model
-    from drapery.render.export import check_model_target
-    from drapery.scenes.stager import loop
+    from drapery.render import check_model_target, save_model
+    from drapery.scenes import loop
 
     total, settings = count_frames(order), options_for(order)
     on_progress(0, total)
@@ -112,7 +110,7 @@ def _model(order: Order, path: Path, on_progress: Progress) -> None:
 
 
 def _design(order: Order, path: Path, on_progress: Progress) -> None:
-    from drapery.banner.formats import write_banner
+    from drapery.banner import write_banner
 
     text = write_banner(_banner(order)) + "\n"
     on_progress(1, 1)

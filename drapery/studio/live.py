@@ -12,14 +12,12 @@ from functools import partial
 
 import numpy as np
 
-from drapery.banner.design import Banner
-from drapery.banner.packs import Packs
+from drapery import Banner
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
-from drapery.render.camera import Camera
-from drapery.render.scene import Model
-from drapery.render.shadow import contact_shadow
-from drapery.scenes.stager import STEP, Stager, cloth_spec, floor_under
+from drapery.packs import Packs
+from drapery.render import Camera, Model, contact_shadow
+from drapery.scenes import STEP, Stager, cloth_spec, floor_under
 from drapery.settings import Settings
 from drapery.studio.live_cloth import LiveCloth, new_live_cloth
 from drapery.studio.panes import Pane, Shown
@@ -30,9 +28,7 @@ from drapery.studio.wind_controls import (
     wind_controls_of,
     wind_of,
 )
-from drapery.style.block import turn
-from drapery.style.body import Body
-from drapery.style.kinds import body_of
+from drapery.style import Body, body_of, turn
 
 SHADOW_STEPS = 6
 """A contact shadow is drawn anew after so many time steps."""

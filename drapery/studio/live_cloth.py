@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth import Cloth, Force, MovingCloth, PinPath, State
 from drapery.mesh import Array
-from drapery.scenes.stager import STEP, ClothSpec, cloth_at_rest
+from drapery.scenes import STEP, ClothSpec, cloth_at_rest
 
 EASE = 0.35
 """The share of the way to its target that a held particle goes in a time step."""

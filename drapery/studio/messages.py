@@ -17,11 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.mesh import Array
-from drapery.render import Camera, Light, Model
-from drapery.render.drawlist import Topology, make_topology
-from drapery.render.flatten import composite_layers
-from drapery.render.identity_cache import IdentityCache
-from drapery.render.relief import bake_normal_maps
+from drapery.render import (
+    Camera,
+    IdentityCache,
+    Light,
+    Model,
+    Topology,
+    bake_normal_maps,
+    composite_layers,
+    make_topology,
+)
 from drapery.studio.panes import Pane, Shown
 
 TYPES = {"float32": "<f4", "uint32": "<u4", "int32": "<i4", "uint8": "|u1"}

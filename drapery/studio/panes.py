@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.render import UNLIT, Camera, Frame, Material, Mesh, Model, Scene, TextureLayer
-from drapery.scenes.picture_grid import Picture, PictureGrid
+from drapery.scenes import Picture, PictureGrid
 
 Framing = Callable[[float], Camera]
 """The camera for a picture of width / height."""

@@ -4,9 +4,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from drapery.render.scene import Scene
-from drapery.scenes.catalogue import Clip, SceneEntry, find
-from drapery.scenes.picture_grid import Picture, PictureGrid
+from drapery.render import Scene
+from drapery.scenes import Clip, Picture, PictureGrid, SceneEntry, find_scene
 from drapery.studio.panes import Shown, shown_picture
 
 MAX_KEPT = 96 << 20
@@ -25,7 +24,7 @@ class Player:
     """
 
     def __init__(self, name: str, size: tuple[int, int] = (640, 480)) -> None:
-        self.entry: SceneEntry = find(name)
+        self.entry: SceneEntry = find_scene(name)
         self.parameters = self.entry.parameters(LIGHTER.get(name, {}))
         self._clip: Clip = replace(self.entry.clip, size=_laid_out(size))
         self._kept: list[Shown] | None = []

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from drapery import DesignError, DraperyError, Settings
-from drapery.banner.packs.png import png_size, read_png
-from drapery.banner.patterns import PATTERNS
+from drapery.banner import PATTERNS
+from drapery.packs import png_size, read_png
 from drapery.studio.share import as_tree, checked_title, of_tree
 from drapery.studio.sketch import Sketch
 
@@ -91,7 +91,7 @@ def checked_tags(tags: Iterable[object]) -> tuple[str, ...]:
 
 def _picture(data: bytes) -> bytes:
     """The thumbnail written again from its pixels, so that nothing else in the file is saved."""
-    from drapery.render.encode.png import png_bytes
+    from drapery.render import png_bytes
 
     if not data:
         return b""

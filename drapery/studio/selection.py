@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Literal
 
-from drapery.banner.dyes import DYES
+from drapery.banner import DYES
 from drapery.studio import sketch as edits
 from drapery.studio.document import Document
 from drapery.studio.sketch import Sketch

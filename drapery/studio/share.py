@@ -12,8 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from drapery import DesignError, Settings
-from drapery.banner.formats import own_json
+from drapery import Banner, DesignError, Settings
+from drapery.banner import parse_banner, write_banner
 from drapery.options import check_options
 from drapery.settings import NAMED_OPTIONS
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
@@ -80,7 +80,7 @@ def as_tree(sketch: Sketch, settings: Settings) -> dict[str, Any]:
     default.
     """
     whole = replace(sketch, strokes=tuple(replace(s, hidden=False) for s in sketch.strokes))
-    tree: dict[str, Any] = json.loads(own_json.write(banner_of(whole)))
+    tree: dict[str, Any] = json.loads(write_banner(banner_of(whole)))
     hidden = [place for place, stroke in enumerate(sketch.strokes) if stroke.hidden]
     more = {"title": sketch.title, "hidden": hidden, "options": options_of(settings)}
     return tree | {name: value for name, value in more.items() if value}
@@ -100,7 +100,7 @@ def of_tree(tree: object) -> tuple[Sketch, Settings]:
     """What `as_tree` made. Raises DesignError that names the fault."""
     if not isinstance(tree, dict):
         raise DesignError(f"the design is not a JSON object; {_REMEDY}")
-    sketch = sketch_of(own_json.from_tree(tree))
+    sketch = sketch_of(_banner_in(tree))
     hidden = _places(tree.get("hidden", []), len(sketch.strokes))
     strokes = tuple(replace(s, hidden=n in hidden) for n, s in enumerate(sketch.strokes))
     title = checked_title(tree.get("title", ""))
@@ -125,6 +125,14 @@ def checked_title(title: object) -> str:
     if not isinstance(title, str) or len(title) > MAX_TITLE or not title.isprintable():
         raise DesignError(f"the title must be a line of at most {MAX_TITLE} characters; shorten it")
     return title.strip()
+
+
+def _banner_in(tree: dict[str, Any]) -> Banner:
+    design = {name: tree[name] for name in ("base", "layers", "kind") if name in tree}
+    try:
+        return parse_banner(json.dumps(design), form="json")
+    except RecursionError:
+        raise DesignError(f"the link does not hold a design; {_REMEDY}") from None
 
 
 def _places(hidden: object, count: int) -> frozenset[int]:

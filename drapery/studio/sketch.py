@@ -5,9 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from drapery import Banner, DesignError, Layer
-from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS
-from drapery.banner.dyes import DYE_NAMES
-from drapery.banner.patterns import PATTERN_NAMES
+from drapery.banner import DYE_NAMES, LOOM_LAYERS, MAX_LAYERS, PATTERN_NAMES
 
 MAX_TITLE = 80
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from drapery import Banner, Settings
-from drapery.banner.formats import shorthand
+from drapery.banner import write_banner
 from drapery.option import Option
 from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
 
@@ -61,7 +61,7 @@ def as_command(order: Order, called: Mapping[str, str] | None = None, stem: str 
 
     called: the user's names of packs, by their path.
     """
-    design = [] if order.banner is None else [_quoted(shorthand.write(order.banner))]
+    design = [] if order.banner is None else [_quoted(write_banner(order.banner, "text"))]
     out = _quoted(file_name(order, stem))
     if order.kind == "json":
         return " ".join(["drapery show", *design, "--as json", ">", out])
@@ -78,7 +78,8 @@ def as_python(order: Order, called: Mapping[str, str] | None = None, stem: str =
     names, lines = _PYTHON.get(order.kind, _loop)(order, banner, named, out)
     if banner and order.banner is not None:
         names = [*names, "drapery.Banner"]
-        lines = [f"banner = Banner.parse({_text(shorthand.write(order.banner))})", *lines]
+        text = _text(write_banner(order.banner, "text"))
+        lines = [f"banner = Banner.parse({text})", *lines]
     return "\n".join([*_imports(names), "", *lines, ""])
 
 
@@ -185,7 +186,7 @@ def _face(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
 
 
 def _design(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
-    names = ["drapery.banner.formats.write_banner", "pathlib.Path"]
+    names = ["drapery.banner.write_banner", "pathlib.Path"]
     return names, [f'Path({out}).write_text(write_banner(banner) + "\\n")']
 
 

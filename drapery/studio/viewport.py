@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 
 from drapery import Banner, DraperyError
 from drapery.packs import Packs, open_packs
-from drapery.scenes.stager import STEP
+from drapery.scenes import STEP
 from drapery.studio.document import Document
 from drapery.studio.live import Live
 from drapery.studio.pack_store import PackStore

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drapery.cloth import Wind
-from drapery.scenes.stager import WIND_AXIS, flow
+from drapery.scenes import WIND_AXIS, flow
 from drapery.settings import MAX_WIND, OPTIONS, Settings
 
 DEFAULT_HEADING = float(np.degrees(np.arctan2(WIND_AXIS[0], WIND_AXIS[2])))

@@ -4,11 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.banner.design import Banner
-from drapery.banner.formats import read_design
-from drapery.banner.packs import open_packs
+from drapery import Banner, draw
+from drapery.banner import read_design
 from drapery.errors import DraperyError
-from drapery.pictures import draw
+from drapery.packs import open_packs
 from drapery.render import Frame, make_folder, replacing
 from drapery.settings import Settings
 from drapery.testing.cases import Case, CaseFile

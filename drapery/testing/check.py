@@ -10,7 +10,7 @@ from syrupy.extensions.base import AbstractSyrupyExtension
 from syrupy.extensions.single_file import SingleFileSnapshotExtension
 from syrupy.location import PyTestLocation
 
-from drapery.banner.design import Banner
+from drapery import Banner
 from drapery.errors import OutputError
 from drapery.render import Frame, Scene
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
@@ -164,7 +164,7 @@ def _drawn(picture: Any, backend: str) -> Frame:
 def _notes(design: tuple[Banner, tuple[str | Path, ...]] | None) -> list[LayerNote] | None:
     if design is None:
         return None
-    from drapery.banner.packs import open_packs
+    from drapery.packs import open_packs
 
     banner, packs = design
     return layer_notes(banner, open_packs(packs))

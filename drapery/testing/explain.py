@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 from PIL import Image
 
-from drapery.banner.design import Banner
-from drapery.banner.packs import Packs
-from drapery.banner.sprites import FRONT, flag_layers
-from drapery.comparison.metrics import measure
+from drapery import Banner
+from drapery.banner import FLAG_REGIONS, flag_layers
+from drapery.comparison import measure
+from drapery.packs import Packs
 from drapery.render import Frame, Pixels, png_bytes
 
 MAX_SHIFT = 4
@@ -26,7 +26,7 @@ def layer_notes(banner: Banner, packs: Packs) -> list[LayerNote]:
     names += [f"{layer.pattern}, {layer.dye}" for layer in banner.layers]
     sheets = [texels for texels, _ in flag_layers(banner, packs)]
     return [
-        {"name": name, "face": _pack(FRONT.crop(sheet))}
+        {"name": name, "face": _pack(FLAG_REGIONS["front"].crop(sheet))}
         for name, sheet in zip(names, sheets, strict=True)
     ]
 

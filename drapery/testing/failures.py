@@ -9,8 +9,7 @@ import json
 import re
 from pathlib import Path
 
-from drapery.comparison.panels import side_by_side
-from drapery.comparison.report import ReportEntry, data_of, html_report, write_text
+from drapery.comparison import ReportEntry, data_of, html_report, side_by_side, write_text
 from drapery.errors import OutputError
 from drapery.render import Frame, make_folder
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from PIL import Image, PngImagePlugin
 
-from drapery.comparison.metrics import errors
+from drapery.comparison import errors
 from drapery.errors import DraperyError, OptionError
 from drapery.render import Frame
 

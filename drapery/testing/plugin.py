@@ -13,7 +13,7 @@ import pytest
 from drapery.errors import DraperyError
 
 if TYPE_CHECKING:
-    from drapery.banner.design import Banner
+    from drapery import Banner
 
 Golden = Callable[..., None]
 """What the fixture `golden` is: `golden(picture, name, *, tolerance, pixels, ...)`."""

@@ -4,8 +4,7 @@ from typing import Any
 
 from nicegui import ui
 
-from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS
-from drapery.banner.dyes import DYES
+from drapery.banner import DYES, LOOM_LAYERS, MAX_LAYERS
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import LayerList, value_of
 from drapery.studio.descriptions import dye_colour, dye_title, pattern_title

@@ -4,7 +4,7 @@ from functools import cache
 
 from nicegui import ui
 
-from drapery.scenes import catalogue
+from drapery.scenes import find_scene, scene_names
 from drapery.settings import OPTIONS
 from drapery.studio.descriptions import view_title
 from drapery.studio.panels.controls import Controls
@@ -67,4 +67,4 @@ def _view(session: Session, controls: Controls, name: str) -> None:
 @cache
 def _scenes() -> dict[str, str]:
     """All ready-made scenes with their summaries."""
-    return {name: f"{name}: {catalogue.find(name).summary}" for name in catalogue.names()}
+    return {name: f"{name}: {find_scene(name).summary}" for name in scene_names()}

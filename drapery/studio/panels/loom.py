@@ -7,8 +7,7 @@ from itertools import count
 from nicegui import ui
 
 from drapery import Banner, DraperyError
-from drapery.banner.design import LOOM_LAYERS
-from drapery.banner.loom import fits_loom, loom_steps, simplify
+from drapery.banner import LOOM_LAYERS, fits_loom, loom_steps, simplify
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session

@@ -1,6 +1,6 @@
 """The sixteen dyes, for the chosen layer or for the next one."""
 
-from drapery.banner.dyes import DYES, Dye
+from drapery.banner import DYES, Dye
 from drapery.studio.components import Palette, value_of
 from drapery.studio.descriptions import dye_colour, dye_title, pattern_title
 from drapery.studio.notices import errors_shown

@@ -3,9 +3,7 @@
 from nicegui import context, ui
 
 from drapery import Banner, DesignError
-from drapery.banner.formats import write_banner
-from drapery.banner.formats.registry import FORMS
-from drapery.banner.names import shown as quoted
+from drapery.banner import FORMS, write_banner
 from drapery.studio.components import value_of
 from drapery.studio.descriptions import described
 from drapery.studio.notices import show_notice
@@ -13,6 +11,9 @@ from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
 from drapery.studio.upload_queue import MAX_FOUND, UploadQueue
 from drapery.studio.widgets import button, text_element
+
+MAX_PLACE = 60
+"""Letters of a place that are shown for a banner that was found."""
 
 _PLACEHOLDER = (
     "Paste a /give command, an item, JSON, the address of a banner editor,"
@@ -100,9 +101,13 @@ def _choices(session: Session, upload_queue: UploadQueue) -> None:
             picture.props["src"] = (
                 f"/found/{session.token}/{number}.png?v={id(upload_queue.found):x}"
             )
-            text_element(quoted(found.where, 60).strip("'") or f"Banner {number + 1}")
+            text_element(_shortened(found.where) or f"Banner {number + 1}")
     if len(upload_queue.found) > MAX_FOUND:
         text_element(f"The first {MAX_FOUND} of {len(upload_queue.found)}.", "p").classes("hint")
+
+
+def _shortened(place: str) -> str:
+    return place if len(place) <= MAX_PLACE else f"{place[: MAX_PLACE - 1]}…"
 
 
 def _writer(session: Session) -> None:
