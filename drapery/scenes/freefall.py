@@ -20,6 +20,7 @@ from drapery.cloth.solvers.verlet import SolverVerlet
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.shadow import contact_shadow
+from drapery.render.vectors import dots
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion, placed
@@ -81,7 +82,8 @@ def sheet(parameters: FreefallParameters, at: Array) -> Cloth:
     """A level cloth over a place on the ground, turned a little."""
     cloth = grid(*parameters.grid, parameters.side, parameters.side, pins="none", fabric=SOFT)
     flat = placed(cloth, np.array([0, parameters.side / 2, 0]))
-    turn = rotation_about((0, 1, 0), 12) @ rotation_about((1, 0, 0), -90)
+    about_y, about_x = rotation_about((0, 1, 0), 12), rotation_about((1, 0, 0), -90)
+    turn = dots(about_y[:, None], about_x.T)  # the product of the matrices
     return placed(flat, at + np.array([0.0, HEIGHT, 0.0]), turn)
 
 

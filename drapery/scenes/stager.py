@@ -35,6 +35,7 @@ from drapery.render.camera import Camera
 from drapery.render.light import UNLIT, lit_at
 from drapery.render.scene import Model, Scene
 from drapery.render.shadow import contact_shadow
+from drapery.render.vectors import unit
 from drapery.render.views import find_view, frame_view, turntable
 from drapery.settings import Settings, background_colour
 from drapery.style.block import turn
@@ -278,7 +279,7 @@ def _grid_shell(shape: tuple[int, int], uv_mapping: UVMapping) -> Shell:
 
 def flow(speed: float, direction: float | None) -> tuple[float, float, float]:
     """The mean wind on a body that is not turned [m/s]; direction [degrees]: see `Settings`."""
-    along = np.array(WIND_AXIS) / np.linalg.norm(WIND_AXIS)
+    along = unit(np.array(WIND_AXIS))
     if direction is not None:
         heading = math.radians(direction)
         along = np.array([math.sin(heading), 0.0, math.cos(heading)])
