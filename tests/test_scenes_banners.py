@@ -42,8 +42,11 @@ def test_the_cube_holds_4913_banners_in_rows() -> None:
     places = stress._places(stress.StressParameters())
     assert places.shape == (4913, 3)
     assert len(np.unique(places, axis=0)) == 4913
-    worn = stress._bands(17)
-    assert worn.min() == 0 and worn.max() == len(stress.RAINBOW) * stress.VARIANTS - 1
+    material_index = stress._bands(17)
+    assert (
+        material_index.min() == 0
+        and material_index.max() == len(stress.RAINBOW) * stress.VARIANTS - 1
+    )
 
 
 def test_every_banner_of_the_cube_moves_by_itself() -> None:
@@ -57,7 +60,7 @@ def test_every_banner_of_the_cube_moves_by_itself() -> None:
 def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
     cloth = flag_cloth((5, 9))
     parameters, clip = hall.HallParameters(), Clip((64, 64), 60, 20.0)
-    states = list(hall.blown(parameters, cloth, clip))
+    states = list(hall.flag_states(parameters, cloth, clip))
     assert len(states[0].positions) == 32
     off = np.stack([abs(s.positions[:, -1, 0] - s.positions[:, 0, 0]) for s in states])
     peak = off.argmax(axis=0) / clip.fps
@@ -70,7 +73,7 @@ def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
 def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
     parameters = flag.FlagParameters()
     cloth = flag.banner_on_its_side(parameters.grid)
-    for state in flag.flown(parameters, cloth, SHORT):
+    for state in flag.flag_states(parameters, cloth, SHORT):
         hoist, fly = state.positions[0, :4], state.positions[0, -4:]
         np.testing.assert_allclose(hoist, cloth.rest_positions[:4], atol=1e-12)
         assert (fly[:, 0] - hoist[:, 0]).min() > 0.6 * 40 / 24 * flag.GROWN
@@ -81,7 +84,7 @@ def test_the_printed_sign_folds_a_banner_and_the_right_one_does_not() -> None:
     cloth, clip = flag_cloth((5, 9)), Clip((64, 64), 60, 20.0)
     fallen = {}
     for solver in (fold.SolverMisprinted(), SolverDesbrun()):
-        *_, last = fold.hanging(fold.FoldParameters(wind=0.5), cloth, solver, clip)
+        *_, last = fold.flag_states(fold.FoldParameters(wind=0.5), cloth, solver, clip)
         edges = np.ptp(last.positions[0].reshape(9, 5, 3)[1:, :, 0], axis=1)
         fallen[type(solver)] = edges.min() / FLAG_SIZE[0]
     assert fallen[SolverDesbrun] > 0.9

@@ -1,4 +1,4 @@
-"""Scenes by the command line: listed, set by options, gathered in a gallery; faults in one line."""
+"""Scenes on the command line: listed, set by options, in a gallery; errors in one line."""
 
 import re
 from html import escape
@@ -38,7 +38,7 @@ def test_parameters_are_options(drapery, tmp_path) -> None:
     assert pictures[0] == pictures[1] == pictures[2]
 
 
-def test_a_sail_obeys_its_script(drapery, tmp_path) -> None:
+def test_a_sail_follows_its_script(drapery, tmp_path) -> None:
     script = tmp_path / "wind.txt"
     script.write_text("0 strength 9\n0.2 direction 60\n")
     clip = ("--seconds", "0.4", "--fps", "10", "--size", "48x48")
@@ -53,18 +53,19 @@ def test_a_sail_obeys_its_script(drapery, tmp_path) -> None:
     [
         (["nope"], "scene 'nope' is not known; use one of: banner"),
         (["blocky", "--stps", "3"], "has no parameter 'stps'; it has: steps"),
-        (["blocky", "--pixel-snap", "maybe"], "write it like yes"),
+        (["blocky", "--pixel-snap", "maybe"], "pixel_snap 'maybe' is not yes or no"),
         (["blocky", "--steps", "0"], "steps 0 is out of range"),
         (["blocky", "stray"], "'stray' follows no option"),
-        (["banner", "--wind", "nan"], "wind = 'nan' does not fit"),
+        (["banner", "--wind", "nan"], "wind nan is out of range; use 0 to 40 m/s"),
         (["banner", "--left", "white nosuch:red"], "nosuch"),
-        (["banner", "--left-grid", "1x5"], "columns 1"),
+        (["banner", "--left-grid", "1x5"], "left_grid 1 is out of range; use 2 to 65 particles"),
+        (["banner", "--left-grid", "5"], "left_grid '5' is not 2 numbers; write it like 3x5"),
         (["sail", "--script", "none.txt"], "script none.txt cannot be read"),
         (["cape", "--dye", "sky"], "dye 'sky' is not known"),
         ([], "no scene is given"),
     ],
 )
-def test_a_fault_is_one_line_and_leaves_no_file(drapery, tmp_path, words, fault) -> None:
+def test_an_error_is_one_line_and_leaves_no_file(drapery, tmp_path, words, fault) -> None:
     target = tmp_path / "x.png"
     code, _, err = drapery("scene", *words, "-o", target, "--seconds", "0.05")
     assert code == 2
@@ -72,7 +73,7 @@ def test_a_fault_is_one_line_and_leaves_no_file(drapery, tmp_path, words, fault)
     assert not target.exists()
 
 
-def test_the_gallery_shows_what_it_made(drapery, tmp_path) -> None:
+def test_the_gallery_shows_every_scene_that_it_drew(drapery, tmp_path) -> None:
     folder = tmp_path / "new" / "gallery"
     chosen = ("cape-pixel", "julia")
     code, _, _ = drapery(
@@ -87,7 +88,7 @@ def test_the_gallery_shows_what_it_made(drapery, tmp_path) -> None:
             assert image.size == (96, 96)
 
 
-def test_a_gallery_of_no_known_kind_is_refused(drapery, tmp_path) -> None:
+def test_a_gallery_refuses_an_unknown_format_and_a_file_as_folder(drapery, tmp_path) -> None:
     code, _, err = drapery("gallery", "-o", tmp_path / "g", "--as", "bmp")
     assert code == 2 and "use one of: gif" in err
     assert not (tmp_path / "g").exists()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scene_truths import clearance
+from scene_helpers import clearance
 
 from drapery.cloth import max_stretch
 from drapery.cloth.forces import Gravity
@@ -18,7 +18,7 @@ LONG = Clip((64, 64), 100, 20.0)
 def swung(pins, **words):
     parameters = corners.CornersParameters(**words)
     cloth = corners.level_cloth(pins, parameters)
-    return cloth, list(corners.swung(cloth, parameters, LONG))
+    return cloth, list(corners.cloth_states(cloth, parameters, LONG))
 
 
 def energy(cloth, state) -> float:
@@ -73,7 +73,7 @@ def test_a_sail_billows_where_the_wind_blows(direction) -> None:
     script = f"0 direction {direction}\n0 strength 8\n1.5 off"
     cloth = sail.square_sail(parameters.grid)
     states = list(
-        sail.blown(parameters, tuple(parse_script(script)), cloth, Clip((64, 64), 50, 20.0))
+        sail.sail_states(parameters, tuple(parse_script(script)), cloth, Clip((64, 64), 50, 20.0))
     )
     assert len(states) == 50
     rest = cloth.rest_positions[:, 2].mean()
@@ -92,10 +92,10 @@ def test_a_sail_under_one_command_is_one_motion() -> None:
     """Nothing tells where one part of a script ends and the next begins."""
     parameters, cloth = sail.SailParameters(), sail.square_sail((6, 6))
     clip = Clip((64, 64), 12, 20.0)
-    plain = sail.blown(parameters, tuple(parse_script("0 strength 6")), cloth, clip)
+    plain = sail.sail_states(parameters, tuple(parse_script("0 strength 6")), cloth, clip)
     parts = "0 strength 6\n0.2 strength 6\n0.3 on\n0.41 strength 6"
     for one, other in zip(
-        plain, sail.blown(parameters, tuple(parse_script(parts)), cloth, clip), strict=True
+        plain, sail.sail_states(parameters, tuple(parse_script(parts)), cloth, clip), strict=True
     ):
         np.testing.assert_allclose(one.positions, other.positions, atol=1e-12)
 
@@ -104,14 +104,14 @@ def test_a_sail_under_one_command_is_one_motion() -> None:
     ("text", "fault"),
     [
         ("1 faster", "line 1: '1 faster' is not a command"),
-        ("0 on\n\nsoon off", "line 3: 'soon' is no number"),
+        ("0 on\n\nsoon off", "line 3: 'soon' is not a number"),
         ("0 strength -2", "from 0 to 40"),
-        ("0 strength nan", "no number"),
+        ("0 strength nan", "is not a number"),
         ("2 on\n1 off", "line 2: 1 s is before 2 s"),
         ("0 strength", "line 1"),
     ],
 )
-def test_a_script_names_the_line_that_it_cannot_obey(text, fault) -> None:
+def test_a_script_error_names_its_line(text, fault) -> None:
     with pytest.raises(OptionError, match=fault):
         list(parse_script(text))
 
@@ -125,7 +125,7 @@ def test_a_script_is_read_from_a_file(tmp_path) -> None:
     with pytest.raises(OptionError, match="cannot be read"):
         read_script(str(tmp_path / "none.txt"))
     file.write_bytes(b"\xff\xfe")
-    with pytest.raises(OptionError, match="no text"):
+    with pytest.raises(OptionError, match="is not a text file"):
         read_script(str(file))
 
 
@@ -139,7 +139,7 @@ def test_falling_cloth_drapes_and_never_goes_through(on) -> None:
         if on == "beetle"
         else freefall.fox_colliders(parameters)
     )
-    states = list(freefall.fall(parameters, cloth, met, Clip((64, 64), 60, 20.0)))
+    states = list(freefall.cloth_states(parameters, cloth, met, Clip((64, 64), 60, 20.0)))
     for state in states[8::6]:
         assert clearance(cloth, state, met) > 0  # half the thickness may go in; the middle not
     last = states[-1]

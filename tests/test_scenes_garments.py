@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scene_truths import clearance
+from scene_helpers import clearance
 
 from drapery.cloth import max_stretch
 from drapery.errors import OptionError
@@ -37,7 +37,7 @@ def test_a_foot_goes_back_as_far_as_the_ground() -> None:
 def test_a_cape_stays_on_and_out_of_the_body() -> None:
     parameters, gait = cape.CapeParameters(), Gait()
     cloth = cape.cape_cloth(parameters.grid)
-    for state in cape.walk(parameters, cloth, gait, STRIDE):
+    for state in cape.cape_states(parameters, cloth, gait, STRIDE):
         pins = gait.pins(cloth)(state.time)
         np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)
         assert clearance(cloth, state, gait.colliders(cape.BODY)) > 0.45 * TEXEL
@@ -47,7 +47,7 @@ def test_a_cape_stays_on_and_out_of_the_body() -> None:
 
 def test_a_walk_in_a_cape_ends_as_it_began() -> None:
     cloth, loop = cape.cape_cloth((6, 9)), Clip((64, 64), 81, 20.0)
-    states = list(cape.walk(cape.CapeParameters(), cloth, Gait(), loop))
+    states = list(cape.cape_states(cape.CapeParameters(), cloth, Gait(), loop))
     apart = np.abs(states[-1].positions - states[0].positions).max()
     step = np.abs(states[1].positions - states[0].positions).max()
     assert apart < step  # the seam of the loop is no wider than a step between frames
@@ -57,7 +57,7 @@ def test_a_walk_in_a_cape_ends_as_it_began() -> None:
 def test_a_scarf_stays_on_and_out_of_the_body(place) -> None:
     parameters, gait = scarf.ScarfParameters(), Gait()
     cloth = scarf.tail(*scarf.TAILS[place])
-    for state in scarf.streaming(parameters, cloth, gait, STRIDE):
+    for state in scarf.tail_states(parameters, cloth, gait, STRIDE):
         pins = gait.pins(cloth)(state.time)
         np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)
         assert clearance(cloth, state, gait.colliders(scarf.BODY)) > 0
@@ -68,7 +68,7 @@ def test_a_scarf_stays_on_and_out_of_the_body(place) -> None:
 def test_a_skirt_stays_on_and_is_moved_by_the_legs_alone() -> None:
     parameters, gait = skirt.SkirtParameters(), Gait(2.0)
     cloth = skirt.skirt_cloth(parameters)
-    states = list(skirt.walk(parameters, cloth, gait, STRIDE))
+    states = list(skirt.skirt_states(parameters, cloth, gait, STRIDE))
     for state in states:
         pins = gait.pins(cloth)(state.time)
         np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)

@@ -1,7 +1,7 @@
 """A picture of each scene that has been looked at, and that every scene can be played."""
 
 import pytest
-from scene_truths import still
+from scene_helpers import still
 
 from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Clip, find, names

@@ -65,7 +65,7 @@ def test_the_curtain_plays_at_its_own_rate() -> None:
 def cape(tweaks: CapeTweaks) -> tuple[Array, list[float]]:
     """Two loops of the dots from the hero's feet, [F, N, 2], and the times."""
     frames = list(
-        cape_pixel.flights(cape_pixel.CapePixelParameters(), tweaks, Clip((64, 64), 240, 60.0))
+        cape_pixel.motion(cape_pixel.CapePixelParameters(), tweaks, Clip((64, 64), 240, 60.0))
     )
     return np.stack([places for places, _ in frames]), [time for _, time in frames]
 
@@ -91,7 +91,7 @@ def test_neighbouring_dots_stay_near() -> None:
         )
         now = later
     apart = np.linalg.norm(now[dots.pairs[:, 1]] - now[dots.pairs[:, 0]], axis=1)
-    assert (apart < dots.reach * 1.1).all()
+    assert (apart < dots.max_distance * 1.1).all()
 
 
 def test_each_tweak_does_what_it_is_for() -> None:

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
         STEP,
         WIND_AXIS,
         ClothSpec,
-        PanelCloth,
         Stager,
         cloth_at_rest,
         cloth_spec,
@@ -44,7 +43,6 @@ __all__ = [
     "WIND_AXIS",
     "Clip",
     "ClothSpec",
-    "PanelCloth",
     "Picture",
     "PictureGrid",
     "SceneEntry",
@@ -69,7 +67,7 @@ _NAMES = {
     "drapery.scenes.parameters": ("SceneParameters",),
     "drapery.scenes.picture_grid": ("Picture", "PictureGrid"),
     "drapery.scenes.stager": (
-        *("STEP", "WIND_AXIS", "ClothSpec", "PanelCloth", "Stager", "cloth_at_rest"),
+        *("STEP", "WIND_AXIS", "ClothSpec", "Stager", "cloth_at_rest"),
         *("cloth_spec", "floor_under", "flow", "loop", "still"),
     ),
 }

@@ -69,13 +69,13 @@ def play(parameters: BannerParameters, clip: Clip) -> Iterator[Scene]:
         *(shadow((s.cell[0] + 0.5, 0), 0.42) for s in BLOCKS),
         wood_model(BLOCKS, packs),
     )
-    camera = frame_points(FRONT, _room(), clip.size[0] / clip.size[1], margin=0.04)
+    camera = frame_points(FRONT, _framed_points(), clip.size[0] / clip.size[1], margin=0.04)
     for waving in zip(*_flags(parameters, clip), strict=True):
         yield Scene((*still, *waving), camera, clip.size, background=SKY, samples=4)
 
 
 def _flags(parameters: BannerParameters, clip: Clip) -> list[Iterator[Model]]:
-    """Each flag at every frame; they differ in topology, so each is a motion of its own."""
+    """Each flag at every frame. The flags differ in topology, so each is simulated alone."""
     p = parameters
     designs, shapes = (p.left, p.middle, p.right), (p.left_grid, p.middle_grid, p.right_grid)
     return [
@@ -106,7 +106,7 @@ def _flag(
     return (flag_models(shell, state, materials, parameters.thickness) for state in states)
 
 
-def _room() -> Array:
+def _framed_points() -> Array:
     """What the camera frames: the ground and the height of the banners [m]."""
     return np.array(
         [[x, y, z] for x in (-2, 2) for y, z in ((-1, 1), (0, -1), (1.95, -0.5), (1.95, 0.5))]

@@ -27,7 +27,7 @@ class BannerBlock:
 
 
 def flag_cloth(shape: tuple[int, int]) -> Cloth:
-    """The flag of a banner, hanging from y = 0: particles across and down."""
+    """The flag of a banner, its top edge at y = 0. shape: particles across and down."""
     return grid(*shape, *FLAG_SIZE)
 
 
@@ -44,7 +44,7 @@ def flags_at_rest(cloth: Cloth, banner_blocks: Sequence[BannerBlock]) -> State:
 
 
 def wood_model(banner_blocks: Sequence[BannerBlock], packs: Packs) -> Model:
-    """Poles and bars, all blocks of one placement."""
+    """The poles and bars of blocks that all have the same placement."""
     meshes = [_at(wood(block.placement), block) for block in banner_blocks]
     mesh = Mesh(
         np.stack([mesh.positions for mesh in meshes]),
@@ -63,9 +63,10 @@ def flag_materials(designs: Sequence[str], packs: Packs) -> tuple[Material, ...]
 def flag_models(
     shell: Shell, state: State, materials: tuple[Material, ...], thickness: float = 1.0
 ) -> Model:
-    """The flags of a state; the materials repeat in turn. thickness: in texels.
+    """The flags of a state. thickness: in texels.
 
-    Give every frame the same materials: the renderer knows by identity what it has prepared.
+    materials: flag number i has material number i, from the first again after the last. Give
+    every frame the same objects, because the renderer recognises them by identity.
     """
     index = np.arange(len(state.positions), dtype=np.int32) % len(materials)
     return garment(shell, state.positions, thickness * SCALE, *materials, index=index)
@@ -73,8 +74,8 @@ def flag_models(
 
 def _sheet(cloth: Cloth, block: BannerBlock) -> Mesh:
     rest = cloth.rest_positions
-    hanging = Mesh(rest, np.zeros_like(rest), cloth.triangles, cloth.uvs)
-    return moved(hanging, flag_origin(block.placement))
+    sheet = Mesh(rest, np.zeros_like(rest), cloth.triangles, cloth.uvs)
+    return moved(sheet, flag_origin(block.placement))
 
 
 def _at(mesh: Mesh, block: BannerBlock) -> Mesh:

@@ -39,7 +39,7 @@ BLOCK = BannerBlock((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=42, elevation=10, fov=26)
 LOOP = 4.0
 TEXELS = (20, 40)
-"""Of a flag, across and down."""
+"""Of a flag: texels across and down."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class BlockyParameters(SceneParameters):
 
 
 def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
-    """All of the same motion."""
+    """Two or four pictures of the same motion."""
     if not 1 <= parameters.steps <= 90:
         raise OptionError(f"steps {parameters.steps} is out of range; use 1 to 90")
     packs = open_packs(())
@@ -66,7 +66,7 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     cloth, materials = flag_cloth(parameters.grid), flag_materials((parameters.design,), packs)
     shell, shape = flag_shell(cloth), (parameters.grid[1], parameters.grid[0])
     still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wood_model((BLOCK,), packs))
-    camera = frame_points(SIDE_ON, _room(), size[0] / size[1], margin=0.05)
+    camera = frame_points(SIDE_ON, _framed_points(), size[0] / size[1], margin=0.05)
     velocity = (0.25 * parameters.wind, 0.0, 0.97 * parameters.wind)
     forces = (Gravity(), Wind(velocity, gusts=0.5, seed=parameters.seed, period=LOOP))
     start = flags_at_rest(cloth, (BLOCK,))
@@ -87,7 +87,7 @@ def _pixels(sheet: Array, shape: tuple[int, int], materials: tuple[Material, ...
     return Model(pixelled(sheet, shape, TEXELS, FLAG_MAPPING, SCALE), materials)
 
 
-def _room() -> Array:
+def _framed_points() -> Array:
     """What the camera frames: the banner and the ground below it [m]."""
     low = [[x, y, z] for x in (-0.9, 0.9) for y, z in ((-0.5, 0.9), (0, -0.9))]
     return np.array([*low, [-0.5, 1.95, 0], [0.5, 1.95, 0], [0.3, 1.0, 1.2]])

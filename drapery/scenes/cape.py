@@ -36,7 +36,7 @@ from drapery.style.scenery import SKY
 from drapery.style.tailoring import dyed, garment
 
 SETTLING = 2 * LOOP
-"""A cape has come into the period of the walk after this time [s]."""
+"""After this time the motion of a cape repeats with the walk [s]."""
 BODY = ("body", "right_arm", "left_arm", "right_leg", "left_leg")
 
 
@@ -59,16 +59,16 @@ def play(parameters: CapeParameters, clip: Clip) -> Iterator[Scene]:
     gait, cloth = Gait(parameters.speed), cape_cloth(parameters.grid)
     shell, wool = cape_shell(cloth), dyed(packs.texture("entity/player/cape"), parameters.dye)
     skin, causeway = figure_material(parameters.skin, packs), ground(packs)
-    for state in walk(parameters, cloth, gait, clip):
+    for state in cape_states(parameters, cloth, gait, clip):
         models = (
             *walker(gait, state.time, skin, causeway),
-            worn(shell, state, parameters.thickness, wool),
+            cape_model(shell, state, parameters.thickness, wool),
         )
         yield Scene(models, camera(clip.size), clip.size, background=SKY, samples=4)
 
 
-def worn(shell: Shell, state: State, thickness: float, wool: Material) -> Model:
-    """The cape of a state; its thickness in texels."""
+def cape_model(shell: Shell, state: State, thickness: float, wool: Material) -> Model:
+    """The cape of a state. thickness: in texels."""
     return garment(shell, state.positions[0], thickness * TEXEL, wool)
 
 
@@ -77,7 +77,9 @@ def cape_shell(cloth: Cloth) -> Shell:
     return make_shell(cloth.triangles, cloth.uvs, cape_mapping(SKIN_SHEET))
 
 
-def walk(parameters: CapeParameters, cloth: Cloth, gait: Gait, clip: Clip) -> Iterator[State]:
+def cape_states(
+    parameters: CapeParameters, cloth: Cloth, gait: Gait, clip: Clip
+) -> Iterator[State]:
     """The cape's state at each frame, in the figure's own frame."""
     wind = Wind((0.0, 0.0, -gait.speed - parameters.wind), seed=parameters.seed, period=LOOP)
     return motion(
@@ -91,7 +93,7 @@ def walk(parameters: CapeParameters, cloth: Cloth, gait: Gait, clip: Clip) -> It
 
 
 def cape_cloth(shape: tuple[int, int]) -> Cloth:
-    """A cape on the figure's back, facing backwards, held by two particles at each shoulder."""
+    """A cape on the figure's back, facing backwards, pinned by two particles at each shoulder."""
     columns, rows = shape
     shoulders = [0, 1, columns - 2, columns - 1]
     cloth = grid(columns, rows, *CAPE_SIZE, pins=shoulders)

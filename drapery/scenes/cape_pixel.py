@@ -18,21 +18,21 @@ from drapery.style.hero import RUN, sprite
 from drapery.style.pixel import bounding_box, fill_polygon, outline
 
 CANVAS_WIDTH = 96
-"""Pixels of the art across a panel; it is enlarged by a whole number."""
+"""Width of the art in a panel [pixels], before it is enlarged by a whole number."""
 LOOP = 4.0
 DISTANCE = 200
-"""Run in one loop [pixels], after which the ground repeats."""
+"""How far the hero runs in one loop, after which the ground repeats [pixels]."""
 RUNNING = ((0.0, 2.5), (3.3, 4.0))
-"""When the hero runs; it stands in between [s]."""
+"""When the hero runs, from and to [s]; it stands at other times."""
 JUMP = (0.9, 1.7, 17.0)
 """Take-off and landing [s], and height [pixels]."""
 SKY_PIXEL, HILL, GRASS, EARTH = (146, 192, 232), (122, 172, 206), (104, 162, 84), (120, 86, 62)
 ACROSS, DOWN = 2.6, 2.2
 """How far neighbouring dots may be apart [pixels]."""
 GROUND_HEIGHT = 8
-"""[pixels]"""
+"""Height of the ground in the picture [pixels]."""
 FRAMES_PER_SECOND = 10
-"""Of the running animation."""
+"""Frame rate of the running animation [1/s]."""
 
 
 @dataclass(frozen=True)
@@ -41,15 +41,15 @@ class CapePixelParameters(SceneParameters):
 
     air: bool = parameter(True, "Whether the air resists")
     turning: bool = parameter(True, "Whether the cape's turning is damped")
-    push: bool = parameter(True, "Whether the cape is pushed against the hero's motion")
+    push: bool = parameter(True, "Whether the cape is pushed opposite to the hero's motion")
     hooks: bool = parameter(True, "Whether the pins move with the hero's animation")
     compare: bool = parameter(True, "Whether the plain method is shown too")
     debug: bool = parameter(
-        False, "Shows dots green, constraints blue, pins red and the scanned box orange"
+        False, "Shows dots green, constraints blue, pins red and the bounding box orange"
     )
     dye: str = parameter("red", "Dye of the cape", choices=DYE_NAMES)
     hem: bool = parameter(True, "Whether the lower edge has a second tone")
-    grid: tuple[int, int] = parameter((3, 6), "DotCloth across and down the cape", (2, 32), "dots")
+    grid: tuple[int, int] = parameter((3, 6), "Dots across and down the cape", (2, 32), "dots")
     passes: int = parameter(3, "Passes over all constraints in a step", (0, 64))
 
 
@@ -63,28 +63,28 @@ class HeroState:
 
 
 def play(parameters: CapePixelParameters, clip: Clip) -> Iterator[PictureGrid]:
-    """The camera runs along; with `compare` the plain method is above."""
+    """The camera follows the hero; with `compare` the plain method is above."""
     if parameters.dye not in DYES:
         raise OptionError(f"dye {parameters.dye!r} is not known; use one of: {', '.join(DYES)}")
     tweaks = CapeTweaks(parameters.air, parameters.turning, parameters.push, parameters.hooks)
-    ways = {"as it is": CapeTweaks(False, False, False, False)} if parameters.compare else {}
-    ways["tweaked"] = tweaks
-    size = panel_size(clip.size, 1, len(ways))
-    labels = tuple(ways) if parameters.compare else ("",)
-    rows = (_frames(parameters, way, size, clip) for way in ways.values())
+    variants = {"as it is": CapeTweaks(False, False, False, False)} if parameters.compare else {}
+    variants["tweaked"] = tweaks
+    size = panel_size(clip.size, 1, len(variants))
+    labels = tuple(variants) if parameters.compare else ("",)
+    rows = (_frames(parameters, variant, size, clip) for variant in variants.values())
     for pictures in zip(*rows, strict=True):
         yield PictureGrid(pictures, labels, columns=1)
 
 
-def flights(
+def motion(
     parameters: CapePixelParameters, tweaks: CapeTweaks, clip: Clip
 ) -> Iterator[tuple[Array, float]]:
-    """The dots [N, 2] at each frame, from the feet of the hero, and the time [s]."""
+    """At each frame the dots from the hero's feet [pixels], shape [N, 2], and the time [s]."""
     dots = dot_grid(*parameters.grid, across=ACROSS, down=DOWN)
     steps = round(LOOP / STEP)
     now = before = _rest(dots, tweaks)
     places = [now]
-    # One loop to settle, then what is asked for.
+    # One loop to settle, then the frames of the clip.
     for number in range(1, steps + round((clip.count - 1) / clip.fps / STEP) + 1):
         hero = hero_at(number * STEP)
         hooks = hero.feet + hooks_of(dots, hero, tweaks)
@@ -113,10 +113,10 @@ def hero_at(time: float) -> HeroState:
 
 
 def hooks_of(dots: DotCloth, hero: HeroState, tweaks: CapeTweaks) -> Array:
-    """Where the top row is fastened, from the feet [pixels], shape [P, 2].
+    """Where the top row is fastened, relative to the feet [pixels], shape [P, 2].
 
-    Along the shoulders; while the hero runs or falls, `hooks` lowers those at the back, so that
-    a cape that streams behind keeps some height.
+    The hooks lie along the shoulders. While the hero runs or falls, the tweak `hooks` lowers those
+    at the back, so that a cape that streams behind keeps some height.
     """
     count = len(dots.pinned)
     part = np.linspace(0, 1, count)  # 0 at the back
@@ -146,7 +146,7 @@ def _frames(
     scale = max(1, size[0] // CANVAS_WIDTH)
     width, height = -(-size[0] // scale), -(-size[1] // scale)
     dots = dot_grid(*parameters.grid, across=ACROSS, down=DOWN)
-    for places, time in flights(parameters, tweaks, clip):
+    for places, time in motion(parameters, tweaks, clip):
         hero = hero_at(time)
         feet = np.round(np.array([width * 0.55, height - GROUND_HEIGHT + hero.feet[1]]))
         canvas = _landscape(width, height, hero.feet[0])
@@ -161,7 +161,7 @@ def _frames(
 def _draw_cape(
     canvas: Pixels, parameters: CapePixelParameters, dots: DotCloth, places: Array
 ) -> None:
-    """Fill the polygon of the edge dots, and its last row of cells in the second tone."""
+    """Fill the outline of the cape, and its last row of cells in the second tone."""
     height, width = canvas.shape[:2]
     rgb = np.array(DYES[parameters.dye].rgb)
     canvas[fill_polygon(places[outline(*dots.shape)], width, height), :3] = rgb
@@ -171,7 +171,7 @@ def _draw_cape(
 
 
 def _landscape(width: int, height: int, ran: float) -> Pixels:
-    """Sky, far hills that pass at half the speed, and ground with stones that pass."""
+    """Sky, hills that move at half the speed, and ground with stones. ran: the distance run."""
     canvas = np.empty((height, width, 4), np.uint8)
     canvas[..., 3] = 255
     canvas[..., :3] = SKY_PIXEL
@@ -190,7 +190,7 @@ def _landscape(width: int, height: int, ran: float) -> Pixels:
 
 
 def _lay(canvas: Pixels, texels: Pixels, corner: Array) -> None:
-    """Put a sprite on the canvas where it is not transparent; what falls outside is cut off."""
+    """Put a sprite on the canvas where it is not transparent; the part outside is cut off."""
     left, top = (int(value) for value in corner)
     rows, columns = np.nonzero(texels[..., 3])
     y, x = rows + top, columns + left
@@ -199,7 +199,7 @@ def _lay(canvas: Pixels, texels: Pixels, corner: Array) -> None:
 
 
 def _debug(pixels: Pixels, dots: DotCloth, places: Array, scale: int) -> Pixels:
-    """The cape's works over its enlarged picture."""
+    """The enlarged picture with dots, constraints, pins and bounding box drawn over it."""
     image = Image.fromarray(pixels)
     pen = ImageDraw.Draw(image)
     at = [(float(x), float(y)) for x, y in places * scale]

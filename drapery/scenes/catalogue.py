@@ -1,8 +1,8 @@
 """The ready-made scenes by name: one module each, which offers `play(parameters, clip)`.
 
-The type of `parameters` is a frozen dataclass, a `SceneParameters`, whose defaults are the scene's
-own values. `play` yields one picture for each frame of the clip. The first line of the module says
-what is seen; its CLIP, if it has one, is the scene's own length and frame rate.
+The type of `parameters` is a subclass of `SceneParameters`, a frozen dataclass with the scene's
+defaults. `play` yields one picture for each frame of the clip. The first line of the module's
+docstring describes the scene; its CLIP, if it has one, is the scene's own length and frame rate.
 """
 
 import pkgutil
@@ -44,7 +44,7 @@ class SceneEntry:
         return own
 
     def parameters(self, words: Mapping[str, str] | None = None) -> SceneParameters:
-        """The scene's parameters, some of them given as text. Raises OptionError."""
+        """The scene's parameters. words: those that are given, as text. Raises OptionError."""
         kind: type[SceneParameters] = get_type_hints(self.module.play)["parameters"]
         return read_parameters(kind, words or {}, self.name)
 
@@ -55,7 +55,7 @@ class SceneEntry:
 
 
 def names() -> list[str]:
-    """All scenes, by the names that people type."""
+    """The names of all scenes, as on the command line."""
     found = (info.name for info in pkgutil.iter_modules(drapery.scenes.__path__))
     return sorted(name.replace("_", "-") for name in found if _is_scene(name))
 

@@ -1,4 +1,4 @@
-"""A square of cloth held at some of its corners, let go from the level: what three scenes share."""
+"""What three scenes share: a level square of cloth that is pinned at corners and released."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -29,17 +29,17 @@ from drapery.style.scenery import SKY, post
 from drapery.style.tailoring import checked, garment
 
 SIDE, HEIGHT = 2.0, 2.4
-"""Of the cloth, and how high it is held [m]."""
+"""Side of the cloth, and height of its pins [m]."""
 CORNER_VIEW = View(azimuth=32, elevation=20, fov=28)
 CANVAS = Fabric(stretch=20.0, shear=6.0, bend=1.0)
-"""Of structural, shear and flexion springs [N/m]."""
+"""Stiffness of structural, shear and flexion springs [N/m]."""
 DRAG = 0.8
-"""[1/s]"""
+"""Drag of the air [1/s]."""
 
 
 @dataclass(frozen=True)
 class CornersParameters(SceneParameters):
-    """What can be set of a cloth held at corners."""
+    """What can be set of a cloth that is pinned at corners."""
 
     grid: tuple[int, int] = grid_parameter((10, 10), "Particles across and down the cloth")
     limit: float = parameter(1.1, "Longest length of a spring over its rest length", (1, 2))
@@ -47,26 +47,27 @@ class CornersParameters(SceneParameters):
     thickness: float = thickness_in_metres(0.05)
 
 
-def show(pins: PinName, parameters: CornersParameters, clip: Clip) -> Iterator[Scene]:
-    """The cloth between posts at its held corners."""
+def show(corners: PinName, parameters: CornersParameters, clip: Clip) -> Iterator[Scene]:
+    """The cloth between posts at its pinned corners."""
     packs = open_packs(())
-    cloth = level_cloth(pins, parameters)
+    cloth = level_cloth(corners, parameters)
     shell = make_shell(cloth.triangles, cloth.uvs)
     wool = checked(packs.texture("block/white_wool"), ("cyan", "white"))
-    held = cloth.rest_positions[cloth.inv_mass == 0]
-    posts = tuple(post(place * np.array([1, 0, 1]), HEIGHT + 0.06, packs) for place in held)
+    pins = cloth.rest_positions[cloth.inv_mass == 0]
+    posts = tuple(post(pin * np.array([1, 0, 1]), HEIGHT + 0.06, packs) for pin in pins)
     still = (*blocks(plateau(4, 4), packs), *posts)
-    camera = frame_points(CORNER_VIEW, _room(), clip.size[0] / clip.size[1], margin=0.03)
-    for state in swung(cloth, parameters, clip):
+    camera = frame_points(CORNER_VIEW, _framed_points(), clip.size[0] / clip.size[1], margin=0.03)
+    for state in cloth_states(cloth, parameters, clip):
         sheet = garment(shell, state.positions[0], parameters.thickness, wool)
-        veil = contact_shadow((*posts, sheet), 0.0, reach=HEIGHT)
-        yield Scene((*still, veil, sheet), camera, clip.size, background=SKY, samples=4)
+        shadow = contact_shadow((*posts, sheet), 0.0, reach=HEIGHT)
+        yield Scene((*still, shadow, sheet), camera, clip.size, background=SKY, samples=4)
 
 
 def level_cloth(pins: PinName, parameters: CornersParameters) -> Cloth:
     """The cloth lying level in the air; its first row is at the back.
 
-    One that is held at that row alone will swing, and has it over the middle of the ground.
+    A cloth that is pinned at that row alone swings, so its first row is over the middle of the
+    ground.
     """
     cloth = grid(*parameters.grid, SIDE, SIDE, pins=pins, fabric=CANVAS)
     turn = rotation_about((1, 0, 0), -90)
@@ -74,12 +75,12 @@ def level_cloth(pins: PinName, parameters: CornersParameters) -> Cloth:
     return placed(cloth, np.array([0.0, HEIGHT, back]), turn)
 
 
-def swung(cloth: Cloth, parameters: CornersParameters, clip: Clip) -> Iterator[State]:
-    """The cloth at each frame after it has been let go."""
+def cloth_states(cloth: Cloth, parameters: CornersParameters, clip: Clip) -> Iterator[State]:
+    """The cloth at each frame after its release."""
     forces = (Gravity(), Drag(parameters.drag))
     return motion(cloth, clip, solver=SolverVerlet(limit=parameters.limit), forces=forces)
 
 
-def _room() -> Array:
+def _framed_points() -> Array:
     """What the camera frames: the ground, and the height of the posts [m]."""
     return np.array([[x, y, z] for x in (-2, 2) for z in (-2, 2) for y in (-1, 0)] + [[0, 2.5, -1]])

@@ -28,13 +28,13 @@ from drapery.style.tailoring import garment
 
 LOOP = 4.0
 GROWN = 2.2
-"""The flag is a banner so much larger, its top edge at the pole."""
+"""The flag is this many times as large as a banner; the banner's top edge is at the pole."""
 TOWER, POLE = 5, 6.0
 """Height of the tower [blocks] and of the pole on it [m]."""
 BUNTING = Fabric(stretch=10.0, shear=4.0, bend=0.6)
-"""Stiffness of the flag's springs [N/m]: it must not crumple at its end."""
+"""Stiffness of the flag's springs [N/m], high enough that its free end does not crumple."""
 FRICTION = 1.8
-"""How readily the air along the flag takes it with it [1/s]: wind alone presses only on faces."""
+"""Friction of the air along the flag [1/s]; the wind itself presses only on faces."""
 FOOT = np.array([0.0, TOWER + 1.0, 0.0])
 
 
@@ -58,7 +58,7 @@ def play(parameters: FlagParameters, clip: Clip) -> Iterator[Scene]:
     cloth = banner_on_its_side(parameters.grid)
     shell, materials = flag_shell(cloth), flag_materials((parameters.design,), packs)
     still = (*blocks(_hill(), packs), post(FOOT, POLE, packs, 0.12))
-    for state in flown(parameters, cloth, clip):
+    for state in flag_states(parameters, cloth, clip):
         sheet = state.positions[0]
         flag = garment(shell, sheet, parameters.thickness * SCALE * GROWN, *materials)
         yield Scene((*still, flag), _camera(), clip.size, background=SKY, samples=4)
@@ -72,11 +72,11 @@ def banner_on_its_side(shape: tuple[int, int]) -> Cloth:
     return placed(cloth, top, rotation_about((0, 0, 1), 90))
 
 
-def flown(parameters: FlagParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
+def flag_states(parameters: FlagParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
     """The flag at each frame, in a wind from the left."""
     velocity = (0.97 * parameters.wind, 0.0, 0.24 * parameters.wind)
     wind = Wind(velocity, gusts=0.7, gust_size=2.5, seed=parameters.seed, period=LOOP)
-    # Friction in moving air, rate (wind - v), is a steady push and drag in still air.
+    # Friction in moving air, rate * (wind - v), is a constant push, plus drag in still air.
     push = Gravity((FRICTION * velocity[0], 0.0, FRICTION * velocity[2]))
     forces = (Gravity(), wind, push, Drag(FRICTION))
     return motion(cloth, clip, forces=forces, settle=LOOP)
@@ -97,7 +97,7 @@ def _hill() -> dict[Cell, str]:
 
 
 def _tower() -> dict[Cell, str]:
-    """A keep with battlements; older stone shows here and there."""
+    """A tower with battlements, some of its blocks of older stone."""
     cells: dict[Cell, str] = {}
     for x in range(-2, 2):
         for z in range(-2, 2):

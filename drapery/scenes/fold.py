@@ -1,4 +1,4 @@
-"""The paper's spring force as printed folds a banner in on itself; with the right sign it hangs.
+"""The paper's spring force as printed folds a banner up; with the right sign it hangs straight.
 
 Desbrun, Schröder, Barr 1999, section 3.2, prints the force on i as k (|x_i - x_j| - l) times the
 unit vector from j to i: a stretched spring then pushes its ends further apart, and a compressed
@@ -36,8 +36,8 @@ class SolverMisprinted(SolverDesbrun):
     """The method with the sign of its internal force as the paper prints it."""
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
-        # Fine grids have another plan, without this kernel's springs; without its shape no cloth is
-        # taken for one.
+        # A fine grid has another plan, without this kernel's springs. A cloth without a grid shape
+        # is not treated as a fine grid.
         if is_sheet(cloth):
             cloth = replace(cloth, grid_shape=None)
         solver_state = super().init(cloth, dt)
@@ -63,8 +63,8 @@ def play(parameters: FoldParameters, clip: Clip) -> Iterator[PictureGrid]:
     high, wide = FLAG_SIZE[1], 0.75 * FLAG_SIZE[0]
     room = np.array([[x, y, z] for x in (-wide, wide) for y in (0.1, -high) for z in (-0.2, 0.5)])
     camera = frame_points(SIDE_ON, room, size[0] / size[1], margin=0.06)
-    ways = ((SolverMisprinted(), WRONG), (SolverDesbrun(), RIGHT))
-    motions = [hanging(parameters, cloth, solver, clip) for solver, _ in ways]
+    variants = ((SolverMisprinted(), WRONG), (SolverDesbrun(), RIGHT))
+    motions = [flag_states(parameters, cloth, solver, clip) for solver, _ in variants]
     for states in zip(*motions, strict=True):
         pictures = tuple(
             Scene(
@@ -75,12 +75,12 @@ def play(parameters: FoldParameters, clip: Clip) -> Iterator[PictureGrid]:
                 PAPER,
                 samples=4,
             )
-            for state, (_, material) in zip(states, ways, strict=True)
+            for state, (_, material) in zip(states, variants, strict=True)
         )
         yield PictureGrid(pictures, ("as printed", "right sign"))
 
 
-def hanging(
+def flag_states(
     parameters: FoldParameters, cloth: Cloth, solver: Solver, clip: Clip
 ) -> Iterator[State]:
     """A flag from rest in a light wind."""

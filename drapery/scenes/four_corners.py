@@ -11,11 +11,11 @@ from drapery.scenes.parameters import MAX_DRAG, parameter
 
 @dataclass(frozen=True)
 class FourCornersParameters(CornersParameters):
-    """More drag than in the other scenes, so it comes to rest while one looks."""
+    """More drag than in the other scenes, so that the cloth comes to rest within the clip."""
 
     drag: float = parameter(2.0, "Drag of the air", (0, MAX_DRAG), "1/s")
 
 
 def play(parameters: FourCornersParameters, clip: Clip) -> Iterator[Scene]:
-    """From the moment when it is let go."""
+    """From the moment of its release."""
     return show("four-corners", parameters, clip)

@@ -54,28 +54,30 @@ class FreefallParameters(SceneParameters):
     side: float = parameter(1.9, "Side of each cloth", (0.5, 4), "m")
     drag: float = parameter(0.8, "Drag of the air", (0, MAX_DRAG), "1/s")
     thickness: float = thickness_in_metres(0.04)
-    friction: float = parameter(0.4, "Friction of the cloth on what it meets", (0, 2))
+    friction: float = parameter(0.4, "Friction of the cloth on what it touches", (0, 2))
 
 
 def play(parameters: FreefallParameters, clip: Clip) -> Iterator[Scene]:
-    """From the moment when both are let go."""
+    """From the moment when both cloths are released."""
     packs = open_packs(())
     insect, cubes = beetle(BEETLE_AT), blocks(fox(), packs)
     still = (*blocks(plateau(4, 3), packs), *insect.models, *_small(cubes))
-    veil = contact_shadow(still[-len(insect.models) - len(cubes) :], 0.0)
+    shadow = contact_shadow(still[-len(insect.models) - len(cubes) :], 0.0)
     wool = packs.texture("block/white_wool")
     materials = [checked(wool, dyes) for dyes in (("lime", "white"), ("light_blue", "white"))]
     cloths = (sheet(parameters, BEETLE_AT), sheet(parameters, FOX_AT))
-    met = (insect_colliders(parameters, insect), fox_colliders(parameters))
+    colliders = (insect_colliders(parameters, insect), fox_colliders(parameters))
     shell = make_shell(cloths[0].triangles, cloths[0].uvs)
-    camera = frame_points(ABOVE, _room(), clip.size[0] / clip.size[1], margin=0.03)
-    motions = [fall(parameters, *pair, clip) for pair in zip(cloths, met, strict=True)]
+    camera = frame_points(ABOVE, _framed_points(), clip.size[0] / clip.size[1], margin=0.03)
+    motions = [
+        cloth_states(parameters, *pair, clip) for pair in zip(cloths, colliders, strict=True)
+    ]
     for states in zip(*motions, strict=True):
         fallen = tuple(
             garment(shell, state.positions[0], parameters.thickness, material)
             for state, material in zip(states, materials, strict=True)
         )
-        yield Scene((*still, veil, *fallen), camera, clip.size, background=SKY, samples=4)
+        yield Scene((*still, shadow, *fallen), camera, clip.size, background=SKY, samples=4)
 
 
 def sheet(parameters: FreefallParameters, at: Array) -> Cloth:
@@ -87,8 +89,8 @@ def sheet(parameters: FreefallParameters, at: Array) -> Cloth:
     return placed(flat, at + np.array([0.0, HEIGHT, 0.0]), turn)
 
 
-def fall(
-    parameters: FreefallParameters, cloth: Cloth, met: tuple[Collider, ...], clip: Clip
+def cloth_states(
+    parameters: FreefallParameters, cloth: Cloth, colliders: tuple[Collider, ...], clip: Clip
 ) -> Iterator[State]:
     """One cloth at each frame."""
     return motion(
@@ -96,7 +98,7 @@ def fall(
         clip,
         solver=SolverVerlet(),
         forces=(Gravity(), Drag(parameters.drag)),
-        collisions=Collisions(met, parameters.thickness),
+        collisions=Collisions(colliders, parameters.thickness),
     )
 
 
@@ -114,7 +116,7 @@ def fox_colliders(parameters: FreefallParameters) -> tuple[Collider, ...]:
 
 
 def _small(cubes: tuple[Model, ...]) -> tuple[Model, ...]:
-    """Blocks as cubes of the fox, where it stands."""
+    """Blocks made as small as the cubes of the fox, and put where it stands."""
     small = tuple(
         replace(model, mesh=replace(model.mesh, positions=model.mesh.positions * CUBE))
         for model in cubes
@@ -122,7 +124,7 @@ def _small(cubes: tuple[Model, ...]) -> tuple[Model, ...]:
     return moved(small, FOX_AT - np.array([CUBE / 2, 0, 0]))
 
 
-def _room() -> Array:
+def _framed_points() -> Array:
     """What the camera frames [m]."""
     low = [[x, y, z] for x in (-2, 2) for z in (-1, 2) for y in (-1, 0)]
     return np.array([*low, [-1.2, HEIGHT + 0.2, 0], [1.2, HEIGHT + 0.2, 0]])

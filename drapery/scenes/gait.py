@@ -1,7 +1,7 @@
-"""How our figure walks: in place, over ground that moves past it.
+"""The walk of the figure: it walks in place, and the ground passes below.
 
-In its own frame the air streams against it at the speed of its walk, so cloth behaves exactly as
-on a figure that walks through still air.
+In the figure's own frame the air comes from ahead at the speed of the walk, so cloth moves exactly
+as on a figure that walks through still air.
 """
 
 from dataclasses import dataclass
@@ -19,24 +19,25 @@ from drapery.style.figure import PARTS, TEXEL, Placed, to_metres
 MAX_WALK = 10.0
 """The fastest walk [m/s]."""
 LOOP = 4.0
-"""After this time [s] a walk has come to a whole number of strides and of blocks."""
+"""In this time a walk makes a whole number of strides and passes a whole number of blocks [s]."""
 LEG, HALF_FOOT = 12 * TEXEL, 2 * TEXEL
+"""Length of a leg, and half the length of its foot [m]."""
 ARM_SHARE = 0.6
-"""Arms swing less than legs."""
+"""The swing of an arm over that of a leg."""
 
 
 @dataclass(frozen=True)
 class Gait:
-    """A steady walk. speed: over the ground [m/s]; period: of a stride, two steps [s]."""
+    """A steady walk. speed: over the ground [m/s]. period: of a stride, which is two steps [s]."""
 
     speed: float = 2.5
     period: float = 0.8
 
     @property
     def swing(self) -> float:
-        """Of a leg to either side [degrees].
+        """How far a leg swings to the front and to the back [degrees].
 
-        In half a period the foot on the ground goes back by 2 L sin(swing), as the ground does.
+        In half a period the foot on the ground moves back by 2 L sin(swing), as the ground does.
         """
         return float(np.degrees(np.arcsin(min(self.speed * self.period / (4 * LEG), 0.9))))
 
@@ -45,13 +46,13 @@ class Gait:
         return _poses(self, time)
 
     def turn(self, time: float) -> float:
-        """How far the right leg is swung back [degrees]."""
+        """How far the right leg is turned backwards [degrees]."""
         return self.swing * float(sine_of_turns(time / self.period))
 
     def lift(self, time: float) -> float:
-        """Height of the hips over where they are at rest [m]: the lower foot stays on the ground.
+        """Height of the hips above their place at rest [m]; the lower foot stays on the ground.
 
-        A leg of length L whose foot reaches h to either side stands L cos + h |sin| high.
+        The hip of a leg of length L, whose foot has the half length h, is L cos + h |sin| high.
         """
         turns = self.turn(time) / 360
         sine, cosine = float(sine_of_turns(turns)), float(sine_of_turns(turns + 0.25))
@@ -65,7 +66,7 @@ class Gait:
         )
 
     def pins(self, cloth: Cloth) -> PinPath:
-        """The path of a cloth's pins that are fastened to the body, from where they rest."""
+        """The path of a cloth's pins: they move with the body, from their places at rest."""
         rest = cloth.rest_positions[cloth.inv_mass == 0]
         return lambda time: rest + np.array([0.0, self.lift(time), 0.0])
 
@@ -75,7 +76,7 @@ class Gait:
 
 @lru_cache(maxsize=4)
 def _poses(gait: Gait, time: float) -> dict[str, Placed]:
-    """Kept for the moment: every part asks for it, at the end of a step and at its beginning."""
+    """Cached, since every part asks for the poses at the beginning and the end of a step."""
     angle = gait.turn(time)
     angles = {
         "head": 0.0,

@@ -1,4 +1,4 @@
-"""A hall of 32 banners on its walls: a breeze, and a gust that passes through."""
+"""A hall with 32 banners on its walls, in a breeze and one strong gust."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -36,9 +36,9 @@ from drapery.style.block import SCALE
 from drapery.style.block_world import Cell, blocks
 
 WIDTH, HEIGHT, BAYS = 4, 4, 16
-"""Of the hall [blocks]: wall to wall, floor to beam, and banners along each wall."""
+"""Width and height of the hall [blocks], and the number of banners along each wall."""
 BAY = 2
-"""Length of a bay [blocks]: a banner, then a pillar."""
+"""Length of a bay [blocks]: one for the banner, one for the pillar."""
 TORCHLIGHT = Light(((0.3, 1.0, 0.5), (-0.3, 0.4, 1.0)), 0.42, 0.6, (1.0, 0.96, 0.88))
 DESIGNS = (
     "red stripe_center:yellow border:black",
@@ -54,9 +54,9 @@ DESIGNS = (
 
 @dataclass(frozen=True)
 class Gust:
-    """A gust that runs down the hall: it lifts the banners off the walls and sets them fluttering.
+    """A gust that moves down the hall, lifts the banners off the walls and makes them flutter.
 
-    start: when it enters [s]; speed: [m/s]; length: from its front to its end [m];
+    start: when it enters the hall [s]. speed: [m/s]. length: from its front to its end [m].
     strength: the acceleration in its middle [m/s²].
     """
 
@@ -66,7 +66,7 @@ class Gust:
     strength: float = 6.0
 
     def acceleration(self, cloth: Cloth, state: State) -> Array:
-        """[m/s²], shape [B, N, 3]. The hall runs along -z."""
+        """The acceleration [m/s²], shape [B, N, 3]. The length of the hall is along -z."""
         x, depth = state.positions[..., 0], -state.positions[..., 2]
         front = (state.time - self.start) * self.speed
         inside = 2 * (front - depth) / self.length - 1
@@ -87,17 +87,17 @@ class HallParameters(SceneParameters):
 
 
 def play(parameters: HallParameters, clip: Clip) -> Iterator[Scene]:
-    """Seen from the door."""
+    """The hall seen from its entrance."""
     packs = open_packs(())
     cloth = flag_cloth(parameters.grid)
     shell, materials = flag_shell(cloth), flag_materials(DESIGNS, packs)
     still = (*blocks(_walls(), packs), wood_model(banner_blocks(), packs))
-    for state in blown(parameters, cloth, clip):
+    for state in flag_states(parameters, cloth, clip):
         models = (*still, flag_models(shell, state, materials))
         yield Scene(models, _camera(), clip.size, TORCHLIGHT, (206, 226, 246, 255), samples=4)
 
 
-def blown(parameters: HallParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
+def flag_states(parameters: HallParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
     """All flags at each frame."""
     breeze = Wind((0.0, 0.0, -parameters.breeze), gusts=0.5, seed=parameters.seed)
     return motion(
@@ -111,7 +111,7 @@ def blown(parameters: HallParameters, cloth: Cloth, clip: Clip) -> Iterator[Stat
 
 
 def banner_blocks() -> tuple[BannerBlock, ...]:
-    """Every second block of both walls bears a banner that looks into the hall."""
+    """A banner at every second block of both walls, facing into the hall."""
     places = [(side, -BAY * bay - 1.0) for bay in range(BAYS) for side in (-1, 1)]
     half = WIDTH / 2
     return tuple(
@@ -121,7 +121,7 @@ def banner_blocks() -> tuple[BannerBlock, ...]:
 
 
 def walls() -> tuple[Collider, ...]:
-    """What the banners hang against."""
+    """The walls behind the banners, as colliders."""
     return tuple(
         Collider(Plane(np.array([side * WIDTH / 2, 0, 0]), np.array([-side, 0, 0])))
         for side in (-1.0, 1.0)

@@ -1,8 +1,8 @@
 """A curtain of 500 dots in the plane: a tutorial's Verlet cloth, step by step as published.
 
-25 x 20 particles 0.2 apart, steps of 0.02 s, gravity and a sine wind, six passes over the
-distances between neighbours in which each end that is not pinned moves half; the top row is
-pinned. One step a frame, thirty frames a second.
+The cloth has 25 x 20 particles at distances of 0.2 m; its top row is pinned. Each step of 0.02 s
+applies gravity and a sine wind, then makes six passes over the distances between neighbours, in
+which each free end moves half of the correction. There is one step a frame, at 30 frames a second.
 """
 
 from collections.abc import Iterator
@@ -21,9 +21,9 @@ from drapery.scenes.parameters import SceneParameters, grid_parameter, parameter
 
 CLIP = Clip(count=300, fps=30.0)
 STEPS_PER_SECOND = 30
-"""Of the picture; the simulation's own step is shorter or longer."""
+"""Steps per second of the film; the simulated time of a step is `dt`."""
 FINER = 3
-"""The plot is drawn so many times larger, for smooth dots."""
+"""The plot is drawn this many times larger and then reduced, for smooth dots."""
 X_RANGE, Y_RANGE = (0, 6), (-5, 6)
 DOT, RIM, INK, LINES, PAPER = (
     (0, 154, 250),
@@ -49,12 +49,12 @@ class JuliaParameters(SceneParameters):
 
 @dataclass(frozen=True)
 class SineWind:
-    """An acceleration along x that swings from step to step, the first of which is number 1."""
+    """An acceleration along x that is a sine of the number of the step; the first is number 1."""
 
     parameters: JuliaParameters
 
     def acceleration(self, cloth: Cloth, state: State) -> Array:
-        """[m/s²], shape [N, 3]."""
+        """The acceleration [m/s²], shape [N, 3]."""
         p = self.parameters
         number = round(state.time / p.dt) + 1
         push = np.zeros_like(cloth.rest_positions)
@@ -84,7 +84,7 @@ def steps(parameters: JuliaParameters) -> Iterator[State]:
 
 
 def curtain(parameters: JuliaParameters) -> Cloth:
-    """The particles; their distances from the lowest row up, each one's right before its upper."""
+    """The cloth; springs from the lowest row up, of each particle its right, then its upper."""
     (columns, rows), spacing = parameters.grid, parameters.spacing
     cloth = grid(columns, rows, (columns - 1) * spacing, (rows - 1) * spacing)
     number = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)[::-1]
@@ -114,7 +114,7 @@ def _with_dots(empty: Image.Image, positions: Array, size: tuple[int, int]) -> F
     radius = max(1.0, size[0] / 160) * FINER
     for x, y in _on_plot(positions[:, :2], size):
         pen.ellipse((x - radius, y - radius, x + radius, y + radius), DOT, RIM, width=FINER)
-    # DotCloth beyond the axes are not seen.
+    # Dots beyond the axes are not shown.
     (left, top), (right, low) = np.rint(
         _on_plot(np.array([(X_RANGE[0], Y_RANGE[1]), (X_RANGE[1], Y_RANGE[0])]), size)
     ).astype(int)
@@ -143,7 +143,7 @@ def _plot(size: tuple[int, int]) -> Image.Image:
 
 
 def _write_ticks(pen: ImageDraw.ImageDraw, size: tuple[int, int]) -> None:
-    """Numbers beside the axes."""
+    """Write the numbers beside the axes."""
     font = ImageFont.load_default_imagefont()
     for x in range(X_RANGE[0], X_RANGE[1] + 1):
         at = _on_plot(np.array([(x, Y_RANGE[0])]), size)[0] / FINER
@@ -154,7 +154,7 @@ def _write_ticks(pen: ImageDraw.ImageDraw, size: tuple[int, int]) -> None:
 
 
 def _on_plot(points: Array, size: tuple[int, int]) -> Array:
-    """Places of points [N, 2] on the plot of FINER times the size, shape [N, 2]."""
+    """Places of points [N, 2] on the enlarged plot [pixels], shape [N, 2]."""
     width, height = size[0] * FINER, size[1] * FINER
     margin = min(24 * FINER, width // 6, height // 6)
     (left, right), (low, high) = X_RANGE, Y_RANGE

@@ -1,4 +1,4 @@
-"""How cloth of any scene moves from frame to frame."""
+"""The motion of cloth in the ready-made scenes: its state at each frame of a clip."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -13,7 +13,7 @@ from drapery.mesh import Array
 from drapery.scenes.catalogue import Clip
 
 STEP = 1.0 / 120.0
-"""The longest time step [s]; cloth that meets walking legs wants a short one."""
+"""The longest time step [s], short enough for cloth that touches walking legs."""
 
 
 def motion(
@@ -54,7 +54,7 @@ def steps_per_frame(clip: Clip, step: float = STEP) -> int:
 
 
 def placed(cloth: Cloth, position: Array, rotation: Array | None = None) -> Cloth:
-    """The cloth with its rest shape turned and put elsewhere: rotation · x + position [m]."""
+    """The cloth with another rest shape: rotation · x + position for each particle x [m]."""
     turn = np.eye(3) if rotation is None else rotation
     # einsum adds in a fixed order; BLAS may not.
     turned = np.einsum("ij,nj->ni", turn, cloth.rest_positions)

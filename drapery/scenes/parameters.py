@@ -12,7 +12,7 @@ MAX_SCENE_GRID = 65
 """The most particles along one side of a cloth in a scene."""
 
 MAX_DRAG = 20.0
-"""[1/s]"""
+"""The highest drag of the air [1/s]."""
 
 P = TypeVar("P", bound="SceneParameters")
 
@@ -24,7 +24,7 @@ def parameter(
     unit: str = "",
     choices: tuple[str, ...] = (),
 ) -> Any:
-    """A field of a scene's parameters. A tuple's bounds hold for each of its numbers."""
+    """A field of a scene's parameters. The bounds of a tuple apply to each of its numbers."""
     is_number = not isinstance(default, str | bool)
     assert bounds is not None or not is_number, f"the parameter {help!r} has no bounds"
     metadata = {"help": help, "bounds": bounds, "unit": unit, "choices": choices}
@@ -52,7 +52,7 @@ def thickness_in_metres(default: float) -> Any:
 
 
 def seed_parameter() -> Any:
-    """The seed of what is random in a scene."""
+    """The seed of a scene's random numbers."""
     return parameter(0, "Which gusts blow", (0, 2**32 - 1))
 
 
@@ -80,7 +80,7 @@ def read_parameters(kind: type[P], words: Mapping[str, str], scene: str) -> P:
 
 
 def _option(each: Field[Any]) -> Option:
-    """A field as an option; that of one number for a tuple."""
+    """A field as an option; for a tuple, the option of each of its numbers."""
     first = each.default[0] if isinstance(each.default, tuple) else each.default
     kind: Any = type(first)
     return Option(each.name, type=kind, default=first, **each.metadata)
@@ -91,7 +91,7 @@ def _checked(each: Field[Any], value: Any) -> Any:
     if not isinstance(each.default, tuple):
         return option.check(value)
     if not isinstance(value, tuple | list) or len(value) != len(each.default):
-        raise OptionError(f"{each.name} {shown(value)} does not fit; {_example(each.default)}")
+        raise _wrong_count(each, value)
     return tuple(option.check(number) for number in value)
 
 
@@ -101,9 +101,12 @@ def _parsed(each: Field[Any], text: str) -> Any:
         return option.parse(text)
     parts = text.lower().replace("x", ",").split(",")
     if len(parts) != len(each.default):
-        raise OptionError(f"{each.name} {shown(text)} does not fit; {_example(each.default)}")
+        raise _wrong_count(each, text)
     return tuple(option.parse(part) for part in parts)
 
 
-def _example(default: tuple[float, ...]) -> str:
-    return f"write {len(default)} numbers like {'x'.join(map(str, default))}"
+def _wrong_count(each: Field[Any], value: object) -> OptionError:
+    count, example = len(each.default), "x".join(map(str, each.default))
+    return OptionError(
+        f"{each.name} {shown(value)} is not {count} numbers; write it like {example}"
+    )

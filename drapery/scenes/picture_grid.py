@@ -1,4 +1,4 @@
-"""What a scene yields: something to be drawn, a picture as it is, or several side by side."""
+"""What a scene yields: a `Scene` to be drawn, a finished `Frame`, or several side by side."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from drapery.render.frame import Frame, Pixels
 from drapery.render.scene import Scene
 
 INK, PAPER = (255, 255, 255), (24, 26, 34)
-"""Of the labels."""
+"""Colours of the labels."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ Picture = Scene | Frame | PictureGrid
 
 
 def panel_size(size: tuple[int, int], columns: int, rows: int = 1) -> tuple[int, int]:
-    """Width and height of each panel [pixels], so that all of them fill a picture of this size."""
+    """Width and height of each panel [pixels] of a picture of this size."""
     return max(1, size[0] // columns), max(1, size[1] // rows)
 
 

@@ -1,4 +1,4 @@
-"""A sail that billows on its raft; a script steers the wind."""
+"""A sail billows on its raft; a script controls the wind."""
 
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
@@ -42,19 +42,19 @@ from drapery.style.scenery import SKY, beam, post, sea
 from drapery.style.tailoring import checked, garment
 
 SIDE, SLACK = 2.6, 0.9
-"""Of the sail [m], and how far apart its corners are held, as a part of that."""
+"""Side of the sail [m], and the distance of its pinned corners as a fraction of that."""
 LOW = 0.7
-"""Height of its foot over the deck [m]."""
+"""Height of the sail's lower edge above the deck [m]."""
 STERN = View(azimuth=38, elevation=14, fov=30)
 CANVAS = Fabric(stretch=20.0, shear=6.0, bend=1.0)
 HALF = SIDE * SLACK / 2
 HEAD, FOOT = LOW + 2 * HALF + 0.03, LOW - 0.03
 """Heights of the yards [m]."""
 SPAR = 0.075
-"""Radius of mast and yards, which are square and 0.06 m to each side [m]."""
+"""Radius of mast and yards as colliders [m]; they are drawn as squares of 0.12 m."""
 MAST = np.array([0.0, 0.0, -0.06])
 YARD_DEPTH = 0.03
-OWN = """
+DEFAULT_SCRIPT = """
 0.0 strength 7
 1.3 direction 55
 2.2 off
@@ -62,7 +62,7 @@ OWN = """
 2.8 strength 9
 2.8 on
 """
-"""The script that is played unless another is given."""
+"""The script unless another is given."""
 
 
 @dataclass(frozen=True)
@@ -77,28 +77,30 @@ class SailParameters(SceneParameters):
 
 
 def play(parameters: SailParameters, clip: Clip) -> Iterator[Scene]:
-    """From the moment when the first wind comes up."""
+    """From the start of the wind."""
     packs = open_packs(())
     settings = script_of(parameters)
     cloth = square_sail(parameters.grid)
     shell = make_shell(cloth.triangles, cloth.uvs)
     canvas = checked(packs.texture("block/white_wool"), ("white", "red"), 2)
     ship = (sea(24, -0.7), *blocks(_raft(), packs), *_rigging(packs))
-    camera = frame_points(STERN, _room(), clip.size[0] / clip.size[1], margin=0.02)
-    for state in blown(parameters, settings, cloth, clip):
+    camera = frame_points(STERN, _framed_points(), clip.size[0] / clip.size[1], margin=0.02)
+    for state in sail_states(parameters, settings, cloth, clip):
         sail = garment(shell, state.positions[0], parameters.thickness, canvas)
         yield Scene((*ship, sail), camera, clip.size, background=SKY, samples=4)
 
 
 def script_of(parameters: SailParameters) -> tuple[WindSetting, ...]:
-    """The wind's settings. Raises OptionError."""
-    return read_script(parameters.script) if parameters.script else tuple(parse_script(OWN))
+    """The settings of the wind. Raises OptionError."""
+    return (
+        read_script(parameters.script) if parameters.script else tuple(parse_script(DEFAULT_SCRIPT))
+    )
 
 
-def blown(
+def sail_states(
     parameters: SailParameters, settings: Sequence[WindSetting], cloth: Cloth, clip: Clip
 ) -> Iterator[State]:
-    """The sail at each frame. A command takes effect at the first frame not before it."""
+    """The sail at each frame. A command takes effect at the first frame at or after its time."""
     times = [setting.time - 1e-9 for setting in settings]
     steps = steps_per_frame(clip)
     sail = MovingCloth.begin(
@@ -116,7 +118,7 @@ def blown(
 
 
 def spars() -> tuple[Collider, ...]:
-    """What the sail wraps around: the mast and the yards."""
+    """The mast and the yards as colliders."""
     ends = [(MAST, MAST + np.array([0, HEAD + 0.4, 0]))] + [
         (np.array([-HALF, height, YARD_DEPTH]), np.array([HALF, height, YARD_DEPTH]))
         for height in (HEAD, FOOT)
@@ -125,7 +127,7 @@ def spars() -> tuple[Collider, ...]:
 
 
 def square_sail(shape: tuple[int, int]) -> Cloth:
-    """A sail between its yards, held at all four corners nearer than it is wide."""
+    """A sail between its yards; its pinned corners are closer together than its side is long."""
     cloth = grid(*shape, SIDE, SIDE, pins="four-corners", fabric=CANVAS)
     return placed(cloth, np.array([0.0, LOW + 2 * HALF, 0.13]), SLACK * np.eye(3))
 
@@ -149,8 +151,8 @@ def _rigging(packs: Packs) -> tuple[Model, ...]:
     return post(MAST, HEAD + 0.4, packs), *(beam(yard, 2 * HALF + 0.3, packs) for yard in yards)
 
 
-def _room() -> Array:
-    """What the camera frames [m]: the raft, the mast, and the sail's belly."""
+def _framed_points() -> Array:
+    """What the camera frames [m]: the raft, the mast, and the bulge of the sail."""
     top = LOW + SIDE * SLACK + 0.4
     low = [[x, -0.9, z] for x in (-2.2, 2.2) for z in (-3.2, 3.4)]
     return np.array([*low, [0, top, 0], [1.4, top - 0.5, 1], [-1.4, top - 0.5, 1]])

@@ -1,4 +1,4 @@
-"""A scarf of woollen squares: two long thin tails that stream behind a walking figure."""
+"""A scarf of woollen squares: its two long thin tails stream behind a walking figure."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -30,10 +30,10 @@ from drapery.style.scenery import SKY, moved
 from drapery.style.tailoring import garment
 
 SQUARE = 4 * TEXEL
-"""Edge of a square [m]: the scarf's width, and what one block's texture covers."""
+"""Edge of a square [m]: the width of the scarf. Each square shows the texture of one block."""
 ROWS_PER_SQUARE = 2
 TAILS = ((-2.2, 6), (2.2, 4))
-"""Where each hangs from the nape, to the side [texels], and its squares."""
+"""Of each tail: its distance from the middle of the neck [texels] and its number of squares."""
 BODY = ("head", "body", "right_arm", "left_arm", "right_leg", "left_leg")
 COLLAR = ModelBox((-4.5, -25.5, -4.5), (9, 2.5, 9), (0, 0))
 
@@ -42,7 +42,9 @@ COLLAR = ModelBox((-4.5, -25.5, -4.5), (9, 2.5, 9), (0, 0))
 class ScarfParameters(SceneParameters):
     """What can be set of the scene `scarf`."""
 
-    blocks: str = parameter("orange yellow red", "Blocks of the squares, from the neck on, or dyes")
+    blocks: str = parameter(
+        "orange yellow red", "Blocks or dyes of the squares, starting at the neck"
+    )
     skin: str = parameter("traveller", "Skin of the figure", choices=SKINS)
     speed: float = parameter(2.5, "Speed of the walk", (0, MAX_WALK), "m/s")
     wind: float = wind_parameter(2.5, "Wind from ahead, added to that of the walk")
@@ -51,7 +53,7 @@ class ScarfParameters(SceneParameters):
 
 
 def play(parameters: ScarfParameters, clip: Clip) -> Iterator[Scene]:
-    """Seen from behind; the neck's turn is stiff, the tails are cloth."""
+    """Seen from behind; the collar is stiff, the tails are cloth."""
     packs, gait = open_packs(()), Gait(parameters.speed)
     squares = [_texels(name, packs) for name in parameters.blocks.split()] or [
         _texels("red", packs)
@@ -63,7 +65,7 @@ def play(parameters: ScarfParameters, clip: Clip) -> Iterator[Scene]:
     cloths = [tail(*place) for place in TAILS]
     shells = [make_shell(cloth.triangles, cloth.uvs) for cloth in cloths]
     materials = [_material(squares, count) for _, count in TAILS]
-    motions = [streaming(parameters, cloth, gait, clip) for cloth in cloths]
+    motions = [tail_states(parameters, cloth, gait, clip) for cloth in cloths]
     view = camera(clip.size, tail=1.3)
     for states in zip(*motions, strict=True):
         time = states[0].time
@@ -71,20 +73,22 @@ def play(parameters: ScarfParameters, clip: Clip) -> Iterator[Scene]:
             garment(shell, state.positions[0], parameters.thickness * TEXEL, material)
             for shell, state, material in zip(shells, states, materials, strict=True)
         )
-        neck = moved((collar,), np.array([0, gait.lift(time), 0]))
-        models = (*walker(gait, time, skin, causeway), *neck, *tails)
+        lifted = moved((collar,), np.array([0, gait.lift(time), 0]))
+        models = (*walker(gait, time, skin, causeway), *lifted, *tails)
         yield Scene(models, view, clip.size, background=SKY, samples=4)
 
 
 def tail(aside: float, squares: int) -> Cloth:
-    """One tail, hanging from the nape: three particles wide, its uppermost row held."""
+    """One tail, pinned by its top row at the back of the neck; it is three particles wide."""
     rows = ROWS_PER_SQUARE * squares + 1
     cloth = grid(3, rows, SQUARE, squares * SQUARE, fabric=Fabric(density=0.2))
-    nape = np.array([aside * TEXEL, 25 * TEXEL, -5.2 * TEXEL])
-    return placed(cloth, nape, rotation_about((0, 1, 0), 180))
+    neck = np.array([aside * TEXEL, 25 * TEXEL, -5.2 * TEXEL])
+    return placed(cloth, neck, rotation_about((0, 1, 0), 180))
 
 
-def streaming(parameters: ScarfParameters, cloth: Cloth, gait: Gait, clip: Clip) -> Iterator[State]:
+def tail_states(
+    parameters: ScarfParameters, cloth: Cloth, gait: Gait, clip: Clip
+) -> Iterator[State]:
     """One tail at each frame, in the figure's own frame."""
     speed = gait.speed + parameters.wind
     wind = Wind((0.0, 0.0, -speed), gusts=0.35, gust_size=1.0, seed=parameters.seed, period=LOOP)
@@ -106,12 +110,12 @@ def _texels(name: str, packs: Packs) -> Texels:
 
 
 def _material(squares: list[Texels], count: int) -> Material:
-    """Squares below one another, `count` of them."""
+    """`count` squares below one another; the given ones repeat."""
     column = [squares[place % len(squares)] for place in range(count)]
     return Material((TextureLayer(np.ascontiguousarray(np.vstack(column))),))
 
 
 def _collar_material(squares: list[Texels]) -> Material:
-    """The unfolded collar, 36 x 16 texels, cut from the first square."""
+    """The unfolded collar, 36 x 16 texels, from the first square."""
     wool = np.tile(squares[0][:16, :16], (1, 3, 1))
     return Material((TextureLayer(np.ascontiguousarray(wool[:, :36])),))

@@ -1,4 +1,4 @@
-"""A skirt about walking legs: a ring of thick cloth with few bend points, held at the waist."""
+"""A skirt moved by walking legs: a thick ring with few bend points, pinned at the waist."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -31,11 +31,11 @@ from drapery.style.scenery import SKY
 from drapery.style.uv_mapping import BoxMapping
 
 WAIST, HEM = 13.0, 5.0
-"""Heights [texels]."""
+"""Heights of its upper and lower edge [texels]."""
 WAIST_REACH, HEM_REACH = (4.9, 2.9), (8.6, 7.6)
-"""How far it reaches from its middle to the side and to the front [texels]."""
+"""Its half widths to the side and to the front, at the waist and at the hem [texels]."""
 SQUARE = 4.0
-"""Exponent of its outline: 2 is an ellipse, more is squarer, as bodies of boxes are."""
+"""Exponent of its outline: 2 gives an ellipse, higher numbers a squarer outline."""
 BODY = ("body", "right_leg", "left_leg")
 SIDES = ("outside", "inside", "hem")
 SKIN = BoxMapping(
@@ -53,7 +53,7 @@ SKIN = BoxMapping(
 class SkirtParameters(SceneParameters):
     """What can be set of the scene `skirt`."""
 
-    panels: int = parameter(12, "PictureGrid around the skirt", (4, 64))
+    panels: int = parameter(12, "Panels around the skirt", (4, 64))
     rows: int = parameter(4, "Rows of bend points from waist to hem", (1, 32))
     dye: str = parameter("red", "Dye of the outside", choices=DYE_NAMES)
     lining: str = parameter("pink", "Dye of the inside", choices=DYE_NAMES)
@@ -66,19 +66,21 @@ class SkirtParameters(SceneParameters):
 
 
 def play(parameters: SkirtParameters, clip: Clip) -> Iterator[Scene]:
-    """Seen from before."""
+    """Seen from the front."""
     packs, gait = open_packs(()), Gait(parameters.speed)
     cloth = skirt_cloth(parameters)
     shell, material = skirt_shell(parameters), skirt_material(parameters, packs)
     skin, causeway = figure_material(parameters.skin, packs), ground(packs)
     view = camera(clip.size, BEFORE, tail=0.6)
-    for state in walk(parameters, cloth, gait, clip):
-        worn = dressed(parameters, cloth, shell, state, material)
-        models = (*walker(gait, state.time, skin, causeway), worn)
+    for state in skirt_states(parameters, cloth, gait, clip):
+        skirt = skirt_model(parameters, cloth, shell, state, material)
+        models = (*walker(gait, state.time, skin, causeway), skirt)
         yield Scene(models, view, clip.size, background=SKY, samples=4)
 
 
-def walk(parameters: SkirtParameters, cloth: Cloth, gait: Gait, clip: Clip) -> Iterator[State]:
+def skirt_states(
+    parameters: SkirtParameters, cloth: Cloth, gait: Gait, clip: Clip
+) -> Iterator[State]:
     """The skirt at each frame, in the figure's own frame."""
     wind = Wind((0.0, 0.0, -gait.speed), gusts=0.3, seed=parameters.seed, period=LOOP)
     return motion(
@@ -92,7 +94,7 @@ def walk(parameters: SkirtParameters, cloth: Cloth, gait: Gait, clip: Clip) -> I
 
 
 def skirt_cloth(parameters: SkirtParameters) -> Cloth:
-    """The ring at rest: particles row by row from the waist, `panels` to a row. Its waist is held.
+    """The ring at rest: particles row by row from the pinned waist, `panels` in each row.
 
     Raises OptionError.
     """
@@ -117,7 +119,7 @@ def skirt_cloth(parameters: SkirtParameters) -> Cloth:
 
 
 def skirt_shell(parameters: SkirtParameters) -> Shell:
-    """The thick skirt as it is drawn: cut open at the back, so that the texture can go around."""
+    """The thick skirt: the ring is cut open at the back, where the texture begins and ends."""
     across, down = np.meshgrid(
         np.linspace(0, 1, parameters.panels + 1), np.linspace(0, 1, parameters.rows + 1)
     )
@@ -125,10 +127,10 @@ def skirt_shell(parameters: SkirtParameters) -> Shell:
     return make_shell(_triangles(parameters.rows, parameters.panels + 1), uvs, SKIN)
 
 
-def dressed(
+def skirt_model(
     parameters: SkirtParameters, cloth: Cloth, shell: Shell, state: State, material: Material
 ) -> Model:
-    """The skirt of a state. The normals are those of the closed ring, so the cut is not seen."""
+    """The skirt of a state, with the normals of the closed ring, so that the cut is invisible."""
     panels = parameters.panels
     index = np.arange((parameters.rows + 1) * panels).reshape(-1, panels)
     opened = np.concatenate([index, index[:, :1]], axis=1).reshape(-1)
@@ -146,7 +148,7 @@ def skirt_material(parameters: SkirtParameters, packs: Packs) -> Material:
             raise OptionError(f"side {side!r} is not known; use some of: {' '.join(SIDES)}")
     wool = np.tile(packs.texture("block/white_wool")[:16, :16], (1, 6, 1))[:, :96]
     outside, inside = (_dyed(wool, dye) for dye in (parameters.dye, parameters.lining))
-    # Every panel of eight texels darkens towards its edge: a pleat.
+    # The last column of every eight texels is darker, like the edge of a pleat.
     outside[:, np.arange(96) % 8 == 7, :3] = outside[:, np.arange(96) % 8 == 7, :3] // 5 * 4
     outside[-2:], inside[-2:] = _dyed(wool, parameters.trim)[-2:], outside[-2:]
     outside[..., 3] = 255 * ("outside" in named)
@@ -172,7 +174,7 @@ def _ring(rows: int, panels: int) -> NDArray[np.int32]:
 
 
 def _triangles(rows: int, columns: int) -> NDArray[np.int32]:
-    """Two triangles a cell of `rows` x (columns - 1) cells, turned by turns like a folded paper."""
+    """Two triangles in each of `rows` x (columns - 1) cells; the diagonal alternates."""
     index = np.arange((rows + 1) * columns, dtype=np.int32).reshape(rows + 1, columns)
     a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
     one = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)], axis=2)

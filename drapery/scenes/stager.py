@@ -1,4 +1,4 @@
-"""The stager: it hangs a body's cloth, steps it in time, thickens it and lights it: a `Scene`.
+"""The stager: it makes a body's cloth, steps it, thickens it, and lights it in a `Scene`.
 
 Still pictures, loops, 3-D files and the studio's live cloth all use it, so they agree to the bit.
 A panel of cloth is simulated in its own frame, its top edge along x through the origin, and moved
@@ -56,9 +56,9 @@ MAX_CACHED = 16 << 20
 
 @dataclass(frozen=True)
 class ClothSpec:
-    """What the cloth of a panel is made of. Equal specs make equal cloths.
+    """How the cloth of a panel is made. Equal specs make equal cloths.
 
-    shape: particles across and down. size: width and height [m]. pins: which particles are held.
+    shape: particles across and down. size: width and height [m]. pins: which particles are pinned.
     solver: its name, or a Solver. fabric: a Fabric; None is the default of `grid`.
     """
 
@@ -83,16 +83,16 @@ def cloth_at_rest(spec: ClothSpec) -> MovingCloth:
 
 
 def cloth_spec(panel: Panel, settings: Settings) -> ClothSpec:
-    """What the settings make a panel's cloth of."""
+    """How the settings make a panel's cloth."""
     pins = settings.pins or panel.pins
     return ClothSpec(settings.grid, panel.size, pins, settings.solver, settings.fabric)
 
 
 class Stager:
-    """A body before the camera at one moment; `advance` moves its cloth on.
+    """A body in front of the camera at one moment; `advance` steps its cloth.
 
     cloths: one for each panel; at rest unless given, none for the game's own stiff pose.
-    wind: what blows from now on. steps: how many time steps have been made.
+    wind: the wind from now on. steps: how many time steps have been made.
     Raises OptionError.
     """
 
@@ -152,14 +152,14 @@ class Stager:
         return frame_view(self.settings.view, every, aspect)
 
     def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
-        """The meshes in what they show at a time [s]; body: another whose materials they show."""
+        """The meshes with the materials of a time [s]; body: another one, which gives them."""
         shown = body or self.body
         getters = [part.material_at for part in shown.parts]
         getters += [panel.material_at for panel in shown.panels]
         return [Model(mesh, (at(time),)) for mesh, at in zip(meshes, getters, strict=True)]
 
     def scene(self, models: Sequence[Model], camera: Camera, shadow: Model | None = None) -> Scene:
-        """The models in the body's light; shadow: of the settings, made anew unless given."""
+        """The models in the body's light. shadow: that of the settings, made here unless given."""
         settings = self.settings
         if settings.shadow:
             under = shadow or contact_shadow(models, floor_under([m.mesh for m in models]))
@@ -184,7 +184,7 @@ class Stager:
 
 
 def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
-    """The scene after the cloth has hung in the wind for `settings.time` seconds.
+    """The scene after the cloth has been in the wind for `settings.time` seconds.
 
     design: None for a cape or elytra. Raises OptionError or PackError.
     """
@@ -242,8 +242,8 @@ def texture_times(period: float, count: int, fps: float) -> list[float]:
 def _scenes(
     stager: Stager, moments: Sequence[Sequence[Mesh]], times: Sequence[float]
 ) -> Iterator[Scene]:
-    """A scene of the meshes of each moment. The same camera frames all of them, or a turntable
-    what does not move."""
+    """A scene of the meshes of each moment. One camera frames all of them; a loop of what does not
+    move gets the cameras of a turntable instead."""
     settings, body, meshes = stager.settings, stager.body, [*chain(*moments)]
     points = np.concatenate([mesh.positions for mesh in meshes])
     aspect, floor = settings.size[0] / settings.size[1], floor_under(meshes)
@@ -272,7 +272,7 @@ def _specs(body: Body, settings: Settings) -> list[ClothSpec]:
 
 @lru_cache(maxsize=16)
 def _grid_shell(shape: tuple[int, int], uv_mapping: UVMapping) -> Shell:
-    """The shell of a grid of this shape: one object, so that renderers know it again."""
+    """The shell of a grid of this shape: one object, which renderers recognise by identity."""
     cloth = grid(*shape, 1.0, 1.0, pins="none")
     return make_shell(cloth.triangles, cloth.uvs, uv_mapping)
 
@@ -290,7 +290,7 @@ def flow(speed: float, direction: float | None) -> tuple[float, float, float]:
 def wind_of(settings: Settings, period: float | None = None) -> Wind:
     """The wind of the settings, in the frame of the panels.
 
-    period: it repeats after this time [s]; a Wind that is given keeps all else.
+    period: it repeats after this time [s]; all else of a Wind that is given stays.
     """
     given = settings.wind
     if isinstance(given, Wind):
@@ -326,7 +326,7 @@ def _record(spec: ClothSpec, forces: Sequence[Force], at: Moments) -> tuple[Stat
 
 
 def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, ...]:
-    """The same, from the cache where the settings hold only names and numbers."""
+    """The same, from a cache if the settings hold only names and numbers."""
     size = at.count * math.prod(spec.shape) * 3 * np.dtype(float).itemsize
     named = isinstance(spec.solver, str) and spec.fabric is None
     if named and not isinstance(settings.wind, Wind) and not settings.forces and size <= MAX_CACHED:
@@ -339,7 +339,7 @@ def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, 
 def _cached(
     spec: ClothSpec, wind: tuple[float, float | None, float, int], at: Moments
 ) -> tuple[State, ...]:
-    # Many banners in a row often move alike, since a design does not change the cloth.
+    # Banners of one batch often move alike, because a design does not change the cloth.
     speed, direction, gusts, seed = wind
     settings = Settings(wind=speed, direction=direction, gusts=gusts, seed=seed)
     moments = _record(spec, forces_of(settings, wind_of(settings, at.period)), at)

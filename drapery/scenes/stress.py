@@ -46,13 +46,13 @@ class StressParameters(SceneParameters):
 
 
 def play(parameters: StressParameters, clip: Clip) -> Iterator[Scene]:
-    """The cube in a wind whose gusts travel through it."""
+    """The cube in a wind whose gusts pass through it."""
     cloth = grid(5, 9, *FLAG_SIZE)
     places = _places(parameters)
     shell = make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING)
     materials = _materials(parameters)
     material_index = _bands(parameters.side)
-    camera = frame_points(CORNER, places[:, None] + _room(), clip.size[0] / clip.size[1])
+    camera = frame_points(CORNER, places[:, None] + _framed_points(), clip.size[0] / clip.size[1])
     for positions in _motion(parameters, clip, places):
         placed = (positions + places[:, None]).astype(np.float32)
         mesh = cover_crowd(shell, placed, SCALE)
@@ -76,22 +76,22 @@ def _motion(parameters: StressParameters, clip: Clip, places: Array) -> Iterator
 
 
 def _places(parameters: StressParameters) -> Array:
-    """Middles of the top edges, shape [side³, 3]."""
+    """Middles of the top edges of the flags [m], shape [side³, 3]."""
     steps = np.arange(parameters.side) - (parameters.side - 1) / 2
     corners = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
     places: Array = corners * np.array(parameters.spacing)
     return places
 
 
-def _room() -> Array:
-    """What one flag may fill [m], as the corners of a box around its place."""
+def _framed_points() -> Array:
+    """The space that one flag may fill: two corners of a box around its place [m]."""
     width, height = FLAG_SIZE
     low, high = np.array([-width, -height, -0.2]), np.array([width, 0.05, 0.9])
     return np.stack([low, high])
 
 
 def _bands(side: int) -> NDArray[np.int32]:
-    """Which material each banner has, shape [side³]: colours change from corner to corner."""
+    """The number of each banner's material, shape [side³]; colours change from corner to corner."""
     x, y, z = np.indices((side, side, side)).reshape(3, -1)
     band = (x + side - 1 - y + z) * len(RAINBOW) // (3 * side - 2)
     return (VARIANTS * band + (x + 2 * y + z) % VARIANTS).astype(np.int32)
@@ -109,10 +109,13 @@ def _materials(parameters: StressParameters) -> tuple[Material, ...]:
 
 
 def _any_banner(base: str, random: np.random.Generator, layers: int) -> Banner:
-    """Random patterns in the colours beside the base's own, the last in black or white."""
+    """Random patterns in dyes beside the base dye in the rainbow, the last in black or white."""
     place = RAINBOW.index(base)
-    near = [RAINBOW[(place + step) % len(RAINBOW)] for step in (-1, 1, -2, 2)]
-    dyes = [*(near[step % 4] for step in range(layers - 1)), random.choice(["white", "black"])]
+    neighbours = [RAINBOW[(place + step) % len(RAINBOW)] for step in (-1, 1, -2, 2)]
+    dyes = [
+        *(neighbours[step % 4] for step in range(layers - 1)),
+        random.choice(["white", "black"]),
+    ]
     patterns = random.choice(PATTERN_NAMES[1:], layers)
     pairs = zip(patterns, dyes, strict=False)
     return Banner(base, tuple(Layer(str(p), str(d)) for p, d in pairs))

@@ -8,5 +8,5 @@ from drapery.scenes.corners import CornersParameters, show
 
 
 def play(parameters: CornersParameters, clip: Clip) -> Iterator[Scene]:
-    """From the moment when it is let go."""
+    """From the moment of its release."""
     return show("three-corners", parameters, clip)

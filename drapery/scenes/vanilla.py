@@ -49,14 +49,14 @@ class VanillaParameters(SceneParameters):
     wind: float = wind_parameter(5.0, "Mean speed of the wind at the banner")
     block: tuple[int, int, int] = parameter(
         (0, 0, 0),
-        "Block of the banner in its world, for its phase",
+        "Block of the banner in its world, which sets the phase of its sway",
         (-30_000_000, 30_000_000),
     )
     seed: int = seed_parameter()
 
 
 def play(parameters: VanillaParameters, clip: Clip) -> Iterator[PictureGrid]:
-    """Banners above, capes below; the game's on the left."""
+    """Banners above, capes below; those of the game on the left."""
     packs = open_packs(())
     rows = (_banners(parameters, packs, clip), _capes(parameters, packs, clip))
     for above, below in zip(*rows, strict=True):
@@ -70,7 +70,7 @@ def _banners(
     still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wood_model((BLOCK,), packs))
     cloth, materials = flag_cloth((5, 9)), flag_materials((parameters.design,), packs)
     shell = flag_shell(cloth)
-    camera = frame_points(SIDE_ON, _banner_room(), size[0] / size[1], margin=0.06)
+    camera = frame_points(SIDE_ON, _framed_points(), size[0] / size[1], margin=0.06)
     velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
     forces = (Gravity(), Wind(velocity, gusts=0.5, seed=parameters.seed, period=LOOP))
     start = flags_at_rest(cloth, (BLOCK,))
@@ -89,15 +89,20 @@ def _capes(
     parameters: VanillaParameters, packs: Packs, clip: Clip
 ) -> Iterator[tuple[Scene, Scene]]:
     size = panel_size(clip.size, 2, 2)
-    worn = cape.CapeParameters(dye=parameters.dye, speed=parameters.speed, seed=parameters.seed)
-    gait, cloth = Gait(parameters.speed), cape.cape_cloth(worn.grid)
-    shell, wool = cape.cape_shell(cloth), dyed(packs.texture("entity/player/cape"), worn.dye)
-    skin, causeway = figure_material(worn.skin, packs), ground(packs)
+    cape_parameters = cape.CapeParameters(
+        dye=parameters.dye, speed=parameters.speed, seed=parameters.seed
+    )
+    gait, cloth = Gait(parameters.speed), cape.cape_cloth(cape_parameters.grid)
+    shell, wool = (
+        cape.cape_shell(cloth),
+        dyed(packs.texture("entity/player/cape"), cape_parameters.dye),
+    )
+    skin, causeway = figure_material(cape_parameters.skin, packs), ground(packs)
     view = camera(size)
-    for frame, state in enumerate(cape.walk(worn, cloth, gait, clip)):
+    for frame, state in enumerate(cape.cape_states(cape_parameters, cloth, gait, clip)):
         stiff = Model(stiff_cape(cape_lean(parameters.speed, frame / clip.fps)), (wool,))
         lifted = moved(stiff.mesh, np.array([0, gait.lift(state.time), 0]))
-        soft = cape.worn(shell, state, 1.0, wool)
+        soft = cape.cape_model(shell, state, 1.0, wool)
         figure = walker(gait, state.time, skin, causeway)
         left, right = (
             Scene((*figure, back), view, size, background=SKY, samples=4)
@@ -106,7 +111,7 @@ def _capes(
         yield left, right
 
 
-def _banner_room() -> Array:
+def _framed_points() -> Array:
     """What the camera frames: the banner and the ground below it [m]."""
     return np.array(
         [[x, y, z] for x in (-0.9, 0.9) for y, z in ((-0.5, 0.9), (1.95, 0), (0, -0.9))]

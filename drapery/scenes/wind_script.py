@@ -1,9 +1,9 @@
-"""Commands to a wind at times: what the keys of a game would do, written down.
+"""Scripts of a wind that changes: commands at times, one on each line.
 
-One command a line: a time [s], a word and its number. `#` begins a comment.
+A command is a time [s], a word and its number. `#` begins a comment.
 
     0.0  strength 6      m/s
-    1.5  direction 40    degrees: where it blows to; 0 is +z, 90 is +x
+    1.5  direction 40    degrees: where the wind blows to; 0 is +z, 90 is +x
     2.5  off
     3.0  on
 """
@@ -21,7 +21,7 @@ LIMITS = {"strength": (0.0, 40.0), "direction": (-3600.0, 3600.0)}
 
 @dataclass(frozen=True)
 class WindSetting:
-    """The wind from a time on. time: [s]; direction: [degrees]; strength: [m/s]."""
+    """The wind from a time on [s]. direction: [degrees]. strength: [m/s]. on: whether it blows."""
 
     time: float = 0.0
     direction: float = 0.0
@@ -30,12 +30,12 @@ class WindSetting:
 
     @property
     def speed(self) -> float:
-        """What blows [m/s]."""
+        """The speed of the wind [m/s]; 0 while it is off."""
         return self.strength if self.on else 0.0
 
 
 def read_script(path: str) -> tuple[WindSetting, ...]:
-    """The settings of a file, in order. Raises OptionError, naming the line."""
+    """The settings of a file, in order. Raises OptionError that names the line."""
     try:
         with Path(path).open("rb") as file:
             data = file.read(MAX_BYTES + 1)
@@ -51,19 +51,21 @@ def read_script(path: str) -> tuple[WindSetting, ...]:
 
 
 def parse_script(text: str, name: str = "script") -> Iterator[WindSetting]:
-    """The settings of a text of commands, the first at time 0. Raises OptionError."""
+    """The settings of a script, the first at time 0. name: of the script in messages.
+
+    Raises OptionError that names the line.
+    """
     now = WindSetting()
     yield now
     for number, line in enumerate(text.splitlines(), 1):
         words = line.partition("#")[0].split()
         if words:
-            later = _obeyed(now, words, f"{name}, line {number}")
-            yield later
-            now = later
+            now = _after(now, words, f"{name}, line {number}")
+            yield now
 
 
-def _obeyed(now: WindSetting, words: list[str], place: str) -> WindSetting:
-    """The setting after one command."""
+def _after(now: WindSetting, words: list[str], place: str) -> WindSetting:
+    """The setting after one command, given as words. place: its line, for messages."""
     match words:
         case [time, ("on" | "off") as switch]:
             return replace(now, time=_time(time, now, place), on=switch == "on")
@@ -75,9 +77,9 @@ def _obeyed(now: WindSetting, words: list[str], place: str) -> WindSetting:
                 if word == "direction"
                 else replace(changed, strength=number)
             )
-    said = " ".join(words)[:40]
+    command = " ".join(words)[:40]
     raise OptionError(
-        f"{place}: {said!r} is not a command; write TIME on|off|direction N|strength N"
+        f"{place}: {command!r} is not a command; write TIME on|off|direction N|strength N"
     )
 
 

@@ -1,4 +1,4 @@
-"""Banners of larger grids as wireframes."""
+"""Two banners of fine grids as wireframes."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -37,7 +37,7 @@ class WireframeParameters(SceneParameters):
     right: tuple[int, int] = grid_parameter((17, 33), "The same of the right flag")
     wind: float = wind_parameter(6.0)
     springs: bool = parameter(
-        False, "All springs by kind: structural dark, shear orange, flexion green"
+        False, "Shows all springs by kind: structural dark, shear orange, flexion green"
     )
     seed: int = seed_parameter()
 

@@ -1,4 +1,4 @@
-"""Cloth shown as its grid: faces pale, edges and pins drawn."""
+"""Cloth drawn as its grid: pale faces, edges and pins."""
 
 import numpy as np
 
@@ -11,13 +11,13 @@ from drapery.render.scene import Material, Model, TextureLayer
 
 PAPER = (246, 246, 244, 255)
 DAYLIGHT = Light(((0.4, 0.9, 0.7), (-0.6, 0.3, 0.4)), 0.62, 0.4)
-"""Softer than the game's: folds show, and no face is dark."""
+"""Softer than the light of the game: folds are visible, and no face is dark."""
 LINE = 1.25
 """Width of an edge [pixels]."""
 
 
 def paper(colour: tuple[int, int, int]) -> Material:
-    """One plain colour."""
+    """A material of one colour, sRGB 0..255."""
     return Material((TextureLayer(np.array([[[*colour, 255]]], np.uint8)),))
 
 
@@ -29,9 +29,10 @@ def wired(
     material: Material | None = None,
     springs: bool = False,
 ) -> tuple[Model, ...]:
-    """A cloth's edges, or all its springs by kind, and its pins; its faces in a material.
+    """A cloth's edges and pins as lines and dots, and its faces in a material if one is given.
 
-    positions: [N, 3]; height: of the picture [pixels].
+    positions: [m], shape [N, 3]. height: of the picture [pixels]. springs: whether all springs are
+    drawn, coloured by kind, in place of the edges.
     """
     normals = vertex_normals(positions, cloth.triangles)
     sheet = Mesh(positions, normals, cloth.triangles, cloth.uvs)

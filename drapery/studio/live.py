@@ -131,7 +131,7 @@ class Live:
         self._shadow = None
         self._stager.steps = 0
         self._stager.wind = wind_of(self.wind_controls)
-        self._stager.cloths = [new_live_cloth(cloth.spec) for cloth in self._stager.cloths]
+        self._stager.cloths = [new_live_cloth(cloth.spec) for cloth in self._cloths]
 
     def grab(self, ray: Ray) -> bool:
         """Grab the free particle nearest to a line of sight; False if there is none."""

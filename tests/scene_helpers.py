@@ -1,4 +1,4 @@
-"""What the tests of scenes share: how deep cloth is in a collider, and a scene's last picture."""
+"""Helpers for the tests of scenes: a scene's last picture, and cloth's distance from colliders."""
 
 from collections.abc import Sequence
 
