@@ -106,7 +106,8 @@ def _parsed(each: Field[Any], text: str) -> Any:
 
 
 def _wrong_count(each: Field[Any], value: object) -> OptionError:
-    count, example = len(each.default), "x".join(map(str, each.default))
+    default: Any = each.default
+    count, example = len(default), "x".join(map(str, default))
     return OptionError(
         f"{each.name} {shown(value)} is not {count} numbers; write it like {example}"
     )
