@@ -1,4 +1,4 @@
-"""A ready-made scene played over and over, at its own pace."""
+"""A ready-made scene, played in a loop at its own frame rate."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -8,75 +8,74 @@ from drapery.render import Scene
 from drapery.scenes import Clip, Picture, PictureGrid, SceneEntry, find_scene
 from drapery.studio.panes import Shown, shown_picture
 
-MAX_KEPT = 96 << 20
-"""A scene is remembered up to this size [bytes], so that it need not be simulated again."""
-LIGHTER = {"stress": {"side": "7"}}
-"""Parameters of scenes that would be too much for a browser."""
-LONGEST = 960
-"""The longest side for which a scene is laid out [pixels]; the viewer draws at its own."""
+MAX_CACHED = 96 << 20
+"""The moments of a scene are cached up to this size [bytes] and not simulated again."""
+REDUCED = {"stress": {"side": "7"}}
+"""Parameters of scenes that are otherwise too large for a browser."""
+MAX_SIDE = 960
+"""The longest side of the picture for which a scene is framed [pixels]; the viewer has its own."""
 
 
 class Player:
-    """A scene of the catalogue, from its first moment to its last and again.
+    """A scene of the catalogue, from its first moment to its last, again and again.
 
-    size: width and height for which it is laid out [pixels]. Raises OptionError for a name that is
-    none.
+    size: width and height of the picture for which it is framed [pixels]. Raises OptionError for a
+    name that is not known.
     """
 
     def __init__(self, name: str, size: tuple[int, int] = (640, 480)) -> None:
         self.entry: SceneEntry = find_scene(name)
-        self.parameters = self.entry.parameters(LIGHTER.get(name, {}))
-        self._clip: Clip = replace(self.entry.clip, size=_laid_out(size))
-        self._kept: list[Shown] | None = []
-        self._room = MAX_KEPT
-        self._known: set[int] = set()
-        self._coming: Iterator[Shown] = iter(())
-        self._round = 0
+        self.parameters = self.entry.parameters(REDUCED.get(name, {}))
+        self._clip: Clip = replace(self.entry.clip, size=_framed_size(size))
+        self._cache: list[Shown] | None = []
+        self._free = MAX_CACHED
+        self._counted: set[int] = set()
+        self._upcoming: Iterator[Shown] = iter(())
         self.now: Shown | None = None
 
     @property
     def fps(self) -> float:
-        """Moments a second."""
+        """Moments per second."""
         return self._clip.fps
 
     def step(self) -> Shown:
         """The next moment; after the last the first again."""
-        shown = next(self._coming, None)
+        shown = next(self._upcoming, None)
         if shown is None:
             self.restart()
-            shown = next(self._coming)
+            shown = next(self._upcoming)
         self.now = replace(shown, cut=(self.entry.name, self._clip.size))
         return self.now
 
     def restart(self) -> None:
         """From the first moment again."""
-        whole = self._kept is not None and len(self._kept) == self._clip.count
-        self._coming = iter(self._kept or ()) if whole else self._played()
+        whole = self._cache is not None and len(self._cache) == self._clip.count
+        self._upcoming = iter(self._cache or ()) if whole else self._simulated()
 
-    def _played(self) -> Iterator[Shown]:
-        """All moments, simulated; remembered where there is room."""
-        self._kept, self._room = ([], MAX_KEPT) if self._kept is not None else (None, 0)
-        self._known = set()
+    def _simulated(self) -> Iterator[Shown]:
+        """All moments, simulated; they are cached unless the scene has proved too large."""
+        self._cache, self._free = ([], MAX_CACHED) if self._cache is not None else (None, 0)
+        self._counted = set()
         for picture in self.entry.play(self.parameters, self._clip):
             shown = shown_picture(picture)
-            self._keep(shown, picture)
+            self._add_to_cache(shown, picture)
             yield shown
 
-    def _keep(self, shown: Shown, picture: Picture) -> None:
-        if self._kept is None:
+    def _add_to_cache(self, shown: Shown, picture: Picture) -> None:
+        if self._cache is None:
             return
-        self._room -= self._weight(picture)
-        self._kept.append(shown)
-        if self._room < 0:
-            self._kept = None
+        self._free -= self._new_bytes(picture)
+        self._cache.append(shown)
+        if self._free < 0:
+            self._cache = None
 
-    def _weight(self, picture: Picture) -> int:
-        """The bytes of what is new in a picture."""
+    def _new_bytes(self, picture: Picture) -> int:
+        """The bytes of the arrays that no cached moment holds yet."""
         total = 0
         for array in _arrays(picture):
-            # What is known by its identity is held by the moments that are kept.
-            if id(array) not in self._known:
-                self._known.add(id(array))
+            # An array keeps its identity while a cached moment holds it.
+            if id(array) not in self._counted:
+                self._counted.add(id(array))
                 total += array.nbytes
         return total
 
@@ -89,13 +88,13 @@ def _arrays(picture: Picture) -> Iterator[Any]:
         for model in picture.models:
             mesh = model.mesh
             yield from (mesh.positions, mesh.normals, mesh.triangles, mesh.uvs)
-            yield from (layer.texels for look in model.materials for layer in look.layers)
+            yield from (layer.texels for material in model.materials for layer in material.layers)
     else:
         yield picture.pixels
 
 
-def _laid_out(size: tuple[int, int]) -> tuple[int, int]:
-    """The size, made smaller or larger in its proportion, in whole pixels that halve."""
-    scale = min(1.0, LONGEST / max(size))
+def _framed_size(size: tuple[int, int]) -> tuple[int, int]:
+    """The size reduced to MAX_SIDE in proportion, each side a multiple of 4 and at least 64."""
+    scale = min(1.0, MAX_SIDE / max(size))
     width, height = (max(64, int(side * scale) // 4 * 4) for side in size)
     return width, height

@@ -1,7 +1,7 @@
 """The banner block as the game builds it: pole, bar, flag, and the game's own stiff sway.
 
-Model units are 1/16 block with y down and z towards the back; the block's transform turns them
-upright and shrinks them to two thirds.
+Model units are 1/16 block with y down and z towards the back; the transform of the block turns
+them upright and scales them by 2/3.
 """
 
 from typing import Literal
@@ -40,7 +40,7 @@ _FLAG_PIVOT: dict[Placement, tuple[float, float, float]] = {
     "wall": (0, -20.5, 10.5),
 }
 _FLAG_MIDDLE = -1.5
-"""Depth of the flag's middle sheet under its pivot [model units]."""
+"""z of the flag's middle sheet relative to its pivot [model units]."""
 _ORIGIN = (0.5, 0.0, 0.5)
 """The model's origin in the block [m]."""
 
@@ -80,10 +80,10 @@ def wood(placement: Placement) -> Mesh:
 
 
 def stiff_flag(placement: Placement, phase: float, thickness: float = 1.0) -> Mesh:
-    """The game's own flag, a stiff board, at a phase 0..1 of its sway; thickness in texels.
+    """The game's own flag, a stiff board, at a phase 0..1 of its sway. thickness: in texels.
 
-    The flag hangs from (0, 0, 0); the pivot is 1.5 model units behind it. The model's x axis
-    stays the world's while y and z are both turned about, so the angle keeps its sense.
+    The flag's top edge is at (0, 0, 0); the pivot is 1.5 model units behind it. The x axis of the
+    model is that of the world, and y and z are both reversed, so the angle keeps its sign.
     """
     flag = stiff_board(FLAG_SIZE, thickness * SCALE, FLAG_MAPPING)
     before_pivot = moved(flag, np.array([0.0, 0.0, -_FLAG_MIDDLE * SCALE]))

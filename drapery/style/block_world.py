@@ -1,4 +1,4 @@
-"""Ground and walls of blocks: only the faces that can be seen, one model a texture."""
+"""Ground and walls of blocks: only the visible faces, one model for each texture."""
 
 from collections.abc import Mapping
 
@@ -11,10 +11,10 @@ from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, Model, TextureLayer
 
 Cell = tuple[int, int, int]
-"""A block by its least corner [m]: x, y, z."""
+"""A block by its lowest corner [m]: x, y, z."""
 
 Face = tuple[str, Tint]
-"""A texture and the colour that it is multiplied by."""
+"""A texture and the colour that multiplies it."""
 
 Cells = Mapping[Cell, str]
 
@@ -22,10 +22,10 @@ FACES: dict[str, tuple[str, str, str]] = {
     "grass": ("grass_block_top", "grass_block_side", "dirt"),
     "oak_log": ("oak_log_top", "oak_log", "oak_log_top"),
 }
-"""Top, side and bottom of blocks that do not look alike from all sides."""
+"""Textures of top, side and bottom of blocks whose sides differ."""
 
 SIDES = (
-    # Normal, upper left corner, step right, step down; of a unit cube, seen from outside.
+    # Of a unit cube seen from outside: normal, upper left corner, step right, step down.
     ((0, 1, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1)),
     ((0, -1, 0), (0, 0, 1), (1, 0, 0), (0, 0, -1)),
     ((0, 0, 1), (0, 1, 1), (1, 0, 0), (0, -1, 0)),
@@ -36,7 +36,7 @@ SIDES = (
 
 
 def blocks(cells: Cells, packs: Packs) -> tuple[Model, ...]:
-    """The visible faces of blocks named like `stone` or `grass`; a dye's name is wool of it.
+    """The visible faces of blocks named like `stone` or `grass`; the name of a dye is its wool.
 
     Raises PackError for a texture that cannot be read.
     """
@@ -54,7 +54,7 @@ def blocks(cells: Cells, packs: Packs) -> tuple[Model, ...]:
 
 
 def plateau(width: int, depth: int, kind: str = "grass", thick: int = 1) -> dict[Cell, str]:
-    """A level piece of ground around the origin, its top at y = 0; dirt below grass."""
+    """A level piece of ground around the origin, its top at y = 0, with dirt below grass."""
     low = "dirt" if kind == "grass" else kind
     return {
         (x, -1 - y, z): low if y else kind

@@ -1,6 +1,6 @@
-"""Cloth with the look of low resolution: bends of few angles, and texels that stay level.
+"""Cloth that looks like low resolution: bends of few angles, and texels that stay level.
 
-Both work on what has been simulated: the cloth itself knows nothing of them.
+Both change the positions after the simulation and have no effect on it.
 """
 
 import numpy as np
@@ -11,10 +11,11 @@ from drapery.style.uv_mapping import BoxMapping
 
 
 def stepped(sheet: Array, shape: tuple[int, int], steps: int) -> Array:
-    """A hanging grid as a chain of stiff boards whose angles are multiples of 90 / steps degrees.
+    """A grid below its top row as a chain of stiff boards at multiples of 90 / steps degrees.
 
-    sheet: [..., N, 3], row by row from the top; shape: its rows and columns. Each board keeps the
-    distance of its rows and hangs from the one above; the uppermost row stays where it is.
+    sheet: positions [m], shape [..., N, 3], row by row from the top. shape: its rows and columns.
+    Each board keeps the distance of its two rows and starts at the end of the one above; the top
+    row stays where it is.
     """
     rows = sheet.reshape(*sheet.shape[:-2], *shape, 3)
     middles = rows.mean(axis=-2)
@@ -29,8 +30,8 @@ def stepped(sheet: Array, shape: tuple[int, int], steps: int) -> Array:
     down = np.array([0.0, -1.0, 0.0])
     turned = np.cos(bend)[..., None] * down + np.sin(bend)[..., None] * front
     boards = np.cos(lean)[..., None] * turned + np.sin(lean)[..., None] * side
-    hung = np.cumsum(lengths[..., None] * boards, axis=-2)
-    offsets = np.concatenate([np.zeros_like(hung[..., :1, :]), hung], axis=-2)
+    below = np.cumsum(lengths[..., None] * boards, axis=-2)
+    offsets = np.concatenate([np.zeros_like(below[..., :1, :]), below], axis=-2)
     result: Array = (rows[..., :1, :, :] + offsets[..., None, :]).reshape(sheet.shape)
     return result
 
@@ -42,14 +43,14 @@ def pixelled(
     uv_mapping: BoxMapping,
     texel: float,
 ) -> Mesh:
-    """A grid that hangs along x as upright cubes, one a texel, on the lattice of texels.
+    """A grid whose rows run along x as upright cubes, one for each texel, on a lattice of texels.
 
-    A row of texels moves sideways and down as a whole, so that it has no holes; each texel moves
-    to the front and back by itself. A cube shows its texel of the front on its front and around
-    it, and that of the back behind.
+    A row of texels moves sideways and down as one, so that it has no holes; each texel moves
+    forwards and backwards alone. A cube shows its texel of the back on its back, and its texel of
+    the front on its other sides.
 
-    sheet: [N, 3]; shape: its rows and columns; size: texels across and down; skin: where front
-    and back lie on the texture; texel: edge of a cube [m].
+    sheet: positions [m], shape [N, 3]. shape: its rows and columns. size: texels across and down.
+    uv_mapping: where front and back lie on the texture. texel: edge of a cube [m].
     """
     first = sheet[0] + np.array([texel / 2, -texel / 2, 0.0])
     column, row = np.meshgrid(np.arange(size[0]), np.arange(size[1]))
@@ -75,7 +76,7 @@ def _snapped(angles: Array, steps: int) -> Array:
 
 
 def _middles(rows: Array, size: tuple[int, int]) -> Array:
-    """Where the texels' middles are on a grid [R, C, 3], shape [size[1], size[0], 3]."""
+    """The middles of the texels of a grid [R, C, 3], shape [size[1], size[0], 3]."""
     for axis, count in ((0, size[1]), (1, size[0])):
         at = (np.arange(count) + 0.5) / count * (rows.shape[axis] - 1)
         low = np.minimum(at.astype(int), rows.shape[axis] - 2)
@@ -85,7 +86,7 @@ def _middles(rows: Array, size: tuple[int, int]) -> Array:
 
 
 def _texel_uvs(size: tuple[int, int], uv_mapping: BoxMapping) -> Array:
-    """Each cube's 24 texture coordinates: all of a face at its texel's middle, [M, 24, 2]."""
+    """The 24 texture coordinates of each cube, shape [M, 24, 2]: the middle of one texel a face."""
     across, down = np.meshgrid(
         (np.arange(size[0]) + 0.5) / size[0], (np.arange(size[1]) + 0.5) / size[1]
     )

@@ -1,4 +1,4 @@
-"""Cloth as the game shows it: a stiff board that hangs from its top edge."""
+"""Cloth as the game shows it: a stiff board below its top edge."""
 
 import numpy as np
 

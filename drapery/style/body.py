@@ -1,4 +1,4 @@
-"""What is to be drawn, before it moves: stiff parts, panels of cloth, and their materials."""
+"""What is drawn, before it moves: stiff parts, panels of cloth, and their materials."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,13 +27,13 @@ class Panel:
     """A rectangle of cloth. In its own frame its top edge runs along x through the origin.
 
     size: width and height [m].
-    origin: where the middle of its top edge hangs [m], shape [3].
+    origin: place of the middle of its top edge [m], shape [3].
     texel: the unit of its thickness [m].
     uv_mapping: where its sides lie on the texture; hashable.
-    pins: which particles are held.
-    board: its stiff shape in the game, hung, at a phase 0..1 of its sway and of a thickness
-        [texels].
-    sway: the period of that sway [s]; None where the game holds it still.
+    pins: which particles are pinned.
+    board: its stiff shape in the game, in its place, at a phase 0..1 of its sway and of a
+        thickness [texels].
+    sway: the period of that sway [s]; None where it does not move in the game.
     material_at: its material at a time [s].
     """
 
@@ -49,7 +49,7 @@ class Panel:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """One thing to be drawn: stiff parts and panels of cloth.
+    """One thing that is drawn: stiff parts and panels of cloth.
 
     period: of its animated textures [s]; 0 if they are still.
     light: the light on it. camera: its own; None if a named view frames it.

@@ -1,6 +1,6 @@
-"""Boxes of the game's models: six rectangles, textured by one unfolding.
+"""Boxes of the game's models: six rectangles with one unfolded texture.
 
-Model units are texels, y points down and z to the back, as in the game's models.
+Model units are texels; y points down and z to the back, as in the game's models.
 """
 
 from collections.abc import Sequence
@@ -14,9 +14,10 @@ from drapery.style.uv_mapping import BoxMapping, box_mapping
 
 @dataclass(frozen=True)
 class ModelBox:
-    """A box of a model: its least corner and its size [texels], its unfolding's upper left corner.
+    """A box of a model; all lengths in texels.
 
-    grown: how far each side is pushed out [texels]; the texture stays as it is.
+    corner: its lowest x, y and z. size: along x, y and z. offset: upper left corner of its unfolded
+    sides on the texture. grown: how far each side is moved outwards; the texture stays the same.
     """
 
     corner: tuple[float, float, float]
@@ -28,8 +29,8 @@ class ModelBox:
 def box_mesh(box: ModelBox, sheet: tuple[float, float] = (64, 64)) -> Mesh:
     """The six faces of a box, each with its own four corners and normal, in model units.
 
-    Seen upright: the normals and the order of the corners are those of a model whose y and z have
-    been turned about, as `upright` does. sheet: width and height of the texture [texels].
+    The normals and the order of the corners are already those after `upright`, which reverses y
+    and z. sheet: width and height of the texture [texels].
     """
     uv_mapping = box_mapping(box.offset, box.size, sheet)
     faces = [_face(*side) for side in _sides(uv_mapping)]
@@ -44,7 +45,7 @@ def box_mesh(box: ModelBox, sheet: tuple[float, float] = (64, 64)) -> Mesh:
 
 
 def upright(mesh: Mesh, scale: float, origin: tuple[float, float, float]) -> Mesh:
-    """A mesh of boxes in metres, y up: `scale` metres a texel, the model's origin at `origin`."""
+    """A mesh of boxes in metres, y up. scale: [m/texel]. origin: of the model in the world [m]."""
     positions = mesh.positions * np.array([scale, -scale, -scale]) + np.array(origin)
     return Mesh(positions, mesh.normals, mesh.triangles, mesh.uvs)
 

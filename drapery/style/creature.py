@@ -1,4 +1,4 @@
-"""A fox of small cubes: something with corners for cloth to fall on."""
+"""A fox of small cubes, an angular body for cloth to fall on."""
 
 from itertools import product
 
@@ -12,7 +12,7 @@ CUBE = 0.17
 
 
 def fox() -> dict[Cell, str]:
-    """Cells and their dyes; it stands on y = 0, its middle over the origin, and looks along +z."""
+    """Cells and their dyes. The fox stands on y = 0 over the origin and looks along +z."""
     cells: dict[Cell, str] = {}
     for x, y, z in product((-1, 0, 1), (2, 3, 4), range(-4, 2)):
         cells[x, y, z] = "white" if y == 2 else "orange"
@@ -29,5 +29,5 @@ def fox() -> dict[Cell, str]:
 
 
 def cells_of(creature: dict[Cell, str]) -> NDArray[np.int64]:
-    """The cells as whole numbers, shape [M, 3]."""
+    """The cells of a creature as an array, shape [M, 3]."""
     return np.array(sorted(creature), np.int64)

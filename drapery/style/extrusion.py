@@ -17,7 +17,7 @@ from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
 
 
 def boundary_edges(triangles: Triangles) -> NDArray[np.int32]:
-    """The edges that only one triangle has, shape [E, 2], in the direction of their triangles.
+    """The edges of only one triangle, shape [E, 2], in the direction of that triangle.
 
     triangles: vertex indices, shape [T, 3].
     """
@@ -31,7 +31,7 @@ def boundary_edges(triangles: Triangles) -> NDArray[np.int32]:
 
 @dataclass(frozen=True, eq=False)
 class Shell:
-    """The constant part of a thick cloth: how its vertices follow those of the thin one.
+    """The constant part of a thick cloth: how its vertices follow from those of the thin one.
 
     The vertices are the front sheet, the back sheet, then four for each edge of the rim.
     count: vertices of the thin sheet.
@@ -101,7 +101,7 @@ def thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
 def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING) -> Mesh:
     """Give a thin mesh a thickness [m]: front and back sheets and a closed rim.
 
-    mesh: its normals say where forwards is; give averaged ones (`drapery.mesh.vertex_normals`).
+    mesh: its normals point forwards; give averaged ones (`drapery.mesh.vertex_normals`).
     uv_mapping: see `make_shell`. For moving cloth, make the shell once and `cover` each moment.
     """
     shell = make_shell(mesh.triangles, mesh.uvs, uv_mapping)

@@ -1,7 +1,7 @@
 """A walking figure of boxes: its parts, poses and materials.
 
-It stands on y = 0 at the origin, faces +z, and is 32 texels tall, like the game's people, which is
-1.875 m; it wears any skin of their layout, 64 x 64 texels.
+It stands on y = 0 at the origin, faces +z, and is 32 texels (1.875 m) tall, as the game's players
+are. Its skin is any texture of their layout, 64 x 64 texels.
 """
 
 from collections.abc import Mapping
@@ -16,15 +16,15 @@ from drapery.style.boxes import ModelBox, box_mesh, join, upright
 from drapery.style.uv_mapping import BoxMapping, box_mapping
 
 TEXEL = 0.9375 / 16.0
-"""Metres per texel of a player and of what players wear: the game draws them at 15/16 of the size
-of blocks, whose texels are 1/16 m."""
+"""Metres per texel of players, capes and elytra: the game draws them at 15/16 of the size of
+blocks, whose texels are 1/16 m."""
 SKIN_SHEET = (64, 64)
-"""Width and height of our own textures of skins and capes [texels]."""
+"""Width and height of the built-in textures of skins and capes [texels]."""
 CAPE_SIZE = (10 * TEXEL, 16 * TEXEL)
 """Width and length of a cape [m]; it is one texel thick."""
 
 SKINS = ("traveller", "dancer")
-"""Our own skins."""
+"""The built-in skins."""
 
 Placed = tuple[Array, Array]
 """A rigid pose: position [m], shape [3], and rotation matrix, shape [3, 3]."""
@@ -32,7 +32,7 @@ Placed = tuple[Array, Array]
 
 @dataclass(frozen=True)
 class FigurePart:
-    """A box of the figure [texels, y down, the ground at 0] and the joint that it turns about."""
+    """A box of the figure and the joint about which it turns [texels, y down, the ground at 0]."""
 
     box: ModelBox
     joint: tuple[float, float, float]
@@ -54,7 +54,7 @@ def cape_mapping(sheet: tuple[int, int]) -> BoxMapping:
 
 
 def to_metres(texels: Array) -> Array:
-    """A place in the model [texels, y down, z back] in the world [m, y up, z to the front]."""
+    """A place in the model [texels, y down, z back] as one in the world [m, y up, z front]."""
     metres: Array = texels * np.array([TEXEL, -TEXEL, -TEXEL])
     return metres
 
@@ -70,7 +70,7 @@ PARTS: dict[str, FigurePart] = {
 
 
 def figure_mesh(poses: Mapping[str, Placed]) -> Mesh:
-    """The figure with each part in its pose; a part that is not named stays at rest."""
+    """The figure with each part in its pose; a part without one is at rest."""
     return join([_posed(mesh, poses.get(name)) for name, mesh in _REST.items()])
 
 

@@ -1,4 +1,4 @@
-"""A small hero of pixels: seen from the side, running, in the air, and standing."""
+"""A small hero of pixels, seen from the side: running, in the air, and standing."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,4 +1,4 @@
-"""A beetle of round bodies and thin legs: something for cloth to fall on."""
+"""A beetle with a round body and thin legs, for cloth to fall on."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ RINGS, SEGMENTS = 10, 16
 
 @dataclass(frozen=True, eq=False)
 class Beetle:
-    """Its surface as models, and as one set of closed parts for collisions."""
+    """Its surface as models to draw, and as one closed mesh for collisions [m]."""
 
     models: tuple[Model, ...]
     vertices: Array
@@ -22,7 +22,7 @@ class Beetle:
 
 
 def beetle(at: Array) -> Beetle:
-    """A beetle that stands at a place on level ground [m], shape [3], and looks along +z."""
+    """A beetle on level ground that looks along +z. at: its place [m], shape [3]."""
     shell = _ball((0.0, 0.56, -0.1), (0.56, 0.4, 0.72))
     dark = [
         _ball((0.0, 0.5, 0.62), (0.36, 0.27, 0.26)),
@@ -34,7 +34,7 @@ def beetle(at: Array) -> Beetle:
     parts = [(shell, _spotted()), (join(dark), _plain(BLACK)), (join(eyes), _plain(WHITE))]
     models = tuple(Model(_at(mesh, at), (material,)) for mesh, material in parts)
     whole = join([model.mesh for model in models])
-    # Whole micrometres: the sines of another machine must not lead to another cloth.
+    # Whole micrometres, so that sines that round differently do not change the cloth's motion.
     return Beetle(models, np.round(whole.positions, 6), whole.triangles)
 
 
@@ -43,7 +43,7 @@ def _at(mesh: Mesh, place: Array) -> Mesh:
 
 
 def _ball(centre: tuple[float, float, float], radii: tuple[float, float, float]) -> Mesh:
-    """An ellipsoid, its poles up and down."""
+    """An ellipsoid with its poles at the top and the bottom."""
     tilt = np.linspace(0, np.pi, RINGS + 1)[1:-1, None]
     turn = np.linspace(0, 2 * np.pi, SEGMENTS, endpoint=False)
     round_ = np.stack(
@@ -57,7 +57,7 @@ def _ball(centre: tuple[float, float, float], radii: tuple[float, float, float])
 
 
 def _rod(start: Array, end: Array, radius: float, sides: int = 6) -> Mesh:
-    """A closed prism from start to end [m]."""
+    """A closed prism. start, end, radius: [m]."""
     along = (end - start) / np.sqrt(((end - start) ** 2).sum())
     other = np.cross(along, [0.3, 0.2, 0.93])
     other = other / np.sqrt((other**2).sum())
@@ -70,7 +70,7 @@ def _rod(start: Array, end: Array, radius: float, sides: int = 6) -> Mesh:
 
 
 def _lathe(rings: int, sides: int) -> Triangles:
-    """Triangles of a pole, rings of points from it on, and the other pole; seen from outside."""
+    """Triangles between a pole, rings of points, and the other pole, seen from outside."""
     index = 1 + np.arange(rings * sides).reshape(rings, sides)
     after = np.roll(index, -1, axis=1)
     last = 1 + rings * sides
@@ -82,14 +82,14 @@ def _lathe(rings: int, sides: int) -> Triangles:
 
 
 def _limb(side: int, z: float) -> Mesh:
-    """A leg: out and up to the knee, then down to the ground."""
+    """A leg: outwards and up to the knee, then down to the ground. side: -1 or 1."""
     hip, knee = np.array([0.3 * side, 0.4, z]), np.array([0.74 * side, 0.5, 1.25 * z])
     foot = np.array([0.92 * side, 0.03, 1.45 * z])
     return join([_rod(hip, knee, 0.055), _rod(knee, foot, 0.05)])
 
 
 def _horn(side: int) -> Mesh:
-    """An antenna."""
+    """An antenna. side: -1 or 1."""
     root, bend = np.array([0.08 * side, 0.58, 1.02]), np.array([0.22 * side, 0.86, 1.16])
     return join(
         [_rod(root, bend, 0.035), _rod(bend, bend + np.array([0.1 * side, 0.02, 0.2]), 0.035)]
@@ -101,7 +101,7 @@ def _plain(colour: tuple[int, int, int]) -> Material:
 
 
 def _spotted() -> Material:
-    """Seen from above, 24 x 24 texels: two wings of red with a seam and spots."""
+    """The back seen from above, 24 x 24 texels: two red wings with a seam and spots."""
     y, x = np.indices((24, 24))
     seam = (x == 11) | (x == 12)
     spots = np.zeros_like(seam)

@@ -1,7 +1,7 @@
 """Layers as materials: textured quads stacked on one another, or one composited texture.
 
-Stacked is the game's way: every layer is drawn over the one below, tinted on the way. Flat
-composites them first and draws one texture; pictures of the two agree within 2/255.
+`stacked` is the game's way: every layer is tinted and drawn over the one below. `flat` composites
+them first and draws one texture; pictures of the two agree within 2/255.
 """
 
 from collections.abc import Callable
@@ -68,14 +68,14 @@ def textures_period(
 def _material_at(
     layers: Callable[[float], tuple[Tinted, ...]], mode: LayerMode, maps: tuple[Maps, ...] = ()
 ) -> MaterialAt:
-    # The renderer knows by identity what it has prepared, so equal textures give one material.
+    # The renderer caches materials by identity, so the same textures must give the same object.
     known: dict[tuple[int, ...], tuple[tuple[Tinted, ...], Material]] = {}
 
     def at(time: float) -> Material:
-        worn = layers(time)
-        key = tuple(id(texels) for texels, _ in worn)
+        tinted = layers(time)
+        key = tuple(id(texels) for texels, _ in tinted)
         if key not in known:
-            known[key] = worn, _material(worn, mode, maps)
+            known[key] = tinted, _material(tinted, mode, maps)
         return known[key][1]
 
     return at

@@ -1,7 +1,7 @@
 """Cloth as pixel art: the outline of a small cloth becomes a polygon of whole pixels.
 
-The way of Slow Rush Studios' capes: the cloth's edge particles form a polygon, the smallest box
-around it is scanned, and each pixel whose centre lies inside is filled.
+The method of Slow Rush Studios' capes: the particles at the cloth's edge form a polygon, and each
+pixel of its bounding box whose centre lies inside is filled.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ Mask = NDArray[np.bool_]
 
 
 def outline(rows: int, columns: int) -> NDArray[np.int32]:
-    """Indices of a grid's edge particles, row by row from the top, in order around it."""
+    """Indices of the particles at the edge of a grid, in order around it from the top left."""
     index = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
     sides = [index[0, :-1], index[:-1, -1], index[-1, :0:-1], index[:0:-1, 0]]
     around: NDArray[np.int32] = np.concatenate(sides)
@@ -21,7 +21,7 @@ def outline(rows: int, columns: int) -> NDArray[np.int32]:
 
 
 def bounding_box(polygon: Array, width: int, height: int) -> tuple[int, int, int, int]:
-    """Left, top, right, bottom of the pixels whose centres a polygon [P, 2] may hold, clipped."""
+    """Left, top, right, bottom of the pixels that a polygon [P, 2] may cover, clipped."""
     low = np.floor(polygon.min(axis=0)).astype(int)
     high = np.ceil(polygon.max(axis=0)).astype(int)
     left, top = np.clip(low, 0, (width, height))
@@ -33,8 +33,8 @@ def fill_polygon(polygon: Array, width: int, height: int) -> Mask:
     """Pixels whose centres lie inside a polygon by the even-odd rule, shape [height, width].
 
     polygon: corners in pixels, shape [P, 2]; x to the right, y down, pixel (0, 0) covers 0..1.
-    A centre on an edge belongs to the side to the right of the edge, or below it, so polygons that
-    share an edge share no pixel and leave none out.
+    A centre on an edge belongs to the side to the right of the edge, or below it, so polygons with
+    a common edge fill each pixel along it exactly once.
     """
     mask = np.zeros((height, width), np.bool_)
     left, top, right, bottom = bounding_box(polygon, width, height)
@@ -44,7 +44,7 @@ def fill_polygon(polygon: Array, width: int, height: int) -> Mask:
     y = np.arange(top, bottom)[:, None] + 0.5
     inside = np.zeros((bottom - top, right - left), np.bool_)
     for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        # From the upper end down, so an edge rounds alike whichever polygon it belongs to.
+        # From the upper end down, so that an edge is rounded alike for both of its polygons.
         (x0, y0), (x1, y1) = (start, end) if start[1] <= end[1] else (end, start)
         # Half-open in y: an edge counts for the rows at its upper end but not at its lower.
         crosses = (y0 <= y) != (y1 <= y)

@@ -1,4 +1,4 @@
-"""Where scenes are set: a plain sky, pieces of ground, and the shadow under a figure."""
+"""Surroundings of scenes: a plain sky, pieces of ground, poles, water, and round shadows."""
 
 from dataclasses import replace
 from itertools import product
@@ -13,16 +13,16 @@ from drapery.style.boxes import ModelBox, box_mesh, upright
 from drapery.style.layers import wood_material
 
 SKY = (168, 204, 242, 255)
-"""The background out of doors by day, sRGB and opaque."""
+"""The background of outdoor scenes by day, sRGB and opaque."""
 
 SHADOW = 84
-"""How dark a shadow is in its middle, 0..255."""
+"""Opacity of a shadow in its middle, 0..255."""
 
 
 def path_ground(half: int, period: int, packs: Packs) -> tuple[Model, ...]:
-    """A causeway along z that repeats after `period` blocks: a path between verges of grass.
+    """A path between grass along z that repeats after `period` blocks.
 
-    half: blocks to either side of the origin along z.
+    half: its length to either side of the origin [blocks].
     """
     cells: dict[Cell, str] = {}
     for x, z in product(range(-3, 3), range(-half, half)):
@@ -32,7 +32,7 @@ def path_ground(half: int, period: int, packs: Packs) -> tuple[Model, ...]:
 
 
 def _paving(x: int, z: int) -> str:
-    """What lies on the causeway: a path of two blocks' width, laid unevenly."""
+    """The block at a place of the path, which is two blocks wide and of mixed stone."""
     if x not in (-1, 0):
         return "grass"
     kinds = ("cobblestone", "stone", "stone_bricks", "cobblestone", "stone")
@@ -40,7 +40,7 @@ def _paving(x: int, z: int) -> str:
 
 
 def moved(models: tuple[Model, ...], by: Array) -> tuple[Model, ...]:
-    """The models elsewhere: `by` [m], shape [3]."""
+    """The models moved. by: [m], shape [3]."""
     return tuple(
         replace(model, mesh=replace(model.mesh, positions=model.mesh.positions + by))
         for model in models
@@ -48,7 +48,7 @@ def moved(models: tuple[Model, ...], by: Array) -> tuple[Model, ...]:
 
 
 def post(foot: Array, height: float, packs: Packs, half: float = 0.06) -> Model:
-    """A banner's pole of any height and half width [m], standing on `foot` [m], shape [3]."""
+    """A vertical pole. foot: [m], shape [3]. height, half: its height and half width [m]."""
     pole = box_mesh(ModelBox((-1, -42, -1), (2, 42, 2), (44, 0)))
     standing = upright(pole, 1.0, (0, 0, 0))
     scale = np.array([half, height / 42, half])
@@ -57,7 +57,7 @@ def post(foot: Array, height: float, packs: Packs, half: float = 0.06) -> Model:
 
 
 def beam(start: Array, length: float, packs: Packs) -> Model:
-    """A pole lying along x from `start` [m], shape [3]."""
+    """A pole along x. start: [m], shape [3]. length: [m]."""
     upright_post = post(np.zeros(3), length, packs)
     lay = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
     mesh = upright_post.mesh
@@ -82,7 +82,7 @@ def sea(half: int, level: float) -> Model:
 
 
 def _water() -> Material:
-    """Short ripples in four blues; the texture repeats after a block."""
+    """Short waves in four blues; the texture repeats after each block."""
     x, y = np.meshgrid(np.arange(16), np.arange(16))
     tone = (7 * y + 3 * ((x + 5 * y) // 4) + (x + 2 * y) // 7) % 11
     blues = np.array([[52, 96, 176], [58, 104, 184], [64, 112, 192], [84, 132, 208]], np.uint8)
@@ -97,7 +97,7 @@ SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [0, 0, 1], [1, 0, 1]])
 
 
 def shadow(centre: tuple[float, float], radius: float, height: float = 0.0) -> Model:
-    """A round shadow of whole texels on level ground; centre (x, z), radius and height [m]."""
+    """A round shadow of whole texels on level ground. centre: (x, z), radius and height: [m]."""
     across = np.arange(16) - 7.5
     distance = np.hypot(*np.meshgrid(across, across)) / 8
     texels = np.zeros((16, 16, 4), np.uint8)

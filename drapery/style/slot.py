@@ -1,4 +1,4 @@
-"""An item as it lies in its slot of the inventory: the pose, the light and the picture's frame."""
+"""An item in its slot of the inventory: the pose, the light and the camera."""
 
 from dataclasses import dataclass
 
@@ -16,9 +16,9 @@ SLOT_LIGHT = Light(((-0.275, 0.212, 1.187), (-0.266, 1.202, 0.119)), 0.4, 0.6)
 
 @dataclass(frozen=True)
 class SlotPose:
-    """How an item's model lies in its slot.
+    """The pose of an item's model in its slot.
 
-    rotation: about x, y and z [degrees], z first. translation: [1/16 slot]. scale: slots a block.
+    rotation: about x, y and z [degrees], z first. translation: [1/16 slot]. scale: slots per block.
     """
 
     rotation: Vector
@@ -31,7 +31,7 @@ SHIELD_POSE = SlotPose((15, -25, -5), (2, 3, 0), 0.65)
 
 
 def in_slot(mesh: Mesh, pose: SlotPose) -> Mesh:
-    """A mesh in its block's space, laid into the slot: -0.5..0.5 in x and y."""
+    """A mesh in the space of its block, moved into the slot, which is -0.5..0.5 in x and y."""
     matrix = _matrix(pose.rotation)
     centred = (mesh.positions - 0.5) * pose.scale
     positions = np.einsum("ij,...j->...i", matrix, centred) + np.array(pose.translation) / 16

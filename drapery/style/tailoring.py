@@ -1,4 +1,4 @@
-"""Thick, textured cloth of any cut."""
+"""Thick, textured cloth of any shape."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,14 +26,14 @@ def garment(
 
 
 def dyed(texels: Texels, dye: str) -> Material:
-    """A light texture in the colour of a dye. Raises OptionError."""
+    """A light texture tinted with a dye. Raises OptionError."""
     if dye not in DYES:
         raise OptionError(f"dye {dye!r} is not known; use one of: {', '.join(DYES)}")
     return Material((TextureLayer(texels, DYES[dye].rgb),))
 
 
 def checked(texels: Texels, dyes: tuple[str, str], count: int = 4) -> Material:
-    """A light texture in checks of two dyes, `count` to a side. Raises OptionError."""
+    """A chequered material of two dyes, `count` squares to a side. Raises OptionError."""
     pieces = [tint(texels, dyed(texels, dye).layers[0].tint) for dye in dyes]
     rows = [np.hstack([pieces[(r + c) % 2] for c in range(count)]) for r in range(count)]
     return Material((TextureLayer(np.ascontiguousarray(np.vstack(rows))),))

@@ -25,7 +25,7 @@ class UVMapping(Protocol):
         """UVs of the rim, shape [4 E, 2]: front start, front end, back start, back end."""
 
     def __hash__(self) -> int:
-        """Equal for mappings that are equal: shells are kept by it."""
+        """Equal for equal mappings, because shells are cached by their mapping."""
 
 
 class SheetMapping:
@@ -42,7 +42,7 @@ class SheetMapping:
 
 
 SHEET_MAPPING = SheetMapping()
-"""The mapping of cloth that is given none."""
+"""The default mapping of cloth."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class BoxMapping:
         return _place(uvs, self.front_rect)
 
     def back(self, uvs: Array) -> Array:
-        # Seen from behind, the cloth's right is on the left.
+        # Seen from behind, the right of the cloth is on the left.
         return _place(np.stack([1 - uvs[:, 0], uvs[:, 1]], axis=-1), self.back_rect)
 
     def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:

@@ -1,4 +1,4 @@
-"""Banners: standing on their pole, hung on a wall, or an item in its slot."""
+"""Banners: standing on a pole, on a wall, or an item in its slot."""
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
@@ -44,7 +44,7 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
 
 
 def _item(banner: Banner, packs: Packs, settings: Settings) -> Body:
-    """As the game lays it into the inventory: stiff, at phase 0 of its sway."""
+    """The item in the inventory: stiff, at phase 0 of its sway."""
     flag = stiff_flag("standing", 0.0, settings.thickness)
     parts = (
         Part(in_slot(wood("standing"), BANNER_POSE), wood_material_at(packs, settings)),

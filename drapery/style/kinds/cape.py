@@ -1,4 +1,4 @@
-"""Capes: 10 x 16 texels of cloth, held at the shoulders, their outer side to the front."""
+"""Capes: 10 x 16 texels of cloth, pinned at the shoulders, their outer side to the front."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from drapery.style.kinds.player import SHEET, SHOULDERS, back_texture
 
 CAPE_MAPPING = cape_mapping(SHEET)
 LEAN = 6.0
-"""How far the game's stiff cape stands off the back of one who stands still [degrees]."""
+"""Angle between the game's stiff cape and the back of a player who stands still [degrees]."""
 
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:

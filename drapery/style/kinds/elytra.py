@@ -1,6 +1,6 @@
-"""Elytra: two stiff wings, folded as on one who stands still, their outer side to the front.
+"""Elytra: two folded stiff wings, their outer side to the front.
 
-The wings are hard, as those of a beetle, so no wind moves them.
+The wings are rigid, so no wind moves them.
 """
 
 import numpy as np
@@ -17,9 +17,9 @@ from drapery.style.kinds.player import SHEET, SHOULDERS, back_texture
 
 _LEFT_WING = ModelBox((-10, 0, 0), (10, 20, 2), (22, 0), grown=1.0)
 _ROOT = (5.0, 0.0, 0.0)
-"""Where the left wing grows from the shoulders [texels]."""
+"""Where the left wing is attached to the shoulders [texels]."""
 SPREAD = 15.0
-"""How far a folded wing stands off the back, and off the other wing [degrees]."""
+"""Angle between a folded wing and the back, and between the two wings [degrees]."""
 
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
@@ -34,14 +34,14 @@ def _left_wing() -> Mesh:
     box = box_mesh(_LEFT_WING, SHEET)
     matrix = _folded(np.radians(SPREAD))
     positions = np.einsum("ij,...j->...i", matrix, box.positions) + np.array(_ROOT)
-    # Normals are those of a model with y and z turned about; the turn is of one with x and y so.
+    # The normals of box_mesh have y and z reversed; this rotation needs x and y reversed.
     upright = np.array([-1.0, -1.0, 1.0])
     normals = np.einsum("ij,...j->...i", matrix, box.normals * [1, -1, -1]) * upright
     return Mesh(positions * upright * TEXEL + np.array(SHOULDERS), normals, box.triangles, box.uvs)
 
 
 def _folded(angle: float) -> Array:
-    """The left wing's turn in the model: about x, then back about z, shape [3, 3]."""
+    """The rotation of the left wing in the model: about x, then about -z, shape [3, 3]."""
     cos, sin = np.cos(angle), np.sin(angle)
     about_x = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]])
     about_z = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
@@ -50,7 +50,7 @@ def _folded(angle: float) -> Array:
 
 
 def _mirrored(wing: Mesh) -> Mesh:
-    """The other wing: across the player's middle, its picture mirrored too."""
+    """The other wing, mirrored at the middle of the player together with its texture."""
     across = np.array([-1.0, 1.0, 1.0])
     middle = np.array([2 * SHOULDERS[0], 0, 0])
     return Mesh(

@@ -1,4 +1,4 @@
-"""What players wear on their back: the texture of capes and elytra, and where it hangs."""
+"""The texture of capes and elytra, and their place on a player's back."""
 
 from pathlib import Path
 
@@ -14,17 +14,17 @@ from drapery.settings import Settings
 from drapery.style.figure import TEXEL
 
 SHOULDERS = (0.5, 24 * TEXEL, 0.5)
-"""The middle between the shoulders [m], over the middle of a block."""
+"""The middle between the shoulders [m], above the middle of a block."""
 
 SHEET = (64, 32)
 _SHAPES = (SHEET, (46, 22), (22, 17))
-"""Sheets in use, or multiples of them: with everything, cut behind the wings, behind the cape."""
+"""Sizes of a sheet [texels], or its multiples: whole, cut after the wings, after the cape."""
 
 
 def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
     """The sheet of a cape and elytra, shape [32 n, 64 n, 4].
 
-    least: width and height of what must be on it [texels]. Raises OptionError or PackError.
+    least: width and height of the part that is needed [texels]. Raises OptionError or PackError.
     """
     if settings.texture is None:
         raise OptionError(f"kind {settings.kind} needs a texture; give its PNG file by texture")
@@ -36,8 +36,8 @@ def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
         if fits and across >= least[0] and down >= least[1]:
             return _widened(texels, times)
     raise OptionError(
-        f"{name} is {width} x {height} px and no sheet of a {settings.kind};"
-        " use 64 x 32, or a multiple of it"
+        f"{name} is {width} x {height} px, which does not fit a {settings.kind};"
+        " use 64 x 32 px, or a multiple of it"
     )
 
 
@@ -54,7 +54,7 @@ def _texels(texture: str | Path | NDArray[np.uint8]) -> tuple[str, Texels]:
 
 
 def _widened(texels: Texels, times: int) -> Texels:
-    """The sheet at its whole size, nothing where it was cut."""
+    """The sheet at its whole size, transparent where it was cut."""
     whole = np.zeros((SHEET[1] * times, SHEET[0] * times, 4), np.uint8)
     whole[: texels.shape[0], : texels.shape[1]] = texels
     return whole

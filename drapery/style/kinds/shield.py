@@ -1,4 +1,4 @@
-"""Shields: a plate that bears the design, and a handle behind it."""
+"""Shields: a plate with the design, and a handle behind it."""
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
@@ -10,28 +10,33 @@ from drapery.style.layers import handle_material_at, plate_material_at, textures
 from drapery.style.slot import SHIELD_POSE, SLOT_LIGHT, in_slot, slot_camera
 
 TEXEL = 1.0 / 16.0
-"""Metres a texel."""
+"""Metres per texel."""
 
 _PLATE = ModelBox((-6, -11, -2), (12, 22, 1), (0, 0))
 _HANDLE = ModelBox((-1, -3, -1), (2, 6, 6), (26, 0))
 _STANDING = (0.5, 11 * TEXEL, 0.5)
-"""Where the model's origin is when the shield stands on the floor [m]."""
+"""Place of the model's origin when the shield stands on the floor [m]."""
 
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
-    """The shield, its plate towards the viewer; None is one without a design.
+    """The shield, its plate towards the viewer. design: None is a shield without one.
 
     Raises PackError.
     """
-    worn = (plate_material_at(design, packs, settings), handle_material_at(design, packs, settings))
+    materials = (
+        plate_material_at(design, packs, settings),
+        handle_material_at(design, packs, settings),
+    )
     period = textures_period(design, packs, "shield")
     if settings.placement == "item":
-        plate, handle = (in_slot(_hung(box, (0, 0, 0)), SHIELD_POSE) for box in (_PLATE, _HANDLE))
-        parts = tuple(map(Part, (plate, handle), worn))
+        plate, handle = (
+            in_slot(_upright_at(box, (0, 0, 0)), SHIELD_POSE) for box in (_PLATE, _HANDLE)
+        )
+        parts = tuple(map(Part, (plate, handle), materials))
         return Body(parts, (), period, SLOT_LIGHT, slot_camera(settings.size))
-    plate, handle = (_hung(box, _STANDING) for box in (_PLATE, _HANDLE))
-    return Body(tuple(map(Part, (plate, handle), worn)), (), period)
+    plate, handle = (_upright_at(box, _STANDING) for box in (_PLATE, _HANDLE))
+    return Body(tuple(map(Part, (plate, handle), materials)), (), period)
 
 
-def _hung(box: ModelBox, origin: tuple[float, float, float]) -> Mesh:
+def _upright_at(box: ModelBox, origin: tuple[float, float, float]) -> Mesh:
     return upright(box_mesh(box), TEXEL, origin)
