@@ -1,9 +1,9 @@
-"""The live banner: the pictures' own stager, advanced step by step, with a wind that can change
+"""The live banner: the stager of pictures, advanced step by step, with a wind that can change
 and cloth that can be grabbed.
 
-Everything that happens comes from calls between time steps, so the same calls in the same order
-give the same motion to the bit. Left alone, its motion is that of pictures: after three seconds it
-hangs as in a picture of `time` 3.
+All changes come from calls between time steps, so the same calls in the same order give the same
+motion to the bit. Without such calls the motion is that of pictures: after three seconds the cloth
+is where a picture of `time` 3 shows it.
 """
 
 from collections.abc import Iterable, Sequence
@@ -31,16 +31,16 @@ from drapery.studio.wind_controls import (
 from drapery.style import Body, body_of, turn
 
 SHADOW_STEPS = 6
-"""A contact shadow is drawn anew after so many time steps."""
+"""A contact shadow is drawn again after this number of time steps."""
 SWINGS = np.array(((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7)))
 """How far cloth in a breeze moves from its rest: to both sides, and to the front [m]."""
 UNFRAMED = Camera((0, 0, 3), (0, 0, 0))
-"""The camera of a scene that each viewer frames for its own shape."""
+"""The camera of a scene that each viewer frames for the shape of its own picture."""
 
 
 @dataclass(frozen=True, eq=False)
 class Ray:
-    """A line of sight. origin, along: [m] and any length; facing: where the camera looks."""
+    """A line of sight. origin: [m]. along: its direction, of any length. facing: the camera's."""
 
     origin: Array
     along: Array
@@ -50,8 +50,8 @@ class Ray:
 class Live:
     """A body in the wind.
 
-    wind_controls: the wind that blows. leaves_room: whether its views leave room for the motion to
-    come; otherwise they are those of pictures. Raises OptionError or PackError.
+    wind_controls: the present wind. leaves_room: whether its views leave room for later motion;
+    otherwise they are those of pictures. Raises OptionError or PackError.
     """
 
     def __init__(self, design: Banner | None, packs: Packs, settings: Settings) -> None:
@@ -70,12 +70,12 @@ class Live:
 
     @property
     def time(self) -> float:
-        """How long it has moved [s]."""
+        """How long the cloth has moved [s]."""
         return self._stager.time
 
     @property
     def is_picture(self) -> bool:
-        """Whether it hangs as in a picture of this `time`: only the settings' wind moved it."""
+        """Whether it looks as in a picture of this `time`: only the settings' wind has moved it."""
         own = wind_controls_of(self._stager.settings)
         return not self._disturbed and self.wind_controls == own
 
@@ -87,10 +87,10 @@ class Live:
         beside: Packs | None = None,
         captions: tuple[str, str] = ("", ""),
     ) -> None:
-        """Show this from now on; the motion of cloth of an equal spec goes on undisturbed.
+        """Show this from now on; cloth whose spec is the same continues its motion.
 
-        beside: other packs, to show the same design side by side in both, under captions. Raises
-        OptionError or PackError; nothing has changed then.
+        beside: other packs, to show the same design in both side by side. captions: of the two.
+        Raises OptionError or PackError; nothing has changed then.
         """
         before = self._stager
         body = body_of(design, packs, settings)
@@ -100,7 +100,7 @@ class Live:
         self._stager, self._other = stager, other
         self._captions = captions if other is not None else ("",)
         self._shadow = None
-        # A wind that keys have changed stays, unless the settings ask for another.
+        # A wind that keys have changed stays, unless the wind of the settings has changed.
         if wind_controls_of(settings) != wind_controls_of(before.settings):
             self.set_wind(wind_controls_of(settings, self.wind_controls.on))
 
@@ -113,7 +113,7 @@ class Live:
         stager.wind = carried_on(stager.wind, wind, self.time) if stager.steps else wind
 
     def press(self, keys: Iterable[str], azimuth: float) -> None:
-        """Hold these keys of the wind until others are held; see `steered`.
+        """Hold these keys until the next call; see `steered`.
 
         azimuth: of the viewer about the banner's block [degrees].
         """
@@ -187,7 +187,7 @@ class Live:
         return [cloth.positions for cloth in self._cloths]
 
     def shown(self) -> Shown:
-        """What is seen at this moment."""
+        """What the viewer shows at this moment."""
         stager, settings = self._stager, self._stager.settings
         meshes = stager.meshes()
         bodies = (stager.body, *([] if self._other is None else [self._other]))
@@ -211,7 +211,7 @@ class Live:
         return [cloth for cloth in self._stager.cloths if isinstance(cloth, LiveCloth)]
 
     def _cloths_for(self, body: Body, settings: Settings) -> list[LiveCloth]:
-        """A cloth for each panel: the present one, made anew if its spec has changed."""
+        """A cloth for each panel: the present one, or a new one if its spec has changed."""
         old = dict(enumerate(self._cloths))
         cloths = []
         for number, panel in enumerate(body.panels):

@@ -1,4 +1,4 @@
-"""One sheet of live cloth: held at its pins, and pulled by the viewer's pointer."""
+"""One sheet of live cloth, which the viewer's pointer can grab and pull."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -12,16 +12,17 @@ from drapery.mesh import Array
 from drapery.scenes import STEP, ClothSpec, cloth_at_rest
 
 EASE = 0.35
-"""The share of the way to its target that a held particle goes in a time step."""
+"""The share of the distance to its target that a held particle moves in a time step."""
 MAX_SPEED = 0.2
-"""The longest way that a held particle goes in a time step [m]."""
+"""The longest distance that a held particle moves in a time step [m]."""
 NEAR = 1e-4
-"""Closer to its target than this, a held particle is put onto it [m]."""
+"""A held particle that is closer to its target than this moves onto it [m]."""
 GRAB_RADIUS = 0.045
-"""A grab takes all particles within this distance along the cloth [m]."""
+"""A grab holds all particles within this distance along the cloth [m]."""
 MAX_STRETCH = 0.99
-"""A grab goes no further from a pin than this share of the cloth between them."""
+"""A grab stays nearer to each pin than this share of the cloth between them."""
 PROJECTIONS = 48
+"""The most projections of a target; see `reachable`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +42,7 @@ class Grab:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LiveCloth(MovingCloth):
-    """A panel's cloth that can be grabbed. whole: the cloth without the grab's pins."""
+    """A panel's cloth that can be grabbed. whole: without a grab. spec: how it is made."""
 
     spec: ClothSpec
     whole: Cloth
@@ -55,7 +56,7 @@ class LiveCloth(MovingCloth):
 
     @property
     def free(self) -> NDArray[np.intp]:
-        """The particles that can be grabbed: those that no pin holds."""
+        """The particles that can be grabbed, which are those without a pin."""
         return np.flatnonzero(self.whole.inv_mass > 0)
 
     def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
@@ -79,7 +80,7 @@ class LiveCloth(MovingCloth):
         return self._with_cloth(replace(self.whole, inv_mass=inv_mass), grab)
 
     def pulled(self, target: Array) -> Self:
-        """The grab's target at a place [m], shape [3], or as near to it as the cloth allows."""
+        """The grab with another target [m], shape [3], or the nearest that the cloth allows."""
         if self.grab is None:
             return self
         return replace(self, grab=replace(self.grab, target=self.reachable(target)))
@@ -109,7 +110,7 @@ class LiveCloth(MovingCloth):
         return place
 
     def remade(self, spec: ClothSpec) -> "LiveCloth":
-        """The cloth of another spec; its motion goes on if its size is the same.
+        """The cloth of another spec; it continues the motion if the size is the same.
 
         Raises OptionError.
         """
@@ -167,10 +168,11 @@ def _bilinear(values: Array, shape: tuple[int, int], uvs: Array) -> Array:
 
 
 def _nearer(start: Array, goal: Array) -> Array:
-    way = goal - start
-    length = np.sqrt((way * way).sum(axis=1, keepdims=True))
+    """Where held particles are after a time step, on their way from start to goal [m], [K, 3]."""
+    apart = goal - start
+    length = np.sqrt((apart * apart).sum(axis=1, keepdims=True))
     share = np.minimum(EASE, MAX_SPEED / np.maximum(length, MAX_SPEED))
-    return np.where(length < NEAR, goal, start + share * way).astype(start.dtype)
+    return np.where(length < NEAR, goal, start + share * apart).astype(start.dtype)
 
 
 def _lengths(vectors: Array) -> Array:

@@ -1,4 +1,4 @@
-"""The wind of the live cloth: set by sliders, steered by keys, and steady where it changes."""
+"""The wind of the live cloth: set by sliders or keys, and without a jump where it changes."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -10,20 +10,21 @@ from drapery.scenes import WIND_AXIS, flow
 from drapery.settings import MAX_WIND, OPTIONS, Settings
 
 DEFAULT_HEADING = float(np.degrees(np.arctan2(WIND_AXIS[0], WIND_AXIS[2])))
-"""Where a picture's wind blows to [degrees]: 0 is straight out of its front."""
+"""Where the wind of a picture blows to [degrees]: 0 is straight out of the banner's front."""
 TURN_RATE = 150.0
 """How fast the keys turn the wind [degrees/s]."""
 SPEED_RATE = 5.0
 """How fast the keys change its strength [m/s²]."""
 KEY_DIRECTIONS = {"w": 180.0, "s": 0.0, "a": -90.0, "d": 90.0}
-"""Where each key sends the wind, from where the viewer stands: away, near, left, right."""
+"""The direction of each key, seen by the viewer: away, towards, left, right [degrees]."""
 KEYS = (*KEY_DIRECTIONS, "q", "e")
 PHASES = 1 << 16
+"""How many phases of the gusts `carried_on` compares."""
 
 
 @dataclass(frozen=True)
 class WindControls:
-    """What blows: speed [m/s], direction [degrees], gusts and seed of `Settings`.
+    """The wind: speed [m/s], direction [degrees], gusts and seed as in `Settings`.
 
     on: whether it blows.
     """
@@ -36,12 +37,12 @@ class WindControls:
 
     @property
     def heading(self) -> float:
-        """Where it blows to [degrees], -180..180; 0 is straight out of the banner's front."""
+        """Where the wind blows to [degrees], -180..180; 0 is straight out of the banner's front."""
         return DEFAULT_HEADING if self.direction is None else around(self.direction)
 
 
 def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
-    """The wind of a picture; of a Wind that is given, what these controls can set."""
+    """The wind of a picture; for a `Wind` object, the values that these controls can set."""
     wind = settings.wind
     if isinstance(wind, Wind):
         x, _, z = wind.velocity
@@ -59,10 +60,10 @@ def wind_of(controls: WindControls) -> Wind:
 def steered(
     controls: WindControls, keys: Iterable[str], azimuth: float, seconds: float
 ) -> WindControls:
-    """The controls after keys have been held for so long.
+    """The controls after keys have been held for some seconds.
 
-    w, a, s, d: turn it away from the viewer, to the left, near, to the right; q, e: weaker and
-    stronger. azimuth: where the viewer stands about the banner [degrees].
+    w, a, s, d turn the wind away from the viewer, to the left, towards the viewer, to the right;
+    q and e make it weaker and stronger. azimuth: of the viewer about the banner [degrees].
     """
     pressed = set(keys)
     towards = [
@@ -84,17 +85,17 @@ def around(degrees: float) -> float:
 
 
 def carried_on(before: Wind, after: Wind, time: float) -> Wind:
-    """A wind that takes over from another at a time [s], its gusts and swell in their midst.
+    """A wind that replaces another at a time [s] and continues its gusts and swell.
 
-    Gusts travel with the wind, so that another speed alone would leap to quite other gusts. Among
-    the phases that keep the swell, the one is taken that keeps the gusts best.
+    Gusts travel with the wind, so a change of the speed alone would jump to other gusts. Of the
+    phases that continue the swell, the result has the one that continues the gusts best.
     """
     phase = float(np.asarray(before.phases))
     old, new = (_speed(wind) / wind.gust_size for wind in (before, after))
     if new in (0.0, old) or old == 0.0:
         return replace(after, phases=phase)
     later = phase + after.sine_period * np.arange(PHASES)
-    # Only the part within a cell shows: elsewhere in a cell the gusts are others, no wilder.
+    # The gusts repeat after 4096 gust sizes.
     apart = (time + later) * new - (time + phase) * old
     apart -= 4096.0 * np.round(apart / 4096.0)
     return replace(after, phases=float(later[np.argmin(np.abs(apart))]))
