@@ -1,4 +1,4 @@
-"""What is drawn is built as in the game, is textured by its own texels, and turns as it should."""
+"""Bodies have the shape and the texels that they have in the game, and turn as in the game."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -70,7 +70,7 @@ def test_half_a_turn_is_the_mesh_turned_and_seen_from_behind(pose: str) -> None:
     assert (np.abs(behind.astype(int) - turned).max(axis=2) > 2).mean() < 0.002
 
 
-def test_sixteen_steps_are_a_whole_turn_from_south_over_west() -> None:
+def test_sixteen_facings_turn_from_south_over_west_and_back() -> None:
     for rotation in range(16):
         flag = scene_of(BANNER, rotation=rotation, pose="vanilla").models[1].mesh
         angle = np.radians(rotation * 22.5)
@@ -82,7 +82,7 @@ def test_sixteen_steps_are_a_whole_turn_from_south_over_west() -> None:
 def test_a_banner_on_a_wall_looks_away_from_it(facing: str) -> None:
     scene = scene_of(BANNER, placement="wall", facing=facing, pose="vanilla")
     assert np.allclose(scene.models[1].mesh.normals[0] * [1, 0, 1], TOWARDS[facing], atol=0.01)
-    # It hangs at the wall behind it: the side of the block from which it looks away.
+    # It is at the wall behind it: the side of its block opposite to its front.
     wood = scene.models[0].mesh.positions.mean(axis=0) - [0.5, 0, 0.5]
     assert wood @ TOWARDS[facing] < -0.4
 
@@ -119,7 +119,7 @@ def test_a_shields_plate_shows_its_own_texels() -> None:
     assert np.array_equal(behind[8:14, 5:7], plain[6:12, 40:42])
 
 
-def test_a_shields_handle_wears_no_design() -> None:
+def test_a_shields_handle_shows_no_design() -> None:
     plate, handle = scene_of(SHIELD).models
     assert (
         len(plate.materials[0].layers) == 2 + len(SHIELD.layers)
@@ -132,7 +132,7 @@ def test_a_shields_handle_wears_no_design() -> None:
         assert np.array_equal(layer.texels, plain)
 
 
-def test_a_design_is_drawn_on_what_is_asked_for() -> None:
+def test_the_kind_chooses_what_a_design_is_drawn_on() -> None:
     for design, kind, same in ((BANNER, "shield", SHIELD), (SHIELD, "banner", BANNER)):
         asked = draw(design, kind=kind, size=(40, 50)).pixels
         assert np.array_equal(asked, draw(same, size=(40, 50)).pixels)
@@ -189,7 +189,7 @@ def test_faces_of_all_boxes_look_outwards(texture: Path) -> None:
             assert (np.sum(np.cross(b - a, c - a) * normals, axis=1) > 0).all()
 
 
-def test_what_does_not_wave_is_shown_from_all_around() -> None:
+def test_a_loop_of_a_body_without_cloth_is_a_turntable() -> None:
     around = animate(SHIELD, seconds=0.8, fps=10, size=(40, 48))
     first, *_, last = [frame.pixels for frame in around]
     assert len({frame.pixels.tobytes() for frame in around}) == len(around) == 8

@@ -1,4 +1,4 @@
-"""Packs on moving things: every pattern in one scene, animated textures, pack formats."""
+"""Packs on drawn bodies: every pattern in one scene, animated textures, pack formats."""
 
 import json
 import warnings
@@ -41,7 +41,7 @@ SIDES = {
 
 
 def banners() -> list[Banner]:
-    """Every pattern, its dye and its base changing from one to the next."""
+    """Every pattern once; dye and base change from one to the next."""
     dyes = len(DYE_NAMES)
     return [
         Banner(DYE_NAMES[n % dyes], (Layer(name, DYE_NAMES[(n * 5 + 3) % dyes]),))
@@ -50,13 +50,13 @@ def banners() -> list[Banner]:
 
 
 def places(count: int) -> np.ndarray:
-    """Middles of the top edges [texels]: none before another, whichever side is looked at."""
+    """Middles of the top edges [texels]: no flag covers another, seen from either side."""
     number = np.arange(count)
     return np.stack([24 * (number % 7), -44 * (number // 7), 3 * number], axis=-1).astype(float)
 
 
 def batch(packs: Packs) -> Model:
-    """All of them as one model of stiff flags, a texel a metre."""
+    """All patterns as one model of stiff flags, one metre per texel."""
     board = stiff_board((20, 40), 1.0, FLAG_MAPPING)
     materials = tuple(flag_material(banner, packs) for banner in banners())
     where = places(len(materials))
@@ -70,7 +70,7 @@ def batch(packs: Packs) -> Model:
 
 
 def side_picture(model: Model, side: str) -> tuple[np.ndarray, np.ndarray]:
-    """A picture of one side, a pixel a texel; and where each banner's is in it, [B, 2]."""
+    """A picture of one side, one pixel per texel, and the place of each banner in it, [B, 2]."""
     back, up = (np.array(vector, float) for vector in SIDES[side])
     right = np.cross(up, back)
     points = model.mesh.positions @ np.stack([right, -up], axis=1)
@@ -99,7 +99,7 @@ def test_every_pattern_shows_its_texels_in_one_scene(side: str) -> None:
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_every_pattern_of_the_real_pack_does_so(real_pack: Path, side: str) -> None:
+def test_every_pattern_of_the_real_pack_shows_its_texels(real_pack: Path, side: str) -> None:
     packs = open_packs([real_pack])
     check_side(packs, side)
     (line,) = packs.warnings()
@@ -107,7 +107,7 @@ def test_every_pattern_of_the_real_pack_does_so(real_pack: Path, side: str) -> N
 
 
 def animated_pack(path: Path, *, ticks: int) -> Path:
-    """A pack whose creeper is red, green and blue in turn, each for so many ticks."""
+    """A pack whose creeper is red, green and blue in turn, each for a number of ticks."""
     colours = np.repeat(np.eye(3, dtype=np.uint8) * 255, 16, axis=0)
     frames = np.broadcast_to(
         np.append(colours, np.full((48, 1), 255, np.uint8), 1)[:, None], (48, 16, 4)
@@ -148,8 +148,8 @@ def test_textures_fill_a_loop_by_whole_periods() -> None:
     assert texture_times(0.0, 3, 10) == pytest.approx([0, 0.1, 0.2])
 
 
-def test_what_looks_the_same_is_the_same_look(tmp_path: Path) -> None:
-    """The renderer prepares each look once; it knows them by identity."""
+def test_textures_that_look_the_same_give_the_same_material(tmp_path: Path) -> None:
+    """The renderer prepares each material once and recognises it by identity."""
     still_looks = {
         tuple(id(material) for model in scene.models for material in model.materials)
         for scene in list(loop(CREEPER_BANNER, open_packs(), SHORT, 6, 10))

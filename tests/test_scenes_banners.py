@@ -27,7 +27,7 @@ def test_a_flag_hangs_from_its_bar(placement, facing) -> None:
     assert np.isclose(np.ptp(rest[:, 1]), FLAG_SIZE[1])
 
 
-def test_banners_wave_and_hardly_stretch() -> None:
+def test_banners_wave_and_stretch_little() -> None:
     cloth = flag_cloth((5, 9))
     wind = Wind((1.75, 0, 4.7), gusts=0.5, period=banner.LOOP)
     start = flags_at_rest(cloth, banner.BLOCKS)

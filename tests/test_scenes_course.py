@@ -22,7 +22,7 @@ def swung(pins, **words):
 
 
 def energy(cloth, state) -> float:
-    """Of motion, height and stretched springs [J]."""
+    """The energy of motion, height and stretched springs [J]."""
     free = cloth.inv_mass > 0
     mass = 1 / cloth.inv_mass[free]
     x, v = state.positions[0], state.velocities[0]
@@ -89,7 +89,7 @@ def test_a_sail_billows_where_the_wind_blows(direction) -> None:
 
 
 def test_a_sail_under_one_command_is_one_motion() -> None:
-    """Nothing tells where one part of a script ends and the next begins."""
+    """Commands that change nothing leave the motion as it is."""
     parameters, cloth = sail.SailParameters(), sail.square_sail((6, 6))
     clip = Clip((64, 64), 12, 20.0)
     plain = sail.sail_states(parameters, tuple(parse_script("0 strength 6")), cloth, clip)

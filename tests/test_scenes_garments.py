@@ -1,4 +1,4 @@
-"""Garments stay on, hang with the walk, and never enter the one who wears them."""
+"""Garments stay on, move with the walk, and never enter the body of the figure."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def test_the_lower_foot_of_a_walk_stays_on_the_ground() -> None:
         assert abs(min(low)) < 1e-9
 
 
-def test_a_foot_goes_back_as_far_as_the_ground() -> None:
+def test_a_foot_moves_back_as_far_as_the_ground() -> None:
     gait = Gait(speed=2.0)
     step = 2 * LEG * np.sin(np.radians(gait.swing))
     assert np.isclose(step, gait.speed * gait.period / 2)
@@ -90,7 +90,7 @@ def test_a_skirt_is_a_closed_ring_seen_from_outside() -> None:
     ("words", "fault"),
     [({"panels": "3"}, "panels"), ({"sides": "outside under"}, "under"), ({"dye": "sky"}, "sky")],
 )
-def test_what_no_skirt_can_be_is_named(words, fault) -> None:
+def test_a_parameter_that_a_skirt_cannot_have_is_named(words, fault) -> None:
     scene = find("skirt")
     with pytest.raises(OptionError, match=fault):
         next(scene.play(scene.parameters(words), STRIDE))

@@ -1,4 +1,4 @@
-"""A picture of each scene that has been looked at, and that every scene can be played."""
+"""A reviewed picture of each scene, and the sizes of scenes of several pictures."""
 
 import pytest
 from scene_helpers import still
@@ -16,7 +16,7 @@ FRAMES = {
     "sail": 16,
     "fold": 56,
 }
-"""How far into a scene its golden is; most show their first frame but two."""
+"""The number of frames of the clip whose last is the golden; 3 for other scenes."""
 CORNERS = dict.fromkeys(("four-corners", "three-corners", "two-corners"), 12)
 WORDS = {"stress": {"side": "5", "settle": "0.5"}, "freefall": {"grid": "12x12"}}
 

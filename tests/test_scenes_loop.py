@@ -1,4 +1,4 @@
-"""A loop has no seam: its last frame leads to the first as any frame leads to the next."""
+"""A loop has no seam: from the last frame to the first cloth moves as between other frames."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from drapery.settings import Settings
 
 
 def moves(settings: Settings, count: int, fps: float = 20.0) -> Array:
-    """How far the cloth's fastest vertex goes from each frame to the next, the last to the first
+    """How far the cloth's fastest vertex moves from each frame to the next, the last to the first
     [m]; shape [count]."""
     scenes = loop(Banner(), open_packs(()), settings, count, fps)
     positions = np.stack([scene.models[-1].mesh.positions for scene in scenes])

@@ -1,4 +1,4 @@
-"""Parameters of scenes: whatever is given, a scene plays or raises OptionError."""
+"""Parameters of scenes: with any values a scene plays or raises OptionError."""
 
 from collections.abc import Iterator
 from dataclasses import fields
@@ -22,7 +22,7 @@ SLOW = {
     "settle",
     "panels",
 }
-"""Parameters whose greatest values take too long to be played in a test."""
+"""Parameters whose highest values take too long for a test."""
 SMALL = {
     "stress": {"side": "2", "settle": "0.1"},
     "freefall": {"grid": "4x4"},

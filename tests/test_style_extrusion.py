@@ -1,4 +1,4 @@
-"""Thickness: the shell is closed, keeps its volume, and wears the sheet as the game's box does."""
+"""Thickness: the shell is closed, keeps its volume, and is textured as the game's box."""
 
 import numpy as np
 import pytest
@@ -38,7 +38,7 @@ def volume(mesh: Mesh) -> float:
 def test_the_shell_is_closed_and_faces_outwards(columns: int, rows: int, bend: float) -> None:
     thin = sheet(columns, rows, bend)
     thick = extrude(thin, 0.05)
-    # Corners of the rim repeat sheet vertices: weld by place before looking for open edges.
+    # The rim repeats vertices of the sheets: merge equal places before the search for open edges.
     _, weld = np.unique(thick.positions.round(9), axis=0, return_inverse=True)
     assert len(boundary_edges(weld.reshape(-1)[thick.triangles].astype(np.int32))) == 0
     # Averaged normals shorten the distance of the sheets only by the cosine of half a bend.
@@ -70,7 +70,7 @@ def test_every_part_of_the_flag_samples_its_own_region() -> None:
     front, back, rim = texels[:45], texels[45:90], texels[90:].reshape(-1, 4, 2)
     assert front.min(0).tolist() == [1, 1] and front.max(0).tolist() == [21, 41]
     assert back.min(0).tolist() == [22, 1] and back.max(0).tolist() == [42, 41]
-    # The back's left column, as one sees it from behind, hangs at the cloth's right.
+    # The left column of the back, seen from behind, is at the right of the cloth.
     assert np.allclose(back[:5, 0], [42, 37, 32, 27, 22])
     boxes = {tuple(e.reshape(-1, 2).min(0)) + tuple(e.reshape(-1, 2).max(0)) for e in rim}
     lefts = [b for b in boxes if b[0] == 0 and b[2] == 1 and b[1] >= 1]
@@ -80,7 +80,7 @@ def test_every_part_of_the_flag_samples_its_own_region() -> None:
     assert (len(lefts), len(rights), len(tops), len(bottoms)) == (8, 8, 4, 4)
 
 
-def test_texels_run_on_around_the_corners() -> None:
+def test_texels_continue_around_the_corners() -> None:
     """At the border of the front the rim's front corners have the front's own UVs."""
     thin = sheet(5, 9)
     thick = extrude(thin, 0.04, FLAG_MAPPING)
@@ -92,7 +92,7 @@ def test_texels_run_on_around_the_corners() -> None:
         assert np.allclose(corners[:2], thick.uvs[[start, end]] * 64)
 
 
-def test_the_standing_flag_hangs_where_the_game_hangs_it() -> None:
+def test_the_standing_flag_is_where_the_game_draws_it() -> None:
     """A standing flag spans y = 0.167 .. 1.833 blocks, its middle in front of the pole."""
     flag = stiff_flag("standing", 0.25)
     upright = np.cos(sway_angle(0.25))

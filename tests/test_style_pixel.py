@@ -20,7 +20,7 @@ def test_a_rectangle_fills_its_pixels() -> None:
 
 
 def test_a_crossed_outline_follows_the_even_odd_rule() -> None:
-    """A cape that folds over itself shows a hole where its outline goes round twice."""
+    """A cape folded over itself has a hole where its outline encloses a pixel twice."""
     star = np.array([[5.0, 0], [8, 10], [0, 4], [10, 4], [2, 10]])
     mask = fill_polygon(star, 10, 10)
     assert mask[3, 5] and mask[3, 4]
@@ -31,7 +31,7 @@ def test_a_crossed_outline_follows_the_even_odd_rule() -> None:
     st.lists(st.tuples(st.floats(-4, 20), st.floats(-4, 20)), min_size=3, max_size=9),
     st.integers(0, 7),
 )
-def test_each_centre_is_judged_as_by_counting_crossings(
+def test_a_centre_is_inside_if_it_crosses_the_outline_an_odd_number_of_times(
     corners: list[tuple[float, float]], shift: int
 ) -> None:
     polygon = np.array(corners)

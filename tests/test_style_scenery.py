@@ -1,4 +1,4 @@
-"""Where scenes are set and who is in them: only seen faces, closed bodies, feet on the ground."""
+"""Surroundings and figures of scenes: only visible faces, closed bodies, feet on the ground."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def faces(models) -> int:
         ({(x, y, z): "sand" for x in range(3) for y in range(3) for z in range(3)}, 54),
     ],
 )
-def test_only_faces_before_air_are_drawn(cells, seen) -> None:
+def test_only_faces_next_to_air_are_drawn(cells, seen) -> None:
     assert faces(blocks(cells, PACKS)) == seen
 
 
@@ -55,7 +55,7 @@ def test_grass_is_green_above_and_earth_below_and_a_dye_is_wool() -> None:
     assert wool.materials[0].layers[0].tint == (176, 46, 38)
 
 
-def test_a_causeway_repeats() -> None:
+def test_a_path_repeats() -> None:
     for model in path_ground(10, 10, PACKS):
         places, z = model.mesh.positions, model.mesh.positions[:, 2]
         ahead = places[(z > 0.5) & (z < 9.5)]

@@ -1,4 +1,4 @@
-"""A banner taken apart: the cloth and every layer as a sheet of its own, along the normal."""
+"""An exploded view of a banner: the cloth and each layer as a sheet, one in front of the other."""
 
 import numpy as np
 
@@ -18,7 +18,7 @@ GAP = 0.6
 def apart(banner: Banner, packs: Packs, settings: Settings) -> Scene:
     """The layers in a row, the lowest at the back. Raises PackError."""
     cloth, base, *layers = flag_layers(banner, packs)
-    # Cloth and base dye are one sheet: nobody sees the cloth alone.
+    # Cloth and base dye are one sheet, because the cloth is never seen without a dye.
     ground = Material(tuple(TextureLayer(texels, tint) for texels, tint in (cloth, base)))
     materials = [
         ground,
