@@ -159,11 +159,6 @@ def test_a_banner_parses_texts_whatever_is_imported_first(module: str):
     assert run.stdout == "red\n"
 
 
-def test_a_folder_that_is_no_world_is_named(tmp_path: Path):
-    with pytest.raises(DesignError, match="a folder, but not a Java world"):
-        read_designs(str(tmp_path))
-
-
 def test_a_folder_does_not_hide_a_word(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     (tmp_path / "red").mkdir()
     monkeypatch.chdir(tmp_path)

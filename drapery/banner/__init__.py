@@ -22,14 +22,13 @@ if TYPE_CHECKING:
     from drapery.banner.dyes import DYE_NAMES, DYES, Dye
     from drapery.banner.formats.form import BinaryForm, Form
     from drapery.banner.formats.found import FoundBanner, find_banners
+    from drapery.banner.formats.reading import read_design, read_designs
     from drapery.banner.formats.registry import (
         FORMS,
         binary_forms,
         choose_banner,
         parse_banner,
         parse_banners,
-        read_design,
-        read_designs,
         recognise,
         write_banner,
     )
@@ -88,9 +87,10 @@ _NAMES = {
     "drapery.banner.dyes": ("DYES", "DYE_NAMES", "Dye"),
     "drapery.banner.formats.form": ("BinaryForm", "Form"),
     "drapery.banner.formats.found": ("FoundBanner", "find_banners"),
+    "drapery.banner.formats.reading": ("read_design", "read_designs"),
     "drapery.banner.formats.registry": (
         *("FORMS", "binary_forms", "choose_banner", "parse_banner", "parse_banners"),
-        *("read_design", "read_designs", "recognise", "write_banner"),
+        *("recognise", "write_banner"),
     ),
     "drapery.banner.loom": ("LoomStep", "fits_loom", "loom_steps", "simplify"),
     "drapery.banner.names": ("dye_name", "pattern_id"),

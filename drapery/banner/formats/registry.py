@@ -1,11 +1,8 @@
-"""The registry of forms: reads banners from any text or file, and writes a banner in any form."""
+"""The registry of forms: reads banners from any text, and writes a banner in any form."""
 
-import re
-import sys
 import warnings
 from collections.abc import Callable
 from itertools import islice
-from pathlib import Path
 from types import ModuleType
 
 from drapery.banner.design import Banner
@@ -37,7 +34,7 @@ from drapery.errors import DesignError
 MAX_COMMANDS = 20_000
 """Most commands in one text, one per line."""
 
-_HEAD = 8192
+_MOST_WARNINGS = 5
 
 
 def _form(module: ModuleType, read: Callable[[str], list[FoundBanner]]) -> Form:
@@ -102,6 +99,14 @@ def parse_banners(text: str, *, form: str | None = None) -> list[FoundBanner]:
 
     Raises DesignError with the place and the remedy.
     """
+    errors: list[DesignError] = []
+    found = parse_all(text, form, errors)
+    warn_of(errors)
+    return found
+
+
+def parse_all(text: str, form: str | None, errors: list[DesignError]) -> list[FoundBanner]:
+    """As `parse_banners`, but the errors of broken lines are added to `errors`."""
     if len(text) > MAX_TEXT:
         raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: shorten it")
     text = text.removeprefix("\ufeff")
@@ -110,7 +115,7 @@ def parse_banners(text: str, *, form: str | None = None) -> list[FoundBanner]:
     if form is not None:
         return _named(form).read(text)
     lines = _command_lines(text)
-    return _all_lines(lines) if len(lines) > 1 else recognise(text).read(text)
+    return _all_lines(lines, errors) if len(lines) > 1 else recognise(text).read(text)
 
 
 def parse_banner(text: str, *, form: str | None = None, number: int | None = None) -> Banner:
@@ -150,48 +155,16 @@ def choose_banner(found: list[FoundBanner], number: int | None = None) -> Banner
     return found[number - 1].banner
 
 
-def read_design(
-    source: str | Path, *, form: str | None = None, number: int | None = None
-) -> Banner:
-    """The banner of a text, of a file if a file of that name exists, or of standard input ("-").
-
-    Raises DesignError as `parse_banner` does, and for files that cannot be read.
-    """
-    return choose_banner(read_designs(source, form=form), number)
-
-
-def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBanner]:
-    """All banners of a text, a file or a world's folder, or standard input ("-").
-
-    Raises DesignError as `parse_banners` does, and for files that cannot be read.
-    """
-    if source == "-":
-        return parse_banners(_decoded(_read_stdin(), "-"), form=form)
-    path = _as_path(source)
-    if path is None:
-        return parse_banners(str(source), form=form)
-    try:
-        return _read_path(path, form)
-    except OSError as error:
-        raise DesignError(f"{path}: {error.strerror or error}; check the path") from None
-
-
-def _read_stdin() -> bytes:
-    try:
-        return sys.stdin.buffer.read(4 * MAX_TEXT + 1)
-    except (AttributeError, OSError):  # Python has no sys.stdin where the descriptor is closed
-        raise DesignError("-: standard input cannot be read; give the design or a file") from None
-
-
 def _named(form: str) -> Form:
     if form in FORMS:
         return FORMS[form]
     if form in binary_forms():
         raise DesignError(f"the form {form!r} is for files, but this is a text; give a file")
-    raise _unknown(form)
+    raise unknown_form(form)
 
 
-def _unknown(form: str) -> DesignError:
+def unknown_form(form: str) -> DesignError:
+    """The error for the name of a form that there is not."""
     import difflib
 
     known = (*FORMS, *binary_forms())
@@ -215,12 +188,11 @@ def _command_lines(text: str) -> list[tuple[int, str]]:
     return [(number, line) for number, line in lines if commands.command_of(line)]
 
 
-def _all_lines(lines: list[tuple[int, str]]) -> list[FoundBanner]:
+def _all_lines(lines: list[tuple[int, str]], errors: list[DesignError]) -> list[FoundBanner]:
     """The banners of all commands. Broken commands are skipped if others are correct."""
     if len(lines) > MAX_COMMANDS:
         raise DesignError(f"the text has {len(lines)} commands, over {MAX_COMMANDS}: split it")
     found: list[FoundBanner] = []
-    errors: list[DesignError] = []
     for number, line in lines:
         if "banner" not in line and "shield" not in line:
             continue
@@ -229,9 +201,7 @@ def _all_lines(lines: list[tuple[int, str]]) -> list[FoundBanner]:
             found += [FoundBanner(f.banner, f"line {number} {f.where}") for f in read]
         except DesignError as error:
             errors.append(DesignError(_with_line(str(error), number)))
-    return _with_warnings(
-        found, errors, "there is no banner in the commands: paste a /give command"
-    )
+    return some_of(found, errors, "there is no banner in the commands: paste a /give command")
 
 
 def _with_line(message: str, number: int) -> str:
@@ -240,107 +210,16 @@ def _with_line(message: str, number: int) -> str:
     return f"line {number}{', ' if message.startswith('column ') else ': '}{message}"
 
 
-def _with_warnings(
-    found: list[FoundBanner], errors: list[DesignError], nothing: str
-) -> list[FoundBanner]:
-    """The banners that were found, with warnings of the errors; raises if none was found."""
+def some_of(found: list[FoundBanner], errors: list[DesignError], nothing: str) -> list[FoundBanner]:
+    """The banners that were found. Raises the first error, or one that says `nothing`, if none."""
     if not found:
         raise errors[0] if errors else DesignError(nothing)
+    return found
+
+
+def warn_of(errors: list[DesignError]) -> None:
+    """Warn the caller's caller of what was skipped, and of no more than a few."""
     for error in islice(errors, _MOST_WARNINGS):
         warnings.warn(str(error), stacklevel=3)
     if len(errors) > _MOST_WARNINGS:
         warnings.warn(f"and {len(errors) - _MOST_WARNINGS} more like these", stacklevel=3)
-    return found
-
-
-_MOST_WARNINGS = 5
-
-_FILE_NAME = re.compile(r"[^\s:{}\[\]\"'?&=]+\.[A-Za-z][A-Za-z0-9]{1,5}")
-"""One word with a suffix: a file name, since no text of a banner looks like that."""
-
-_SUFFIXES = frozenset(
-    f".{suffix}"
-    for suffix in (
-        *("json", "mcfunction", "snbt", "txt"),
-        *("dat", "litematic", "mca", "mcstructure", "nbt", "schem", "schematic"),
-    )
-)
-
-
-def _as_path(source: str | Path) -> Path | None:
-    """The file or world that a source names, or None if the source is a text."""
-    if isinstance(source, Path):
-        return source
-    if len(source) > 1024 or "\n" in source or "\0" in source:
-        return None
-    path = Path(source)
-    try:
-        if path.exists() and (not path.is_dir() or _is_world(path)):
-            return path
-        if path.is_dir() and path.name != source:
-            raise DesignError(f"{shown(source, 80)}: a folder, but not a Java world; give a file")
-    except OSError:
-        return None
-    known = path.suffix.lower() in _SUFFIXES and not set('{}[]"').intersection(source)
-    if known or _FILE_NAME.fullmatch(source):
-        raise DesignError(f"{shown(source, 80)}: there is no such file; check the path")
-    return None
-
-
-def _is_world(path: Path) -> bool:
-    return (path / "level.dat").exists() or (path / "region").is_dir()
-
-
-def _read_path(path: Path, form: str | None) -> list[FoundBanner]:
-    from drapery.banner.formats.files import is_binary
-
-    if form is not None and form not in FORMS:
-        if form not in binary_forms():
-            raise _unknown(form)
-        return _read_as(path, binary_forms()[form])
-    if path.is_dir():
-        return _read_binary(path)
-    with path.open("rb") as file:
-        head = file.read(_HEAD)
-        binary = is_binary(head, path.stat().st_size) or path.suffix.lower() == ".mca"
-        if binary and form is None:
-            return _read_binary(path)
-        data = head + file.read(4 * MAX_TEXT + 1 - len(head))
-    text = _decoded(data, str(path))
-    try:
-        return parse_banners(text, form=form)
-    except DesignError as error:
-        raise DesignError(f"{path}: {error}") from None
-
-
-def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
-    """All banners of a file, read in this form whatever its bytes look like."""
-    from drapery.banner.formats.compression import MAX_BYTES, check_size
-
-    if path.is_dir():
-        raise DesignError(
-            f"{path}: a folder, but not a file of the form {form.name!r}; give a file"
-        )
-    check_size(path.stat().st_size, str(path), MAX_BYTES)
-    try:
-        return _with_warnings(list(form.read(path.read_bytes())), [], "no banner in it")
-    except DesignError as error:
-        raise DesignError(f"{path}: {error}") from None
-
-
-def _read_binary(path: Path) -> list[FoundBanner]:
-    from drapery.banner.formats.files import banners_in
-
-    errors: list[DesignError] = []
-    return _with_warnings(list(banners_in(path, errors.append)), errors, f"{path}: no banner in it")
-
-
-def _decoded(data: bytes, name: str) -> str:
-    encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
-    try:
-        return data.decode(encoding)
-    except UnicodeDecodeError as error:
-        raise DesignError(
-            f"{name}: neither text nor a known kind of file (byte {error.start});"
-            " give UTF-8 text, NBT, a schematic or a region"
-        ) from None

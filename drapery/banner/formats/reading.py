@@ -1,0 +1,239 @@
+"""Reads banners from a text, a file, a folder, a world, or standard input."""
+
+import os
+import re
+import sys
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+
+from drapery.banner.design import Banner
+from drapery.banner.formats.form import BinaryForm
+from drapery.banner.formats.found import FoundBanner
+from drapery.banner.formats.registry import (
+    FORMS,
+    binary_forms,
+    choose_banner,
+    parse_all,
+    parse_banners,
+    some_of,
+    unknown_form,
+    warn_of,
+)
+from drapery.banner.formats.snbt import MAX_TEXT
+from drapery.banner.names import shown
+from drapery.errors import DesignError
+
+_HEAD = 8192
+_MOST_NAMED = 20
+
+_FILE_NAME = re.compile(r"[^\s:{}\[\]\"'?&=]+\.[A-Za-z][A-Za-z0-9]{1,5}")
+"""One word with a suffix: a file name, since no text of a banner looks like that."""
+
+_SUFFIXES = tuple(
+    f".{suffix}"
+    for suffix in (
+        *("json", "txt", "snbt", "mcfunction"),
+        *("nbt", "dat", "schem", "schematic", "litematic", "mcstructure", "mca"),
+    )
+)
+"""Of the files that are read in a folder."""
+
+
+def read_design(
+    source: str | Path, *, form: str | None = None, number: int | None = None
+) -> Banner:
+    """The banner of a text, of a file if a file of that name exists, or of standard input ("-").
+
+    form, number: as in `parse_banner`. Raises DesignError as `parse_banner` does, and for files
+    that cannot be read.
+    """
+    return choose_banner(read_designs(source, form=form), number)
+
+
+def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBanner]:
+    """All banners of a text, a file, a folder of files, a world, or standard input ("-").
+
+    A folder that is not a world is read file by file, sorted by name, without its folders and
+    links; each banner's place begins with its file's name. One UserWarning names all that is not
+    read, with the reason.
+
+    form: one of FORMS or of `binary_forms()`, or None to recognise it.
+    Raises DesignError as `parse_banners` does, for files that cannot be read, and for a folder
+    without a design or with over 100,000 files.
+    """
+    if source == "-":
+        return parse_banners(_decoded(_read_stdin(), "-"), form=form)
+    path = _as_path(source)
+    if path is None:
+        return parse_banners(str(source), form=form)
+    errors: list[DesignError] = []
+    try:
+        if path.is_dir() and not _is_world(path):
+            return _read_folder(path, form)
+        found = _read_path(path, form, errors)
+    except OSError as error:
+        raise DesignError(f"{path}: {error.strerror or error}; check the path") from None
+    warn_of(errors)
+    return found
+
+
+def _read_stdin() -> bytes:
+    try:
+        return sys.stdin.buffer.read(4 * MAX_TEXT + 1)
+    except (AttributeError, OSError):  # Python has no sys.stdin where the descriptor is closed
+        raise DesignError("-: standard input cannot be read; give the design or a file") from None
+
+
+def _as_path(source: str | Path) -> Path | None:
+    """The file or folder that a source names, or None if the source is a text."""
+    if isinstance(source, Path):
+        return source
+    if not source.strip() or len(source) > 1024 or "\n" in source or "\0" in source:
+        return None
+    path = Path(source)
+    try:
+        if path.is_dir():
+            is_word = path.name == source and not _is_world(path)
+            return None if is_word and _is_design(source) else path
+        if path.exists():
+            return path
+    except OSError:
+        return None
+    known = path.suffix.lower() in _SUFFIXES and not set('{}[]"').intersection(source)
+    if known or _FILE_NAME.fullmatch(source):
+        raise DesignError(f"{shown(source, 80)}: there is no such file; check the path")
+    return None
+
+
+def _is_design(text: str) -> bool:
+    try:
+        return bool(parse_all(text, None, []))
+    except DesignError:
+        return False
+
+
+def _is_world(path: Path) -> bool:
+    """Whether a folder is a world of either edition; that of Bedrock Edition is refused later."""
+    files = (path / "level.dat", path / "db" / "CURRENT")
+    return any(file.exists() for file in files) or (path / "region").is_dir()
+
+
+def _read_path(path: Path, form: str | None, errors: list[DesignError]) -> list[FoundBanner]:
+    from drapery.banner.formats.files import is_binary
+
+    if form is not None and form not in FORMS:
+        if form not in binary_forms():
+            raise unknown_form(form)
+        return _read_as(path, binary_forms()[form])
+    if path.is_dir():
+        return _read_binary(path, errors)
+    with path.open("rb") as file:
+        head = file.read(_HEAD)
+        binary = is_binary(head, path.stat().st_size) or path.suffix.lower() == ".mca"
+        if binary and form is None:
+            return _read_binary(path, errors)
+        data = head + file.read(4 * MAX_TEXT + 1 - len(head))
+    text = _decoded(data, str(path))
+    try:
+        return parse_all(text, form, errors)
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from None
+
+
+def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
+    """All banners of a file, read in this form whatever its bytes look like."""
+    from drapery.banner.formats.compression import MAX_BYTES, check_size
+
+    if path.is_dir():
+        raise DesignError(
+            f"{path}: a folder, but not a file of the form {form.name!r}; give a file"
+        )
+    check_size(path.stat().st_size, str(path), MAX_BYTES)
+    try:
+        return some_of(list(form.read(path.read_bytes())), [], "no banner in it")
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from None
+
+
+def _read_binary(path: Path, errors: list[DesignError]) -> list[FoundBanner]:
+    from drapery.banner.formats.files import banners_in
+
+    return some_of(list(banners_in(path, errors.append)), errors, f"{path}: no banner in it")
+
+
+def _read_folder(folder: Path, form: str | None) -> list[FoundBanner]:
+    """The banners of all files of a folder, with a warning that names what is not read."""
+    if form is not None and form not in FORMS and form not in binary_forms():
+        raise unknown_form(form)
+    found: list[FoundBanner] = []
+    skipped: list[str] = []
+    for path in _sorted_entries(folder):
+        errors: list[DesignError] = []
+        try:
+            _check_entry(path)
+            found += [_in_file(one, path.name) for one in _read_path(path, form, errors)]
+        except DesignError as error:
+            errors = [error]
+        except OSError as error:
+            errors = [DesignError(f"{error.strerror or error}; make it readable")]
+        skipped += [f"{path.name} ({_reason(error, path)})" for error in errors]
+    if not found:
+        remedy = f"give files such as {', '.join(_SUFFIXES[:5])}"
+        rest = f"; not read: {_listed(skipped)}" if skipped else ""
+        raise DesignError(f"{folder}: no design in the folder; {remedy}{rest}")
+    if skipped:
+        warnings.warn(f"{folder}: not read: {_listed(skipped)}", stacklevel=3)
+    return found
+
+
+def _sorted_entries(folder: Path) -> Iterator[Path]:
+    from drapery.banner.formats import files
+
+    names: list[str] = []
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            names.append(entry.name)
+            if len(names) > files.MAX_FILES:
+                raise DesignError(f"{folder}: over {files.MAX_FILES} files; split it")
+    return (folder / name for name in sorted(names))
+
+
+def _check_entry(path: Path) -> None:
+    """Raises DesignError for what is not a file of designs by its kind or its name."""
+    if path.is_symlink():
+        raise DesignError("a link; give the file itself")
+    if path.is_dir():
+        raise DesignError("a folder; give it by itself")
+    if not path.is_file():
+        raise DesignError("not a file")
+    if path.suffix.lower() not in _SUFFIXES:
+        raise DesignError("not a known ending of a file of designs")
+
+
+def _in_file(found: FoundBanner, name: str) -> FoundBanner:
+    """The banner with a place that begins with its file's name."""
+    if found.where.startswith(name):
+        return found
+    return FoundBanner(found.banner, f"{name} {found.where}".rstrip())
+
+
+def _reason(error: DesignError, path: Path) -> str:
+    return str(error).removeprefix(f"{path}: ").removeprefix(f"{path.name}: ")
+
+
+def _listed(skipped: list[str]) -> str:
+    more = len(skipped) - _MOST_NAMED
+    ending = f", and {more} more" if more > 0 else ""
+    return ", ".join(skipped[:_MOST_NAMED]) + ending
+
+
+def _decoded(data: bytes, name: str) -> str:
+    encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError as error:
+        raise DesignError(
+            f"{name}: neither text nor a known kind of file (byte {error.start});"
+            " give UTF-8 text, NBT, a schematic or a region"
+        ) from None
