@@ -26,8 +26,24 @@ def test_an_own_pattern_is_drawn_in_a_layer() -> None:
     changed = (plain_face != own_face).any(axis=2)
     assert (changed == heart()[1:41, 1:21]).all()
     assert (own_face[changed] == (*DYES["red"].rgb, 255)).all()
-    assert packs.warnings() == ("not in the packs, taken from our own art: base, banner_base",)
     assert packs.patterns()[-1] == "mymod:heart"
+
+
+def test_a_pack_in_memory_may_lack_what_it_does_not_replace(tmp_path: Path) -> None:
+    memory = MemoryPack(patterns={"creeper": noise(1)}, label="mine")
+    banner = Banner("white", (Layer("creeper", "red"),))
+    alone = open_packs([memory, MemoryPack(patterns={"border": noise(2)})])
+    face(banner, alone)
+    assert alone.warnings() == ()
+    beside = open_packs([memory, folder_pack(tmp_path / "disk", {CREEPER: plain(1, 0, 0, 255)})])
+    face(banner, beside)
+    assert beside.warnings() == ("not in the packs, taken from our own art: base, banner_base",)
+
+
+def test_a_pack_in_memory_of_which_nothing_is_drawn_is_named() -> None:
+    packs = open_packs(MemoryPack(patterns={"creeper": noise(1)}, label="mine"))
+    face(Banner("white"), packs)
+    assert packs.warnings() == ("no texture comes from mine: the textures needed are not in it",)
 
 
 def test_an_array_replaces_a_pattern_of_the_game_and_any_texture() -> None:

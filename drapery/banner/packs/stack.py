@@ -12,6 +12,7 @@ from typing import Literal
 from drapery.banner.names import shown
 from drapery.banner.packs.checks import listed
 from drapery.banner.packs.folders import OwnArt
+from drapery.banner.packs.memory import MemoryPack
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, open_pack
 from drapery.banner.packs.png import Texels, png_size, read_png
@@ -155,7 +156,7 @@ class Packs:
         if self._missing:
             names = ", ".join(self._missing)
             lines.append(f"missing from the packs, drawn as the game's checker: {names}")
-        if self._ours and self._used:
+        if self._ours and self._used and not self._all_in_memory():
             lines.append(f"not in the packs, taken from our own art: {', '.join(self._ours)}")
         if self._black:
             names = ", ".join(self._black)
@@ -167,6 +168,10 @@ class Packs:
             labels = ", ".join(pack.label for pack in self.packs[1:])
             lines.append(f"no texture comes from {labels}: the textures needed are not in it")
         return tuple(lines)
+
+    def _all_in_memory(self) -> bool:
+        """Whether all packs are made of arrays, which hold only what they replace."""
+        return all(isinstance(pack.source, MemoryPack) for pack in self.packs[1:])
 
     def _sheet(self, pattern: str, kind: Kind) -> Texture:
         return self._textures.get((kind, pattern), lambda: self._read_sheet(pattern, kind))
