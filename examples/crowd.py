@@ -9,13 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
 from drapery.cloth import Detail, Gravity, Wind, World, grid
-from drapery.render.backends import backend
-from drapery.render.scene import Material, Model, Scene, TextureLayer
-from drapery.render.views import View, frame_points
-from drapery.style.crowds import cover_crowd
-from drapery.style.extrusion import make_shell
+from drapery.packs import open_packs
+from drapery.render import Material, Model, Scene, TextureLayer, View, backend, frame_points
+from drapery.style import cover_crowd, make_shell
 
 COLOURS = (196, 62, 52), (232, 170, 60), (70, 110, 170)
 SIZE = (480, 320)

@@ -6,13 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from drapery import Banner
-from drapery.banner.packs import open_packs
-from drapery.render.backends import backend
-from drapery.render.frame import Animation
-from drapery.render.views import VIEWS, turntable
-from drapery.scenes.stager import still
-from drapery.settings import Settings
+from drapery import Animation, Banner, Settings
+from drapery.packs import open_packs
+from drapery.render import VIEWS, backend, turntable
+from drapery.scenes import still
 
 FRAMES = 24
 

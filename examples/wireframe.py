@@ -5,19 +5,21 @@ from itertools import islice
 from pathlib import Path
 
 from drapery.cloth import Gravity, Wind, grid, simulate
-from drapery.mesh import Mesh, vertex_normals
-from drapery.render.backends import backend
-from drapery.render.debug import (
+from drapery.render import (
+    UNLIT,
+    VIEWS,
+    Mesh,
+    Scene,
     at_particles,
+    backend,
+    frame_points,
     pins_model,
     spring_stretch,
     springs_model,
     stretch_model,
+    vertex_normals,
 )
-from drapery.render.light import UNLIT
-from drapery.render.scene import Scene
-from drapery.render.views import VIEWS, frame_points
-from drapery.style.block import FLAG_SIZE
+from drapery.style import FLAG_SIZE
 
 SIZE = (320, 480)
 

@@ -20,9 +20,11 @@ if TYPE_CHECKING:
     from drapery.render.camera import Camera, clip_matrix, projection_matrix, view_matrix
     from drapery.render.contact import contact_sheet, contact_table, on_checker, stack_frames
     from drapery.render.debug import (
+        at_particles,
         edges_model,
         normals_model,
         pins_model,
+        spring_stretch,
         springs_model,
         stretch_model,
     )
@@ -74,6 +76,7 @@ __all__ = [
     "TextureLayer",
     "Topology",
     "View",
+    "at_particles",
     "backend",
     "backend_names",
     "backend_report",
@@ -112,6 +115,7 @@ __all__ = [
     "save_animation",
     "save_frame",
     "save_model",
+    "spring_stretch",
     "springs_model",
     "stack_frames",
     "stretch_model",
@@ -126,7 +130,8 @@ _NAMES = {
     "drapery.render.camera": ("Camera", "clip_matrix", "projection_matrix", "view_matrix"),
     "drapery.render.contact": ("contact_sheet", "contact_table", "on_checker", "stack_frames"),
     "drapery.render.debug": (
-        *("edges_model", "normals_model", "pins_model", "springs_model", "stretch_model"),
+        *("at_particles", "edges_model", "normals_model", "pins_model", "spring_stretch"),
+        *("springs_model", "stretch_model"),
     ),
     "drapery.render.doctor": ("BackendReport", "backend_report"),
     "drapery.render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),

@@ -81,14 +81,22 @@ def stretch_model(mesh: Mesh, stretch: Array, limit: float = 0.1) -> Model:
 
 
 def spring_stretch(positions: Array, pairs: Index, lengths: Array) -> Array:
-    """Length over rest length, less 1, of springs between positions [N, 3]; shape [S]."""
+    """The stretch of each spring, shape [S]: its length over its rest length, less 1.
+
+    positions: [m], shape [N, 3]. pairs: the two particles of each spring, shape [S, 2]. lengths:
+    rest lengths [m], shape [S].
+    """
     between = positions[pairs[:, 1]] - positions[pairs[:, 0]]
     stretch: Array = np.sqrt(dots(between, between)) / lengths - 1
     return stretch
 
 
 def at_particles(values: Array, pairs: Index, count: int) -> Array:
-    """The value furthest from 0 among the springs at each particle, shape [count]."""
+    """The value furthest from 0 among the springs at each particle, shape [count].
+
+    values: one a spring, shape [S]. pairs: the two particles of each spring, shape [S, 2]. count:
+    of the particles; one without a spring has 0.
+    """
     high, low = np.zeros(count), np.zeros(count)
     for end in range(2):
         np.maximum.at(high, pairs[:, end], values)
