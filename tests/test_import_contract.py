@@ -5,6 +5,7 @@ import tomllib
 from collections.abc import Iterator
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -151,8 +152,25 @@ def private_imports(package: str) -> list[str]:
 
 
 @pytest.mark.parametrize("package", sorted(APPLICATIONS))
-def test_applications_import_public_names(package: str) -> None:
+def test_applications_import_from_public_modules(package: str) -> None:
     assert not private_imports(package)
+
+
+@pytest.mark.parametrize("package", sorted(APPLICATIONS))
+def test_applications_import_public_names(package: str) -> None:
+    private = [
+        f"{name} -> {node.module}.{alias.name}"
+        for name, path in modules().items()
+        if package_of(name) == package
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom)
+        and node.module in PUBLIC
+        and package_of(node.module) not in APPLICATIONS | FOUNDATION
+        for alias in node.names
+        if f"{node.module}.{alias.name}" not in PUBLIC
+        and alias.name not in import_module(node.module).__all__
+    ]
+    assert not private
 
 
 def test_every_package_is_installed() -> None:
