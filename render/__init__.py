@@ -7,6 +7,10 @@ A `Scene` holds models, a camera and a light; a backend draws it as a `Frame`; a
 
     draw_models([make_model(make_mesh(positions, triangles), colour="#b02e26")]).save("red.png")
 
+A backend of your own is a function from a `Scene` to a `Frame`. `bake_normal_maps` puts the light
+of normal maps into the textures, `draw_list` merges all models into one list of triangles with one
+atlas, and `composite_layers` makes one texture of each material's layers.
+
 Lengths are metres, angles degrees, colours 8-bit sRGB with straight alpha. The axes are
 right-handed with y up. Names are loaded when they are first used.
 """

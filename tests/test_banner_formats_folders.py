@@ -49,16 +49,17 @@ def test_one_warning_names_all_that_is_not_read(folder: Path) -> None:
     (folder / "half.txt").write_text("give @s red_banner\ngive @s banner[\n")
     (folder / "notes.md").write_text("white creeper:lime")
     (folder / "old").mkdir()
-    os.mkfifo(folder / "pipe.txt")
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(folder / "pipe.txt")
     (folder / "link.json").symlink_to(folder / "b.json")
     with pytest.warns(UserWarning) as caught:
         found = read_designs(folder)
     assert len(found) == 6
     (line,) = (str(warning.message) for warning in caught)
     assert line.startswith(f"{folder}: not read: broken.json (base: unknown dye 'rad'")
-    for part in ("half.txt (line 2, ", "link.json (a link", "notes.md (", "old (", "pipe.txt ("):
+    for part in ("half.txt (line 2, ", "link.json (a link", "notes.md (", "old ("):
         assert part in line
-    assert "\n" not in line
+    assert "\n" not in line and ("pipe.txt (not a file" in line) == hasattr(os, "mkfifo")
 
 
 def test_a_long_list_of_what_is_not_read_is_cut_short_with_its_count(folder: Path) -> None:

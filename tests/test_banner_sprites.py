@@ -207,3 +207,23 @@ def test_the_new_place_of_the_base_wins_in_new_formats(tmp_path: Path) -> None:
     assert open_packs([path]).base_sheet()[0, 0, 0] == 2
     assert open_packs([path], format=84).base_sheet()[0, 0, 0] == 2
     assert open_packs([path], format=46).base_sheet()[0, 0, 0] == 1
+
+
+@pytest.mark.parametrize("side", [64, 96, 128])
+def test_a_stack_at_a_given_side_is_that_of_its_layers_resized(side: int) -> None:
+    layers = ((noise(1, 64), WHITE), (noise(2, 128), DYES["lime"].rgb), (noise(3, 32), WHITE))
+    resized = [(resize(texels, side), rgb) for texels, rgb in layers]
+    assert (composite(layers, side) == composite(resized)).all()
+    assert composite(layers, side).shape == (side, side, 4)
+
+
+@pytest.mark.parametrize("side", [16, 64, 100, 256])
+def test_a_region_is_sampled_at_the_centres_of_its_pixels(side: int) -> None:
+    sheet, region = noise(4, side), FLAG_REGIONS["front"]
+    texels = region.crop(sheet)
+    picture = region.sample(sheet, 3)
+    assert picture.shape == (120, 60, 4)
+    for row, column in ((0, 0), (7, 11), (119, 59)):
+        down = int((row + 0.5) * texels.shape[0] / 120)
+        across = int((column + 0.5) * texels.shape[1] / 60)
+        assert (picture[row, column] == texels[down, across]).all()
