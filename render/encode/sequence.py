@@ -56,7 +56,7 @@ def _gather(gathering: Path, frames: Iterable[HasPixels]) -> None:
         path = gathering / f"frame_{number:04d}.png"
         unfinished = path.with_suffix(".part")
         unfinished.write_bytes(png)
-        unfinished.rename(path)
+        unfinished.replace(path)
 
 
 def _own_frames(folder: Path) -> list[Path]:
