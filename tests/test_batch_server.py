@@ -236,8 +236,9 @@ def test_silent_connections_are_closed_and_others_answered(monkeypatch) -> None:
             client.close()
 
 
-def test_one_client_has_a_most_connections(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "MAX_CONNECTIONS_OF_CLIENT", 10)
+@pytest.mark.parametrize("name", ["MAX_CONNECTIONS", "MAX_CONNECTIONS_OF_CLIENT"])
+def test_connections_have_a_largest_number(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server, name, 10)
     with running() as (base, one):
         host, port = base.removeprefix("http://").split(":")
         clients = [socket.create_connection((host, int(port))) for _ in range(30)]

@@ -93,7 +93,8 @@ def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
 
 def _load(path: Path) -> dict[str, Any]:
     try:
-        data = path.read_bytes()
+        with path.open("rb") as file:
+            data = file.read(MAX_FILE + 1)
         if len(data) > MAX_FILE:
             raise OptionError(f"{path} is larger than {MAX_FILE >> 20} MiB; split it")
         text = data.decode("utf-8")
