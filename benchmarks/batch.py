@@ -5,7 +5,7 @@ WHAT is one of
   workers    what a second worker process gains
   kills      a run killed at random moments and resumed, against an undisturbed one
   dask       a mixed manifest on a local Dask cluster whose workers and run are killed
-  scheduler  a mixed manifest on a Dask cluster of processes of its own, whose scheduler is killed
+  scheduler  a mixed manifest on a Dask cluster of separate processes, whose scheduler is killed
   catalogue  all 16 x 43 banners of one layer as GIFs on a local Dask cluster
   soak       the service under many clients for a while
   scale      a simulation of a cluster: jobs, workers, the cost of each part

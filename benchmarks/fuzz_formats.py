@@ -44,21 +44,21 @@ def targets() -> dict[str, Target]:
     }
 
 
-def run(name: str, target: Target, count: int, seed: int) -> fuzzing.Progress:
+def run(name: str, target: Target, count: int, seed: int) -> fuzzing.FuzzReport:
     """Fuzz one form and print what came of it."""
     for sample in target.samples:  # whatever is loaded once is not the inputs' memory
         list(target.read(sample))
     start = time.perf_counter()
-    tally = fuzzing.fuzz(target.read, target.samples, target.mutate, count, seed)
+    report = fuzzing.fuzz(target.read, target.samples, target.mutate, count, seed)
     seconds = time.perf_counter() - start
     print(
-        f"{name}: {tally.count} inputs in {seconds:.0f} s, slowest {tally.slowest:.3f} s,"
-        f" heaviest {tally.heaviest:.0f} MB, {len(tally.failures)} failures",
+        f"{name}: {report.count} inputs in {seconds:.0f} s, slowest {report.slowest:.3f} s,"
+        f" heaviest {report.heaviest:.0f} MB, {len(report.failures)} failures",
         flush=True,
     )
-    for outcome, number in tally.outcomes.most_common(12):
+    for outcome, number in report.outcomes.most_common(12):
         print(f"  {number:7d}  {outcome}")
-    return tally
+    return report
 
 
 def save(failures: Sequence[tuple[Any, str]], name: str, folder: Path) -> None:
@@ -77,10 +77,10 @@ def drive_by_coverage(target: Target, arguments: list[str]) -> None:
 
     def one_input(data: bytes) -> None:
         given = data if binary else data.decode("utf-8", "replace")
-        tally = fuzzing.Progress()
-        fuzzing.judge(target.read, given, tally)
-        if tally.failures:
-            raise AssertionError(tally.failures[0][1])
+        report = fuzzing.FuzzReport()
+        fuzzing.judge(target.read, given, report)
+        if report.failures:
+            raise AssertionError(report.failures[0][1])
 
     atheris.instrument_all()
     with tempfile.TemporaryDirectory() as corpus:
@@ -107,12 +107,12 @@ def main() -> int:
     failed = False
     for name in options.forms or known:
         target = known[name]
-        tally = run(name, target, options.count or target.count, options.seed)
-        for _, reason in tally.failures[:5]:
+        report = run(name, target, options.count or target.count, options.seed)
+        for _, reason in report.failures[:5]:
             print(f"  FAILURE {reason}")
-        if options.save and tally.failures:
-            save(tally.failures, name, options.save)
-        failed = failed or bool(tally.failures)
+        if options.save and report.failures:
+            save(report.failures, name, options.save)
+        failed = failed or bool(report.failures)
     return int(failed)
 
 

@@ -37,7 +37,7 @@ def work(one: Job) -> JobResult:
 
 
 def command(version: str, words: list[str]) -> None:
-    """The command line in a process of its own, for one version of a checkout that may change."""
+    """The command line in a separate process, for one version of a checkout that may change."""
     from drapery import cli
     from drapery.batch import jobs, keys
 

@@ -1,4 +1,4 @@
-"""Fuzzing of the forms: seeded mutations of sound inputs, and a tally of what came of them.
+"""Fuzzing of the forms: seeded mutations of sound inputs, and a report of their outcomes.
 
 The suite runs a short slice of it, `benchmarks/fuzz_formats.py` the long run.
 """
@@ -40,7 +40,7 @@ _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 
 
 @dataclass
-class Tally:
+class FuzzReport:
     """What came of the inputs of one form.
 
     outcomes: how many inputs ended so, by a short name. slowest: the longest reading [s], of
@@ -64,16 +64,16 @@ def fuzz(
     mutate: Callable[[random.Random, Sequence[Any]], Any],
     count: int,
     seed: int = 0,
-) -> Tally:
-    """Read `count` mutated samples and tally the outcomes."""
+) -> FuzzReport:
+    """Read `count` mutated samples and report the outcomes."""
     rng = random.Random(seed)
-    tally = Tally()
+    report = FuzzReport()
     for _ in range(count):
-        judge(read, mutate(rng, samples), tally)
-    return tally
+        judge(read, mutate(rng, samples), report)
+    return report
 
 
-def judge(read: Callable[[Any], Iterable[Any]], given: Any, tally: Tally) -> None:
+def judge(read: Callable[[Any], Iterable[Any]], given: Any, report: FuzzReport) -> None:
     """Read one input and note how it ended."""
     before, start = _memory("VmRSS"), time.process_time()
     _forget_peak()
@@ -83,23 +83,23 @@ def judge(read: Callable[[Any], Iterable[Any]], given: Any, tally: Tally) -> Non
     except DraperyError as error:
         outcome = kind_of(str(error))
         if "\n" in str(error):
-            tally.failures.append((given, f"an error of many lines: {error!r}"))
+            report.failures.append((given, f"an error of many lines: {error!r}"))
     except Exception as error:  # what the fuzzing is for: any other end is a failure
         outcome = f"FAILED {type(error).__name__}"
-        tally.failures.append((given, repr(error)))
+        report.failures.append((given, repr(error)))
     seconds = time.process_time() - start
     if seconds > MAX_SECONDS:
-        tally.failures.append((given, f"took {seconds:.2f} s"))
+        report.failures.append((given, f"took {seconds:.2f} s"))
     grown = _memory("VmHWM") - before
     if grown > MAX_MEMORY:
-        tally.failures.append((given, f"took {grown:.0f} MB"))
-    tally.slowest = max(tally.slowest, seconds)
-    tally.heaviest = max(tally.heaviest, grown)
-    tally.outcomes[outcome] += 1
+        report.failures.append((given, f"took {grown:.0f} MB"))
+    report.slowest = max(report.slowest, seconds)
+    report.heaviest = max(report.heaviest, grown)
+    report.outcomes[outcome] += 1
 
 
 def _memory(name: str) -> float:
-    """This process's memory now (VmRSS) or at its peak (VmHWM) [MB]; 0 if it is not told."""
+    """This process's memory now (VmRSS) or at its peak (VmHWM) [MB]; 0 if unknown."""
     if not _STATUS.exists():
         return 0.0
     line = next(
@@ -109,7 +109,7 @@ def _memory(name: str) -> float:
 
 
 def _forget_peak() -> None:
-    """Let the peak begin anew. See proc(5), /proc/pid/clear_refs."""
+    """Reset the peak; see proc(5), /proc/pid/clear_refs."""
     if _CLEAR.exists():
         _CLEAR.write_text("5", encoding="utf-8")
 
@@ -372,12 +372,12 @@ def binary_samples() -> dict[str, list[bytes]]:
 
 
 def binary_readers() -> dict[str, Callable[[bytes], Iterable[Any]]]:
-    """The reader of each form of bytes, with all that it takes to find its banners."""
+    """The reader of each form of bytes."""
     return {name: form.read for name, form in BINARY_FORMS.items()}
 
 
 def text_readers() -> dict[str, Callable[[str], Iterable[Any]]]:
-    """The reader of each form of text, and under `any text` the door to all of them."""
+    """The reader of each form of text; `any text` is the parser that recognises the form."""
     readers: dict[str, Callable[[str], Iterable[Any]]] = {
         name: form.read for name, form in FORMS.items()
     }

@@ -1,4 +1,4 @@
-"""A studio in a process of its own, and a Chromium without a window to look at it with."""
+"""A studio in its own process, and a headless Chromium that opens it."""
 
 import os
 import re
@@ -72,7 +72,7 @@ class Studio:
 
 @pytest.fixture(scope="session")
 def studio() -> Iterator[Studio]:
-    """A studio at a free port with a library of its own."""
+    """A studio at a free port with an empty library."""
     pytest.importorskip("nicegui")
     with tempfile.TemporaryDirectory() as folder:
         studio = Studio(Path(folder))
@@ -123,11 +123,11 @@ def open_page(driver: Any, studio: Studio, query: str = "") -> None:
     wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
 
 
-def wait_until(truth: Callable[[], T], seconds: float = 20.0) -> T:
-    """What a question answers, once that is true; AssertionError after so long [s]."""
+def wait_until(condition: Callable[[], T], seconds: float = 20.0) -> T:
+    """The first true value of the condition. Raises AssertionError after this time [s]."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        if answer := truth():
+        if answer := condition():
             return answer
         time.sleep(0.03)
     raise AssertionError(f"still not so after {seconds} s")

@@ -67,7 +67,7 @@ def test_write_art_writes_every_file_and_nothing_else(tmp_path):
     assert sorted(written) == sorted(path for path in tmp_path.rglob("*") if path.is_file())
 
 
-def test_a_folder_that_cannot_be_is_told_in_one_line(tmp_path, capsys):
+def test_a_folder_that_cannot_be_made_is_reported_in_one_line(tmp_path, capsys):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(OutputError, match="choose a folder"):
         write_art(tmp_path / "file")

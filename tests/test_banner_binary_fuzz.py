@@ -19,6 +19,6 @@ def test_the_samples_are_sound(name: str):
 
 @pytest.mark.parametrize("name", SAMPLES)
 def test_changed_files_are_read_or_refused(name: str):
-    tally = fuzzing.fuzz(READERS[name], SAMPLES[name], fuzzing.mutate_bytes, 200, seed=1)
-    assert not tally.failures, tally.failures[0][1]
-    assert tally.count == 200 and len(tally.outcomes) > 3
+    report = fuzzing.fuzz(READERS[name], SAMPLES[name], fuzzing.mutate_bytes, 200, seed=1)
+    assert not report.failures, report.failures[0][1]
+    assert report.count == 200 and len(report.outcomes) > 3

@@ -1,4 +1,4 @@
-"""What is no banner: one line that names the place and the remedy, whatever the form."""
+"""Texts that are not banners: one line with the place and the remedy, in every form."""
 
 import pytest
 from hypothesis import given

@@ -207,7 +207,7 @@ def test_bukkits_diagonal_right_is_the_pattern_with_the_code_rd():
 
 
 @given(banner=BANNERS)
-def test_the_door_of_the_type_is_the_same_door(banner: Banner):
+def test_banner_parse_is_the_same_parser(banner: Banner):
     assert Banner.parse(write_banner(banner, "give")) == banner
 
 

@@ -15,6 +15,6 @@ def test_the_samples_are_sound(name: str):
 
 @pytest.mark.parametrize("name", SAMPLES)
 def test_changed_texts_are_read_or_refused(name: str):
-    tally = fuzzing.fuzz(READERS[name], SAMPLES[name], fuzzing.mutate_text, 300, seed=2)
-    assert not tally.failures, tally.failures[0]
-    assert tally.count == 300 and len(tally.outcomes) > 3
+    report = fuzzing.fuzz(READERS[name], SAMPLES[name], fuzzing.mutate_text, 300, seed=2)
+    assert not report.failures, report.failures[0]
+    assert report.count == 300 and len(report.outcomes) > 3

@@ -1,4 +1,4 @@
-"""The door: files, standard input, several banners, and what stays unloaded."""
+"""The registry: files, standard input, several banners, and modules that stay unloaded."""
 
 import io
 import subprocess
@@ -80,7 +80,7 @@ def test_a_file_is_read_if_there_is_one(tmp_path: Path, monkeypatch: pytest.Monk
         read_design(file)
 
 
-def test_a_text_is_no_file_even_where_a_folder_is_called_so(
+def test_a_text_is_not_a_file_even_if_a_folder_has_that_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.chdir(tmp_path)
@@ -139,7 +139,7 @@ def test_block_entities_get_their_dye_from_their_block():
     ]
 
 
-def test_the_names_of_blocks_in_a_palette_are_no_banners():
+def test_names_of_blocks_in_a_palette_are_not_banners():
     assert list(find_banners({"palette": [{"Name": "minecraft:red_banner"}]})) == []
 
 

@@ -87,14 +87,14 @@ def test_the_numbers_of_dyes_turned_round_turn_back():
 
 
 @pytest.mark.parametrize("value", [16, -1, None, True, 2.0, [], {}, "", "rde", "x" * 100_000])
-def test_what_is_no_dye_is_refused_in_one_line_with_its_place(value: object):
+def test_a_wrong_dye_is_refused_in_one_line_with_its_place(value: object):
     with pytest.raises(DesignError, match=r"^somewhere: ") as caught:
         dye_name(value, "somewhere")
     assert len(str(caught.value)) < 300 and "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("value", [5, None, [], "", "kreeper", "A:b", "a:", ":b", "x\n" * 50_000])
-def test_what_is_no_pattern_is_refused_in_one_line_with_its_place(value: object):
+def test_a_wrong_pattern_is_refused_in_one_line_with_its_place(value: object):
     with pytest.raises(DesignError, match=r"^somewhere: ") as caught:
         pattern_id(value, "somewhere")
     assert len(str(caught.value)) < 300 and "\n" not in str(caught.value)

@@ -60,7 +60,7 @@ def test_broken_definitions_are_named(tmp_path: Path, definition: str) -> None:
         open_packs([path]).sheet("g:owl")
 
 
-def test_maps_and_the_base_are_no_patterns(tmp_path: Path) -> None:
+def test_maps_and_the_base_are_not_patterns(tmp_path: Path) -> None:
     names = ("creeper", "creeper_n", "creeper_s", "banner_base", "banner_base_n", "own", "own_s")
     files = {f"{BANNER}{name}.png": plain(1, 0, 0, 255) for name in names}
     packs = open_packs([folder_pack(tmp_path, files)])
@@ -98,7 +98,7 @@ def test_a_filter_takes_away_what_came_before_it(tmp_path: Path) -> None:
     assert red(packs, "skull") == 2
 
 
-def test_unknown_sources_are_told_once(tmp_path: Path) -> None:
+def test_unknown_sources_are_reported_once(tmp_path: Path) -> None:
     source = {"type": "paletted_permutations", "textures": []}
     path = folder_pack(tmp_path, {ATLAS: sprites(source, source), CREEPER: plain(1, 0, 0, 255)})
     packs = open_packs([path])
@@ -125,6 +125,6 @@ def test_broken_atlases_are_named(tmp_path: Path, atlas: str) -> None:
 @pytest.mark.parametrize(
     "name", ["../x", "a:../../x", "a:b:c", "Überall", "a: b", "x" * 200, "", "a:"]
 )
-def test_names_that_are_no_ids_are_refused(name: str) -> None:
+def test_names_that_are_not_ids_are_refused(name: str) -> None:
     with pytest.raises(PackError, match="is not an id"):
         open_packs().sheet(name)

@@ -110,7 +110,7 @@ def test_the_real_packs_report(real_pack: Path) -> None:
     assert report.bases == ("banner_base", "shield_base", "shield_base_nopattern")
 
 
-def test_masks_left_over_in_the_real_packs_shields_are_told(real_pack: Path) -> None:
+def test_old_masks_in_the_real_packs_shields_are_reported(real_pack: Path) -> None:
     packs = open_packs([real_pack])
     packs.sheet("creeper", "shield")
     assert "creeper (shield)" in packs.warnings()[0] and "black" in packs.warnings()[0]

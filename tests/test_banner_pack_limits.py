@@ -58,7 +58,7 @@ def test_other_files(tmp_path: Path, data: bytes) -> None:
         ("empty", "it has neither assets nor pack.mcmeta"),
     ],
 )
-def test_folders_that_are_no_packs(tmp_path: Path, folder: str, hint: str) -> None:
+def test_folders_that_are_not_packs(tmp_path: Path, folder: str, hint: str) -> None:
     folder_pack(tmp_path / "packs/one", SOUND)
     folder_pack(tmp_path / "packs/two", SOUND)
     folder_pack(tmp_path / "bedrock", {"manifest.json": "{}"})
@@ -85,7 +85,7 @@ def test_folders_that_are_no_packs(tmp_path: Path, folder: str, hint: str) -> No
         ([], "neither assets nor pack.mcmeta"),
     ],
 )
-def test_zips_that_are_no_packs(tmp_path: Path, names: list[str], hint: str) -> None:
+def test_zips_that_are_not_packs(tmp_path: Path, names: list[str], hint: str) -> None:
     assert hint in refusal(zip_pack(tmp_path / "a.zip", dict.fromkeys(names, "x")))
 
 

@@ -75,7 +75,7 @@ def test_by_default_a_pack_is_taken_at_its_newest(
     assert open_packs([path], format=5).packs[1].format == 5
 
 
-def test_a_byte_order_mark_and_raw_line_breaks_are_borne(tmp_path: Path) -> None:
+def test_a_byte_order_mark_and_raw_line_breaks_are_accepted(tmp_path: Path) -> None:
     text = '\ufeff{"pack": {"pack_format": 9, "description": "§ltwo\n lines\u001b[2J"}}'
     path = folder_pack(tmp_path, {META: text, CREEPER: plain(1, 0, 0, 255)})
     pack = open_packs([path]).packs[1]

@@ -1,4 +1,4 @@
-"""Packs lie over our art as in the game: order, containers, and what is missing."""
+"""Packs override our own art as in the game: order, containers, and missing files."""
 
 from pathlib import Path
 from typing import Any
@@ -88,7 +88,7 @@ def test_any_texture_by_id(tmp_path: Path) -> None:
     assert packs.texture("block/stone") is packs.texture("minecraft:block/stone")
 
 
-def test_a_missing_sprite_is_the_games_checker_and_is_told(tmp_path: Path) -> None:
+def test_a_missing_sprite_is_the_games_checker_with_a_warning(tmp_path: Path) -> None:
     packs = open_packs()
     sheet = packs.sheet("guild:owl")
     assert sheet[0, 0].tolist() == sheet[15, 15].tolist() == [0, 0, 0, 255]
@@ -98,7 +98,7 @@ def test_a_missing_sprite_is_the_games_checker_and_is_told(tmp_path: Path) -> No
     assert "guild:owl" in line and "minecraft:block/nothing" in line and line.count("owl") == 1
 
 
-def test_what_falls_back_to_our_art_is_told_in_one_line(tmp_path: Path) -> None:
+def test_fallbacks_to_our_art_are_reported_in_one_line(tmp_path: Path) -> None:
     packs = open_packs([folder_pack(tmp_path, {CREEPER: plain(1, 0, 0, 255)})])
     for pattern in ("creeper", "flow", "guster", "flow"):
         packs.sheet(pattern)
@@ -107,7 +107,7 @@ def test_what_falls_back_to_our_art_is_told_in_one_line(tmp_path: Path) -> None:
     assert (packs.sheet("flow") == open_packs().sheet("flow")).all()
 
 
-def test_a_pack_that_gives_nothing_is_told(tmp_path: Path) -> None:
+def test_a_pack_without_used_textures_is_reported(tmp_path: Path) -> None:
     path = folder_pack(
         tmp_path / "blocks", {"assets/minecraft/textures/block/dirt.png": plain(1, 1, 1, 1)}
     )

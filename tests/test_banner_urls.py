@@ -88,7 +88,7 @@ ADDRESSES = [
 
 
 @pytest.mark.parametrize(("form", "address"), ADDRESSES)
-def test_an_address_may_be_written_in_many_ways(form, address: str):
+def test_all_spellings_of_an_address_are_read(form, address: str):
     assert form.recognises(address)
     assert form.parse(address) == next(b for f, _, b in PAIRS if f is form and len(b.layers) != 1)
 
@@ -152,7 +152,7 @@ def test_the_base_pair_may_carry_other_high_bits():
     assert needcoolshoes.parse("Xa") == Banner("red")
 
 
-def test_shape_zero_is_no_layer():
+def test_shape_zero_is_not_a_layer():
     assert minecraft_tools.parse("color_id_0=4&shape_id_1=0&color_id_1=0") == Banner("blue")
 
 

@@ -61,7 +61,7 @@ def test_short_jobs_travel_several_in_a_task() -> None:
         assert executor.free() == 6 * count
 
 
-def test_the_address_of_no_scheduler_is_an_error() -> None:
+def test_an_address_without_a_scheduler_is_an_error() -> None:
     for address in ("tcp:/nowhere", "tls://127.0.0.1:1", "tcp://", "nothing://x", ""):
         with pytest.raises(BackendError, match="no scheduler at") as caught:
             cluster.connect(address, RemoteStore("memory://x"), JobLimits())

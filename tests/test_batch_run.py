@@ -194,7 +194,7 @@ def test_a_results_file_is_of_one_run_at_a_time(tmp_path: Path) -> None:
         assert again.records() == {}
 
 
-def test_a_target_that_is_no_folder_is_refused(drapery: Run, tmp_path: Path) -> None:
+def test_a_target_that_is_not_a_folder_is_refused(drapery: Run, tmp_path: Path) -> None:
     path = manifest(tmp_path / "m.jsonl", 1)
     for target, reason in ((path, "cannot make"), (f"nothing://{tmp_path}", "cannot be opened")):
         code, _, err = drapery("batch", path, "-o", target)

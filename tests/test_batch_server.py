@@ -209,7 +209,7 @@ def test_the_environment_does_not_name_proxies(monkeypatch: pytest.MonkeyPatch) 
 
 
 @pytest.mark.parametrize("text", ["*", "", "localhost", "10.0.0.1/8", "1.2.3", "a" * 5000])
-def test_a_proxy_that_is_no_address_is_refused(text: str) -> None:
+def test_a_proxy_that_is_not_an_address_is_refused(text: str) -> None:
     with pytest.raises(OptionError, match=r"write 10\.0\.0\.1") as caught:
         check_proxies([text])
     assert len(str(caught.value)) < 200

@@ -10,7 +10,7 @@ from PIL import Image
 
 
 def project(folder: Path, **options: object) -> dict[str, object]:
-    """A project with one pattern of its own and one of the game's drawn anew."""
+    """A project with one new pattern and one pattern of the game that is redrawn."""
     sprite = np.zeros((64, 64, 4), np.uint8)
     sprite[10:30, 4:40] = 255
     ours = folder / "assets/loom/textures/entity/banner/knot.png"

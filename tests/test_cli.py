@@ -228,7 +228,7 @@ def test_a_plain_face_knows_only_formats_that_may_be(drapery: Run, tmp_path: Pat
 
 
 def test_help_does_not_wait_for_the_kernels() -> None:
-    """`drapery --help` must not import numba; it is what a newcomer types first."""
+    """`drapery --help` must not import numba; it must be fast, since users type it first."""
     code = (
         "import sys; sys.argv = ['drapery', '--help']\n"
         "from drapery.cli import main\n"

@@ -135,7 +135,7 @@ os.wait()
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
-def test_a_forked_child_simulates_with_threads_of_its_own():
+def test_a_forked_child_simulates_with_new_threads():
     program = FORK.format(tests=str(Path(__file__).parent))
     command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", program]
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)

@@ -1,4 +1,4 @@
-"""Colliders: nothing enters, nothing tunnels, bounces and friction keep their laws."""
+"""Colliders: nothing enters, nothing tunnels, bounces and friction follow the physics."""
 
 import functools
 import math
@@ -510,7 +510,7 @@ def test_self_collision_stops_approach_and_leaves_neighbours_alone():
 
 
 class Torus:
-    """A shape as a stranger writes it: about the y axis, in the shape's own frame."""
+    """A user-defined shape about the y axis, in the shape's frame."""
 
     def __init__(self, radius, tube):
         reach = radius + tube

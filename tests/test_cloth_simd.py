@@ -37,7 +37,7 @@ def test_each_lane_is_what_numpy_makes_of_it(dtype):
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_rooms_begin_with_a_cache_line(dtype):
+def test_empty_lanes_begin_with_a_cache_line(dtype):
     assert all(first_byte(np.zeros((1, 1), dtype)) % simd.BYTES == 0 for _ in range(5))
 
 

@@ -1,4 +1,4 @@
-"""The classic solvers keep their order, their laws and their promises."""
+"""The classic solvers: order of convergence, conservation and documented properties."""
 
 import dataclasses
 import itertools

@@ -138,7 +138,7 @@ def test_bad_comparisons_are_one_line(drapery: Run, words: tuple[str, ...]) -> N
     assert (code, len(lines)) == (2, 1)
 
 
-def test_the_loom_is_told_step_by_step(drapery: Run, tmp_path: Path) -> None:
+def test_the_loom_is_described_step_by_step(drapery: Run, tmp_path: Path) -> None:
     out_file, steps_file = tmp_path / "apart.png", tmp_path / "steps.png"
     code, out, _ = drapery(
         "layers",
@@ -157,7 +157,7 @@ def test_the_loom_is_told_step_by_step(drapery: Run, tmp_path: Path) -> None:
     assert fits_loom(banner) and not fits_loom(Banner.parse("white" + " cross:red" * 7))
 
 
-def test_hidden_layers_are_found_and_visible_ones_kept() -> None:
+def test_hidden_layers_are_found_and_visible_ones_are_not() -> None:
     packs = open_packs(())
     hidden = Banner.parse("white creeper:lime base:red cross:black")
     assert simplify(hidden, packs) == Banner.parse("white base:red cross:black")

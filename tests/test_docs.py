@@ -1,4 +1,4 @@
-"""What the docs say is so: every command, room, link and picture that they name is there."""
+"""Every command, package, link and picture that the docs name exists."""
 
 import re
 from pathlib import Path
@@ -19,11 +19,11 @@ def test_the_readme_lists_every_command() -> None:
     assert sorted(listed) == sorted(typer.main.get_command(app).commands)  # type: ignore[attr-defined]
 
 
-def test_the_house_names_every_room() -> None:
-    house = (ROOT / "docs/architecture.md").read_text()
-    rooms = {path.parent for path in (ROOT / "drapery").glob("*/__init__.py")}
-    for room in rooms:
-        assert f"`{room.relative_to(ROOT).as_posix()}/`" in house
+def test_the_architecture_page_names_every_package() -> None:
+    text = (ROOT / "docs/architecture.md").read_text()
+    packages = {path.parent for path in (ROOT / "drapery").glob("*/__init__.py")}
+    for package in packages:
+        assert f"`{package.relative_to(ROOT).as_posix()}/`" in text
 
 
 @pytest.mark.parametrize("page", PAGES)

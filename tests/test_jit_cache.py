@@ -99,7 +99,7 @@ def test_without_a_folder_kernels_are_compiled_and_one_warning_says_so(tmp_path)
     assert "NUMBA_CACHE_DIR" in run.stderr
 
 
-def test_where_nothing_else_can_be_written_kernels_are_kept_among_the_temporary_files():
+def test_kernels_are_stored_with_temporary_files_if_no_other_folder_is_writable():
     program = "from drapery.jit_cache import *; print(kernel_cache_status().folder)"
     run = run_program(program, Path("/dev/null/kernels"))
     assert Path(run.stdout.strip()).parent == Path(tempfile.gettempdir())

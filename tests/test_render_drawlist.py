@@ -86,7 +86,7 @@ def test_a_merged_list_holds_every_model_in_order() -> None:
     assert len(np.unique(tints, axis=0)) == 3
 
 
-def test_brightness_is_the_lights_where_a_look_is_lit() -> None:
+def test_lit_materials_have_the_brightness_of_the_light() -> None:
     batch = crowd()
     lit = GAME_LIGHT.brightness(batch.mesh.normals)
     lit[1::2] = 1

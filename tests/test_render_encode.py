@@ -159,7 +159,7 @@ def test_20_frames_a_second_are_5_centiseconds(tmp_path: Path) -> None:
         assert {f.info["duration"] for f in ImageSequence.Iterator(image)} == {50}
 
 
-def test_unchanged_frames_are_kept_and_cost_little(tmp_path: Path) -> None:
+def test_unchanged_frames_are_stored_and_cost_little(tmp_path: Path) -> None:
     frame = noise(1, alpha=255)[0]
     for name in ("a.gif", "a.apng", "a.webp"):
         save_animation([frame], 10, tmp_path / f"1{name}")

@@ -53,12 +53,12 @@ def moved(mesh: Mesh, *offset: float) -> Mesh:
 
 
 CAMERA = Camera((1.2, 1.0, 3.2), (0.0, 0.0, 0.0))
-COATS = (
+LAYERS = (
     TextureLayer(texture(1, 16), (255, 40, 90)),
     TextureLayer(texture(2, 32), (10, 250, 80)),
     TextureLayer(texture(3, 8, holes=True), (30, 40, 255)),
 )
-SOLID = Model(sheet(0), (Material(COATS),))
+SOLID = Model(sheet(0), (Material(LAYERS),))
 
 
 def crowd() -> Model:
@@ -67,7 +67,7 @@ def crowd() -> Model:
     offsets = np.random.default_rng(6).uniform(-3, 3, (60, 1, 3)).astype(np.float32)
     positions = 0.3 * mesh.positions + offsets
     normals = np.broadcast_to(mesh.normals, positions.shape)
-    materials = tuple(Material(COATS[:count]) for count in (1, 2, 3))
+    materials = tuple(Material(LAYERS[:count]) for count in (1, 2, 3))
     index = (np.arange(60) % 3).astype(np.int32)
     return Model(Mesh(positions, normals, mesh.triangles, mesh.uvs), materials, index)
 
@@ -76,9 +76,9 @@ def layers() -> tuple[Model, ...]:
     """A solid sheet, one with holes before it and two that shine through, the near one first."""
     return (
         SOLID,
-        Model(moved(sheet(8), 0.3, 0.2, 0.5), (Material(COATS[2:] + COATS[:1], "cutout"),)),
-        Model(moved(sheet(9), -0.4, 0.2, 1.1), (Material(COATS[:2], "blend"),)),
-        Model(moved(sheet(7), 0.4, -0.3, 0.8), (Material(COATS[:1], "blend", lit=False),)),
+        Model(moved(sheet(8), 0.3, 0.2, 0.5), (Material(LAYERS[2:] + LAYERS[:1], "cutout"),)),
+        Model(moved(sheet(9), -0.4, 0.2, 1.1), (Material(LAYERS[:2], "blend"),)),
+        Model(moved(sheet(7), 0.4, -0.3, 0.8), (Material(LAYERS[:1], "blend", lit=False),)),
     )
 
 
@@ -104,7 +104,7 @@ SCENES = {
     "alpha over a colour": Scene(layers(), CAMERA, (256, 256), background=(40, 160, 220, 255)),
     "alpha over half a colour": Scene(layers(), CAMERA, (99, 77), background=(200, 60, 20, 130)),
     "coloured light": Scene((SOLID,), CAMERA, (128, 128), WARM),
-    "unlit": Scene((replace(SOLID, materials=(Material(COATS, lit=False),)),), CAMERA, light=WARM),
+    "unlit": Scene((replace(SOLID, materials=(Material(LAYERS, lit=False),)),), CAMERA, light=WARM),
     "4 samples": Scene(layers(), CAMERA, (100, 100), samples=4),
     "16 samples": Scene(layers(), CAMERA, (60, 60), samples=16),
     "camera inside": Scene((crowd(),), Camera((0.1, 0.2, 0.1), (0, 0, -3), fov=90), (200, 150)),
@@ -252,7 +252,7 @@ def test_absurd_meshes_are_drawn_without_harm() -> None:
         triangles = np.arange(300, dtype=np.int32).reshape(-1, 3)
         normals = np.tile(np.float32([0, 1, 0]), (300, 1))
         mesh = Mesh(positions, normals, triangles, random.uniform(0, 1, (300, 2)))
-        scene = Scene((Model(mesh, (Material(COATS[:1]),)),), CAMERA, (64, 64))
+        scene = Scene((Model(mesh, (Material(LAYERS[:1]),)),), CAMERA, (64, 64))
         assert gl.draw_scene(scene).pixels.shape == (64, 64, 4)
 
 

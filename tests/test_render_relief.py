@@ -87,7 +87,7 @@ def test_what_is_closed_gets_no_ambient_light() -> None:
     assert brightness(board(), slope(0, 0, 0), light) == pytest.approx(0.5, abs=0.005)
 
 
-def test_the_upper_coats_relief_lies_over_the_lower_by_its_alpha() -> None:
+def test_the_upper_layers_relief_covers_the_lower_by_its_alpha() -> None:
     half = WHITE.copy()
     half[:, :2, 3] = 0
     lower, upper = (

@@ -101,7 +101,7 @@ def test_labels_cannot_break_out_of_the_page(tmp_path: Path) -> None:
     assert "<b>" not in (tmp_path / "sheet.html").read_text()
 
 
-def test_a_contents_sheet_tells_whose_each_pattern_is(tmp_path: Path) -> None:
+def test_a_contents_sheet_shows_the_pack_of_each_pattern(tmp_path: Path) -> None:
     files = {CREEPER: png(noise(1, 128)), CREEPER.replace("creeper", "skull"): b"no picture"}
     pack = folder_pack(tmp_path, files)
     ours, theirs = contents_sheet(open_packs()), contents_sheet(open_packs([pack]))

@@ -35,7 +35,7 @@ def found(library: Library, words: str = "", tag: str | None = None) -> list[str
     return [each.title for each in library.search(words, tag)[0]]
 
 
-def test_what_is_kept_comes_back_whole(library: Library) -> None:
+def test_a_saved_design_is_restored_completely(library: Library) -> None:
     kept = design("red creeper:lime acme:x/y:blue", "Żółw 🐢 ' \" %", "b", "a")
     kept = replace(kept, sketch=hide(kept.sketch, 2))
     number = library.add(kept)
@@ -44,7 +44,7 @@ def test_what_is_kept_comes_back_whole(library: Library) -> None:
     assert got.thumbnail and Library(library.path).get(number) == got
 
 
-def test_files_and_packs_are_not_kept(library: Library) -> None:
+def test_files_and_packs_are_not_saved(library: Library) -> None:
     own = replace(PICTURE, packs=("/a/pack.zip",), texture="/a/cape.png", backend="soft")
     number = library.add(replace(design(), settings=own))
     assert library.get(number).settings == PICTURE
@@ -113,7 +113,7 @@ def test_a_number_that_is_not_there(library: Library, number: int) -> None:
         {"thumbnail": plain(0, 0, 0, 255, side=257)},
     ],
 )
-def test_what_breaks_the_rules_is_not_kept(library: Library, change: dict[str, Any]) -> None:
+def test_invalid_records_are_not_saved(library: Library, change: dict[str, Any]) -> None:
     with pytest.raises(DraperyError) as fault:
         library.add(replace(design(), **change))
     assert "\n" not in str(fault.value) and found(library) == []
@@ -186,7 +186,7 @@ def test_a_broken_import_changes_nothing(library: Library, change: dict[str, Any
         b'{"drapery_library": 1, "designs": [5]}',
     ],
 )
-def test_what_is_no_library_is_one_line(library: Library, data: bytes) -> None:
+def test_a_file_that_is_not_a_library_is_one_line(library: Library, data: bytes) -> None:
     with pytest.raises(DesignError) as fault:
         library.load(data)
     assert "\n" not in str(fault.value)
@@ -276,7 +276,7 @@ def test_two_processes_write_at_once(library: Library) -> None:
     assert len(set(changes)) == 30
 
 
-def test_a_million_letters_of_search(library: Library) -> None:
+def test_a_search_text_of_a_million_characters(library: Library) -> None:
     library.add(design())
     assert found(library, "x " * 500_000) == []
 

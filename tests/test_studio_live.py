@@ -104,7 +104,7 @@ def test_another_design_leaves_the_motion() -> None:
     assert np.array_equal(changed.particles()[0], left.particles()[0])
 
 
-def test_packs_side_by_side_wear_one_motion() -> None:
+def test_packs_side_by_side_have_one_motion() -> None:
     live = a_live()
     live.update(DESIGN, open_packs(()), SETTINGS, open_packs(()))
     live.step(10)
@@ -280,7 +280,7 @@ def told_positions(encoder: MessageEncoder, live: Live, seen: dict[str, Any]) ->
     return kinds
 
 
-def test_messages_tell_what_is_drawn() -> None:
+def test_messages_describe_the_picture() -> None:
     live, encoder, seen = a_live(), MessageEncoder(), {}
     for number in range(4):
         kinds = told_positions(encoder, live, seen)
@@ -321,7 +321,7 @@ def test_pack_and_unpack_are_inverse() -> None:
     assert all(np.array_equal(back[name], array) for name, array in arrays.items())
 
 
-def test_a_camera_is_told_once_a_cut() -> None:
+def test_a_camera_is_sent_once_per_cut() -> None:
     live, encoder = a_live(), MessageEncoder()
     encoder.reframe((200, 100))
     first = [unpack(message)[0] for message in encoder.messages(live.shown())][-1]
@@ -450,11 +450,11 @@ def place_of(flag: np.ndarray, pictures: list[np.ndarray]) -> int:
     return next(n for n, known in enumerate(pictures) if np.array_equal(known, flag))
 
 
-def wait_for(truth: Any, seconds: float = 5.0) -> None:
+def wait_for(condition: Any, seconds: float = 5.0) -> None:
     import time
 
     end = time.monotonic() + seconds
-    while not truth():
+    while not condition():
         assert time.monotonic() < end
         time.sleep(0.01)
 
@@ -537,10 +537,10 @@ def test_keys_and_hands_reach_the_cloth_over_the_socket(client: Any) -> None:
     session.close()
 
 
-def watch(socket: Any, truth: Any) -> None:
+def watch(socket: Any, condition: Any) -> None:
     """Look at moments until something is true of one."""
     for _ in range(600):
-        if truth(moments(socket, 1)[0]):
+        if condition(moments(socket, 1)[0]):
             return
     raise AssertionError("it has not come about")
 
@@ -579,7 +579,7 @@ def test_a_tab_that_closes_ends_its_sockets(client: Any) -> None:
         assert caught.value.code == UNKNOWN
 
 
-def test_cloth_that_blows_up_is_told_and_hangs_anew(client: Any) -> None:
+def test_unstable_cloth_is_reported_and_reset(client: Any) -> None:
     session = open_session(SETTINGS)
     viewport = session.viewport
 

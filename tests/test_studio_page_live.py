@@ -92,7 +92,7 @@ def test_keys_steer_the_wind(page: Any) -> None:
     wait_until(lambda: not shows(page, "no wind"))
 
 
-def test_keys_of_a_text_are_no_wind(page: Any) -> None:
+def test_typing_in_a_text_field_does_not_change_the_wind(page: Any) -> None:
     wind = ask(page, "wind")
     field = page.find_element(By.CSS_SELECTOR, "#panel-patterns input")
     field.send_keys("weak sea")

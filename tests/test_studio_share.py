@@ -205,7 +205,7 @@ def test_a_link_with_a_wrong_letter_is_refused_or_the_same(place: int, letter: s
     place %= len(good)
     bad = good[:place] + letter + good[place + 1 :]
     try:
-        # The last letter has bits that nothing reads.
+        # Some bits of the last character are not used.
         assert read_link(bad) == read_link(good)
     except DesignError:
         assert bad != good

@@ -44,7 +44,7 @@ def test_a_move_keeps_the_others_in_order(banner: Banner, data: st.DataObject) -
     assert edits.place_of(moved, number) == min(max(place, 0), len(others))
 
 
-def test_a_hidden_stroke_is_kept_and_not_drawn() -> None:
+def test_a_hidden_stroke_is_stored_but_not_drawn() -> None:
     hidden = edits.hide(THREE, 2)
     assert [layer.pattern for layer in banner_of(hidden).layers] == ["creeper", "flower"]
     assert edits.hide(hidden, 2) == THREE
@@ -102,7 +102,7 @@ def test_undo_then_redo_changes_nothing(steps: list[str | int]) -> None:
         assert len(history.past) <= LIMIT
 
 
-def test_history_is_bounded_and_an_equal_state_is_no_step() -> None:
+def test_history_is_bounded_and_an_equal_state_adds_no_step() -> None:
     history = History(0)
     for state in range(LIMIT + 50):
         history = history.push(state)

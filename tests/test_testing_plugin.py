@@ -14,7 +14,7 @@ def grey(level):
 """
 
 
-def test_every_id_has_a_golden_of_its_own(pytester: pytest.Pytester) -> None:
+def test_every_id_has_a_separate_golden(pytester: pytest.Pytester) -> None:
     """Characters that no file name may have are left out of the name, and none is lost by it."""
     pytester.makepyfile(
         HEAD
