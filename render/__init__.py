@@ -1,4 +1,4 @@
-"""Pictures of meshes. Knows textures, cameras and lights; never a banner, never a solver.
+"""Pictures of meshes with textures, cameras and lights. It does not depend on banners or cloth.
 
 A `Scene` holds models, a camera and a light; a backend draws it as a `Frame`; a frame or an
 `Animation` is saved as a file. `draw_models` does it in one line:

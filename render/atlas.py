@@ -10,10 +10,10 @@ from drapery.errors import OptionError
 from drapery.render.scene import Texels
 
 PADDING = 1
-"""Texels around each sprite, copies of its border: sampling that is off by less cannot bleed."""
+"""Texels around each sprite, copies of its border: they keep neighbours out of inexact sampling."""
 
 FEW_SIZES = 8
-"""Up to so many different sizes, a block for each size wastes little, and needs no packer."""
+"""The most different sizes for which a block for each size is used instead of a packer."""
 
 MAX_SHEET = 1 << 28
 """The most texels of an atlas; 1 GiB."""
@@ -26,7 +26,7 @@ class Atlas:
     """A sheet of sprites.
 
     texels: sRGB with straight alpha, shape [H, W, 4], uint8.
-    rects: where each sprite lies, x, y, width, height in texels, shape [S, 4].
+    rects: x, y, width, height of each sprite in texels, shape [S, 4].
     """
 
     texels: Texels
@@ -34,7 +34,7 @@ class Atlas:
 
 
 def make_atlas(sprites: Sequence[Texels]) -> Atlas:
-    """Lay sprites of any sizes on one sheet. Raises OptionError above MAX_SHEET texels."""
+    """Put sprites of any sizes on one sheet. Raises OptionError above MAX_SHEET texels."""
     if not sprites:
         return Atlas(np.zeros((1, 1, 4), np.uint8), np.zeros((0, 4), np.int32))
     sizes = np.array([sprite.shape[1::-1] for sprite in sprites], np.int64)
@@ -52,10 +52,10 @@ def make_atlas(sprites: Sequence[Texels]) -> Atlas:
 
 
 def place(sizes: NDArray[np.int64]) -> tuple[NDArray[np.int64], tuple[int, int]]:
-    """Corners [S, 2] for rectangles of these sizes [S, 2], none on another; and the sheet's size.
+    """Corners [S, 2] of rectangles of these sizes [S, 2] without overlap, and the sheet's size.
 
-    Sprites mostly come in few sizes, and those lie in a grid for each size. Many sizes at once
-    go to trimesh's packer, a tree of free rectangles (it takes half a second to import).
+    Sprites usually have few sizes: then there is a grid for each size. Many sizes are placed by
+    trimesh's packer, a tree of free rectangles (it takes half a second to import).
     """
     kinds = np.unique(sizes, axis=0)
     return _grids(sizes, kinds) if len(kinds) <= FEW_SIZES else _packed(sizes)
@@ -82,12 +82,12 @@ def _grids(
 def _packed(sizes: NDArray[np.int64]) -> tuple[NDArray[np.int64], tuple[int, int]]:
     from trimesh.path.packing import rectangles_single
 
-    # Largest first packs tightest, and the order is fixed: no shuffling.
+    # Largest first gives the smallest sheet, and the order is fixed: no shuffling.
     order = np.lexsort((-sizes[:, 0], -sizes[:, 1]))
     side = max(float(np.sqrt(sizes.prod(axis=1).sum())), float(sizes.max()))
     packed = np.zeros(1, np.bool_)
     while not packed.all():
-        # What stands between bounds and success differs between versions of trimesh.
+        # The results between the bounds and the success flag differ between versions of trimesh.
         bounds, *_, packed = rectangles_single(
             sizes[order].astype(float), (side, side), rotate=False
         )

@@ -1,7 +1,7 @@
 """Renderers by name. A backend is a function from a `Scene` to a `Frame`.
 
-Another package adds one by an entry point in the group `drapery.backends`; its name is the name
-that users give, its value the function. In the package's pyproject.toml:
+Another package can add a backend by an entry point in the group `drapery.backends`. The name of the
+entry point is the name of the backend, its value is the function. In the package's pyproject.toml:
 
     [project.entry-points."drapery.backends"]
     wireframe = "my_package.drawing:draw_scene"
@@ -11,9 +11,9 @@ and in my_package/drawing.py:
     def draw_scene(scene: Scene) -> Frame: ...
 
 The frame has the scene's size, and straight alpha over the scene's background. The function raises
-OptionError for a scene that it cannot draw and BackendError where the machine lacks what it needs;
-it keeps no reference to the scene's arrays beyond a cache, and may be called from any thread.
-The names of built-in backends cannot be taken. `drapery doctor` draws a triangle with it.
+OptionError for a scene that it cannot draw and BackendError if a library or device is missing. It
+may cache the scene's arrays but holds no other reference to them, and any thread may call it.
+It cannot have the name of a built-in backend. `drapery doctor` draws a triangle with it.
 """
 
 from collections.abc import Callable
@@ -34,7 +34,7 @@ BUILT_IN = {
     "pyrender": "drapery.render.gl:draw_scene",
 }
 DEFAULT = "soft"
-"""What `auto` means: it needs no system package and gives the same bits everywhere."""
+"""The backend `auto`: it needs no system package and gives the same bits everywhere."""
 
 
 def backend(name: str | DrawScene = "auto") -> DrawScene:
@@ -42,7 +42,7 @@ def backend(name: str | DrawScene = "auto") -> DrawScene:
 
     name: `soft`, `pyrender`, a name that an installed package adds, or `auto`, which is `soft`; a
         function is returned as it is.
-    Raises BackendError for another name, or where the backend cannot be loaded.
+    Raises BackendError for another name and for a backend that cannot be loaded.
     """
     if not isinstance(name, str):
         return name

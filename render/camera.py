@@ -17,7 +17,7 @@ Matrix = NDArray[np.float64]
 class Camera:
     """A camera.
 
-    position, target: its place and the point that it looks at [m]; they differ.
+    position, target: of the camera and of the point that it looks at [m]; they must differ.
     up: the direction that is up in the picture, not parallel to the line of sight.
     fov: vertical field of view [degrees]; used where `height` is None.
     height: vertical extent of an orthographic picture [m]; None for perspective.

@@ -1,4 +1,4 @@
-"""Contact sheets: labelled pictures in rows on paper."""
+"""Contact sheets: labelled pictures in rows on a light background."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -18,7 +18,7 @@ CHECKER = (224, 214)
 
 
 def contact_sheet(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) -> Frame:
-    """Labelled pictures in rows on paper.
+    """Labelled pictures in rows on a light background.
 
     pictures: labels and pixels, of any sizes. columns: pictures in a row; None is one row.
     """
@@ -39,7 +39,7 @@ def contact_sheet(pictures: Sequence[tuple[str, Pixels]], columns: int | None = 
 
 
 def contact_table(across: Sequence[str], down: Sequence[str], pictures: Sequence[Pixels]) -> Frame:
-    """Pictures row by row on paper, with a heading over each column and before each row.
+    """Pictures row by row on a light background, with a heading for each column and each row.
 
     across, down: the headings. pictures: len(across) * len(down) of them, row by row.
     """
@@ -63,7 +63,7 @@ def contact_table(across: Sequence[str], down: Sequence[str], pictures: Sequence
 
 
 def stack_frames(frames: Sequence[Frame]) -> Frame:
-    """Pictures under one another on paper, aligned at the left."""
+    """Pictures below one another on a light background, aligned at the left."""
     width = max(frame.pixels.shape[1] for frame in frames)
     height = sum(frame.pixels.shape[0] for frame in frames)
     sheet = np.full((height, width, 4), PAPER, np.uint8)
@@ -76,7 +76,7 @@ def stack_frames(frames: Sequence[Frame]) -> Frame:
 
 
 def on_checker(pixels: Pixels, cell: int = 8) -> Pixels:
-    """The picture over a light checker, so that transparency shows."""
+    """The picture over a light checker, which shows transparency."""
     height, width = pixels.shape[:2]
     rows, columns = np.ogrid[:height, :width]
     board = np.where((rows // cell + columns // cell) % 2, *CHECKER)[..., None]
@@ -96,7 +96,7 @@ def _font() -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
 
 
 def _lines(label: str, width: int) -> list[str]:
-    """A label broken after blanks and underscores into lines of at most so many pixels."""
+    """A label broken after blanks and underscores into lines of at most `width` pixels."""
     lines = [""]
     for word in label.replace(" ", " \n").replace("_", "_\n").split("\n"):
         if lines[-1] and _width([lines[-1] + word]) > width:

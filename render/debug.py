@@ -1,6 +1,6 @@
 """Models that show a simulation: edges, springs, pins, normals, a map of stretch.
 
-Each function makes a model to add to a scene, or to replace one of it.
+Each function makes a model to add to a scene, or to put in the place of one.
 """
 
 from typing import Any
@@ -19,7 +19,7 @@ Index = NDArray[np.integer[Any]]
 KIND_COLOURS = np.array(
     [(38, 70, 83, 255), (231, 111, 81, 255), (42, 157, 143, 255), (233, 196, 106, 255)], np.uint8
 )
-"""Of springs by their kind: structural, shear, flexion; and any other."""
+"""Colours of springs by their kind: structural, shear, flexion, other."""
 
 INK = (30, 30, 34, 255)
 PIN_RED = (214, 40, 40, 255)
@@ -28,7 +28,7 @@ NORMAL_BLUE = (58, 134, 255, 255)
 RAMP = np.array(
     [(49, 54, 149), (116, 173, 209), (255, 255, 217), (253, 174, 97), (165, 0, 38)], np.float64
 )
-"""Colours from the most compressed over the unstretched to the most stretched."""
+"""Colours of compressed, unstretched and stretched cloth, in this order."""
 
 
 def edges_model(
@@ -47,7 +47,7 @@ def springs_model(
 
     positions: [m], shape [N, 3]; pairs: particle indices, shape [S, 2]; kinds: shape [S].
     """
-    # Flexion springs lie on structural ones: the latter are drawn last, and seen.
+    # Flexion springs overlap structural ones, which are drawn last so that they are visible.
     order = np.argsort(-kinds.astype(np.int64), kind="stable")
     colours = KIND_COLOURS[np.minimum(kinds[order], len(KIND_COLOURS) - 1)]
     return line_model(positions, pairs[order], colours, camera, height, width)

@@ -1,6 +1,6 @@
-"""Which backends work on this machine, and one line to repair each that does not.
+"""Tests which backends work on this machine, and gives a remedy for each that does not.
 
-Every backend draws a triangle, in a process of its own: a driver may crash or hang.
+Every backend draws a triangle in a separate process, since a driver may crash or hang.
 """
 
 import subprocess
@@ -25,7 +25,7 @@ SET_CACHE = "export NUMBA_CACHE_DIR=FOLDER, with a folder that may be written"
 
 
 class BackendReport(NamedTuple):
-    """What is known of a backend. remedy: a command that repairs it, or "" where it works."""
+    """The result for a backend. remedy: a command that repairs it, or "" if it works."""
 
     name: str
     works: bool
@@ -34,13 +34,13 @@ class BackendReport(NamedTuple):
 
 
 def backend_report() -> list[BackendReport]:
-    """Try every backend, and the video encoders. No failure can harm this process."""
+    """Try every backend and the video encoders; a crash does not affect this process."""
     added = [_added(name, package) for name, package in added_backends().items()]
     return [_soft(), _pyrender(), *added, _video()]
 
 
 def try_backend(name: str) -> str:
-    """Draw one triangle; returns what drew it. Raises what the backend raises."""
+    """Draw one triangle; returns the name of the renderer. Raises what the backend raises."""
     from drapery.mesh import make_mesh
     from drapery.render.camera import Camera
     from drapery.render.drawing import draw_models, make_model
@@ -95,9 +95,9 @@ def _video() -> BackendReport:
 
 
 def _run(program: str) -> tuple[bool, str]:
-    """Whether a program ends well in a process of its own, and its last line or the reason."""
+    """Whether a program succeeds in a separate process, and its last line or the reason."""
     try:
-        # -P: a checkout in the current folder is not the package as it is installed.
+        # -P: do not import a checkout in the current folder instead of the installed package.
         child = subprocess.run(
             [sys.executable, "-P", "-c", program], capture_output=True, text=True, timeout=TIMEOUT
         )

@@ -1,4 +1,4 @@
-"""Pictures of meshes in a line or two; what is behind is a `Scene` drawn by a backend."""
+"""Pictures of meshes in one or two lines of code, by a `Scene` and a backend."""
 
 from collections.abc import Iterable
 from typing import Literal
@@ -22,7 +22,7 @@ Colour = str | tuple[int, int, int] | tuple[int, int, int, int]
 
 
 def draw_scene(scene: Scene, backend: str | DrawScene = "auto") -> Frame:
-    """Draw a scene by a backend or the backend of this name.
+    """Draw a scene. backend: a name or a function, see `backend`.
 
     Raises BackendError for a backend that is not known or cannot run, OptionError for sizes,
     textures or meshes that cannot be drawn.
@@ -41,10 +41,10 @@ def draw_models(
     samples: Literal[1, 4, 16] = 4,
     backend: str | DrawScene = "auto",
 ) -> Frame:
-    """Draw models, framed by a view; a bare mesh is drawn white.
+    """Draw models, framed by a view. A mesh without a material is drawn white.
 
-    view: a View or its name in VIEWS, used where `camera` is None. For the frames of an animation
-        make one camera with `frame_view` from the points of all its moments.
+    view: a View or its name in VIEWS, used if `camera` is None. For an animation make one camera
+        with `frame_view` from the points of all its frames.
     size: width and height [pixels]. samples: 1, 4 or 16 for each pixel.
     Raises OptionError or BackendError as `draw_scene` and `frame_view` do.
 
@@ -69,9 +69,9 @@ def make_model(
 ) -> Model:
     """A mesh, or a batch of meshes, with one material.
 
-    colour: of all of the surface; it multiplies the texture where there is one.
-    texture: sRGB, shape [H, W, 3], or with straight alpha [H, W, 4], uint8, top row first. The
-        mesh's UVs say where it lies.
+    colour: of the whole surface; it multiplies the texture if there is one.
+    texture: sRGB, shape [H, W, 3], or with straight alpha [H, W, 4], uint8, top row first. It is
+        placed by the mesh's UVs.
     alpha, lit: as in `Material`. Raises OptionError for a colour or texture of another form.
     """
     red, green, blue, opacity = rgba(colour)

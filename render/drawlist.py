@@ -1,8 +1,8 @@
 """A scene's models merged into one list of triangles with one atlas.
 
 The constant part (triangles, UVs, materials, atlas) is prepared once for all pictures that use
-it; only positions and normals are read anew for each. A batch of meshes becomes one long mesh, so
-thousands of banners cost no more calls than one.
+it; only positions and normals are read for each picture. A batch of meshes becomes one long mesh,
+so thousands of banners need no more calls than one.
 """
 
 from collections.abc import Sequence
@@ -22,17 +22,17 @@ from drapery.render.scene import Model
 Float32 = NDArray[np.float32]
 
 MAX_TRIANGLES = (1 << 24) - 2
-"""The most triangles of one picture; the rasteriser names one in 24 bits."""
+"""The most triangles of one picture; the rasteriser stores a triangle's number in 24 bits."""
 
 
 @dataclass(frozen=True, eq=False)
 class Topology:
-    """What does not move.
+    """The constant part of a draw list.
 
     uvs: fractions of the sprite, shape [V, 2]; (0, 0) is its top left corner.
     triangles: vertex indices into the merged list, shape [T, 3], int32.
-    triangle_material: a material's place in the tables, shape [T], int32.
-    vertex_start: where each model's vertices begin, shape [M + 1].
+    triangle_material: index of the material in the tables, shape [T], int32.
+    vertex_start: index of the first vertex of each model, shape [M + 1].
     material_tables: the materials, their layers and textures.
     """
 
@@ -116,7 +116,7 @@ def _merge(models: Sequence[Model]) -> Topology:
 
 
 def _batch(model: Model) -> int:
-    """How many copies of the mesh the model has."""
+    """The number of copies of the mesh."""
     return 1 if model.mesh.positions.ndim == 2 else len(model.mesh.positions)
 
 
@@ -141,7 +141,7 @@ def _materials(model: Model, first: int) -> NDArray[np.int32]:
 
 
 def _joined(parts: list[Array]) -> Float32:
-    """Vertices of all models, shape [V, 3]; one model's own float32 array is not copied."""
+    """Vertices of all models, shape [V, 3]; the float32 array of a single model is not copied."""
     flat = [np.asarray(part, np.float32).reshape(-1, 3) for part in parts]
     if len(flat) == 1:
         return flat[0]
@@ -171,7 +171,7 @@ def _check(number: int, model: Model) -> None:
     if not _all_within(mesh.triangles, vertices):
         raise OptionError(
             f"model {number}: its triangles name vertices outside 0..{vertices - 1};"
-            " give indices of its own positions"
+            " give indices of its positions"
         )
     index = model.material_index
     if index is not None and index.shape != (_batch(model),):
@@ -179,7 +179,7 @@ def _check(number: int, model: Model) -> None:
     if not _all_within(np.zeros(1, np.int32) if index is None else index, len(model.materials)):
         raise OptionError(
             f"model {number}: material_index names materials outside its {len(model.materials)};"
-            " give a place in its materials"
+            " give indices of its materials"
         )
 
 

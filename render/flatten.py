@@ -1,7 +1,7 @@
-"""A material's layers composited once, texel by texel, instead of at every sample.
+"""Composites a material's layers once, texel by texel, instead of at every sample.
 
-The rasteriser composites layers before it lights them, so one composited texture gives the same
-picture to the bit, in a fraction of the time.
+The rasteriser composites layers before it lights them, so one composited texture gives exactly the
+same picture in a fraction of the time.
 """
 
 from dataclasses import replace
@@ -15,7 +15,7 @@ from drapery.render.materials import CUTOUT, OPAQUE, MaterialTables
 from drapery.render.scene import Texels
 
 MAX_TEXELS = 1 << 20
-"""The most texels of composited textures; beyond it the layers are composited at every sample."""
+"""The most texels of composited textures; larger ones are composited at every sample."""
 
 _cache: IdentityCache[MaterialTables] = IdentityCache()
 
@@ -78,8 +78,8 @@ def _sprite(tables: MaterialTables, layer: int, size: tuple[int, int]) -> Texels
 
 
 def lay_over(top: Texels, below: Texels) -> Texels:
-    """Straight-alpha texels over others: round((a * src + (255 - a) * dst) / 255) where what is
-    below is opaque, and Porter and Duff's `over` (1984) in whole numbers elsewhere."""
+    """Straight-alpha texels over others: round((a * src + (255 - a) * dst) / 255) over opaque
+    texels, and Porter and Duff's `over` (1984) in whole numbers elsewhere."""
     a, d = (texels[..., 3:].astype(np.int32) for texels in (top, below))
     share, rest = 255 * a, d * (255 - a)
     total = share + rest

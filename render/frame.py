@@ -11,7 +11,7 @@ __all__ = ["Animation", "Frame", "Pixels"]
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A picture. pixels: sRGB with straight alpha, shape [H, W, 4], uint8, top row first."""
+    """A finished picture. pixels: sRGB, straight alpha, shape [H, W, 4], uint8, top row first."""
 
     pixels: Pixels
 

@@ -1,4 +1,4 @@
-"""A cache of the last few preparations, so that an animation prepares its constant parts once."""
+"""A cache of the last few prepared values: an animation prepares its constant parts once."""
 
 from collections import deque
 from collections.abc import Callable
@@ -8,17 +8,17 @@ T = TypeVar("T")
 
 
 class IdentityCache(Generic[T]):
-    """The last few values made, found by the identity of the arrays they were made from.
+    """The last few values, by the identity of the arrays from which they were made.
 
-    The caches of functools and cachetools need keys that hash, and arrays do not. The entries
-    hold their arrays, so that no new array can have the identity of one of them.
+    The caches of functools and cachetools need hashable keys, and arrays are not hashable. The
+    entries hold references to their arrays, so no new array can have the same identity.
     """
 
     def __init__(self, maxsize: int = 4) -> None:
         self._entries: deque[tuple[tuple[object, ...], object, T]] = deque(maxlen=maxsize)
 
     def get(self, arrays: tuple[object, ...], plain: object, make: Callable[[], T]) -> T:
-        """The value made from the same arrays and equal plain values; `make()` where none is."""
+        """The value for the same arrays and an equal plain value; `make()` if it is not cached."""
         for known, rest, value in tuple(self._entries):
             same = len(known) == len(arrays) and all(map(_is, known, arrays))
             if same and rest == plain:

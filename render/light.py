@@ -44,19 +44,19 @@ GAME_LIGHT = Light(((0.2, 1.0, -0.7), (-0.2, 1.0, 0.7)), 0.4, 0.6)
 """The two lights of the game's world."""
 
 GLIMMER = 0.04
-"""The least factor, where no light falls."""
+"""The least factor, used where no light falls."""
 
 UNLIT = Light((), 1.0, 0.0)
 """Full brightness everywhere: the plain colours of the texture."""
 
 
 def lit_at(light: Light, block: int, sky: int, daylight: float = 1.0) -> Light:
-    """A light at a place of the world with these light levels.
+    """The light at a place of the game's world with these light levels.
 
-    block, sky: light levels 0..15 of torches and of the sky, as the game counts them.
+    block, sky: the game's light levels of torches and of the sky, 0..15.
     daylight: 1 at noon, 0 at night.
-    A level falls off as l / (4 - 3 l) for l = level / 15; torches are warm, a night sky is blue.
-    The levels' two colours add up, to no more than 1, and never to less than a glimmer.
+    The brightness of a level is l / (4 - 3 l) with l = level / 15; torches are warm, a night sky is
+    blue. The sum of the two colours is limited to 1 and has a small lower bound.
     """
     torch, above = (level / 15 / (4 - 3 * level / 15) for level in (block, sky))
     warm = (torch, torch * (0.64 + 0.36 * torch), torch * (0.4 + 0.6 * torch * torch))

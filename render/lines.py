@@ -12,7 +12,7 @@ from drapery.render.scene import Alpha, Material, Model, Texels, TextureLayer
 from drapery.render.vectors import dots, unit
 
 NEARER = 0.004
-"""Lines are drawn nearer by this share of their distance, so that a surface does not hide them."""
+"""Lines are moved nearer by this fraction of their distance, so a surface does not hide them."""
 
 
 def line_model(
@@ -57,7 +57,7 @@ def dot_model(
 
 
 def _quads(corners: Array, colours: ArrayLike) -> Model:
-    """Unlit quads [Q, 4, 3], each of one colour: they share a texture of one texel a colour."""
+    """Unlit quads [Q, 4, 3] of one colour each; they share a texture with one texel per colour."""
     each = np.broadcast_to(np.asarray(colours, np.uint8), (len(corners), 4))
     palette, place = np.unique(each, axis=0, return_inverse=True)
     texels: Texels = palette[None] if len(palette) else np.zeros((1, 1, 4), np.uint8)

@@ -1,4 +1,4 @@
-"""All materials of a scene as tables: the layers of each and their places in one atlas."""
+"""All materials of a scene as tables: their layers, and the layers' places in one atlas."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,9 +20,9 @@ MAX_TEXTURE = 16384
 
 @dataclass(frozen=True, eq=False)
 class MaterialTables:
-    """The materials of a draw list, which its triangles name by their place.
+    """The materials of a draw list; triangles refer to them by their index.
 
-    material_layers: a material's first layer and how many it has, shape [L, 2], int32.
+    material_layers: first layer and number of layers of each material, shape [L, 2], int32.
     material_alpha: OPAQUE, CUTOUT or BLEND, shape [L], uint8.
     material_lit: whether light falls on it, shape [L], bool.
     layer_rects: x, y, width, height in the atlas [texels], shape [C, 4], int32.
@@ -42,7 +42,7 @@ _cache: IdentityCache[MaterialTables] = IdentityCache()
 
 
 def make_material_tables(materials: Sequence[Material]) -> MaterialTables:
-    """The tables of these materials; material i keeps its place, and each texture is packed once.
+    """The tables of these materials in their order; each texture is in the atlas once.
 
     Raises OptionError for a material without layers or a texture of another shape or type.
     """
@@ -73,7 +73,7 @@ def _make(materials: Sequence[Material]) -> MaterialTables:
 
 
 def _distinct(layers: Sequence[TextureLayer]) -> tuple[list[Texels], NDArray[np.intp]]:
-    """The different textures among layers, and for each layer its texture's place."""
+    """The different textures of the layers, and the index of each layer's texture."""
     place: dict[int | tuple[tuple[int, ...], bytes], int] = {}
     sprites: list[Texels] = []
     for layer in layers:

@@ -1,4 +1,4 @@
-"""The type of finished pixels, and of whatever has them."""
+"""The type of finished pixels, and the protocol of objects that have them."""
 
 from typing import Protocol
 
@@ -10,7 +10,7 @@ Pixels = NDArray[np.uint8]
 
 
 class HasPixels(Protocol):
-    """A finished picture, as the encoders take it; `Frame` is one."""
+    """A finished picture for the encoders, such as a `Frame`."""
 
     @property
     def pixels(self) -> Pixels: ...

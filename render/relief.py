@@ -1,10 +1,10 @@
-"""Normal maps: every texel is lit by its own normal before the scene is drawn.
+"""Normal maps: every texel is lit by its normal before the scene is drawn.
 
-Textures are sampled to the nearest texel, so light worked out once a texel is all that a picture
-can show of a normal map, and every backend draws it alike. A texel's place on the surface is that
-of its middle in texture space: the mesh is laid out flat by its UVs, as in Heckbert, "Survey of
-texture mapping" (1986); its normal there, bent by the map, meets the scene's light. Each part of
-a sheet covers one part of a mesh; where triangles share texels, the last of them lights these.
+Textures are sampled at the nearest texel, so one light value per texel is exact, and every backend
+draws it in the same way. The position of a texel on the surface is that of its middle in texture
+space, where the mesh is unfolded by its UVs (Heckbert, "Survey of texture mapping", 1986). The
+normal of the mesh there, changed by the map, is lit by the scene's light. Each part of a sheet
+should cover one part of a mesh; where triangles share texels, the last triangle lights them.
 """
 
 from dataclasses import dataclass, replace
@@ -20,13 +20,13 @@ from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
 from drapery.render.vectors import dots, unit
 
 SLACK = 1e-9
-"""A texel's middle on a triangle's edge belongs to it, whichever way its corners were rounded."""
+"""Tolerance [texels] with which a texel's middle on an edge belongs to the triangle."""
 
 
 def bake_normal_maps(scene: Scene) -> Scene:
     """The scene with the light of surfaces that have normal maps in their textures.
 
-    A scene without such maps is returned as it is.
+    A scene without such maps is returned unchanged.
     """
     if not any(_is_bent(material) for model in scene.models for material in model.materials):
         return scene
@@ -77,11 +77,11 @@ def _lit(material: Material, mesh: Mesh, light: Light) -> Material:
 
 @dataclass(frozen=True, eq=False)
 class Relief:
-    """A material's layers as one.
+    """A material's layers and maps combined.
 
     texels: tinted, shape [H, W, 4]. bends: the normal's x (to the right on the sheet), y (down)
-    and z (out of it), shape [H, W, 3]. open: how much of the ambient light comes in, shape [H, W].
-    matter: roughness, metal and glow, 0..1 each, shape [H, W, 3].
+    and z (out of it), shape [H, W, 3]. open: fraction of the ambient light (1 less the occlusion),
+    shape [H, W]. matter: roughness, metalness and emission, 0..1 each, shape [H, W, 3].
     """
 
     texels: Texels
@@ -92,9 +92,9 @@ class Relief:
 
 @dataclass(frozen=True, eq=False)
 class TexelLayout:
-    """Which texels a mesh shows.
+    """The K texels that a mesh shows.
 
-    rows, columns: of K texels. triangle: on which their middles lie, shape [K]. weights: of its
+    rows, columns: of the texels. triangle: that contains their middles, shape [K]. weights: of its
     corners there, shape [K, 3]. inverse: UV edges to texture axes, shape [T, 2, 2].
     """
 
@@ -110,7 +110,7 @@ _layouts: IdentityCache[TexelLayout] = IdentityCache(16)
 
 
 def relief_of(material: Material) -> Relief:
-    """The material's layers and their maps as one; the last 16 results are cached."""
+    """The material's layers and their maps combined; the last 16 results are cached."""
     return _reliefs.get((material,), None, lambda: _relief(material))
 
 
@@ -123,7 +123,7 @@ def has_relief(scene: Scene) -> bool:
 
 
 def _relief(material: Material) -> Relief:
-    """All layers as one; a layer without a map does not change the maps below it."""
+    """All layers combined; a layer without a map does not change the maps below it."""
     sheets = [(layer.texels, layer.normal, layer.specular) for layer in material.layers]
     sizes = [sheet.shape[:2] for layer in sheets for sheet in layer if sheet is not None]
     size = max(height for height, _ in sizes), max(width for _, width in sizes)
@@ -144,10 +144,10 @@ def _relief(material: Material) -> Relief:
 
 
 def _bends(texels: Texels) -> Array:
-    """LabPBR's normal map as x, y, z and openness, shape [H, W, 4].
+    """LabPBR's normal map as x, y, z and the fraction of ambient light, shape [H, W, 4].
 
-    Red and green are x and y, 128 is none, and green points down the sheet; blue is how open the
-    texel is to ambient light (shaderLABS, "LabPBR material standard" 1.3).
+    Red and green are x and y, 128 means 0, and green points down the sheet; blue is the fraction of
+    the ambient light (shaderLABS, "LabPBR material standard" 1.3).
     """
     xy = np.maximum((texels[..., :2].astype(np.float32) - 128) / 127, -1)
     z = np.sqrt(np.maximum(1 - (xy * xy).sum(axis=-1, keepdims=True), 0))
@@ -155,9 +155,9 @@ def _bends(texels: Texels) -> Array:
 
 
 def _matter(texels: Texels) -> Array:
-    """LabPBR's specular map as roughness, metal and glow, shape [H, W, 3].
+    """LabPBR's specular map as roughness, metalness and emission, shape [H, W, 3].
 
-    Red is smoothness as it is perceived, green from 230 on is metal, alpha up to 254 is glow.
+    Red is the perceptual smoothness, green from 230 on is metal, alpha up to 254 is emission.
     """
     smooth, metal, glow = (texels[..., channel].astype(np.float32) for channel in (0, 1, 3))
     parts = [1 - smooth / 255, np.where(metal >= 230, 1, 0), np.where(glow < 255, glow / 254, 0)]
@@ -172,7 +172,7 @@ def _tinted(layer: TextureLayer, size: tuple[int, int]) -> Texels:
 
 
 def _sized(texels: Texels, size: tuple[int, int]) -> Texels:
-    """A copy at another size, by nearest sampling at the new texels' middles."""
+    """A copy at another size: the nearest texels to the middles of the new ones."""
     rows, columns = (
         (2 * np.arange(new) + 1) * old // (2 * new)
         for new, old in zip(size, texels.shape[:2], strict=True)
@@ -203,7 +203,8 @@ def _layout(triangles: Triangles, uvs: Array, size: tuple[int, int]) -> TexelLay
 def _within(
     triangle: Array, low: NDArray[np.int64], shape: tuple[int, ...]
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Weights of a triangle's corners [3, 2] at the whole points from `low`; which are inside."""
+    """Weights of a triangle's corners [3, 2] at the integer points from `low`, and which points are
+    inside."""
     a, b, c = triangle
     area = _cross(b - a, c - a)
     rows, columns = np.indices(shape)
@@ -217,7 +218,7 @@ def _within(
 
 
 def _spread(of_texel: NDArray[np.int32], weights: Array) -> None:
-    """Texels that a mesh only touches, its edge before their middle, are lit as a neighbour is."""
+    """Light texels that a mesh covers only partly, without their middle, as a neighbour is lit."""
     for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
         beside = np.roll(of_texel, step, axis)
         edge = np.zeros(of_texel.shape, np.bool_)
@@ -228,7 +229,7 @@ def _spread(of_texel: NDArray[np.int32], weights: Array) -> None:
 
 
 def _inverse(corners: Array) -> Array:
-    """What makes texture axes of a triangle's edges: the inverse of its UV edges, [T, 2, 2]."""
+    """The inverse of each triangle's UV edges, [T, 2, 2]; it converts edges to texture axes."""
     (a, b), (c, d) = np.moveaxis(corners[:, 1:] - corners[:, :1], 0, -1)
     area = a * d - b * c
     sound = np.where(area == 0, 1, area)
@@ -237,11 +238,11 @@ def _inverse(corners: Array) -> Array:
 
 
 def _light(relief: Relief, layout: TexelLayout, mesh: Mesh, light: Light) -> Array:
-    """The factors for red, green and blue at each texel shown, shape [K, 3]."""
+    """The light's factors for red, green and blue at each texel of the layout, shape [K, 3]."""
     used = mesh.triangles[layout.triangle]
     normals = unit(np.sum(mesh.normals[used] * layout.weights[..., None], axis=1))
     edges = mesh.positions[mesh.triangles[:, 1:]] - mesh.positions[mesh.triangles[:, :1]]
-    # dP/du and dP/dv, shape [T, 2, 3], then square to the normal, shape [K, 3] each.
+    # dP/du and dP/dv, shape [T, 2, 3], then orthogonal to the normal, shape [K, 3] each.
     axes = np.sum(layout.inverse[..., None] * edges[:, None], axis=2)[layout.triangle]
     right = unit(axes[:, 0] - normals * dots(normals, axes[:, 0])[:, None])
     down = np.cross(normals, right)

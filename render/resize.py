@@ -7,9 +7,9 @@ MAX_SIDE = 16384
 
 
 def enlarge(frame: Frame, times: int) -> Frame:
-    """The frame with each pixel as a square of times x times: draw small, show large.
+    """The frame with each pixel as a square of times x times pixels.
 
-    Raises OptionError where that would be wider or higher than MAX_SIDE.
+    Raises OptionError if the result would be wider or higher than MAX_SIDE.
     """
     height, width = frame.pixels.shape[:2]
     if times < 1 or max(height, width) * times > MAX_SIDE:

@@ -18,10 +18,10 @@ Alpha = Literal["opaque", "cutout", "blend"]
 
 @dataclass(frozen=True, eq=False)
 class TextureLayer:
-    """One texture laid over a surface, multiplied by a tint.
+    """One texture of a surface, multiplied by a tint.
 
-    A texel becomes round(texel * tint / 255) per channel and is laid over what is below by its
-    8-bit alpha a: round((a * src + (255 - a) * dst) / 255).
+    A texel becomes round(texel * tint / 255) per channel and is blended over the layers below by
+    its 8-bit alpha a: round((a * src + (255 - a) * dst) / 255).
     normal, specular: LabPBR maps of the same texture, of any size; None is a smooth, matt surface.
     """
 
@@ -35,8 +35,8 @@ class TextureLayer:
 class Material:
     """The layers of a surface, lowest first; all share the mesh's UVs, at any size.
 
-    alpha: what the lowest layer's alpha means. `opaque` ignores it (the game's solid layer),
-        `cutout` leaves out pixels under one half, `blend` lays it over what is behind.
+    alpha: use of the lowest layer's alpha. `opaque` ignores it (the game's solid layer), `cutout`
+        does not draw pixels below one half, `blend` blends the surface with the pixels behind it.
     lit: whether the scene's light changes its colours.
     """
 
@@ -51,7 +51,7 @@ class Model:
 
     mesh: positions [V, 3] or [B, V, 3].
     materials: the materials in use.
-    material_index: for each member of the batch its place in `materials`, shape [B]; None means the
+    material_index: index in `materials` for each member of the batch, shape [B]; None uses the
         first material for all.
     """
 
@@ -62,9 +62,9 @@ class Model:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Everything one picture needs.
+    """The models, camera, light and size of one picture.
 
-    Its arrays must not be changed in place: prepared data is cached by their identity.
+    Do not change its arrays in place: prepared data are cached by the identity of the arrays.
 
     size: width and height in pixels.
     background: straight-alpha sRGB colour; (0, 0, 0, 0) is transparent.

@@ -1,7 +1,8 @@
-"""Contact shadows: a floor is darker below models that stand on it or hang close over it.
+"""Contact shadows: the ground is darker below models that stand on it or hang close above it.
 
-The models are drawn from below four times, each time up to half the height: what is close to the
-floor is in all four pictures and darkens most. Their average, blurred, is a dark quad on the floor.
+The models are drawn from below four times, each time up to half the height. Parts close to the
+ground are in all four pictures and give the darkest shadow. The blurred average of the pictures is
+the texture of a dark quad on the ground.
 """
 
 from collections.abc import Sequence
@@ -16,9 +17,9 @@ from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 
 RESOLUTION = 16
-"""Texels a metre: those of a block."""
+"""Texels per metre, as on a block."""
 MAX_TEXELS = 1024
-"""The longest side of a shadow; over wider scenes its texels grow."""
+"""The longest side of a shadow [texels]; wider scenes have larger texels."""
 LIFT = 0.002
 """A shadow lies this high above its floor [m]."""
 BLURS = 2
@@ -27,11 +28,11 @@ BLURS = 2
 def contact_shadow(
     models: Sequence[Model], floor: float, reach: float = 1.0, strength: float = 0.5
 ) -> Model:
-    """A dark quad on the floor under models, to be drawn after what lies on the floor.
+    """A dark quad on the ground under models; draw it after other models that lie on the ground.
 
-    floor: its height [m]. reach: models cast a shadow up to this height above it [m].
-    strength: how dark the shadow is under a model that fills all of the reach, 0..1.
-    Raises OptionError where no model has finite positions.
+    floor: height of the ground [m]. reach: models cast a shadow up to this height above it [m].
+    strength: darkness of the shadow under a model that fills all of the reach, 0..1.
+    Raises OptionError if no model has finite positions.
     """
     parts = [model.mesh.positions.reshape(-1, 3) for model in models]
     if not any(map(len, parts)) or not all(np.isfinite(part).all() for part in parts):
@@ -62,7 +63,7 @@ def _covered(
     size: NDArray[np.intp],
     scale: float,
 ) -> Array:
-    """Which texels have something above them up to this height, shape [H, W]; 0 or 1."""
+    """1 where a model is above the texel up to this height, otherwise 0, shape [H, W]."""
     x, z = (float(at) for at in middle)
     below = Camera(
         (x, floor - 1, z),
@@ -73,7 +74,7 @@ def _covered(
         far=1 + height,
     )
     picture = draw_scene(Scene(tuple(models), below, (int(size[0]), int(size[1]))))
-    # From below, with +z at the top, +x is to the right; rows of the texture run along +z.
+    # Seen from below with +z at the top, +x is to the right; rows of the texture run along +z.
     return (picture.pixels[::-1, :, 3] > 0).astype(np.float64)
 
 

@@ -1,7 +1,7 @@
 """Products of vectors with sums in a fixed order.
 
-A product of matrices is left to the BLAS, whose kernels differ by processor in how they round. What
-reaches a picture is written out here instead, so that it has the same bits everywhere.
+numpy computes matrix products by BLAS, whose kernels round differently on different processors.
+Numbers that affect a picture are computed here instead, so they have the same bits everywhere.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ def dots(first: Array, second: Array) -> Array:
 
 
 def unit(vectors: Array) -> Array:
-    """Vectors of length 1, shape [..., 3]; one without length stays 0."""
+    """Vectors of length 1, shape [..., 3]; a zero vector stays 0."""
     lengths = np.sqrt(dots(vectors, vectors))[..., None]
     scaled: Array = vectors / np.where(lengths > 0, lengths, 1)
     return scaled

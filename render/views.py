@@ -15,7 +15,7 @@ from drapery.render.vectors import dots
 class View:
     """A direction of view.
 
-    azimuth: degrees around it; 0 looks at its front (from +z), 90 from +x.
+    azimuth: degrees around the subject; 0 looks at its front (from +z), 90 from +x.
     elevation: degrees above the horizon.
     fov: vertical field of view [degrees]; None for a parallel projection.
     """
@@ -49,9 +49,9 @@ def find_view(view: str | View) -> View:
 def frame_view(view: str | View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
     """A camera in the direction of a view that shows all points.
 
-    view: a View, or its name in VIEWS. points: [m], shape [..., 3]; for moving cloth those of all
-    its moments. aspect: width / height of the picture. margin: the free share at each side.
-    Raises OptionError for a name that is not known, or for points that are not finite.
+    view: a View, or its name in VIEWS. points: [m], shape [..., 3]; for an animation those of all
+    frames. aspect: width / height of the picture. margin: the free fraction at each side.
+    Raises OptionError for a name that is not known and for points that are not finite.
     """
     return frame_points(find_view(view), points, aspect, margin)
 
@@ -66,7 +66,7 @@ def turntable(view: View, points: Array, aspect: float, frames: int) -> list[Cam
     points = points.reshape(-1, 3).astype(np.float64)
     axis = (points.min(axis=0) + points.max(axis=0)) / 2
     radius = np.hypot(points[:, 0] - axis[0], points[:, 2] - axis[2])
-    # What the points sweep looks the same from all around, so one framing serves all frames.
+    # The volume that the points sweep looks the same from all sides, so one framing is enough.
     swept = [axis + _ring(angle, radius, points[:, 1] - axis[1]) for angle in range(0, 360, 15)]
     first = frame_points(view, np.concatenate(swept), aspect)
     return [_turned(first, axis, 360.0 * frame / frames) for frame in range(frames)]
@@ -78,7 +78,7 @@ def _ring(degrees: float, radius: Array, height: Array) -> Array:
 
 
 def _turned(camera: Camera, axis: Array, degrees: float) -> Camera:
-    """The camera carried around an upright axis, counter-clockwise seen from above."""
+    """The camera rotated about an upright axis, counter-clockwise seen from above."""
     sin, cos = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
 
     def turn(vector: Array) -> Vector:
@@ -96,7 +96,7 @@ def _turned(camera: Camera, axis: Array, degrees: float) -> Camera:
 def frame_points(view: View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
     """A camera in the direction of a view that shows all points as large as the margin allows.
 
-    points: [m], shape [..., 3]. aspect: width / height. margin: the free share at each side.
+    points: [m], shape [..., 3]. aspect: width / height. margin: the free fraction at each side.
 
     Raises OptionError for points that are not finite.
     """
@@ -120,10 +120,10 @@ def frame_points(view: View, points: Array, aspect: float, margin: float = 0.05)
 
 
 def _fit(across: Array, depth: Array, tan: float) -> tuple[float, float]:
-    """Where to aim along one axis, and how far away to stand, to see points at these depths.
+    """The aim along one axis, and the least distance at which all points are visible.
 
-    A point is seen where |across - aim| <= tan (distance - depth): the two outermost lines of
-    sight, across = aim +- tan (distance - depth), meet at the nearest place to stand.
+    A point is visible if |across - aim| <= tan (distance - depth): the two outermost lines of
+    sight, across = aim +- tan (distance - depth), meet at the nearest position of the camera.
     """
     high = float((across + tan * depth).max())
     low = float((across - tan * depth).min())

@@ -1,9 +1,9 @@
-"""Kernels on several cores: each releases the GIL and draws its own part of the work.
+"""Kernels on several cores: each releases the GIL and does one part of the work.
 
-Plain threads, not numba's parallel loops: they compile in half the time, and may be used from
-any thread and after a fork. The work is cut into more parts than there are threads, and a thread
-takes the next part when it is done with one; so a thread that the system lets wait holds up
-nobody, and on a busy machine the caller does all by itself.
+These are plain threads, not numba's parallel loops: they compile in half the time, and work in any
+thread and after a fork. The work is divided into more parts than there are threads, and a thread
+takes the next part when it has finished one. So a thread that the system delays does not block the
+others; on a busy machine the caller may do all parts.
 """
 
 import os
@@ -17,14 +17,14 @@ _pool: ThreadPoolExecutor | None = None
 
 
 def worker_count() -> int:
-    """How many threads by default: the cores of this process, fewer if NUMBA_NUM_THREADS says."""
+    """The default number of threads: the cores of this process, limited by NUMBA_NUM_THREADS."""
     from numba import config
 
     return int(getattr(config, "NUMBA_NUM_THREADS", 1))
 
 
 def run_parts(task: Callable[[int], T], parts: int, workers: int) -> list[T]:
-    """Run task(0) … task(parts - 1) on up to `workers` threads; their results, in that order."""
+    """Run task(0) … task(parts - 1) on up to `workers` threads; returns the results in order."""
     results: dict[int, T] = {}
     left = iter(range(parts))
 
@@ -50,7 +50,7 @@ def _threads() -> ThreadPoolExecutor:
 
 
 def _reset_after_fork() -> None:
-    """A forked child has none of its parent's threads."""
+    """Discard the threads in a forked child, which does not have its parent's threads."""
     global _pool
     _pool = None
 

@@ -1,16 +1,16 @@
-"""Frames written as files; the ending, or a folder, chooses the format.
+"""Frames written as files; the ending selects the format.
 
-| target                 | what is written                                                      |
+| target                 | contents                                                             |
 |------------------------|----------------------------------------------------------------------|
 | .png .webp             | a still, lossless                                                    |
 | .apng (.png) .webp     | an animation, lossless, with alpha                                   |
 | .gif                   | up to 255 colours exact, one bit of alpha                            |
-| .mp4 .webm             | a video (extra `video`); a WebM keeps its alpha, an MP4 lies on white |
+| .mp4 .webm             | a video (extra `video`); WebM has alpha, MP4 a white background      |
 | .sheet.png             | all frames in one PNG, and NAME.sheet.json beside it                 |
 | folder/, or no ending  | frame_0000.png and so on                                             |
 
-Every animation loops forever. The same frames give the same bytes. A file is replaced whole or not
-at all.
+Every animation loops forever. The same frames give the same bytes. A file is replaced as a whole,
+or not at all if writing fails.
 """
 
 import math
@@ -36,8 +36,8 @@ MAX_FPS = 1000
 def save_frame(frame: HasPixels, path: str | Path, *, matte: Matte | None = None) -> None:
     """Write one picture as PNG, lossless WebP or GIF.
 
-    matte: in a GIF, the colour behind half-transparent pixels; None keeps those of at least half
-    alpha as they are. Raises OptionError for an unknown ending, OutputError for a bad target.
+    matte: in a GIF, the colour behind half-transparent pixels; with None, pixels of at least half
+    alpha become opaque. Raises OptionError for an unknown ending, OutputError for a bad target.
     """
     path = Path(path)
     ending = check_still_target(path)
@@ -59,13 +59,13 @@ def save_animation(
     total: int | None = None,
     progress: Progress | None = None,
 ) -> None:
-    """Write frames as they come; encoding runs beside the drawing of the next ones.
+    """Write frames as they come; each is encoded while the next ones are drawn.
 
-    fps: frames/s, above 0. matte: as for `save_frame`; in a video the background, else white.
-    progress: called with the number of frames drawn and `total`, which is len(frames) if known.
-    Raises OptionError for an unknown ending, no frame or frames of several sizes, OutputError for
-    a bad target, BackendError where PyAV is missing. Whatever is raised leaves no partial file;
-    KeyboardInterrupt leaves the finished frames in a folder that had none.
+    fps: frames/s, above 0. matte: as for `save_frame`; in a video it is the background (default:
+    white). progress: called with the number of frames drawn and `total`, by default len(frames).
+    Raises OptionError for an unknown ending, for no frames and for frames of several sizes,
+    OutputError for a bad target, BackendError if PyAV is missing. No error leaves a partial file;
+    KeyboardInterrupt leaves the finished frames in a folder that had no frames before.
     """
     kind = check_animation_target(path)
     check_fps(fps)

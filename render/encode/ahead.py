@@ -1,4 +1,4 @@
-"""Encoding beside rendering: a few worker threads, results in order, a bounded backlog."""
+"""Encoding parallel to rendering: a few worker threads, results in order, a bounded queue."""
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator

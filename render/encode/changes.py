@@ -1,4 +1,4 @@
-"""What differs between two frames, so that an animation stores only that."""
+"""The differences between two frames; an animation stores only those."""
 
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple, TypeVar
@@ -10,7 +10,7 @@ Picture = TypeVar("Picture", bound=NDArray[Any])
 
 
 class FramePatch(NamedTuple):
-    """A rectangle of a frame: its left and top pixel, and what it holds [h, w, ...]."""
+    """A rectangle of a frame: its left and top pixel, and its values [h, w, ...]."""
 
     left: int
     top: int
@@ -18,7 +18,7 @@ class FramePatch(NamedTuple):
 
 
 def bounding_box(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
-    """Left, top, right and bottom (exclusive) of the set pixels; one pixel where none is set."""
+    """Left, top, right and bottom (exclusive) of the set pixels; one pixel if none is set."""
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     if not rows.size:
         return 0, 0, 1, 1
@@ -33,7 +33,7 @@ def cut(pixels: NDArray[Any], box: tuple[int, int, int, int]) -> FramePatch:
 def changed_patch(before: NDArray[Any] | None, after: NDArray[Any], grid: int = 1) -> FramePatch:
     """The part of `after` that differs from `before`, its corner on a multiple of `grid` pixels.
 
-    before, after: shape [H, W] or [H, W, channels]; without `before` everything is new.
+    before, after: shape [H, W] or [H, W, channels]; without `before` it is the whole frame.
     """
     if before is None:
         return FramePatch(0, 0, after)

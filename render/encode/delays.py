@@ -1,4 +1,4 @@
-"""How long each frame is shown, in a format's whole ticks."""
+"""The display times of frames in whole ticks of a format."""
 
 from collections.abc import Iterator
 from fractions import Fraction

@@ -1,7 +1,7 @@
 """GIF: 255 colours, one bit of alpha, whole centiseconds (GIF89a specification, 1990).
 
-Pillow compresses the frames; here they get one palette and are joined. The palette needs every
-frame, so a first pass, beside the rendering, notes each pixel's colour, and a second one writes.
+Pillow compresses the frames; this module makes one palette and joins them. The palette depends on
+all frames, so a first pass stores each pixel's colour during rendering, and a second pass writes.
 """
 
 import struct
@@ -28,12 +28,12 @@ from drapery.render.encode.palette import MAX_COLOURS, Colours, ColourTable, Mat
 from drapery.render.pixels import HasPixels
 
 MAX_FPS = 50
-KEEP, CLEAR = 1, 2  # what a viewer does with a frame before it shows the next
+KEEP, CLEAR = 1, 2  # GIF's disposal methods: how a viewer treats a frame before the next one
 LOOP_FOREVER = b"!\xff\x0bNETSCAPE2.0\x03\x01\0\0\0"
 
 
 class CompressedFrame(NamedTuple):
-    """One frame's colour places, compressed, so that many frames wait in little memory."""
+    """The colour indices of one frame, compressed to save memory."""
 
     size: tuple[int, int]
     colours: int
@@ -52,8 +52,8 @@ def write_gif(
 ) -> None:
     """An animation that loops forever, or a still where there is one frame.
 
-    Up to 255 colours in all, or in each frame, are kept exactly. Raises OptionError above 50
-    frames/s, where players fall back to 10.
+    Up to 255 colours in all, or in each frame, are exact. Raises OptionError above 50 frames/s,
+    which players show at 10 frames/s.
     """
     if fps > MAX_FPS:
         raise OptionError(f"fps {fps:g}: a GIF shows at most {MAX_FPS}; use .apng or .webp")
@@ -78,7 +78,7 @@ def _compress(table: ColourTable, matte: Matte | None, frame: HasPixels) -> Comp
 def _painter(
     table: ColourTable, most_in_frame: int
 ) -> tuple[Callable[[Places], IndexedImage], Colours | None]:
-    """How places become indices, and the palette that all frames share, if they do."""
+    """The function from places to indices, and the palette that all frames share, if any."""
     colours = table.colours()
     if len(colours) > 1 + MAX_COLOURS and most_in_frame <= MAX_COLOURS:
         return partial(_own_palette, colours), None
@@ -92,7 +92,7 @@ def _own_palette(colours: Colours, places: Places) -> IndexedImage:
 
 
 def _patches(compressed: Iterable[CompressedFrame], clear: bool) -> Iterator[FramePatch]:
-    """What each frame stores: what is seen where the frame before is cleared, else the changes."""
+    """The patch of each frame: its visible part if frames are cleared, else the changes."""
     frames = (
         np.frombuffer(zlib.decompress(frame.data), np.int32).reshape(frame.size)
         for frame in compressed

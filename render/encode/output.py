@@ -1,4 +1,4 @@
-"""Files are replaced whole: a failure leaves the older file, and one line says why."""
+"""Replaces files as a whole: a failure leaves the older file, with an error in one line."""
 
 import os
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ def partial_path(path: Path) -> Path:
 
 
 def check_writable(path: Path) -> None:
-    """Refuse a file target that cannot work, before anything costly is drawn."""
+    """Raise OutputError for a target that cannot be written, before anything is drawn."""
     parent = path.parent
     if path.is_dir():
         raise OutputError(f"cannot write {path}: it is a folder; add a file name")
@@ -27,7 +27,7 @@ def check_writable(path: Path) -> None:
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder and those above it, where they are not there. Raises OutputError."""
+    """Make a folder and its parents unless they exist. Raises OutputError."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -37,9 +37,9 @@ def make_folder(folder: Path) -> None:
 
 @contextmanager
 def explained(path: Path) -> Iterator[None]:
-    """Turn the system's refusal to write `path` into an OutputError.
+    """Convert an OSError about `path` into an OutputError.
 
-    An OSError that names a file elsewhere comes from the drawing of a frame, so it passes through.
+    An OSError about another file comes from the drawing of a frame and is raised unchanged.
     """
     try:
         yield
@@ -56,8 +56,8 @@ def explained(path: Path) -> Iterator[None]:
 def replacing(path: Path) -> Iterator[Path]:
     """A path beside the target to write to, which takes the target's place if the block succeeds.
 
-    Raises OutputError where the target cannot be written. Whatever is raised, no partial file
-    remains and an older target stays as it was.
+    Raises OutputError if the target cannot be written. After any error no partial file remains and
+    an older target is unchanged.
     """
     check_writable(path)
     partial = partial_path(path)

@@ -19,14 +19,14 @@ MANY_COLOURS = 1 << 16
 
 @dataclass
 class ColourTable:
-    """The colours met so far, in order of appearance; place 0 stands for transparent.
+    """The colours found so far, in order of appearance; place 0 stands for transparent.
 
     known: packed 24-bit colours, in order. counts: pixels of each, by place.
     """
 
     known: list[NDArray[np.uint32]] = field(default_factory=list)
     counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(1, np.int64))
-    # A page of this is only taken from the system once a colour falls on it.
+    # The system allocates a page of this only when a colour in it is used.
     place_of: Places = field(default_factory=lambda: np.zeros(1 << 24, np.int32))
 
     def places(self, pixels: Pixels, matte: Matte | None) -> Places:
@@ -54,10 +54,10 @@ class ColourTable:
 def opaque_colours(
     pixels: Pixels, matte: Matte | None
 ) -> tuple[NDArray[np.uint32], NDArray[np.bool_]]:
-    """Packed 24-bit colours and where they are seen, for a format with one bit of alpha.
+    """Packed 24-bit colours, and which pixels are visible in a format with one bit of alpha.
 
-    Without a matte a pixel is seen from half alpha on and keeps its colour; with one, every pixel
-    that is not wholly transparent is seen, laid over the matte.
+    Without a matte, pixels of at least half alpha are visible in their colour. With a matte, all
+    pixels that are not fully transparent are visible, composited over the matte.
     """
     rgb, alpha = pixels[..., :3].astype(np.uint32), pixels[..., 3]
     if matte is not None:
@@ -67,7 +67,7 @@ def opaque_colours(
 
 
 def over_matte(pixels: Pixels, matte: Matte) -> Colours:
-    """The picture laid over one colour: round((a * src + (255 - a) * matte) / 255), [H, W, 3]."""
+    """The picture over one colour: round((a * src + (255 - a) * matte) / 255), [H, W, 3]."""
     alpha = pixels[..., 3:].astype(np.uint32)
     laid = alpha * pixels[..., :3] + (255 - alpha) * np.array(matte, np.uint32)
     return ((laid + 127) // 255).astype(np.uint8)
@@ -76,8 +76,8 @@ def over_matte(pixels: Pixels, matte: Matte) -> Colours:
 def reduced(colours: Colours, counts: NDArray[np.int64]) -> tuple[Colours, NDArray[np.uint8]]:
     """A palette of at most 1 + 255 colours, and for each place of `colours` its place in it.
 
-    A colour that covers at least 1/255 of the pixels would fill an entry alone, so it stays exact;
-    the others share what is left by median cut (Heckbert 1982). Place 0 stays place 0.
+    A colour of at least 1/255 of the pixels gets an entry to itself, so it stays exact. The other
+    entries are found by median cut (Heckbert 1982). Place 0 stays place 0.
     """
     if len(colours) <= 1 + MAX_COLOURS:
         return colours, np.arange(len(colours), dtype=np.uint8)
@@ -92,7 +92,7 @@ def reduced(colours: Colours, counts: NDArray[np.int64]) -> tuple[Colours, NDArr
 
 
 def median_cut(colours: Colours, counts: NDArray[np.int64], size: int) -> Colours:
-    """At most `size` colours that stand for weighted ones, shape [size, 3]."""
+    """At most `size` colours that represent weighted ones, shape [size, 3]."""
     if size == 0:
         return np.zeros((0, 3), np.uint8)
     if len(colours) > MANY_COLOURS:
@@ -106,9 +106,9 @@ def median_cut(colours: Colours, counts: NDArray[np.int64], size: int) -> Colour
 
 
 def _merged(colours: Colours, counts: NDArray[np.int64]) -> tuple[Colours, NDArray[np.int64]]:
-    """Colours as the middles of cells of 4 x 4 x 4, with their counts summed.
+    """Colours rounded to the middles of cells of 4 x 4 x 4, with their counts summed.
 
-    A tenth of the colours is a tenth of the work, and none moves by more than two levels.
+    This leaves about a tenth of the colours, and changes none by more than two levels.
     """
     cells, cell = np.unique(colours >> 2, axis=0, return_inverse=True)
     summed = np.bincount(cell.reshape(-1), weights=counts, minlength=len(cells))
@@ -116,7 +116,7 @@ def _merged(colours: Colours, counts: NDArray[np.int64]) -> tuple[Colours, NDArr
 
 
 def nearest(colours: Colours, palette: Colours) -> NDArray[np.intp]:
-    """For each colour the place of the closest palette entry, the first of equals.
+    """For each colour the index of the closest palette entry; of equally close ones the first.
 
     |c - p|² = |c|² + (|p|² - 2 c·p): whole numbers under 2^24, so that a product of matrices is
     exact in single precision, in whatever order it is summed.

@@ -1,6 +1,6 @@
 """PNG stills and APNG animations: exact, with straight alpha.
 
-Pillow compresses every frame by itself, several at once; here the frames are joined as in
+Pillow compresses each frame, several in parallel; this module joins the frames as in
 "PNG Specification (Third Edition)", W3C 2025, section 11.3.6.
 """
 
@@ -33,8 +33,8 @@ def png_bytes(pixels: Pixels, level: int = STILL_LEVEL) -> bytes:
 def write_apng(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
     """An animation that loops forever.
 
-    Each frame replaces its rectangle (blend "source") and stays (dispose "none"), so that neither
-    half-transparent nor vanished pixels smear.
+    Each frame replaces its rectangle (blend "source") and is not cleared (dispose "none"), so
+    half-transparent pixels are exact and old pixels do not remain.
     """
     start, sequence, count = 0, 0, 0
     for patch, png in encode_ahead(with_previous(frame.pixels for frame in frames), _encode_patch):
@@ -82,7 +82,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 
 
 def _joined_chunks(png: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """The header chunk and the image data, which may lie in several chunks, as one."""
+    """The header chunk and the image data, whose chunks are joined into one."""
     data, place = b"", len(SIGNATURE)
     while place < len(png):
         (length,) = struct.unpack_from(">I", png, place)

@@ -1,9 +1,9 @@
 """Numbered PNG frames in a folder.
 
-A run replaces the folder's own frame_NNNN.png files, longer earlier runs' included, and touches
-nothing else in it. The frames gather in a hidden folder beside the target and move in at the end,
-so a failed run changes nothing. One stopped by Ctrl-C moves in the finished frames, unless the
-folder holds frames of an earlier run, which then stay as they are.
+A run replaces all frame_NNNN.png files of the folder and changes no other files. The frames are
+first written to a hidden folder beside the target and moved at the end, so a failed run changes
+nothing. A run that is stopped by Ctrl-C moves the finished frames, unless the folder has frames of
+an earlier run; those then remain unchanged.
 """
 
 import os
@@ -22,7 +22,7 @@ FRAME_NAME = re.compile(r"frame_\d{4,}\.png")
 
 
 def write_sequence(folder: Path, frames: Iterable[HasPixels]) -> None:
-    """Write frame_0000.png and so on. Raises OutputError where the folder cannot be written."""
+    """Write frame_0000.png and so on. Raises OutputError if the folder cannot be written."""
     check_folder(folder)
     gathering = partial_path(folder)
     try:
@@ -41,7 +41,7 @@ def write_sequence(folder: Path, frames: Iterable[HasPixels]) -> None:
 
 
 def check_folder(folder: Path) -> None:
-    """Refuse a folder target that cannot work, before anything is drawn."""
+    """Raise OutputError for a folder that cannot be written, before anything is drawn."""
     if not folder.is_dir():
         if folder.exists():
             raise OutputError(f"cannot write frames into {folder}: it is a file; choose a folder")

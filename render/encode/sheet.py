@@ -1,4 +1,4 @@
-"""Sprite sheets: all frames in one PNG, with the JSON that game engines read.
+"""Sprite sheets: all frames in one PNG, and a JSON file that game engines read.
 
 The layout is the "JSON hash" that TexturePacker and Aseprite export.
 """

@@ -16,7 +16,7 @@ from drapery.render.pixels import HasPixels, Pixels
 
 WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1
-# A fixed count of threads: the encoders' output depends on it.
+# A fixed number of threads, since the output of the encoders depends on it.
 CODECS = {
     ".mp4": ("libx264", {"crf": "14", "preset": "medium", "tune": "animation"}),
     ".webm": ("libvpx-vp9", {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}),
@@ -28,8 +28,8 @@ def write_video(
 ) -> None:
     """An MP4 or WebM; `kind` is the ending. Odd sizes grow by repeating the last row or column.
 
-    A WebM without a matte keeps its alpha; otherwise the picture lies over the matte, or white.
-    Raises BackendError where PyAV is missing.
+    A WebM without a matte has alpha. Otherwise the background is the matte, or white.
+    Raises BackendError if PyAV is missing.
     """
     av = load_av()
     first, frames = _peek(frames)

@@ -1,6 +1,6 @@
 """Lossless WebP, still and animated.
 
-Pillow compresses every frame by itself, several at once; here the frames are joined as in
+Pillow compresses each frame, several in parallel; this module joins the frames as in
 "WebP Container Specification", Google, section "Extended File Format: Animation".
 """
 

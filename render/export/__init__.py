@@ -1,10 +1,10 @@
-"""Scenes to 3-D files: the ending chooses the format.
+"""Scenes written as 3-D files; the ending selects the format.
 
-| ending    | what is written                                                          |
+| ending    | contents                                                                 |
 |-----------|--------------------------------------------------------------------------|
 | .glb      | meshes, texture and camera; an animation as morph targets                |
 | .obj      | the first frame, with NAME.mtl and NAME_texture.png beside it            |
-| .ply      | the first frame; colours at its vertices, for the format has no textures |
+| .ply      | the first frame; colours at its vertices, as the format has no textures  |
 | .bbmodel  | the first frame for Blockbench, texture inside                           |
 | .geo.json | the first frame as Bedrock geometry, with NAME_texture.png beside it     |
 """
@@ -26,7 +26,7 @@ from drapery.render.export.parts import MeshPart, MeshParts, take_apart
 from drapery.render.scene import Scene, Texels
 
 Files = dict[str, bytes]
-"""What is written, by file name; the target itself comes last."""
+"""The files to write, by name; the target comes last."""
 
 MODEL_ENDINGS = (".glb", ".obj", ".ply", ".bbmodel", ".geo.json")
 """The endings of the 3-D files that `save_model` writes; only .glb holds a motion."""
@@ -35,8 +35,8 @@ MODEL_ENDINGS = (".glb", ".obj", ".ply", ".bbmodel", ".geo.json")
 def save_model(scenes: Scene | Iterable[Scene], path: str | Path, *, fps: float = 20.0) -> None:
     """Write a scene, or the scenes of a loop, as a 3-D file.
 
-    fps: frames/s of a loop. Raises OptionError for an unknown ending or scenes that do not fit
-    together, OutputError for a bad target; no partial file remains.
+    fps: frames/s of a loop. Raises OptionError for an unknown ending and for scenes with different
+    meshes, OutputError for a bad target; no partial file remains.
     """
     path = Path(path)
     ending = check_model_target(path)
@@ -45,7 +45,7 @@ def save_model(scenes: Scene | Iterable[Scene], path: str | Path, *, fps: float 
     first = next(moments, None)
     if first is None:
         raise OptionError("there is no scene to write")
-    # Only .glb moves; for the others the later scenes are never made.
+    # Only .glb is animated; for the others the later scenes are never made.
     wanted = chain([first], moments if ending == ".glb" else islice(moments, 0))
     parts = take_apart(wanted)
     _write(path, WRITERS[ending](parts, first, fps, path.name[: -len(ending)]))
@@ -62,7 +62,7 @@ def check_model_target(path: str | Path) -> str:
 
 
 def _write(path: Path, files: Files) -> None:
-    """All files, or none where one of them cannot be written."""
+    """Write all files, or none if one of them cannot be written."""
     with ExitStack() as stack:
         for name, data in files.items():
             stack.enter_context(replacing(path.with_name(name))).write_bytes(data)
@@ -148,12 +148,12 @@ def _library(name: str) -> Any:
 
 
 def _upward(uvs: Any) -> Any:
-    """UVs as trimesh and OBJ have them: v grows upwards."""
+    """UVs in the convention of trimesh and OBJ: v grows upwards."""
     return np.stack([uvs[:, 0], 1 - uvs[:, 1]], axis=1)
 
 
 def _vertex_colours(part: MeshPart, atlas: Texels) -> Texels:
-    """The texel at each vertex, shape [V, 4]; opaque where the part is."""
+    """The texel at each vertex, shape [V, 4]; opaque if the part is opaque."""
     height, width = atlas.shape[:2]
     x, y = (part.uvs * [width, height]).astype(np.int64).T
     colours: Texels = atlas[np.minimum(y, height - 1), np.minimum(x, width - 1)]

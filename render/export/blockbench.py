@@ -1,8 +1,8 @@
 """Models for Blockbench (.bbmodel) and for Bedrock Edition (.geo.json): one pose, as meshes.
 
-A block is 16 units. Blockbench's y and z are ours and its UVs are texels, v downwards. Bedrock
-mirrors x and counts v upwards; its meshes, `poly_mesh`, are quads, a triangle repeating its last
-corner (Bedrock schema geometry 1.12.0).
+A block is 16 units. Blockbench's y and z axes equal those of a scene; its UVs are in texels, v
+downwards. Bedrock mirrors x, and its v grows upwards. Its meshes, `poly_mesh`, consist of quads; a
+triangle is a quad that repeats its last corner (Bedrock schema geometry 1.12.0).
 """
 
 import base64
@@ -46,7 +46,7 @@ def bbmodel_text(parts: MeshParts, name: str) -> str:
 
 
 def bedrock_text(parts: MeshParts, name: str) -> str:
-    """A geometry document; the texture is a file of its own."""
+    """A geometry document; the texture is a separate file."""
     height, width = parts.atlas.shape[:2]
     points = np.concatenate([part.positions[0] for part in parts.parts])
     low, high = points.min(axis=0), points.max(axis=0)

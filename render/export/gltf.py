@@ -1,7 +1,7 @@
 """glTF 2.0 in one binary file, moving meshes as morph targets (Khronos, glTF 2.0 specification).
 
-Written here and not by trimesh, which knows neither morph targets nor samplers: without a sampler
-a viewer blurs pixel art.
+trimesh writes neither morph targets nor samplers, and without a sampler a viewer blurs pixel art,
+so this module writes the file.
 """
 
 import json
@@ -25,27 +25,27 @@ ALPHA_MODES = {"opaque": "OPAQUE", "cutout": "MASK", "blend": "BLEND"}
 
 
 class GltfDocument:
-    """A glTF document that grows: its JSON, and the bytes that this points into."""
+    """A glTF document under construction: its JSON and its binary buffer."""
 
     def __init__(self) -> None:
         self.json: Json = {"asset": {"version": "2.0", "generator": "drapery"}}
         self.binary = bytearray()
 
     def add(self, kind: str, entry: Json) -> int:
-        """Append to one of the document's lists; returns the entry's place."""
+        """Append to one of the document's lists; returns the entry's index."""
         entries = self.json.setdefault(kind, [])
         entries.append(entry)
         return len(entries) - 1
 
     def view(self, data: bytes, **more: Any) -> int:
-        """A buffer view on new bytes, aligned to four."""
+        """Add bytes, aligned to four, and a buffer view of them; returns its index."""
         self.binary += bytes(-len(self.binary) % 4)
         place = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
         self.binary += data
         return self.add("bufferViews", place | more)
 
     def accessor(self, values: NDArray[Any], kind: str, target: int | None = None) -> int:
-        """An accessor to an array; the file holds its least and greatest values too."""
+        """Add an array and its accessor, with its least and greatest values; returns its index."""
         code = FLOAT if values.dtype == np.float32 else UINT
         view = self.view(values.tobytes(), **({"target": target} if target else {}))
         flat = values.reshape(len(values), -1)
@@ -55,8 +55,8 @@ class GltfDocument:
 
 
 def glb_bytes(parts: MeshParts, fps: float, camera: Camera | None, aspect: float) -> bytes:
-    """The file. MeshParts that move do so for one loop, `fps` frames/s; the last frame leads to the
-    first."""
+    """The file's bytes. Moving parts are animated for one loop at `fps` frames/s; after the last
+    frame comes the first one."""
     document = GltfDocument()
     texture = _texture(document, parts)
     materials: dict[tuple[str, bool], int] = {}
@@ -94,7 +94,7 @@ def _texture(document: GltfDocument, parts: MeshParts) -> int:
 
 
 def _material(part: MeshPart, texture: int) -> Json:
-    """Matt cloth and wood, seen from both sides."""
+    """A matt material that is visible from both sides."""
     surface = {
         "baseColorTexture": {"index": texture},
         "metallicFactor": 0.0,
@@ -110,7 +110,7 @@ def _material(part: MeshPart, texture: int) -> Json:
 
 
 def _mesh(document: GltfDocument, part: MeshPart, material: int) -> Json:
-    """The first frame as the mesh, each later one as a morph target by its difference."""
+    """The first frame as the mesh, and the difference of each later one as a morph target."""
 
     def vectors(values: Float32) -> int:
         return document.accessor(values, "VEC3", VERTICES)

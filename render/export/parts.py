@@ -1,6 +1,6 @@
 """Scenes divided into meshes for 3-D files: one atlas, and the positions of each frame.
 
-A 3-D file knows one texture for a surface, so the layers are laid over one another first.
+A 3-D file has one texture for a surface, so the layers are composited first.
 """
 
 from collections.abc import Iterable, Sequence
@@ -24,7 +24,7 @@ MAX_NUMBERS = 1 << 27
 class MeshPart:
     """The triangles of one model with the same alpha mode and lighting.
 
-    positions, normals: [m], shape [F, V, 3], one frame where it does not move.
+    positions, normals: [m], shape [F, V, 3]; F is 1 if the part does not move.
     triangles: shape [T, 3]. uvs: fractions of the atlas, v downwards, shape [V, 2].
     """
 
@@ -39,7 +39,7 @@ class MeshPart:
 
 @dataclass(frozen=True, eq=False)
 class MeshParts:
-    """What a 3-D file holds. frames: how many moments; atlas: the texture of all parts."""
+    """The contents of a 3-D file. frames: number of frames. atlas: the texture of all parts."""
 
     parts: tuple[MeshPart, ...]
     atlas: Texels
@@ -47,9 +47,9 @@ class MeshParts:
 
 
 def take_apart(scenes: Iterable[Scene]) -> MeshParts:
-    """The parts of an animation's scenes, whose models must differ in nothing but positions.
+    """The parts of an animation's scenes, whose models may differ only in their positions.
 
-    Raises OptionError where they do, where there is nothing to write, or too much.
+    Raises OptionError if they differ otherwise, and if there is nothing or too much to write.
     """
     first: DrawList | None = None
     positions, normals = [], []
@@ -120,7 +120,7 @@ def _part(
     alpha: Alpha,
     lit: bool,
 ) -> MeshPart:
-    """One part with vertices of its own; frames that are all the same become one."""
+    """One part with only the vertices that it uses; if all frames are equal, one is stored."""
     used, numbers = np.unique(triangles, return_inverse=True)
     moving, turning = positions[:, used], normals[:, used]
     if (moving == moving[:1]).all() and (turning == turning[:1]).all():

@@ -1,8 +1,8 @@
 """Pictures by OpenGL, through pyrender: a graphics card where EGL finds one, else Mesa's llvmpipe.
 
-`platform` starts it, `passes` draws with it. One renderer lives as long as the process, because
-deleting one ends OpenGL for all; it caches the last topology, so that an animation only uploads
-positions and light.
+`platform` starts OpenGL, `passes` draws with it. There is one renderer for the whole process,
+because deleting one would end OpenGL for all. It caches the last topology, so an animation uploads
+only positions and light.
 """
 
 import atexit
@@ -53,10 +53,11 @@ _lock = Lock()
 
 
 def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
-    """Draw a scene. Raises OptionError for what cannot be drawn, BackendError without OpenGL.
+    """Draw a scene.
 
-    stacked: draw each layer in a pass of its own, as the game does, instead of compositing the
-    layers into one texture first. It is slower, and colours differ by up to 2/255.
+    stacked: draw each layer in a separate pass, as the game does, instead of compositing the layers
+    into one texture first. It is slower, and colours differ by up to 2/255.
+    Raises OptionError for a scene that cannot be drawn, BackendError without OpenGL.
     """
     drawing = draw_list(scene.models)
     with _current() as context:
@@ -87,7 +88,7 @@ def describe() -> str:
 
 @contextmanager
 def _current() -> Iterator[OffscreenContext]:
-    """The context, made current in this thread and in no other."""
+    """The context, made current in this thread only."""
     with _lock:
         context = _context()
         if context.process != os.getpid():
@@ -166,7 +167,7 @@ def _draw(context: OffscreenContext, scene: Scene, drawing: DrawList) -> Pixels:
 
 
 def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Triangles:
-    """Triangles that blend [T, 3], sorted by the depth of their middle; equals keep their order."""
+    """Triangles that blend [T, 3], stably sorted by the depth of their middle, farthest first."""
     corners = positions[triangles].astype(np.float64)
     z, w = (dots(corners, row[:3]) + row[3] for row in matrix[2:])
     depth = (z / w).sum(axis=1)
@@ -174,7 +175,7 @@ def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Tri
 
 
 def _set_up(context: OffscreenContext, topology: Topology, stacked: bool) -> None:
-    """Upload the constant part of a draw list, and delete that of the last one."""
+    """Upload the constant part of a draw list, and delete the previous one."""
     pyrender, passes, old = context.pyrender, context.passes, context.vertices
     material_tables = _material_tables(topology.material_tables, stacked)
     vertex_material = np.zeros(len(topology.uvs), np.int32)
@@ -194,7 +195,7 @@ def _set_up(context: OffscreenContext, topology: Topology, stacked: bool) -> Non
     context.scene = pyrender.Scene()
     context.scene.add(pyrender.PerspectiveCamera(yfov=1.0))  # pyrender asks for one
     if primitives:
-        # One mesh: pyrender draws a mesh's primitives in order, but its meshes in any.
+        # One mesh: pyrender draws the primitives of a mesh in order, but meshes in any order.
         context.scene.add(pyrender.Mesh(primitives))
     if old is not None:
         old.delete()
@@ -210,7 +211,7 @@ def _material_tables(material_tables: MaterialTables, stacked: bool) -> Material
 
 
 def _material(pyrender: Any, material_tables: MaterialTables) -> Any:
-    """The atlas as a texture; pyrender turns its source over, so it gets it turned over."""
+    """The atlas as a texture, with its rows reversed because pyrender reverses them again."""
     from OpenGL.GL import GL_CLAMP_TO_EDGE, GL_NEAREST
 
     sampler = pyrender.Sampler(None, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)
@@ -220,7 +221,7 @@ def _material(pyrender: Any, material_tables: MaterialTables) -> Any:
 
 
 class LayerPass(NamedTuple):
-    """One draw call: layer number `layer` of triangles [T, 3], over what lies behind if `blend`."""
+    """One draw call: layer `layer` of triangles [T, 3]. blend: whether it blends."""
 
     layer: int
     triangles: Triangles
@@ -228,7 +229,7 @@ class LayerPass(NamedTuple):
 
 
 def layer_passes(topology: Topology, material_tables: MaterialTables) -> list[LayerPass]:
-    """What to draw in turn: layer k of everything solid, for k = 0, 1, ...; then what blends."""
+    """The passes in order: layer k = 0, 1, ... of all solid triangles, then those that blend."""
     material = topology.triangle_material
     counts, blends = (
         material_tables.material_layers[material, 1],
@@ -260,7 +261,7 @@ def layer_attributes(
 
 
 def resolved(samples: Pixels, grid: int) -> Pixels:
-    """Straight-alpha pixels from grid x grid premultiplied samples each, weighed alike."""
+    """Straight-alpha pixels, each the mean of grid x grid premultiplied samples."""
     alpha = samples[..., 3]
     if grid == 1 and ((alpha == 255) | (alpha == 0)).all():
         return np.ascontiguousarray(samples)

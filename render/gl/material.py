@@ -1,8 +1,8 @@
 """Scenes with LabPBR maps by pyrender's own materials: normals, roughness, metal and glow.
 
-pyrender lights in linear colours by a microfacet model (Cook and Torrance 1982, with the terms of
-Schlick and of Trowbridge and Reitz), so its pictures are brighter or darker than the game's by a
-little. Import it only after `platform.load_pyrender`.
+pyrender computes light in linear colours by a microfacet model (Cook and Torrance 1982, with the
+terms of Schlick and of Trowbridge and Reitz), so its pictures differ slightly in brightness from
+the game's. Import this module only after `platform.load_pyrender`.
 """
 
 from collections.abc import Iterator
@@ -71,11 +71,11 @@ def _primitives(model: Model) -> Iterator[Any]:
 
 
 def _material(material: Material) -> Any:
-    """A material's layers as one material; what is not lit glows in its own colours."""
+    """A material's layers as one material; an unlit one emits the colours of its texture."""
     relief = relief_of(material)
     alpha = relief.texels[..., 3:]
     right, down, out = np.moveaxis(relief.bends, -1, 0)
-    # glTF's green points up the sheet, LabPBR's down.
+    # Green points up in glTF and down in LabPBR.
     bends = _bytes(np.stack([right, -down, out], axis=-1) * 0.5 + 0.5, alpha)
     roughness, metal, glow = np.moveaxis(relief.matter, -1, 0)
     shine = glow if material.lit else np.ones_like(glow)
@@ -97,13 +97,13 @@ def _material(material: Material) -> Any:
 
 
 def _bytes(values: Array, alpha: Texels) -> Texels:
-    """Values 0..1 [H, W, 3] as a texture; four channels, so that rows keep to whole words."""
+    """Values 0..1 [H, W, 3] as a texture of four channels, so rows are multiples of four bytes."""
     channels = np.rint(np.clip(values, 0, 1) * 255).astype(np.uint8)
     return np.concatenate([channels, alpha], axis=-1)
 
 
 def _texture(texels: Texels) -> Any:
-    """pyrender turns a texture's rows over, so it gets them turned over."""
+    """A texture with its rows reversed, because pyrender reverses them again."""
     sampler = pyrender.Sampler(
         None, GL.GL_NEAREST, GL.GL_NEAREST, GL.GL_CLAMP_TO_EDGE, GL.GL_CLAMP_TO_EDGE
     )
@@ -111,13 +111,13 @@ def _texture(texels: Texels) -> Any:
 
 
 def _lamp(light: Light) -> Any:
-    """A lamp that alone, shining straight, lights a white surface as the game's would."""
+    """A lamp that, at a right angle, lights a white surface as the game's light would."""
     full = min(1.0, light.ambient + light.diffuse) ** GAMMA - light.ambient**GAMMA
     return pyrender.DirectionalLight(color=np.array(light.tint), intensity=np.pi * full)
 
 
 def _looking_along(direction: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A pose whose -z runs along a unit vector, shape [4, 4]."""
+    """A pose whose -z axis has the direction of a unit vector, shape [4, 4]."""
     side = np.array([1.0, 0, 0]) if abs(direction[0]) < 0.9 else np.array([0.0, 1, 0])
     right = unit(np.cross(direction, side))
     pose = np.eye(4)

@@ -1,8 +1,8 @@
 """pyrender's renderer with ordered layers. Import it only after `platform.load_pyrender`.
 
-One primitive draws one layer of every triangle that has it, in the order of the layers; the depth
-test is GL_LEQUAL, so that an upper layer lies on the lower one. All primitives of a mesh share the
-vertex positions: only these and the light are uploaded for a frame.
+One primitive draws one layer of all triangles that have it, in the order of the layers. The depth
+test is GL_LEQUAL, so an upper layer covers the lower one. All primitives of a mesh share the vertex
+positions: only these and the light are uploaded for a frame.
 """
 
 import ctypes
@@ -22,7 +22,7 @@ Float32 = NDArray[np.float32]
 
 
 class Vertices:
-    """What all primitives share on the graphics side: positions and light, UVs, lowest layers.
+    """The vertex buffers that all primitives share: positions and light, UVs, lowest layers.
 
     uvs: shape [V, 2], float32. base_rects: the lowest layers' rectangles, shape [V, 4], uint16.
     """
@@ -44,11 +44,11 @@ class Vertices:
 
 
 class LayeredPrimitive(pyrender.Primitive):  # type: ignore[misc]
-    """Triangles wearing one layer.
+    """Triangles with one layer.
 
     rects: the layer's rectangle at each vertex, shape [V, 4], uint16.
     tints: its tint and kind, shape [V, 4], uint8.
-    triangles: shape [T, 3]. blend: whether what lies behind shines through.
+    triangles: shape [T, 3]. blend: whether they are blended with the pixels behind them.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class LayeredPrimitive(pyrender.Primitive):  # type: ignore[misc]
         self.triangles, self.blend = triangles, blend
 
     def _compute_buf_flags(self) -> int:
-        return int(BufFlags.POSITION)  # our shader numbers its attributes itself
+        return int(BufFlags.POSITION)  # the shader defines its attribute locations
 
     def _add_to_context(self) -> None:
         rects, tints = (filled(GL.GL_ARRAY_BUFFER, a) for a in (self.rects, self.tints))
@@ -80,7 +80,7 @@ class LayeredPrimitive(pyrender.Primitive):  # type: ignore[misc]
         GL.glBindVertexArray(0)
 
     def reorder(self, triangles: NDArray[np.int32]) -> None:
-        """Draw the same triangles in another order from now on."""
+        """Set another order of the same triangles."""
         self.triangles = triangles
         if self._in_context():
             self._bind()
@@ -89,7 +89,7 @@ class LayeredPrimitive(pyrender.Primitive):  # type: ignore[misc]
 
 
 def filled(target: int, values: NDArray[Any], usage: int = GL.GL_STATIC_DRAW) -> int:
-    """A new buffer, bound, holding these values."""
+    """A new bound buffer with these values."""
     buffer: int = GL.glGenBuffers(1)
     GL.glBindBuffer(target, buffer)
     GL.glBufferData(target, values.nbytes, np.ascontiguousarray(values), usage)
@@ -97,14 +97,14 @@ def filled(target: int, values: NDArray[Any], usage: int = GL.GL_STATIC_DRAW) ->
 
 
 def attribute(location: int, size: int, buffer: int) -> None:
-    """Floats for each vertex."""
+    """Bind a buffer of `size` floats per vertex to an attribute."""
     GL.glBindBuffer(GL.GL_ARRAY_BUFFER, buffer)
     GL.glEnableVertexAttribArray(location)
     GL.glVertexAttribPointer(location, size, GL.GL_FLOAT, GL.GL_FALSE, 0, ctypes.c_void_p(0))
 
 
 def whole_attribute(location: int, size: int, buffer: int) -> None:
-    """32-bit whole numbers for each vertex; smaller ones lie in them, the first lowest."""
+    """Bind a buffer of 32-bit integers per vertex; smaller ones are packed, the first lowest."""
     GL.glBindBuffer(GL.GL_ARRAY_BUFFER, buffer)
     GL.glEnableVertexAttribArray(location)
     GL.glVertexAttribIPointer(location, size, GL.GL_UNSIGNED_INT, 0, ctypes.c_void_p(0))
@@ -123,7 +123,7 @@ class LayeredRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._program_cache = ShaderProgramCache(str(SHADERS))
 
     def _get_camera_matrices(self, scene: Any) -> tuple[Any, Any]:
-        return np.eye(4), self.matrix  # our shader knows the product alone
+        return np.eye(4), self.matrix  # the shader uses only the product
 
     def _configure_forward_pass_viewport(self, flags: int) -> None:
         super()._configure_forward_pass_viewport(flags)
@@ -172,7 +172,7 @@ class LayeredRenderer(pyrender.Renderer):  # type: ignore[misc]
         pixels = np.empty((height, width, 4), np.uint8)
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._main_fb)
         GL.glReadPixels(0, 0, width, height, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, pixels)
-        return pixels[::-1]  # OpenGL's rows count upwards
+        return pixels[::-1]  # rows of OpenGL start at the bottom
 
 
 def largest_side() -> int:

@@ -1,11 +1,11 @@
-"""Start pyrender without a display. What stands in the way:
+"""Start pyrender without a display. This module works around these problems:
 
-- PyOpenGL fixes its platform at import, and only a start shows whether EGL works: so the libraries
-  are tried by ctypes before anything of OpenGL is imported. EGL comes first; Mesa 25.1 dropped
+- PyOpenGL selects its platform at import, and only a start shows whether EGL works. So the
+  libraries are tried by ctypes before OpenGL is imported. EGL is tried first; Mesa 25.1 removed
   OSMesa.
-- `import pyrender` pulls in its window, hence pyglet, hence X11: a stub stands in for it.
-- An OSMesa context has framebuffers, although pyrender denies it; and PyOpenGL makes a new object
-  for the same OSMesa context each time, so pyrender's shader cache would miss on every frame.
+- `import pyrender` imports its window, hence pyglet, hence X11: a stub replaces it.
+- pyrender assumes that an OSMesa context has no framebuffers, but it has. PyOpenGL makes a new
+  object for the same OSMesa context each time, so pyrender's shader cache would miss every frame.
 """
 
 import ctypes
@@ -26,7 +26,7 @@ MAX_DEVICES = 64
 
 
 class ProbeResult(NamedTuple):
-    """Whether a way to OpenGL works, what is missing if not, and on which of EGL's devices."""
+    """Whether a platform of OpenGL works, what is missing if not, and the EGL device that works."""
 
     works: bool
     missing: str = ""
@@ -36,7 +36,7 @@ class ProbeResult(NamedTuple):
 def probe_egl() -> ProbeResult:
     """The first of EGL's devices that starts, or the one that EGL_DEVICE_ID names.
 
-    A graphics card comes before software, but its driver may be there without the card.
+    Graphics cards are listed before software, but a driver may be installed without a card.
     """
     if not any(map(_loaded, ("libGL.so.1", "libOpenGL.so.0"))):
         return ProbeResult(False, "libGL.so.1 is missing")
@@ -52,7 +52,7 @@ def probe_egl() -> ProbeResult:
 
 
 def probe_osmesa() -> ProbeResult:
-    """Whether Mesa's off-screen library is there."""
+    """Whether Mesa's off-screen library is installed."""
     for name in ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"):
         library = _loaded(name)
         if library is not None and hasattr(library, "OSMesaCreateContextAttribs"):

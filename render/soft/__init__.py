@@ -1,8 +1,8 @@
 """The rasteriser on the processor: it needs no system package and draws the same bits everywhere.
 
-Stages: project the vertices, clip the few triangles that need it, put those that blend last, sort
-triangles into tiles, draw the tiles. Every stage is shared out over threads in a way that cannot
-change its result.
+Steps: project the vertices, clip the few triangles that need it, move those that blend to the end,
+sort triangles into tiles, draw the tiles. Every step is divided among threads in a way that does
+not change its result.
 """
 
 from dataclasses import dataclass, replace
@@ -31,10 +31,10 @@ MAX_SIZE = 16384
 """The longest side of a picture [pixels]."""
 
 MAX_RECORDS = 1 << 22
-"""Triangles in tiles at one time, 160 MiB; more, and the picture is drawn in parts."""
+"""The most triangles in tiles at one time, 160 MiB; with more the picture is drawn in parts."""
 
 FEW = 4096
-"""So many vertices or triangles at least are worked on at a time."""
+"""The least number of vertices or triangles in one part of the work."""
 
 PARTS = 8
 """Parts of the work for each thread; see `run_parts`."""
@@ -65,7 +65,7 @@ class KernelTables:
 
 
 def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
-    """Draw a scene; the picture is the same to the bit for any number of threads.
+    """Draw a scene; the picture has the same bits for any number of threads.
 
     Raises OptionError for sizes, textures or meshes that cannot be drawn.
     """
@@ -118,7 +118,7 @@ def _background(scene: Scene) -> np.uint32:
 def _project(
     scene: Scene, constant: Topology, matrix: Matrix, grid: int, workers: int
 ) -> tuple[Raster, int]:
-    """All vertices on the picture, and the union of their flags."""
+    """All vertices in picture coordinates, and the union of their flags."""
     total = int(constant.vertex_start[-1])
     vertices, flags = np.empty(total, VERTEX), np.empty(total, np.uint8)
     union = 0
@@ -166,19 +166,19 @@ def _project_model(
 
 
 def _vectors(points: NDArray[Any]) -> Float32:
-    """Shape [V, 3], float32; a copy where the array may not be written, so that the kernels are
-    compiled for one kind of array only."""
+    """Points as [V, 3], float32; a read-only array is copied, so the kernels are compiled for one
+    kind of array only."""
     return np.require(points.reshape(-1, 3), np.float32, ["C", "W"])
 
 
 def _shares(count: int, workers: int) -> list[int]:
-    """Bounds of the runs of vertices or triangles that are worked on at a time."""
+    """Bounds of the parts into which vertices or triangles are divided."""
     parts = max(1, min(PARTS * workers, -(-count // FEW))) if workers > 1 else 1
     return [count * part // parts for part in range(parts + 1)]
 
 
 def _clipped(scene: Scene, raster: Raster, matrix: Matrix, grid: int) -> Raster:
-    """The raster with flagged triangles cut to what can be drawn, in the same drawing order."""
+    """The raster with flagged triangles clipped, in the same drawing order."""
     flagged = raster.flags[raster.triangles].any(axis=1)
     (whole,), (cut,) = np.nonzero(~flagged), np.nonzero(flagged)
     used = raster.triangles[cut]
@@ -206,7 +206,7 @@ def _clip_corners(scene: Scene, raster: Raster, matrix: Matrix, used: Triangles)
 
 
 def _on_picture(corners: Corners, width: int, height: int) -> NDArray[np.void]:
-    """Clip coordinates and attributes [N, 7] as vertices [N]; see `project`."""
+    """Clip coordinates and attributes [N, 7] converted to vertices [N]; see `project`."""
     x, y, z, w, *attributes = corners.T
     new = np.empty(len(corners), VERTEX)
     new["x"] = np.rint((x / w * 0.5 + 0.5) * width * 256).astype(np.int32) - 128
@@ -219,9 +219,9 @@ def _on_picture(corners: Corners, width: int, height: int) -> NDArray[np.void]:
 
 
 def _blends_last(raster: Raster, material_alpha: NDArray[np.uint8]) -> Raster:
-    """Triangles that blend put behind the others, farthest first.
+    """The raster with triangles that blend after the others, farthest first.
 
-    A triangle's distance is that of its middle; equals keep their drawing order.
+    A triangle's distance is that of its middle; the order is stable for equal distances.
     """
     if not (material_alpha == BLEND).any():
         return raster
@@ -274,10 +274,10 @@ def _draw_part(parts: int, given: tuple[Any, ...], part: int) -> None:
 def _tile_lists(
     raster: Raster, materials: NDArray[np.int32], tiles: tuple[int, int, int, int], workers: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int32] | None]:
-    """The triangles of each tile of a range: where each tile's records begin, and they.
+    """The triangles of each tile of a range: the start of each tile's records, and the records.
 
-    tiles: see `sort_into_tiles`. Instead of more records than the memory should hold, None; a
-    single tile never has too many.
+    tiles: see `sort_into_tiles`. None if there are too many records for the memory; a single tile
+    never has too many.
     """
     count = len(raster.triangles)
     share = _shares(count, workers)

@@ -1,9 +1,8 @@
-"""Which triangles touch which tile of the picture: a counting sort in two passes.
+"""Sorts triangles into the tiles of the picture that they touch: a counting sort in two passes.
 
-The triangles are taken in runs, first counted, then entered; the runs follow one another in every
-tile, so that each tile holds its triangles in drawing order however many threads there are. A
-tile gets all that covering takes, side by side: gathering it again from the vertices would wait
-for the memory at every triangle.
+The triangles are divided into parts; each part is first counted, then entered. The parts follow one
+another in every tile, so each tile has its triangles in drawing order for any number of threads. A
+record holds all data that coverage needs: reading them from the vertices again would be slow.
 """
 
 from typing import Any
@@ -32,19 +31,19 @@ def sort_into_tiles(
     cursor: Any,
     records: Any,
 ) -> Any:
-    """Count triangles first..last for some tiles, or if there is room, enter them.
+    """Count triangles first..last for some tiles, or enter them if `records` is not empty.
 
     vertices, triangles, triangle_material, materials: see `draw_tiles`.
-    tiles: across and down the picture, and the first and the last but one that are wanted.
-    cursor: one for each wanted tile; counts up by one for each entry.
-    records: where triangles are entered at the cursor, shape [E, RECORD]; if empty, none are.
+    tiles: number across and down the picture, then the first tile of the range and its end.
+    cursor: one for each tile of the range; it is increased by one for each entry.
+    records: the records, entered at the cursors, shape [E, RECORD]; empty to count only.
     """
     tiles_x, tiles_y, first_tile, end_tile = tiles
     for t in range(first, last):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         ax, bx, cx = vertices[a].x, vertices[b].x, vertices[c].x
         ay, by, cy = vertices[a].y, vertices[b].y, vertices[c].y
-        # The samples within the triangle's bounds: most small ones hold none.
+        # The samples within the triangle's bounds; most small triangles have none.
         left = max((min(ax, bx, cx) + 255) >> 8, 0)
         right = min(max(ax, bx, cx) >> 8, (tiles_x << TILE_BITS) - 1)
         top = max((min(ay, by, cy) + 255) >> 8, 0)

@@ -1,8 +1,8 @@
-"""Triangles that reach behind the camera, or too far aside, cut to what can be rasterised.
+"""Clips triangles that extend behind the camera or too far aside (Sutherland and Hodgman 1974).
 
-Few triangles need it, so it is plain numpy: one plane after another, every triangle becoming none,
-one or two (Sutherland and Hodgman 1974). An edge is always cut from its inner end, so two
-triangles that share it share the new corner to the bit.
+Few triangles need it, so it is plain numpy: at each plane a triangle becomes none, one or two. An
+edge is always cut from its inner end, so two triangles that share it get exactly the same new
+corner.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ Index = NDArray[np.integer[Any]]
 
 @dataclass(frozen=True, eq=False)
 class ClippedTriangles:
-    """What is left of some triangles. corners: shape [P, 3, 4 + A]; source: shape [P]."""
+    """Clipped triangles. corners: shape [P, 3, 4 + A]. source: their original's index, [P]."""
 
     corners: Corners
     source: Index
@@ -36,7 +36,7 @@ def clip(corners: Corners, source: Index, width: int, height: int) -> ClippedTri
 
 
 def _planes(width: int, height: int) -> Matrix:
-    """A point is inside where plane . (x, y, z, w) >= 0; the near plane comes first: after it
+    """Planes; a point is inside if plane . (x, y, z, w) >= 0. The near plane is first: after it
     w > 0."""
     aside, up = GUARD / width, GUARD / height
     return np.array(
@@ -69,7 +69,7 @@ def _cut(clipped: ClippedTriangles, plane: NDArray[np.float64]) -> ClippedTriang
 def _turned(
     clipped: ClippedTriangles, distance: Any, which: Index, first: Index
 ) -> tuple[list[Corners], list[NDArray[np.float64]]]:
-    """Corners and their distances, turned so that each triangle begins with corner `first`."""
+    """Corners and their distances, rotated so that each triangle begins with corner `first`."""
     turns = [(first[which] + step) % 3 for step in range(3)]
     return (
         [clipped.corners[which, corner] for corner in turns],

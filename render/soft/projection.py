@@ -16,7 +16,7 @@ NEAREST = 1 << 30
 """Depth at the near plane; 0 at the far plane."""
 
 GUARD = float(1 << 21)
-"""Corners up to so many pixels aside need no clipping: edge functions stay within 64 bits."""
+"""Corners at most this many pixels aside need no clipping: edge functions fit in 64 bits."""
 
 
 VERTEX = np.dtype(
@@ -32,8 +32,8 @@ VERTEX = np.dtype(
     align=True,
 )
 """A vertex on the picture: x to the right and y down from the centre of the top left sample
-[1/256 sample], depth, brightness, texture coordinates, and 1 / w of clip space. Together, for
-what is drawn is gathered from all over."""
+[1/256 sample], depth, brightness, texture coordinates, and 1 / w of clip space. One record, since
+triangles read vertices in no particular order."""
 
 
 @entry_point
@@ -93,8 +93,8 @@ def project(
         vertex.u = uvs[v, 0]
         vertex.v = uvs[v, 1]
         if flag == 0:
-            # Snapped as a GL would, whose rows count upwards, then turned over; less half a
-            # sample, so that the centre of sample i lies at i * 256.
+            # Snapped as in OpenGL, where rows count upwards, then flipped; less half a sample, so
+            # that the centre of sample i is at i * 256.
             vertex.x = np.int32(np.rint(across * 256.0)) - 128
             vertex.y = (height - 1) * 256 - (np.int32(np.rint(up * 256.0)) - 128)
             vertex.depth = np.int32(np.rint((0.5 - 0.5 * (cz * inv_w)) * NEAREST))

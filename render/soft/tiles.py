@@ -1,13 +1,13 @@
-"""The rasteriser proper: triangles of a tile -> which is seen at each sample -> its colour.
+"""The rasteriser: the visible triangle at each sample of a tile, and its colour.
 
 Coverage is exact: corners are whole numbers of 1/256 sample, edge functions are 64-bit integers,
-and a sample on an edge belongs to the triangle whose left or lower edge it is, so that triangles
-that share an edge cover each sample once. (That is the top-left rule in the rows of a GL, which
-count upwards: llvmpipe covers the same samples.)
+and a sample on an edge belongs to the triangle whose left or lower edge it is, so triangles that
+share an edge cover each sample once. (This is OpenGL's top-left rule, whose rows count upwards:
+llvmpipe covers the same samples.)
 
-A sample remembers one whole number, its depth above the number of its triangle; the greatest is
-what is seen. Of equals in depth the triangle drawn later wins, as under GL_LEQUAL, and no order
-of the work can change the picture.
+A sample stores one integer, the key: its depth in the upper bits and the number of its triangle in
+the lower ones. The triangle with the greatest key is visible. At equal depth the triangle that is
+drawn later wins, as under GL_LEQUAL, so the order of the work does not change the picture.
 
 Perspective: with edge functions E_i, u = sum(E_i u_i / w_i) / sum(E_i / w_i); the area cancels.
 """
@@ -21,27 +21,27 @@ from drapery.render.soft.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
 from drapery.render.soft.projection import NEAREST
 
 KEY_SCALE = 1 << 31
-"""Units of a key in one of depth; those below 2^ID_BITS give way to the triangle's number."""
+"""Units of a key in one unit of depth; the lowest ID_BITS bits hold the triangle's number."""
 
 LANES = 8
-"""Samples are tried in groups, without a branch, for the sake of vector units."""
+"""Samples in a group; groups are tested without a branch, for SIMD instructions."""
 
 STRIDE = TILE + LANES
 LAYER = TILE * STRIDE
-"""Keys of a tile: one layer of what is solid, one for a triangle that blends."""
+"""Keys of a tile: one layer for solid triangles, one for a triangle that blends."""
 
 OPAQUE, CUTOUT, BLEND = 0, 1, 2
 OPAQUE_BITS = 0xFF000000
 
 LIGHT_BITS = 24
 FULL_LIGHT = 1 << LIGHT_BITS
-"""Light is multiplied in whole numbers, which is faster than turning colours to floats and back."""
+"""Light is multiplied in integers, which is faster than converting colours to floats and back."""
 
 
 @kernel
 def _edge(ax: Any, ay: Any, bx: Any, by: Any) -> Any:
     """The edge function from a to b: its steps to the right and down by one sample, and its value
-    at the tile's first sample; less one where the edge belongs to the triangle beyond it."""
+    at the tile's first sample, less one if the edge belongs to the neighbouring triangle."""
     right = -(by - ay) << 8
     down = (bx - ax) << 8
     value = (by - ay) * ax - (bx - ax) * ay
@@ -55,13 +55,13 @@ def _depth_plane(
 ) -> Any:
     """The keys' depth at the tile's first sample, and its steps to the right and down.
 
-    Whole numbers that may run over outside the triangle, and are right again inside.
+    These integers may overflow outside the triangle; inside it they are correct.
     """
     scale = 1.0 / np.float64(area)
     right = ((zb - za) * (cy - ay) - (zc - za) * (by - ay)) * scale
     down = ((zc - za) * (bx - ax) - (zb - za) * (cx - ax)) * scale
     if max(abs(right), abs(down)) >= NEAREST:
-        # Seen from its edge, from near to far within 1/256 sample: any depth of its own will do.
+        # Seen from its edge, so near and far are within 1/256 sample: any of its depths is correct.
         right = down = 0.0
     step_right, step_down = np.int64(right * KEY_SCALE), np.int64(down * KEY_SCALE)
     return za * KEY_SCALE - ax * step_right - ay * step_down, step_right << 8, step_down << 8
@@ -111,7 +111,7 @@ def _lit(colour: Any, light: Any, tint: Any) -> Any:
 def _reach(low: Any, high: Any, count: Any) -> Any:
     """The first and last of `count` texels that a triangle with these bounds of u or v reaches.
 
-    A sample on the triangle's very edge must not show a neighbouring part of the sheet.
+    A sample on the edge of a triangle must not show a neighbouring part of the sheet.
     """
     first = min(max(np.int64(low * count + 1e-3), 0), count - 1)
     last = min(max(np.int64(np.ceil(high * count - 1e-3)) - 1, first), count - 1)
@@ -234,12 +234,12 @@ def _shade_tile(
     colours: Any,
     scratch: Any,
 ) -> Any:
-    """Colour what is seen in the tile at x0, y0, one run of the same triangle after another.
+    """Colour the visible samples of the tile at x0, y0, one run of the same triangle after another.
 
-    layer: where the keys begin; 0 is what is solid, LAYER what is laid over it.
+    layer: start of the keys; 0 for solid triangles, LAYER for one that blends.
     scratch: u, v, light, place in the atlas and colour of each sample of a run.
-    All layers are laid over one another first and lit at the end, once. Each step is a loop of its
-    own over whole groups of samples, so that it can be done for a group at once.
+    The layers are composited first and lit once at the end. Each step is a separate loop over whole
+    groups of samples, so that it can be vectorised.
     """
     materials, layers, atlas, wide = tables
     u, v, light, place, shown = scratch
@@ -326,8 +326,8 @@ def _shade_tile(
 def _resolve(
     colours: Any, x0: Any, y0: Any, width: Any, height: Any, across: Any, grid: Any, picture: Any
 ) -> Any:
-    """Put a tile into the picture: grid x grid samples are averaged to a pixel, each weighing as
-    much as it is opaque."""
+    """Put a tile into the picture: grid x grid samples are averaged to a pixel, weighted by their
+    opacity."""
     count = grid * grid
     for row in range(height):
         start = (y0 + row) * across + x0
@@ -373,7 +373,7 @@ def draw_tiles(
 ) -> Any:
     """Draw every parts-th tile, beginning with number `part`.
 
-    tiles_x: tiles across; first: the tile that number 0 stands for, counted row by row.
+    tiles_x: tiles across; first: the tile of number 0, counted row by row.
     starts, records: the triangles of tile i are records[starts[i] : starts[i + 1]]; those that
         blend come last and are drawn in their order.
     mesh: vertices [V] of VERTEX, triangles [T, 3], triangle_material [T].
@@ -407,7 +407,7 @@ def draw_tiles(
         entry, end = starts[tile], starts[tile + 1]
         layer = 0
         while entry < end:
-            # All that is solid in one go, then one by one what blends.
+            # All solid triangles at once, then the ones that blend, one by one.
             until = entry
             while until < end and records[until, 9] >> ID_BITS != BLEND:
                 until += 1
