@@ -10,7 +10,7 @@ from assets.drawing.shapes import SHAPES
 from assets.drawing.wood import paint_bar, paint_pole
 
 UNDYED = 235
-"""Shade of the cloth that no dye has touched yet; the base pattern always covers it."""
+"""Shade of undyed cloth; the base pattern always covers it."""
 
 
 def figure(pattern: str) -> tuple[Grey, Grey]:

@@ -1,4 +1,4 @@
-"""Drawings written as text become shades and coverage."""
+"""Converts drawings written as text to shades and coverage."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ SHADES = {"#": 255, "o": 218}
 
 
 def rows_of(drawing: str) -> list[str]:
-    """The rows of a drawing, which must be equally long and of known signs only."""
+    """The rows of a drawing. Raises ValueError unless they are equally long and of known signs."""
     rows = drawing.split()
     if len({len(row) for row in rows}) != 1 or set(drawing) - set(".\n") - set(SHADES):
         raise ValueError(f"not a drawing: {drawing!r}")

@@ -1,9 +1,9 @@
-"""The sheet that a texture is painted on, and where a box's six sides lie on it.
+"""Texture sheets, and the places of a box's six sides on them.
 
 Sheets are uint8 arrays [rows, columns, RGBA] with straight alpha; faces are arrays of the same kind
-cut to one side of a box. A box of width w, height h and depth d at texture offset (u, v) unfolds as
-the game unfolds it: left, front, right and back side by side under v + d, and the top and bottom
-caps above the front and the right side.
+for one side of a box. A box of width w, height h and depth d at texture offset (u, v) is unfolded
+as in the game: left, front, right and back side by side below v + d, and the top and bottom caps
+above the front and the right side.
 """
 
 from dataclasses import dataclass
@@ -75,7 +75,7 @@ class TextureBox:
 
     @property
     def sides(self) -> TexelRect:
-        """Left, front, right and back as the one strip that goes around the box."""
+        """Left, front, right and back as one strip around the box."""
         return TexelRect(self.u, self.v + self.depth, 2 * (self.width + self.depth), self.height)
 
 
@@ -97,10 +97,10 @@ def put(sheet: Texels, region: TexelRect, texels: Texels) -> None:
 
 
 def wrap(sheet: Texels, box: TextureBox, face: Texels) -> None:
-    """Lay one face around a box: front, mirrored back, and edges that continue the border texels.
+    """Put one face around a box: front, mirrored back, and edges that continue the border texels.
 
-    Front and back are one cloth, so the design on the back reads as its mirror image. Each edge
-    repeats the row or column of the front beside it; the caps run the same way as the front.
+    Front and back are one cloth, so the back shows the mirror image of the design. Each edge
+    repeats the row or column of the front beside it; the caps have the same direction as the front.
     """
     put(sheet, box.front, face)
     put(sheet, box.back, face[:, ::-1])
@@ -111,6 +111,6 @@ def wrap(sheet: Texels, box: TextureBox, face: Texels) -> None:
 
 
 def grey_texels(shade: Grey, alpha: Grey) -> Texels:
-    """Grey texels from a shade and an alpha; colour is cleared where nothing is to be seen."""
+    """Grey texels from a shade and an alpha; the colour is 0 where alpha is 0."""
     seen = np.where(alpha > 0, shade, 0).astype(np.uint8)
     return np.dstack([seen, seen, seen, alpha])

@@ -1,7 +1,7 @@
 """The eight named charges, drawn by hand for the banner's face of 20 x 40 texels.
 
-In a drawing `#` is full cloth, `o` the same cloth in shadow, and `.` is left open. Every drawing
-stands in the middle of the face.
+In a drawing `#` is full cloth, `o` the same cloth in shadow, and `.` is open. Every drawing is in
+the middle of the face.
 """
 
 CREEPER = """

@@ -68,7 +68,7 @@ def all_files() -> dict[str, bytes]:
 def write_art(folder: Path) -> list[Path]:
     """Write every file of the art under `folder`; returns their paths.
 
-    Raises OutputError where one cannot be written.
+    Raises OutputError for a file that cannot be written.
     """
     written = []
     for name, content in all_files().items():

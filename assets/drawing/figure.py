@@ -1,4 +1,4 @@
-"""The people of our scenes: skins in the game's layout, drawn by rows of cloth and small faces."""
+"""Skins of the figures in the scenes, in the game's layout, drawn from rows of characters."""
 
 from dataclasses import dataclass
 
@@ -30,12 +30,12 @@ STUFFS: dict[str, Tones] = {
     "p": ((66, 62, 74), (76, 72, 84), (86, 82, 94)),  # trousers
     "k": ((44, 42, 52), (52, 50, 60)),  # stockings
 }
-"""Tones of what the letters of a drawing stand for, from dark to light."""
+"""Tones of each character of a drawing, from dark to light."""
 
 
 @dataclass(frozen=True)
 class Outfit:
-    """What a figure is made of, in letters of STUFFS.
+    """The drawing of a figure in the characters of STUFFS.
 
     face: the front of the head. hair: the rest of it, row by row.
     chest: the front of the body. back: its other sides, row by row.
@@ -70,32 +70,32 @@ DANCER = Outfit(
 )
 
 
-def in_stuff(letters: list[str], seed: int) -> Texels:
-    """Opaque texels of drawn rows, each texel a tone of its letter's stuff."""
-    noise = speckle(len(letters[0]), len(letters), seed)
+def texels_of_rows(rows: list[str], seed: int) -> Texels:
+    """Opaque texels of drawn rows; each texel has a tone of its character."""
+    noise = speckle(len(rows[0]), len(rows), seed)
     face = np.zeros((*noise.shape, 4), np.uint8)
     face[..., 3] = 255
-    for y, row in enumerate(letters):
-        for x, letter in enumerate(row):
-            tones = STUFFS[letter]
+    for y, row in enumerate(rows):
+        for x, character in enumerate(row):
+            tones = STUFFS[character]
             face[y, x, :3] = tones[int(noise[y, x]) * len(tones) >> 16]
     return face
 
 
-def _rows(letters: str, region: TexelRect) -> list[str]:
-    return [letter * region.width for letter in letters]
+def _rows(column: str, region: TexelRect) -> list[str]:
+    return [character * region.width for character in column]
 
 
 def _paint(sheet: Texels, box: TextureBox, sides: str, front: str | None, seed: int) -> None:
-    put(sheet, box.sides, in_stuff(_rows(sides, box.sides), seed))
+    put(sheet, box.sides, texels_of_rows(_rows(sides, box.sides), seed))
     if front is not None:
-        put(sheet, box.front, in_stuff(front.split(), seed + 1))
-    for letter, cap in ((sides[0], box.top), (sides[-1], box.bottom)):
-        put(sheet, cap, in_stuff(_rows(letter * cap.height, cap), seed + 2))
+        put(sheet, box.front, texels_of_rows(front.split(), seed + 1))
+    for character, cap in ((sides[0], box.top), (sides[-1], box.bottom)):
+        put(sheet, cap, texels_of_rows(_rows(character * cap.height, cap), seed + 2))
 
 
 def figure_sheet(outfit: Outfit) -> Texels:
-    """A skin, shape [64, 64, 4]; what no box covers is transparent."""
+    """A skin, shape [64, 64, 4]; texels outside the boxes are transparent."""
     sheet = blank()
     _paint(sheet, HEAD, outfit.hair, outfit.face, 101)
     _paint(sheet, BODY, outfit.back, outfit.chest, 111)
@@ -124,11 +124,11 @@ CREST = """
 ..........
 ..........
 """
-"""A plain device for a cape; texels of it show the trim."""
+"""A simple emblem for a cape; its texels have the colour of the trim."""
 
 
 def cape_sheet() -> Texels:
-    """A light cape to be dyed, shape [64, 64, 4]: woven shade, a darker hem, a device."""
+    """A light cape for dyes, shape [64, 64, 4]: a weave, a darker hem, an emblem."""
     tones = 2 + ranked(speckle(CAPE.width, CAPE.height, 161), (1, 3, 1)) - 1
     x, y = grid(CAPE.width, CAPE.height)
     fold = scatter(x, 0 * x, 162) % 3 == 0

@@ -1,6 +1,6 @@
 """Grass, dirt, sand and wool: soft blocks made of mottled tones.
 
-Grass is drawn green here; nothing has to tint it.
+Grass is green in the texture, so it needs no tint.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ WOOL: Palette = ((208, 212, 213), (221, 224, 225), (233, 236, 236), (243, 245, 2
 
 
 def _grass_tones() -> Field:
-    """Short upright blades: noise drawn out downwards."""
+    """Short upright blades: noise stretched downwards."""
     return ranked(blurred(speckle(SIZE, SIZE, 31), 1, 2), (2, 5, 6, 5, 2))
 
 

@@ -21,7 +21,7 @@ STONES = ((2, 2), (8, 1), (13, 4), (5, 6), (10, 8), (0, 9), (15, 12), (4, 12), (
 
 
 def _stone_tones() -> Field:
-    """Lying smudges."""
+    """Horizontal smudges."""
     return ranked(blurred(speckle(SIZE, SIZE, 81), 4, 1), (3, 5, 6, 3))
 
 
@@ -53,7 +53,7 @@ def cobblestone() -> Texels:
     )
     runner_up = np.take_along_axis(square, second[None], 0)[0]
     light = 3 + (x + y < -1) + (y <= -2) - (x + y > 1) - (speckle(SIZE, SIZE, 91) < 65536 // 5)
-    # With squares of distances a joint of even width would need a root; this is near enough.
+    # An exact joint of even width would need a square root of the distances; this is close enough.
     return paint(np.where(runner_up - first <= 4, 0, light), COBBLE)
 
 

@@ -1,4 +1,4 @@
-"""Whole-number noise: the same on every machine, and of no generator's version."""
+"""Integer noise: the same on every machine and with every version of numpy."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,7 @@ _WORD = 0xFFFFFFFF
 
 
 def scatter(x: Field, y: Field, seed: int) -> Field:
-    """An even-looking value in 0..65535 for each whole (x, y), shape of their broadcast."""
+    """A hash in 0..65535 for each integer (x, y), in the shape of their broadcast."""
     word = (x * 374761393 + y * 668265263 + seed * 1274126177) & _WORD
     word = ((word ^ (word >> 13)) * 1103515245) & _WORD
     word = ((word ^ (word >> 15)) * 695872825) & _WORD
@@ -22,7 +22,7 @@ def grid(width: int, height: int) -> tuple[Field, Field]:
 
 
 def speckle(width: int, height: int, seed: int) -> Field:
-    """A value of its own for each texel, shape [height, width]."""
+    """A separate random value for each texel, shape [height, width]."""
     x, y = grid(width, height)
     return scatter(x, y, seed)
 

@@ -1,7 +1,7 @@
-"""Light and shadow baked into cloth: folds, weave, hem and the seam of a piece sewn on.
+"""Light and shadow in the textures of cloth: folds, weave, hem and the seam of a sewn-on piece.
 
-All of it is whole-number arithmetic on shades of 255, so that every machine draws the same texels.
-A dye multiplies these shades: they stay above 200 to keep its colour.
+All of it is integer arithmetic on shades of 255, so every machine draws the same texels. A dye is
+multiplied by these shades; they stay above 200, so that its colour is recognisable.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ the valley begins, and how dark it is at its deepest."""
 
 LEFT_REACH = 32
 RIGHT_REACH = 60
-"""How far a valley's shadow reaches, in sixteenths: its left side faces the light."""
+"""Width of a valley's shadow on each side, in sixteenths; its left side faces the light."""
 
 FOLD_GROWTH = 24
 """Rows that a valley takes from its beginning to its full depth."""
@@ -37,7 +37,7 @@ def _fold(top: int, bottom: int, start: int, dark: int, width: int, height: int)
 
 
 def folds(width: int, height: int) -> Axis:
-    """Darkness of all valleys together in even steps, as few tones as pixel art wants."""
+    """Darkness of all valleys together in even steps, to have few tones, as in pixel art."""
     dark = np.zeros((height, width), np.int64)
     for fold in FOLDS:
         dark = np.maximum(dark, _fold(*fold, width, height))
@@ -69,7 +69,7 @@ def cloth(width: int, height: int) -> Grey:
 
 
 def seam(coverage: Grey) -> Grey:
-    """Shade of a piece sewn on: its lower and right rims turn from the light. 255 elsewhere."""
+    """Shade of a sewn-on piece: its lower and right rims are darker; 255 elsewhere."""
     solid = coverage == 255
     shade = np.full(coverage.shape, 255, np.uint8)
     shade[:, :-1][solid[:, :-1] & (coverage[:, 1:] == 0)] = 243

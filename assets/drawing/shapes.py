@@ -1,8 +1,8 @@
 """The geometric patterns as coverage over a face of any size.
 
-A texel is judged at its centre. Coordinates are doubled so that centres are odd whole numbers: the
-face spans 0 to 2 * width and 0 to 2 * height, y down, and every test is exact. On faces of even
-width twice as tall as wide no centre lies on a diagonal, so halves meet without gap or overlap.
+A texel is tested at its centre. Coordinates are doubled, so centres are odd integers: the face
+spans 0 to 2 * width and 0 to 2 * height, y down, and every test is exact. On faces of even width
+that are twice as tall as wide no centre is on a diagonal, so halves meet without gap or overlap.
 """
 
 from collections.abc import Callable
@@ -80,7 +80,7 @@ def small_stripes(width: int, height: int) -> Grey:
 
 
 def _beside_diagonal(width: int, height: int) -> Axis:
-    """How far right of the diagonal from the upper left a centre lies, in 1/(2 height) texels."""
+    """Distance of a centre to the right of the descending diagonal, in 1/(2 height) texels."""
     x, y = axes(width, height)
     return x * height - y * width
 

@@ -1,7 +1,7 @@
 """The shield's sheets: two bases of boards and iron, and one sheet a pattern.
 
 The plate is a box of 12 x 22 x 1 texels with an iron rim of one. Patterns are painted on the boards
-within the rim, 10 x 20, on the front alone: the back of a shield is bare wood.
+within the rim, 10 x 20, only on the front: the back of a shield is unpainted wood.
 """
 
 import numpy as np

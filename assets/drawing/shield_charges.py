@@ -1,6 +1,6 @@
-"""The eight named charges once more, for the shield's painted field of 10 x 20 texels.
+"""The eight named charges for the shield's painted field of 10 x 20 texels.
 
-They are the banner's charges at half the size, where every texel had to be placed anew.
+They are the banner's charges at half the size, redrawn texel by texel.
 """
 
 CREEPER = """

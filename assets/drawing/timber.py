@@ -12,14 +12,14 @@ SPRUCE: Palette = ((62, 44, 24), (90, 66, 38), (105, 78, 46), (118, 89, 54), (13
 BARK: Palette = ((58, 45, 27), (76, 60, 36), (95, 76, 47), (112, 91, 58))
 
 BOARD = 4
-"""Rows to a board, the last of them its lower edge."""
+"""Rows of a board; the last one is its lower edge."""
 
 BUTTS = (7, 15, 3, 11)
 """The column where each board ends against the next."""
 
 
 def _planks(seed: int) -> Field:
-    """Lying boards with their grain, dark where they end."""
+    """Horizontal boards with their grain, dark at their ends."""
     x, y = np.arange(SIZE)[None, :], np.arange(SIZE)[:, None]
     tones = 1 + grain(SIZE, SIZE, seed).T
     tones = np.where(y % BOARD == 0, tones + 1, np.minimum(tones, 3))

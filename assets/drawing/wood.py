@@ -6,7 +6,7 @@ from assets.drawing.canvas import BAR, POLE, TexelRect, Texels, TextureBox, put
 from assets.drawing.noise import Field, grid, scatter
 
 TONES = ((66, 46, 26), (84, 60, 34), (102, 75, 44), (119, 90, 54), (137, 107, 67))
-"""From the dark of a joint to the light of a planed face."""
+"""Colours from a dark joint to a light planed face."""
 
 OUTLINE = -1
 """Added to the tone where the wood ends."""
@@ -21,7 +21,7 @@ def grain(width: int, height: int, seed: int) -> Field:
 
 
 def in_wood(tones: Field) -> Texels:
-    """Opaque texels of wood for tone numbers, kept within the palette."""
+    """Opaque texels of wood for tone numbers, clamped to the palette."""
     palette = np.array([(*tone, 255) for tone in TONES], np.uint8)
     return palette[np.clip(tones, 0, len(TONES) - 1)]
 
