@@ -54,7 +54,7 @@ def test_ids_stay_when_others_come_and_go() -> None:
     assert list(tail) == [5, 6]
     world.step(EYE)
     assert sorted(positions(world)) == [0, 3, 4, 5, 6]
-    with pytest.raises(OptionError, match="cloth 1 is not here"):
+    with pytest.raises(OptionError, match="cloth 1 is not in the world"):
         world.remove([1])
 
 
