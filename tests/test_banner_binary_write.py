@@ -92,7 +92,7 @@ def test_bedrock_keeps_the_ominous_banner_as_a_type():
 
 def test_a_form_that_is_forced_must_fit():
     data = structure.write([RED])
-    with pytest.raises(DesignError, match="no Sponge schematic"):
+    with pytest.raises(DesignError, match="not a Sponge schematic"):
         list(WRITERS["schem"].read(data))
 
 

@@ -104,7 +104,7 @@ def test_all_faults_are_listed_with_their_lines(tmp_path: Path, drapery: Run) ->
             ("line 2", "size (width) 0 is out "),
             ("line 3", "wind 'x' is not a numb"),
             ("line 3", "design"),
-            ("line 4", "'colour' is not an option;"),
+            ("line 4", "'colour' is not an opt"),
             ("line 6", "A.png is written by li"),
             ("line 7", "'../up.png' is not a f"),
             ("line 8", "design"),
