@@ -29,8 +29,8 @@ BANNER_TEXTURES = "minecraft:entity/banner/"
 class DraperyOptions(PluginOptions):
     """The options in `meta.drapery`; paths are relative to the project.
 
-    previews: folder for a picture of each pattern. goldens: folder of goldens; without it none is
-    checked. update: write the goldens instead of checking them. report: folder for failures.
+    previews: folder for a picture of each pattern. goldens: folder of goldens; without it nothing
+    is checked. update: write the goldens instead of checking them. report: folder for failures.
     base, dye: dyes of the banner and of the pattern. size: of a picture [pixels]. view: a named
     view of `drapery.render.VIEWS`. designs: more banners to draw, by name.
     """
@@ -53,7 +53,7 @@ def beet_default(ctx: Context) -> None:
 
 @configurable("drapery", validator=DraperyOptions)
 def drapery(ctx: Context, opts: DraperyOptions) -> None:
-    """Draw the project's patterns; raise ErrorMessage where one differs from its golden."""
+    """Draw the project's patterns; raise ErrorMessage if one differs from its golden."""
     folder = Path(ctx.directory)
     try:
         with TemporaryDirectory() as temporary:

@@ -74,7 +74,7 @@ def main() -> None:
         say(str(error))
         code = 2
     except TyperException as error:
-        # With no command at all the help has been shown, and there is no message.
+        # Without a command typer has printed the help, and there is no message.
         if error.format_message():
             say(f"{error.format_message()} (see `drapery --help`)")
         code = error.exit_code

@@ -9,7 +9,7 @@ from drapery.jit_cache import cache_on_disk
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
-_njit: Any = njit  # its type stubs lack the wrapper options and would hide ours
+_njit: Any = njit  # its type stubs lack the wrapper options
 INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 OUTER = {"error_model": "numpy", "nogil": True}
 

@@ -1,10 +1,10 @@
 """Compiled kernels on disk.
 
-numba's own cache looks at the file of a cached function alone, so an edit of a function that it
-calls from another file gives stale results. Here the key holds a hash of every source file of the
-function's top-level package (all of `drapery.cloth`, say): kernels call nothing outside it but
-`drapery.jit`, and a test holds them to that. A damaged file is compiled again. Where no folder can
-be written, kernels are compiled in every process, and a warning says so once.
+numba's own cache checks only the file of a cached function, so an edit of a function that it calls
+from another file gives stale results. Here the key has a hash of all source files of the function's
+top-level package (such as all of `drapery.cloth`): kernels call only functions of it and of
+`drapery.jit`, and a test checks that. A damaged file is compiled again. If no folder can be
+written, kernels are compiled in every process, and a warning says so once.
 """
 
 import hashlib
@@ -34,7 +34,7 @@ _AppDirs: Any = AppDirs
 
 @dataclass(frozen=True)
 class KernelCacheStatus:
-    """Where compiled kernels are kept. folder: None if nowhere; reason: why not, else empty."""
+    """Where compiled kernels are stored. folder: None if nowhere. reason: why not, else empty."""
 
     folder: Path | None
     reason: str = ""
@@ -42,7 +42,7 @@ class KernelCacheStatus:
 
 @cache
 def kernel_cache_status() -> KernelCacheStatus:
-    """The first folder of `cache_folders` that can be written; it is made and tried, once."""
+    """The first folder of `cache_folders` that can be written; it is made and tested once."""
     reasons = []
     for folder, private in cache_folders():
         try:
@@ -55,10 +55,10 @@ def kernel_cache_status() -> KernelCacheStatus:
 
 
 def cache_folders() -> Iterator[tuple[Path, bool]]:
-    """Folders for compiled kernels, the best first, and whether nobody else may write there.
+    """Folders for compiled kernels, the best first, and whether only this user may write there.
 
     They are in NUMBA_CACHE_DIR if it is set, else beside the sources and in the user's cache
-    folder; the last one is private, among the temporary files.
+    folder; the last one is a private folder for temporary files.
     """
     package = Path(__file__).parent
     own = f"drapery-{hashlib.sha256(os.fsencode(package)).hexdigest()[:16]}"
@@ -91,7 +91,7 @@ def _check_private(folder: Path) -> None:
 
 
 def cache_on_disk(dispatcher: Any) -> Any:
-    """A function that numba will compile, with a cache if there is a folder for one."""
+    """Give a function that numba will compile a cache, if there is a folder for one."""
     if kernel_cache_status().folder is None:
         _warn_once(f"kernels are compiled in every process ({kernel_cache_status().reason})")
     elif source_files(dispatcher.py_func):
@@ -105,7 +105,7 @@ def _warn_once(message: str) -> None:
 
 
 def source_files(function: Callable[..., object]) -> list[Path]:
-    """The sources that a kernel may reach: those of its top-level package, else its own file."""
+    """The sources that a kernel may call: those of its top-level package, else only its file."""
     package = ".".join(function.__module__.split(".")[:2])
     if not package.startswith("drapery."):
         return [Path(function.__code__.co_filename)]
@@ -133,7 +133,7 @@ def _hash_of(files: tuple[Path, ...]) -> str:
 
 
 class _Locator(_caching._CacheLocator):  # type: ignore[misc]
-    """Where numba keeps one function, and the stamp that its files must bear."""
+    """Where numba stores one function, and the stamp that its files must have."""
 
     def __init__(self, function: Callable[..., object]) -> None:
         self._function = function
@@ -195,4 +195,4 @@ class _KernelCache(_caching.FunctionCache):  # type: ignore[misc]
         try:
             super().save_overload(sig, data)
         except OSError as fault:
-            _warn_once(f"compiled kernels cannot be kept in {self.cache_path} ({fault.strerror})")
+            _warn_once(f"compiled kernels cannot be stored in {self.cache_path} ({fault.strerror})")

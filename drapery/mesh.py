@@ -33,9 +33,9 @@ class Mesh:
 def make_mesh(positions: ArrayLike, triangles: ArrayLike, uvs: ArrayLike | None = None) -> Mesh:
     """A mesh with the vertex normals of its positions.
 
-    positions: [m], shape [..., V, 3]; float32 stays, all else becomes float64.
+    positions: [m], shape [..., V, 3]; other types than float32 become float64.
     triangles: vertex indices, shape [T, 3], counter-clockwise seen from outside.
-    uvs: shape [V, 2]; None is (0, 0) everywhere, which suits a plain colour.
+    uvs: shape [V, 2]; None is (0, 0) everywhere, for a plain colour.
     Raises OptionError for other shapes, for indices outside the vertices, and for positions that
     are not finite numbers.
     """

@@ -1,4 +1,4 @@
-"""What one option is: its type and bounds, its help, and how a text becomes its value."""
+"""The description of an option: its type and bounds, its help, and its values as texts."""
 
 import math
 from collections.abc import Callable, Sequence

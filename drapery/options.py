@@ -13,7 +13,7 @@ NAMES = frozenset(NAMED_OPTIONS)
 
 
 def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str]:
-    """Checked options, or all that is wrong with them, one line each.
+    """Checked options, or a list of all faults in them, one line each.
 
     given: values by the names of `NAMED_OPTIONS`, as `Option.parse` reads them.
     folder: relative paths start here.
@@ -36,7 +36,7 @@ def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str
 
 
 def unknown(name: object, known: frozenset[str]) -> str:
-    """The message for a name that no option has."""
+    """The message for an unknown option."""
     shown = str(name)[:40]
     close = difflib.get_close_matches(shown, known, 1)
     hint = f"did you mean {close[0]}?" if close else "leave it out"
@@ -44,5 +44,5 @@ def unknown(name: object, known: frozenset[str]) -> str:
 
 
 def one_line(text: str) -> str:
-    """A text without line breaks, cut where it is long."""
+    """A text without line breaks, shortened if it is long."""
     return re.sub(r"\s+", " ", text).strip()[:300]

@@ -1,7 +1,7 @@
-"""Resource packs: open them, stack them, make them from arrays, and see what they hold.
+"""Resource packs: open them, stack them, make them from arrays, and list their contents.
 
-`open_packs` stacks folders, zips, client jars and packs in memory over our own art; the result
-goes wherever a path of a pack goes:
+`open_packs` stacks folders, zips, client jars and packs in memory over our own art. The result can
+be used wherever a path of a pack can:
 
     heart = MemoryPack(patterns={"mymod:heart": array})  # uint8 [64, 64, 4], or a mask [64, 64]
     packs = open_packs(["faithful.zip", heart])

@@ -1,4 +1,4 @@
-"""A banner becomes a picture, an animation, its plain face or a 3-D file."""
+"""Functions from a banner to a picture, an animation, its plain face or a 3-D file."""
 
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
@@ -23,8 +23,8 @@ def draw(
 ) -> Frame:
     """Draw a banner as cloth.
 
-    banner: also a shield; None for a cape or elytra, whose texture is an option.
-    settings, options: options of the picture, see `Settings`; those by name come first.
+    banner: a banner or shield; None for a cape or elytra, whose texture is an option.
+    settings, options: options of the picture, see `Settings`; `options` override `settings`.
     Raises DesignError if `banner` is not a Banner, OptionError, PackError or BackendError.
     """
     from drapery.scenes.stager import still
@@ -45,7 +45,7 @@ def animate(
 ) -> Animation:
     """Draw a banner waving in the wind, as a seamless loop.
 
-    banner, settings, options: see `draw`. What does not wave is shown from all around.
+    banner, settings, options: see `draw`. A model that does not wave is shown from all sides.
     seconds, fps: length of the loop [s] and its frames per second.
     Raises DesignError if `banner` is not a Banner, OptionError, PackError or BackendError.
     """
@@ -61,10 +61,10 @@ def iter_frames(
     fps: float = 20.0,
     **options: Unpack[Options],
 ) -> Iterator[Frame]:
-    """The frames of `animate`, each drawn when it is asked for.
+    """The frames of `animate`, each drawn when the iterator reaches it.
 
     All arguments are checked, and all packs opened, before this returns.
-    Raises what `animate` raises.
+    Raises the errors of `animate`.
     """
     design, chosen = _checked(banner, settings, options)
     packs = open_packs(chosen.packs, format=chosen.format)
@@ -123,7 +123,7 @@ def draw_face(
 def face_pixels(
     banner: Banner, packs: Packs, scale: int, side: Literal["front", "back"] = "front"
 ) -> Pixels:
-    """The plain face, shape [40 scale, 20 scale, 4], whatever the packs' sizes.
+    """The plain face, shape [40 scale, 20 scale, 4], for packs of any size.
 
     Raises PackError.
     """
@@ -133,9 +133,9 @@ def face_pixels(
 
 
 def draw_scenes(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterator[Frame]:
-    """Draw scenes one by one by the settings' backend and size of pixels.
+    """Draw scenes one by one with the backend and size of pixels of the settings.
 
-    It warns of what the packs lack after the first. Raises BackendError.
+    After the first scene it warns of missing textures. Raises BackendError.
     """
     from drapery.render.backends import backend
 

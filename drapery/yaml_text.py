@@ -1,7 +1,7 @@
-"""YAML from outside: one safe loader with bounds on depth, on aliases and on numbers.
+"""YAML from users: one safe loader with bounds on depth, on aliases and on numbers.
 
-The caller bounds the length of the text. PyYAML composes recursively and expands aliases, so the
-stream of events is measured before anything is built from it.
+The caller limits the length of the text. PyYAML composes recursively and expands aliases, so the
+stream of events is checked before any value is built from it.
 """
 
 from collections.abc import Iterator

@@ -48,7 +48,7 @@ def test_one_again(golden):
     result = pytester.runpytest_subprocess("--drapery-update")
     result.assert_outcomes(passed=1, failed=1)
     result.stdout.fnmatch_lines(
-        ["golden 'b': *test_one_again?b?.png differs from *test_one_again?B?.png by case alone;*"]
+        ["golden 'b': *test_one_again?b?.png differs from *test_one_again?B?.png only in case;*"]
     )
 
 

@@ -1,6 +1,6 @@
-"""Many pictures: the jobs of a manifest, done on one machine or many, with every error reported.
+"""Batches of pictures: draws the jobs of a manifest on one machine or many, and reports all errors.
 
-`run_batch` does it all; the command `drapery batch` is written with it.
+`run_batch` runs a whole batch; the command `drapery batch` uses it.
 """
 
 from typing import TYPE_CHECKING, Any

@@ -1,4 +1,4 @@
-"""Packs and textures sent to other machines: as bytes, once to each worker."""
+"""Packs and textures as bytes, which are sent once to each worker on other machines."""
 
 import io
 import tempfile
@@ -38,13 +38,13 @@ def bundle(path: Path, digests: DigestCache) -> Artifact:
     except OSError as error:
         raise PackError(f"pack {path} cannot be read: {error.strerror}; check the path") from None
     if len(data) > MAX_BYTES:
-        raise PackError(f"pack {path} is over {MAX_BYTES >> 20} MiB; leave out what is not needed")
+        raise PackError(f"pack {path} is over {MAX_BYTES >> 20} MiB; remove files not needed")
     name = path.name if path.is_file() else f"{path.name}.zip"
     return Artifact(name, digests.of(path)[:16], data)
 
 
 def unbundle(artifact: Artifact) -> Path:
-    """The artifact as a file of this machine, written once. Raises OutputError."""
+    """Write the artifact as a file of this machine, once; its path. Raises OutputError."""
     try:
         folder = _folder() / artifact.digest
         folder.mkdir(exist_ok=True)
@@ -62,7 +62,7 @@ def unbundle(artifact: Artifact) -> Path:
 
 
 def resolved(job: Job, artifacts: tuple[Artifact, ...]) -> Job:
-    """The job with its packs and texture where they are on this machine."""
+    """The job with the paths that its packs and texture have on this machine."""
     if not artifacts:
         return job
     here = [unbundle(artifact) for artifact in artifacts]
@@ -74,7 +74,7 @@ def resolved(job: Job, artifacts: tuple[Artifact, ...]) -> Job:
 
 
 def _folder() -> Path:
-    """This process's folder of artifacts, which nobody else can have prepared."""
+    """This process's folder of artifacts; it is private, so its files can be trusted."""
     with _lock:
         return Path(_temporary_folder().name)
 
@@ -92,7 +92,7 @@ def _zipped(folder: Path) -> bytes:
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
         for path in sorted(folder.rglob("*")):
             if path.is_file() and ".git" not in path.relative_to(folder).parts:
-                # Times stay out, so that the same pack gives the same artifact.
+                # Without times, so that the same pack gives the same artifact.
                 info = zipfile.ZipInfo(path.relative_to(folder).as_posix())
                 file.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
     return buffer.getvalue()

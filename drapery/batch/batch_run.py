@@ -1,4 +1,4 @@
-"""`run_batch`: a manifest becomes pictures, with one call."""
+"""`run_batch`: draws all pictures of a manifest with one call."""
 
 import os
 import time
@@ -25,11 +25,12 @@ MAX_WORKERS = 512
 
 @dataclass(frozen=True)
 class BatchResult:
-    """What a run did. Counts are of output files.
+    """The result of a run, as numbers of output files.
 
-    total: all that the manifest asks for. drawn: made by this run. copied: from an output that
-    shows the same. existing: there before. failed: each with its error. warnings: each once.
-    errors: what else could not be written: records of results, the report. seconds: of the run [s].
+    total: all outputs of the manifest. drawn: drawn by this run. copied: copied from an equal
+    output. existing: drawn by an earlier run. failed: the records of failed outputs, with their
+    errors. warnings: each once. errors: errors of writing results or the report. seconds: duration
+    of the run [s].
     """
 
     total: int
@@ -43,7 +44,7 @@ class BatchResult:
 
     @property
     def ok(self) -> bool:
-        """Whether every output is there and all was written."""
+        """Whether every output exists and the results and the report were written."""
         return self.drawn + self.copied + self.existing == self.total and not self.errors
 
 
@@ -62,7 +63,7 @@ def run_batch(
     results: str | Path | None = None,
     on_event: OnEvent | None = None,
 ) -> BatchResult:
-    """Draw all pictures of a manifest; what was drawn before is not drawn again.
+    """Draw all pictures of a manifest; pictures of earlier runs are not drawn again.
 
     manifest: a file (CSV, JSON lines or YAML), a world, region or schematic, or rows in memory:
         mappings of option names to values. A row's `design` is a text or a `Banner`.
@@ -72,20 +73,20 @@ def run_batch(
     workers: processes on this machine; None is one for each core.
     scheduler: None for processes of this machine, `local` for a Dask cluster on this machine, or
         the address of a Dask scheduler, such as `tcp://host:8786`.
-    resume: go on with a run that was stopped; what failed for good in it stays failed.
+    resume: continue a stopped run; jobs that failed in it after all retries are not tried again.
     retries: how often a failed job is tried again.
-    timeout: what one job may take [s]. memory: what one job may take [MiB].
-    results: the file that records what was done; None is `drapery-batch.sqlite` in `out`.
-    on_event: is called with the run's `Progress` before the first job and after each.
+    timeout: longest time of one job [s]. memory: most memory of one job [MiB].
+    results: the file that records the results; None is `drapery-batch.sqlite` in `out`.
+    on_event: called with the run's `Progress` before the first job and after each job.
 
-    A failed picture is no exception: it is listed in `BatchResult.failed`.
+    A failed picture does not raise: it is listed in `BatchResult.failed`.
 
     Workers are started by multiprocessing, so a script must call this below
     `if __name__ == "__main__":`.
 
     Raises ManifestError with all faults of the manifest, OptionError for other bad arguments,
-    DesignError for a broken world, OutputError where `out` or `results` cannot be used, LostError
-    (a BackendError) where the cluster's scheduler goes away.
+    DesignError for a broken world, OutputError if `out` or `results` cannot be used, LostError
+    (a BackendError) if the cluster's scheduler ends.
     """
     within("workers", 1 if workers is None else workers, 1, MAX_WORKERS, "processes")
     within("retries", retries, 0, 100)

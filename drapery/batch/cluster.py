@@ -1,4 +1,4 @@
-"""Many machines: the same jobs as tasks of Dask distributed (extra `cluster`)."""
+"""Jobs as tasks of Dask distributed on many machines (extra `cluster`)."""
 
 import logging
 import threading
@@ -19,11 +19,11 @@ from drapery.batch.stores import Store
 from drapery.errors import BackendError, DraperyError
 
 AHEAD = 2
-"""Tasks sent for each of the cluster's threads: one that runs and one that waits there. With so few
-in flight a killed run has little to repeat, and the scheduler's memory does not grow."""
+"""Tasks sent for each of the cluster's threads: one that runs and one that waits. With few tasks in
+flight a killed run has little to repeat, and the scheduler's memory does not grow."""
 TASK_SECONDS = 0.25
-"""How long a task should take [s]. A scheduler handles about a thousand tasks a second, so several
-short jobs go into one task; see benchmarks/batch.py."""
+"""Intended duration of a task [s]. A scheduler handles about a thousand tasks a second, so several
+short jobs are put into one task; see benchmarks/batch.py."""
 MAX_IN_TASK = 32
 COUNT_INTERVAL = 3.0
 """How often the cluster's threads are counted, since workers come and go [s]."""
@@ -66,13 +66,13 @@ class DaskExecutor:
         return self._threads > 0
 
     def start(self, job: Job) -> None:
-        """See `Executor`. It is sent with others, at the latest when results are waited for."""
+        """See `Executor`. Jobs are sent in groups, at the latest when `poll` is called."""
         self._gathered.append(job)
         if len(self._gathered) >= self._in_task():
             self._submit()
 
     def poll(self, timeout: float) -> list[JobResult]:
-        """See `Executor`. Raises LostError where the scheduler has ended."""
+        """See `Executor`. Raises LostError if the scheduler has ended."""
         self._submit()
         self._check_scheduler()
         try:
@@ -85,7 +85,7 @@ class DaskExecutor:
         for future, jobs in map(self._running.pop, keys):
             received = _results_of(future)
             if received is None:
-                # A worker that ended may have held the only copy of what was sent.
+                # A worker that ended may have had the only copy of an artifact.
                 self._sent.clear()
             results += received or _lost(future, jobs)
         for result in results:
@@ -93,7 +93,7 @@ class DaskExecutor:
         return results
 
     def _in_task(self) -> int:
-        """How many jobs make a task, by how long the last ones took."""
+        """The number of jobs in a task, from the duration of the last jobs."""
         return max(1, min(MAX_IN_TASK, round(TASK_SECONDS / max(self._pace, 1e-3))))
 
     def _submit(self) -> None:
@@ -122,7 +122,7 @@ class DaskExecutor:
                 try:
                     end.close(timeout=5)
                 except Exception as error:
-                    # It was killed, or is ending: the results are recorded.
+                    # The scheduler was killed or is ending; the results are already recorded.
                     logging.getLogger(__name__).debug("closing: %s", error)
 
     def _count(self) -> None:
@@ -139,14 +139,14 @@ class DaskExecutor:
             self._heard = now
         if self.client.status == "closed" or now - self._heard > LOST_AFTER:
             raise LostError(
-                "the cluster's scheduler has ended; start it again and go on with --resume"
+                "the cluster's scheduler has ended; start it again and continue with --resume"
             )
 
     def _send(self, path: Path) -> Any:
-        """The artifact's future; workers fetch it once each, from one another."""
+        """The artifact's future; each worker fetches it once, from another worker."""
         if path not in self._sent:
             artifact = bundle(path, self._digests)
-            # Not broadcast, so that workers that come later are served alike.
+            # Not broadcast, so that workers that join later can also fetch it.
             self._sent[path] = self.client.scatter(artifact, hash=True)
         return self._sent[path]
 
@@ -177,11 +177,11 @@ def _one(job: Job, store: Store, limits: JobLimits, artifacts: Mapping[str, Arti
 
 
 def local_cluster(workers: int, store: Store, limits: JobLimits) -> DaskExecutor:
-    """A cluster of processes on this machine. Raises BackendError where Dask is missing."""
+    """A cluster of processes on this machine. Raises BackendError if Dask is missing."""
     distributed = _distributed()
     import dask
 
-    # Each worker has a process of its own for the jobs, so that one which hangs can be ended.
+    # Each worker runs jobs in a separate process, so that one which hangs can be ended.
     dask.config.set({"distributed.worker.daemon": False})
     cluster = distributed.LocalCluster(
         n_workers=workers,
@@ -194,12 +194,12 @@ def local_cluster(workers: int, store: Store, limits: JobLimits) -> DaskExecutor
 
 
 def connect(address: str, store: Store, limits: JobLimits) -> DaskExecutor:
-    """The cluster of a scheduler. Raises BackendError where there is none."""
+    """The cluster of a scheduler. Raises BackendError if there is no scheduler."""
     distributed = _distributed()
     try:
         return DaskExecutor(distributed.Client(address, timeout=15), store, limits)
     except Exception as error:
-        # Each of Dask's protocols raises its own: TypeError for tls:// without certificates.
+        # Dask's protocols raise different errors: TypeError for tls:// without certificates.
         reason = " ".join(str(error).split())[:200]
         raise BackendError(f"no scheduler at {address}: {reason}; check the address") from None
 
@@ -213,14 +213,14 @@ def _distributed() -> Any:
 
 
 def _results_of(future: Any) -> list[JobResult] | None:
-    """The results of a task; None where it failed, or they were lost with a worker."""
+    """The results of a task; None if it failed or its worker was lost."""
     if isinstance(future, list):
         return future
     if future.status != "finished":
         return None
     try:
         results: list[JobResult] = future.result()
-    except Exception as error:  # Dask reports what it lost in several ways
+    except Exception as error:  # Dask reports lost results by several errors
         logging.getLogger(__name__).debug("results are lost: %s", error)
         return None
     return results

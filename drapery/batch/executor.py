@@ -26,7 +26,7 @@ class Executor(Protocol):
         """Begin a job. Call it only while `free` is above 0."""
 
     def poll(self, timeout: float) -> list[JobResult]:
-        """The results that are there, waiting for the first up to `timeout` [s]."""
+        """The results that are ready; it waits for the first one for up to `timeout` [s]."""
 
     def close(self) -> None:
         """End all workers."""
@@ -34,9 +34,9 @@ class Executor(Protocol):
 
 @dataclass(frozen=True)
 class RetryPolicy:
-    """How often something is tried again, after a pause that doubles each time.
+    """The number of retries, and the pauses before them, which double each time.
 
-    limit: how often; math.inf for ever. pause: the first [s]. longest: the longest [s].
+    limit: number of retries; math.inf for no limit. pause: the first [s]. longest: the longest [s].
     """
 
     limit: float = 2
@@ -44,14 +44,14 @@ class RetryPolicy:
     longest: float = 60.0
 
     def delay(self, tries: int) -> float:
-        """The pause after so many tries [s]."""
+        """The pause after this number of tries [s]."""
         return min(self.longest, self.pause * 2.0 ** min(tries - 1, 64))
 
 
 def run_jobs(
     jobs: Iterable[Job], executor: Executor, retries: RetryPolicy
 ) -> Iterator[tuple[JobResult, int]]:
-    """The final result of every job, with how often it was tried, in the order they end."""
+    """The final result and the number of tries of every job, in the order in which they end."""
     fresh, order = iter(jobs), count()
     delayed: list[tuple[float, int, Job]] = []
     tries: dict[str, int] = {}

@@ -17,10 +17,11 @@ from drapery.settings import Settings
 
 @dataclass(frozen=True)
 class Job:
-    """A picture to be drawn.
+    """A picture to draw.
 
-    key: the hash of what it is made of. outs: the files that are to hold it. places: where the
-    manifest asks for each. seconds, fps: of an animation; None for a still. version: of the code.
+    key: the hash of its design and options, see `picture_key`. outs: the files to write. places:
+    of each file in the manifest. seconds, fps: of an animation; None for a still. version: of the
+    code.
     """
 
     key: str
@@ -34,7 +35,7 @@ class Job:
 
     @property
     def motion(self) -> tuple[object, ...]:
-        """Equal for jobs whose cloth moves alike; a worker simulates it once."""
+        """Equal for jobs with the same motion of the cloth; a worker simulates it once."""
         s = self.settings
         kind = s.kind if self.banner is None or s.kind != "auto" else self.banner.kind
         when = s.time if self.seconds is None else 0.0
@@ -46,10 +47,10 @@ class Job:
 
 @dataclass(frozen=True)
 class JobResult:
-    """What came of a job.
+    """The result of a job.
 
-    error: why it failed, one line. retryable: whether another try may help. seconds: that it took
-    [s]. size: of its file [bytes]. timed_out: whether it was ended because it took too long.
+    error: why it failed, one line; None if it succeeded. retryable: whether another try may help.
+    seconds: its duration [s]. size: of its file [bytes]. timed_out: whether it exceeded its time.
     """
 
     job: Job
@@ -62,9 +63,9 @@ class JobResult:
 
 
 def plan(requests: Iterable[PictureRequest]) -> list[Job]:
-    """Jobs for requests: equal ones are merged, those of one motion stand next to each other.
+    """Jobs for requests: equal ones are merged, those with the same motion are adjacent.
 
-    Raises PackError where packs cannot be read.
+    Raises PackError if packs cannot be read.
     """
     digests = DigestCache()
     jobs: dict[str, Job] = {}
@@ -98,7 +99,7 @@ def make_job(request: PictureRequest, digests: DigestCache) -> Job:
 
 
 def run_job(job: Job, store: Store) -> JobResult:
-    """Draw a job's picture and store it whole. Raises MemoryError; other errors are results."""
+    """Draw a job's picture and store it. Raises MemoryError; other errors become results."""
     start = time.perf_counter()
     try:
         size, caught = _draw_and_store(job, store)
@@ -108,7 +109,7 @@ def run_job(job: Job, store: Store) -> JobResult:
     except MemoryError:
         raise
     except Exception as error:
-        # A defect of this package or of an installed backend; the other jobs go on.
+        # A defect of this package or of an installed backend; the other jobs continue.
         line = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}; please report it"
         return JobResult(job, line, True, time.perf_counter() - start)
     return JobResult(job, None, False, time.perf_counter() - start, size, caught)

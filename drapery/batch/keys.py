@@ -1,4 +1,4 @@
-"""The key of a picture: a hash of all that it is made of. Equal keys, equal bytes."""
+"""The key of a picture: a hash of all its inputs. Pictures with equal keys have equal bytes."""
 
 import hashlib
 import json
@@ -57,7 +57,7 @@ def picture_key(
     seconds: float | None,
     fps: float | None,
 ) -> str:
-    """The key of a picture: 64 hexadecimal digits. Raises PackError for what cannot be read.
+    """The key of a picture: 64 hexadecimal digits. Raises PackError for unreadable packs.
 
     It is a hash of the design in its canonical form, the options, the bytes of packs and textures
     (not their names), and `code_version`.

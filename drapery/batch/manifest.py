@@ -1,4 +1,4 @@
-"""A manifest is read and checked whole: the result is all of its jobs, or all of its faults."""
+"""Reads and checks a whole manifest: the result is all of its jobs, or all of its faults."""
 
 import re
 import unicodedata
@@ -42,7 +42,7 @@ class ManifestError(OptionError):
 
 @dataclass(frozen=True)
 class RowFields:
-    """What a row says beside the options of the picture."""
+    """The fields of a row that are not options of the picture."""
 
     design: str | None = None
     name: str | None = None
@@ -55,7 +55,7 @@ class RowFields:
 class PictureRequest:
     """One checked picture of a manifest.
 
-    place: where in the manifest. out: its file, relative to the output folder.
+    place: of its row in the manifest. out: its file, relative to the output folder.
     seconds, fps: of an animation; None for a still.
     """
 
@@ -80,7 +80,7 @@ def read_manifest(
         folder; those of a manifest file are relative to its folder.
     format: the ending of rows that name no file.
 
-    Raises ManifestError with every fault, OptionError or DesignError if it cannot be read at all.
+    Raises ManifestError with every fault, OptionError or DesignError if it cannot be read.
     """
     if format not in ENDINGS:
         raise OptionError(f"format {format!r} is not known; use one of: {', '.join(ENDINGS)}")
@@ -157,7 +157,7 @@ def _request(
 
 
 def _fields(values: Mapping[str, Any], faults: list[str]) -> RowFields:
-    """The fields of a row; those that are wrong are None."""
+    """The fields of a row; wrong ones are None."""
     read: dict[str, Any] = {}
     for name, value in values.items():
         if value is None:
@@ -180,7 +180,7 @@ def _fields(values: Mapping[str, Any], faults: list[str]) -> RowFields:
 
 
 def _objects(settings: Settings, options: Mapping[str, Any]) -> list[str]:
-    """Values that are objects of Python: a worker is sent names and numbers only."""
+    """Faults for options that are Python objects: workers accept only names and numbers."""
     values = {name: getattr(settings, name) for name in options}
     return [
         f"{name} is an object, which a batch cannot send to its workers; give its name or path"
@@ -208,7 +208,7 @@ def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
 
 
 def _out(fields: RowFields, row: ManifestRow, number: int, ending: str, faults: list[str]) -> str:
-    """The job's file: as the row says, or after its name, its place in a world, or its number."""
+    """The job's file: given by the row, or made of its name, its place in a world or its number."""
     if fields.out is not None:
         out = fields.out
     elif fields.name is not None:
@@ -226,7 +226,7 @@ def _out(fields: RowFields, row: ManifestRow, number: int, ending: str, faults: 
 
 
 def _name_fault(out: str) -> str | None:
-    """Why this cannot be the name of a file on every system that may run or read the batch."""
+    """Why this is not a valid file name on every system that may run or read the batch."""
     names = out.split("/")
     if len(out) > 300 or not all(_NAME.fullmatch(name) for name in names):
         return f"{out[:80]!r} is not a file name; use letters, digits, '-', '.' and '/'"
@@ -265,7 +265,7 @@ def _times(out: str, fields: RowFields, faults: list[str]) -> tuple[float | None
 
 
 def _numbered(request: PictureRequest, used: dict[str, int]) -> PictureRequest:
-    """Banners of a world whose places give the same file name get numbers.
+    """The request with a number in its file name if another banner of the world has that name.
 
     used: the names that are taken, each with the last number that was added to it.
     """
@@ -284,13 +284,13 @@ def _numbered(request: PictureRequest, used: dict[str, int]) -> PictureRequest:
 
 
 def _same_file(out: str) -> str:
-    """Equal for names that some file system holds to be one: it may ignore case, or compose
-    letters and accents."""
+    """Equal for names that are the same file on some file systems, which ignore case or compose
+    characters and accents."""
     return unicodedata.normalize("NFC", out).casefold()
 
 
 def _clashing_files(requests: list[PictureRequest]) -> Iterator[ManifestFault]:
-    """Outputs that are written twice, or that are a file here and a folder there."""
+    """Faults for outputs that two jobs write, or that are both a file and a folder."""
     first: dict[str, PictureRequest] = {}
     for request in requests:
         other = first.setdefault(_same_file(request.out), request)
@@ -311,7 +311,7 @@ def _clashing_files(requests: list[PictureRequest]) -> Iterator[ManifestFault]:
 
 
 def _unusable(requests: Iterable[PictureRequest]) -> Iterator[ManifestFault]:
-    """What the options name and is not there: packs, views, backends, placements."""
+    """Faults for options that name missing packs, views, backends or placements."""
     verdicts: dict[object, str | None] = {}
     for request in requests:
         s, kind = request.settings, getattr(request.banner, "kind", None)

@@ -1,4 +1,4 @@
-"""Worker processes on this machine. One that dies, hangs or uses too much memory harms no other."""
+"""Worker processes on this machine. One that dies, hangs or lacks memory does not affect others."""
 
 import contextlib
 import os
@@ -19,9 +19,9 @@ from drapery.errors import BackendError
 CHECK_INTERVAL = 0.1
 """How often the workers' time and memory are checked [s]."""
 RESTARTS = RetryPolicy(limit=9, pause=0.1, longest=1.0)
-"""A worker that ends before it is ready is started again. Something outside may kill a few."""
+"""How often a worker that ends before it is ready is started again; the system may kill some."""
 MAX_AHEAD = 100
-"""The most outputs of a job that is sent while its worker is at another."""
+"""The most outputs of a job that is sent to a worker that is busy with another."""
 
 Pipe: TypeAlias = Any
 """multiprocessing's Connection, or its PipeConnection on Windows."""
@@ -29,7 +29,7 @@ Pipe: TypeAlias = Any
 
 @dataclass(frozen=True)
 class JobLimits:
-    """What one job may use: time [s], and memory beyond its worker's own [bytes]."""
+    """Limits of one job: time [s], and memory in addition to that of its worker [bytes]."""
 
     seconds: float = 300.0
     memory: int = 2 << 30
@@ -39,7 +39,7 @@ class JobLimits:
 class _Worker:
     """One worker process. ready: it has reported. resting: its memory without a job [bytes].
 
-    jobs: sent to it, of which it does the first; began: when it began that.
+    jobs: sent to it; it runs the first. began: when it began that one.
     """
 
     process: BaseProcess
@@ -54,11 +54,11 @@ class _Worker:
 class ProcessPool:
     """Worker processes on this machine; see `executor.Executor`.
 
-    work: does a job; a function of a module. workers: how many processes.
-    threads: of each worker; None is its share of the cores.
-    ahead: jobs sent to a worker; with 2, the next is there when one ends.
+    work: runs a job; a function of a module. workers: number of processes.
+    threads: of each worker; None divides the cores among the workers.
+    ahead: jobs sent to a worker; with 2, the next job is already there when one ends.
     restarts: how often, and after which pause, workers that end before they are ready are started
-        again; the count starts anew when a worker gets ready.
+        again; the count is reset when a worker is ready.
     """
 
     work: Callable[[Job], JobResult]
@@ -96,7 +96,7 @@ class ProcessPool:
         while self._backlog:
             able = (w for w in self._workers if w.ready and len(w.jobs) < self.ahead)
             worker = min(able, key=lambda worker: len(worker.jobs), default=None)
-            # A pipe holds little, so a long job must not be sent to a worker that does not read.
+            # A pipe has a small buffer, so a long job must not be sent to a worker that is busy.
             if worker is None or (worker.jobs and len(self._backlog[0].outs) > MAX_AHEAD):
                 return
             if not worker.jobs:
@@ -107,7 +107,7 @@ class ProcessPool:
                 worker.pipe.send(worker.jobs[-1])
 
     def poll(self, timeout: float) -> list[JobResult]:
-        """See `Executor`. Raises BackendError where workers cannot start."""
+        """See `Executor`. Raises BackendError if workers cannot start."""
         end = time.monotonic() + timeout
         while True:
             self._spawn_due()
@@ -142,7 +142,7 @@ class ProcessPool:
         self._due = []
 
     def _spawn_due(self) -> None:
-        """Start the workers that are missing and whose pause is over."""
+        """Start missing workers whose pause is over."""
         now = time.monotonic()
         due = [moment for moment in self._due if moment <= now]
         for moment in due:
@@ -153,7 +153,7 @@ class ProcessPool:
                 self._start_failed(error.strerror or str(error))
 
     def _spawn(self) -> _Worker:
-        # A fresh interpreter: forking one that has threads is not safe.
+        # A new interpreter: a fork of a process with threads is not safe.
         context = get_context("spawn")
         ours, theirs = context.Pipe()
         threads = self.threads or max(1, (os.cpu_count() or 1) // self.workers)
@@ -181,7 +181,7 @@ class ProcessPool:
             worker.ready, worker.resting, self._failed_starts = True, message, 0
             return []
         if message is None:
-            # A heap that was full is not used again.
+            # A worker that ran out of memory is not used again.
             return self._lost(worker, OUT_OF_MEMORY)
         worker.jobs.popleft()
         worker.began = time.monotonic()
@@ -199,7 +199,7 @@ class ProcessPool:
         return []
 
     def _lost(self, worker: _Worker, reason: str, timed_out: bool = False) -> list[JobResult]:
-        """Replace a worker that has ended, or must; its job fails."""
+        """Replace a worker that has ended or must be ended; its job fails."""
         pid = worker.process.pid
         self._remove(worker)
         if worker.ready:
@@ -209,7 +209,7 @@ class ProcessPool:
         if not worker.jobs:
             return []
         first, *others = worker.jobs
-        # It had not begun these.
+        # The worker had not begun these jobs.
         self._backlog.extendleft(reversed(others))
         seconds = time.monotonic() - worker.began
         line = f"{reason} (process {pid})"
@@ -236,5 +236,5 @@ def _ending(code: int | None) -> str:
 
 
 def _resident(pid: int | None) -> int:
-    """A process's memory [bytes]; 0 where the system does not say."""
+    """A process's memory [bytes]; 0 if the system does not report it."""
     return worker_process.memory_of(pid, worker_process.RESIDENT)

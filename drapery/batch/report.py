@@ -1,4 +1,4 @@
-"""The report of a run: its numbers, what failed and why, and small pictures."""
+"""The report of a run: its numbers, the failures with their reasons, and small pictures."""
 
 import io
 from base64 import b64encode
@@ -13,7 +13,7 @@ from drapery.errors import DraperyError
 
 FILE = "report.html"
 MAX_PICTURES = 240
-"""A page cannot show a million pictures."""
+"""The most pictures on the page."""
 MAX_FAILURES = 2000
 SIDE = 96
 
@@ -66,7 +66,7 @@ class RunCounts(Protocol):
 
 
 def summary(counts: RunCounts, seconds: float) -> dict[str, str]:
-    """The numbers of a run by their names. seconds: that it took [s]."""
+    """The numbers of a run by their names. seconds: its duration [s]."""
     lines = {
         "outputs": str(counts.total),
         "drawn": str(counts.drawn),
@@ -106,14 +106,14 @@ def write_report(
 
 
 def _pictures(outs: list[str], store: Store) -> Iterable[tuple[str, str]]:
-    """Small pictures, evenly chosen where there are many; videos have none."""
+    """Small pictures, evenly chosen if there are many; videos have none."""
     step = max(1, -(-len(outs) // MAX_PICTURES))
     for out in outs[::step]:
         if Path(out).suffix.lower() in (".png", ".apng", ".gif", ".webp"):
             try:
                 yield out, _thumbnail(store.read(out))
             except (DraperyError, OSError, ValueError):
-                # A picture that was deleted since is only missing from the page.
+                # A picture that was deleted meanwhile is left out of the page.
                 continue
 
 

@@ -1,4 +1,4 @@
-"""What has been done: an SQLite file that stays consistent whenever the process is killed."""
+"""The results of a batch: an SQLite file that is consistent even if the process is killed."""
 
 import sqlite3
 from collections.abc import Iterable, Iterator
@@ -23,11 +23,11 @@ CREATE INDEX IF NOT EXISTS by_key ON outputs (key, state);
 
 @dataclass(frozen=True)
 class OutputRecord:
-    """What is recorded of one output file.
+    """The record of one output file.
 
-    out: the file, relative to the output folder. key: the hash of what it is made of. place: where
-    the manifest asks for it. state: `done` or `failed`. error: why it failed, one line. tries: how
-    often it was tried. seconds: that the last try took [s]. size: of the file [bytes].
+    out: the file, relative to the output folder. key: see `picture_key`. place: of its row in the
+    manifest. state: `done` or `failed`. error: why it failed, one line. tries: number of tries.
+    seconds: duration of the last try [s]. size: of the file [bytes].
     """
 
     out: str
@@ -43,8 +43,8 @@ class OutputRecord:
 class ResultsDB:
     """The results of a folder, opened by one run at a time.
 
-    It is one table and four statements, so it needs no more than the standard library; what
-    `drapery batch` depends on must come with a plain installation.
+    It is one table and four statements, for which the standard library is enough. `drapery batch`
+    must work with an installation without extras.
     """
 
     def __init__(self, path: Path) -> None:
@@ -52,10 +52,10 @@ class ResultsDB:
         self.path = path
         with self._explained():
             self._db = sqlite3.connect(path, isolation_level=None, timeout=1.0)
-            # The lock ends with its process, however that ends.
+            # The lock ends with its process, even if that is killed.
             self._db.execute("PRAGMA locking_mode = EXCLUSIVE")
             self._db.execute("PRAGMA journal_mode = WAL")
-            # A written page outlives a killed process; only a power cut may take the last ones.
+            # Written pages survive if the process is killed; a power cut may lose the last ones.
             self._db.execute("PRAGMA synchronous = NORMAL")
             self._db.executescript(_SCHEMA)
 
@@ -67,7 +67,7 @@ class ResultsDB:
             self._db.close()
 
     def records(self) -> dict[str, OutputRecord]:
-        """All records, by output. Raises OutputError where the file is damaged."""
+        """All records, by output. Raises OutputError if the file is damaged."""
         with self._explained():
             rows = self._db.execute("SELECT * FROM outputs")
             return {row[0]: OutputRecord(*row) for row in rows}
@@ -109,7 +109,7 @@ class ResultsDB:
 
     @contextmanager
     def _explained(self) -> Iterator[None]:
-        """Turn SQLite's errors into one line that says what to do."""
+        """Convert SQLite's errors to an OutputError with the remedy."""
         try:
             yield
         except sqlite3.Error as error:
@@ -122,4 +122,4 @@ def _remedy(error: sqlite3.Error) -> str:
         return "another run is using it; wait for it, or choose another folder"
     if any(word in text for word in ("malformed", "not a database", "decode", "corrupt")):
         return f"the file is damaged ({text[:120]}); delete it, or name another with --results"
-    return f"{text[:200]}; mend that, or name another with --results"
+    return f"{text[:200]}; repair that, or name another with --results"

@@ -1,4 +1,4 @@
-"""A manifest file becomes rows, each with its place in the file."""
+"""Reads a manifest file as rows, each with its place in the file."""
 
 import csv
 import io
@@ -20,10 +20,10 @@ MAX_CELL = 1 << 20
 
 @dataclass(frozen=True)
 class ManifestRow:
-    """One job as it is written.
+    """One row of a manifest.
 
-    place: where, for messages. values: by the names of options. banner: as found in a world, or
-    given as an object. where: its place in a world; empty elsewhere.
+    place: of the row, for messages. values: by the names of options. banner: found in a world or
+    given as an object. where: its place in a world; empty for other manifests.
     """
 
     place: str
@@ -34,7 +34,7 @@ class ManifestRow:
 
 @dataclass(frozen=True)
 class ManifestFault:
-    """What is wrong at a place of the manifest, in one line with the remedy."""
+    """A fault at a place of the manifest, in one line with the remedy."""
 
     place: str
     message: str

@@ -54,7 +54,7 @@ class LocalStore:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise OutputError(f"cannot write {path}: {error.strerror}; mend that") from None
+            raise OutputError(f"cannot write {path}: {error.strerror}; repair that") from None
         return path
 
     def write(self, name: str, data: bytes) -> None:

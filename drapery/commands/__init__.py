@@ -1,1 +1,1 @@
-"""The commands, one file each; they import what they need when they run."""
+"""The commands, one module for each. A command imports its dependencies when it runs."""

@@ -30,11 +30,11 @@ def run(
         typer.Option("-o", "--out", metavar="DIR", help="A folder, or an address: s3://bucket/x."),
     ],
     format: Annotated[
-        str, typer.Option(help="png, webp, gif, apng, mp4 or webm, where a job names no file.")
+        str, typer.Option(help="png, webp, gif, apng, mp4 or webm, for jobs that name no file.")
     ] = "png",
     default: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="An option of all jobs without it."),
+        typer.Option("--set", metavar="NAME=VALUE", help="An option for jobs that do not set it."),
     ] = None,
     workers: Annotated[
         int | None, typer.Option(help="Processes on this machine.", show_default="one a core")
@@ -46,7 +46,7 @@ def run(
         str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler: tcp://host:8786.")
     ] = None,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Go on with a run that was stopped.")
+        bool, typer.Option("--resume", help="Continue a run that was stopped.")
     ] = False,
     retries: Annotated[int, typer.Option(help="How often a failed job is tried again.")] = 2,
     timeout: Annotated[float, typer.Option(help="Seconds that one job may take.")] = 300.0,
@@ -56,12 +56,12 @@ def run(
         typer.Option(metavar="FILE", help="Where results are recorded.", show_default="in DIR"),
     ] = None,
 ) -> None:
-    """Draw all jobs of a manifest; exit code 0, 1 where some failed, 2 for a bad manifest."""
+    """Draw all jobs of a manifest; exit code 0, 1 if some failed, 2 for a bad manifest."""
     from drapery.batch import LostError, ManifestError, run_batch
     from drapery.errors import OptionError
 
     if cluster and scheduler is not None:
-        raise OptionError("--cluster starts a scheduler of its own; leave out --scheduler")
+        raise OptionError("--cluster starts a new scheduler; leave out --scheduler")
     defaults = _defaults(default or [])
     try:
         with compile_notice(), _progress() as on_event:
@@ -122,7 +122,7 @@ def _summarise(result: "BatchResult") -> None:
     for record in result.failed[:MAX_LINES]:
         say(f"{record.out} ({record.place}): {record.error}")
     if len(result.failed) > MAX_LINES:
-        say(f"and {len(result.failed) - MAX_LINES} more; the results and the report have all")
+        say(f"and {len(result.failed) - MAX_LINES} more; the results and the report list all")
     for line in (*result.errors, *result.warnings):
         say(line)
     lines = summary(result, result.seconds)

@@ -1,4 +1,4 @@
-"""`drapery doctor`: versions, which backends work, and what would mend those that do not."""
+"""`drapery doctor`: versions, which backends work, and remedies for those that do not."""
 
 import platform
 from importlib.metadata import version
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 def run() -> None:
-    """Say what works on this machine and, where something does not, the line that mends it."""
+    """Report what works on this machine, with a remedy for each part that does not."""
     from rich.console import Console
     from rich.markup import escape
 

@@ -1,4 +1,4 @@
-"""`drapery gallery`: every ready-made scene as an animation, and a page that shows them all."""
+"""`drapery gallery`: every ready-made scene as an animation, and an index page."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

@@ -17,7 +17,7 @@ FileArgument = Annotated[
 @app.command()
 def check(
     file: FileArgument,
-    report: Annotated[Path, typer.Option(help="Where pictures of what failed go.")] = Path(
+    report: Annotated[Path, typer.Option(help="Folder for the pictures of failures.")] = Path(
         "drapery-report"
     ),
 ) -> None:
@@ -43,7 +43,7 @@ def check(
 
 @app.command()
 def update(file: FileArgument) -> None:
-    """Draw every case and keep the picture as its golden."""
+    """Draw every case and write the picture as its golden."""
     from drapery.testing.case_check import update_cases
     from drapery.testing.cases import read_cases
 

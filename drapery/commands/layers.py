@@ -1,4 +1,4 @@
-"""`drapery layers`: a banner taken apart, and how to make it at the loom."""
+"""`drapery layers`: the layers of a banner, and how to make it at the loom."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

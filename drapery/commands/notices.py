@@ -1,4 +1,4 @@
-"""What a command prints on standard error: notes, warnings, progress."""
+"""Output of commands on standard error: notes, warnings, progress."""
 
 import subprocess
 import sys
@@ -46,8 +46,8 @@ def adopt_warnings() -> None:
 def compile_notice() -> Iterator[None]:
     """Print a line when kernels are compiled, which happens once and takes some seconds.
 
-    While this process compiles the cloth's kernels, another compiles those of the renderer, which
-    this one then finds in the cache.
+    While this process compiles the cloth's kernels, another one compiles those of the renderer;
+    this process then reads them from the cache.
     """
     from numba.core import event
 

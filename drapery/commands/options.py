@@ -38,12 +38,12 @@ FromOption = Annotated[
 ]
 NumberOption = Annotated[
     int | None,
-    typer.Option(metavar="N", help="Which banner, from 1, where DESIGN holds several."),
+    typer.Option(metavar="N", help="Number of the banner, from 1, if DESIGN holds several."),
 ]
 
 
 def from_table(name: str) -> Any:
-    """What typer reads of an option of the table: its flag, help, limits and default."""
+    """A typer option from the table: its flag, help, limits and default."""
     option = NAMED_OPTIONS.get(name) or LOOP_OPTIONS[name]
     return typer.Option(
         option.command_flag,
@@ -68,9 +68,9 @@ _SOURCE = {"design": OptionalDesign, "form": FromOption, "number": NumberOption}
 
 
 def pictured(*without: str) -> Callable[[Command], Command]:
-    """Give a command that takes any words all options of a picture after its own.
+    """Add all options of a picture to a command that takes any keyword, after its own options.
 
-    without: those that it does not use. An option that the command declares itself stays its own.
+    without: options that it does not use. An option that the command declares is not replaced.
     """
 
     def extend(command: Command) -> Command:
@@ -106,7 +106,7 @@ def _parameter(name: str, default: object, kind: object) -> inspect.Parameter:
 def options_of(words: Mapping[str, Any]) -> Options:
     """The picture options among a command's words, as `draw` takes them. Raises OptionError."""
     chosen = {name: option for name, option in NAMED_OPTIONS.items() if name in words}
-    # typer gives None for a list of nothing.
+    # typer gives None for an empty list.
     values = {
         name: option.parse((words[name] or ()) if option.several else words[name])
         for name, option in chosen.items()

@@ -1,4 +1,4 @@
-"""`drapery packs`: what packs have, lack and override, and what is wrong with them."""
+"""`drapery packs`: the contents of packs: what they have, lack and override, and their faults."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -42,7 +42,7 @@ def run(
 
 
 def _lines(report: "PackReport") -> list[str]:
-    """The report as text: a line for each thing that there is to say."""
+    """The report as lines of text, one for each fact."""
     sizes = ", ".join(f"{count} of {side} x {side} px" for side, count in report.sides)
     facts = {
         "description": report.description,
@@ -69,7 +69,7 @@ def _too_many(names: "tuple[str, ...]") -> str:
 
 
 def _overridden(report: "PackReport") -> str:
-    """The patterns that it hides, by the pack that they are of."""
+    """The patterns that the pack overrides, by the pack that they are from."""
     hidden: dict[str, list[str]] = {}
     for pattern, label in report.overrides:
         hidden.setdefault(label, []).append(pattern)

@@ -22,7 +22,7 @@ def run(
         float, typer.Option(help="Seconds that an answer may take, waiting included.")
     ] = 30.0,
     memory: Annotated[int, typer.Option(help="MiB that one picture may take.")] = 1024,
-    cache: Annotated[int, typer.Option(help="MiB of pictures that are kept in memory.")] = 64,
+    cache: Annotated[int, typer.Option(help="MiB of pictures that are cached in memory.")] = 64,
     side: Annotated[int, typer.Option(help="The widest and tallest picture in pixels.")] = 1024,
     trusted_proxy: Annotated[
         list[str] | None,

@@ -55,7 +55,7 @@ def write_rotations(
     size: Annotated[str, typer.Option(help="Size of each picture in pixels.")] = "144x192",
     **words: Any,
 ) -> None:
-    """One thing in all sixteen rotations."""
+    """One design in all sixteen rotations."""
     from drapery.settings import Settings
     from drapery.sheets import check_sheet_target, rotations_sheet
 

@@ -1,4 +1,4 @@
-"""`drapery show`: what was understood, layer by layer, or the same banner in another form."""
+"""`drapery show`: the layers of a banner, or the same banner in another form."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

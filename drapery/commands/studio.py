@@ -1,4 +1,4 @@
-"""`drapery studio`: a page to design a banner on and watch it wave."""
+"""`drapery studio`: a page on which to design a banner and watch it wave."""
 
 from pathlib import Path
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""How two pictures differ: figures, panels to look at, and a report.
+"""Comparison of pictures: measures of the difference, panels that show it, and a report.
 
 `compare` compares two designs or pictures, `measure` two arrays of pixels; `draw_variants` and
 `compare_variants` draw and compare designs, packs, layer modes or backends, and name the layer from

@@ -1,4 +1,4 @@
-"""What a way of drawing costs: textured quads, and time for a frame."""
+"""The cost of drawing a variant: textured quads, and time for a frame."""
 
 from dataclasses import dataclass
 from statistics import median
@@ -15,7 +15,7 @@ REPEATS = 9
 
 @dataclass(frozen=True)
 class Cost:
-    """quads: textured quads drawn; milliseconds: for one frame, the median of a few."""
+    """quads: textured quads drawn. milliseconds: for one frame, the median of a few frames."""
 
     quads: int
     milliseconds: float
@@ -24,7 +24,7 @@ class Cost:
 def cost_of(variant: Variant) -> Cost:
     """Measure a variant on this machine. Raises OptionError for a finished picture."""
     if variant.banner is None or variant.settings is None:
-        raise OptionError(f"{variant.label} is a finished picture; it costs nothing to draw")
+        raise OptionError(f"{variant.label} is a finished picture; give a design to measure")
     scene = still(
         variant.banner,
         open_packs(variant.settings.packs, format=variant.settings.format),

@@ -10,18 +10,18 @@ from drapery.errors import OptionError
 from drapery.render import Pixels
 
 MATTE = 128
-"""Grey under transparent pixels [sRGB] where a metric knows no alpha."""
+"""Grey under transparent pixels [sRGB] for metrics without alpha."""
 
 
 @dataclass(frozen=True)
 class Difference:
-    """How a picture differs from the one expected.
+    """The difference between a picture and the expected one.
 
-    pixels: how many pixels each has; changed: how many of them differ.
+    pixels: number of pixels of each picture. changed: number of pixels that differ.
     max_error, mean_error: largest and average error over the channels of all pixels, 0..255.
-    ssim: structural similarity (Wang et al. 2004), 1 where they are the same.
-    flip: mean FLIP error (Andersson et al. 2020), 0 where they are the same.
-    The last two are None unless they were asked for.
+    ssim: structural similarity (Wang et al. 2004), 1 for equal pictures.
+    flip: mean FLIP error (Andersson et al. 2020), 0 for equal pictures.
+    The last two are None unless `measure` is called with `perceptual`.
     """
 
     pixels: int
@@ -40,9 +40,9 @@ class Difference:
 
 
 def errors(expected: Pixels, actual: Pixels) -> NDArray[np.uint8]:
-    """The largest channel error of each pixel, shape [H, W]; hidden colours do not count.
+    """The largest channel error of each pixel, shape [H, W].
 
-    Raises OptionError where the sizes differ.
+    The colour of transparent pixels does not count. Raises OptionError if the sizes differ.
     """
     if expected.shape != actual.shape:
         raise OptionError(
@@ -59,9 +59,9 @@ def measure(
 ) -> Difference:
     """Measure a picture, [H, W, 4] uint8 sRGB with straight alpha, against the expected one.
 
-    slack: a pixel counts as changed where a channel is further off than this.
-    perceptual: SSIM and FLIP as well, which take longer and need the `compare` extra.
-    Raises OptionError where the sizes differ or the extra is not installed.
+    slack: a pixel counts as changed if the error of a channel is greater than this, 0..255.
+    perceptual: SSIM and FLIP as well; they take longer and need the `compare` extra.
+    Raises OptionError if the sizes differ or the extra is not installed.
     """
     worst = errors(expected, actual)
     exact = np.abs(_seen(expected).astype(np.int16) - _seen(actual))
@@ -76,7 +76,7 @@ def measure(
 
 
 def _seen(pixels: Pixels) -> Pixels:
-    """The picture with the colour of invisible pixels taken out."""
+    """The picture with the colour of transparent pixels set to 0."""
     seen: Pixels = pixels * (pixels[..., 3:] > 0)
     return seen
 
@@ -86,7 +86,7 @@ def _size(pixels: Pixels) -> str:
 
 
 def over_matte(pixels: Pixels, matte: int = MATTE) -> NDArray[np.uint8]:
-    """The picture laid over a grey, shape [H, W, 3]."""
+    """The picture over a grey background, shape [H, W, 3]."""
     alpha = pixels[..., 3:].astype(np.uint16)
     mixed = (pixels[..., :3] * alpha + matte * (255 - alpha) + 127) // 255
     return mixed.astype(np.uint8)
@@ -101,7 +101,7 @@ def _ssim(expected: Pixels, actual: Pixels) -> float:
     window = side if side % 2 else side - 1
     if window < 3:
         return float(np.array_equal(over_matte(expected), over_matte(actual)))
-    similarity: Any = metrics.structural_similarity  # its own types are unfinished
+    similarity: Any = metrics.structural_similarity  # its types are incomplete
     pictures = over_matte(expected), over_matte(actual)
     return float(similarity(*pictures, channel_axis=-1, win_size=window))
 

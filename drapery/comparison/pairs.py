@@ -1,4 +1,4 @@
-"""Two pictures compared, and the layer from which on they differ."""
+"""Comparison of two pictures, and the first layer with which they differ."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,10 +16,10 @@ from drapery.settings import Options, Settings
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two pictures and how they differ.
+    """Two pictures and their difference.
 
-    build_up: for each number of layers drawn (0 is the base alone) both pictures and how they
-        differ; empty for finished pictures.
+    build_up: for each number of layers drawn (0 is only the base) both pictures and their
+        difference; empty for finished pictures.
     """
 
     first: Variant
@@ -29,7 +29,7 @@ class Comparison:
 
     @property
     def culprit(self) -> str | None:
-        """The first step of the build-up at which the two differ; None where no step does."""
+        """The first step of the build-up at which the two differ; None if they never differ."""
         for count, (_, _, difference) in enumerate(self.build_up):
             if not difference.same:
                 return _step_name(self.other, count)
@@ -63,7 +63,7 @@ def compare(
     """Compare two designs, both drawn with the same options, or two finished pictures.
 
     settings, options: as for `draw`. perceptual: measures SSIM and FLIP too (extra: compare).
-    Raises OptionError where the sizes differ, and what `draw` raises.
+    Raises OptionError if the sizes differ, and the errors of `draw`.
     """
     variants = [
         variant_of(label, subject, settings, options)
@@ -73,7 +73,7 @@ def compare(
 
 
 def compare_variants(variants: Sequence[Variant], perceptual: bool = False) -> list[Comparison]:
-    """Compare every variant with the first. Raises OptionError where sizes differ."""
+    """Compare every variant with the first. Raises OptionError if the sizes differ."""
     if len(variants) < 2:
         raise OptionError("one picture cannot be compared; name at least two")
     first, *others = variants

@@ -1,4 +1,4 @@
-"""Pictures of a difference: where it is, and both sides of it."""
+"""Pictures that show where two pictures differ, alone or beside both of them."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from drapery.render import Frame, Pixels, contact_sheet, enlarge, on_checker
 
 
 def difference_panel(expected: Pixels, actual: Pixels, gain: int = 8) -> Pixels:
-    """Where two pictures differ: the expected one in faint grey, errors in red times `gain`."""
+    """The expected picture in faint grey with errors in red, multiplied by `gain`."""
     worst = errors(expected, actual).astype(np.int32)
     luminance = on_checker(expected)[..., :3].astype(np.int32).mean(axis=-1)
     faint = (210 + luminance * 45 / 255).astype(np.int32)
@@ -21,7 +21,7 @@ def difference_panel(expected: Pixels, actual: Pixels, gain: int = 8) -> Pixels:
 def side_by_side(
     expected: Pixels, actual: Pixels, labels: tuple[str, str] = ("expected", "actual")
 ) -> Frame:
-    """Both pictures and their difference, enlarged where they are small."""
+    """Both pictures and their difference; small pictures are enlarged."""
     scale = max(1, 256 // max(expected.shape[:2]))
     panels = (expected, actual, difference_panel(expected, actual))
     named = zip((*labels, "difference"), panels, strict=True)

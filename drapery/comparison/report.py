@@ -1,4 +1,4 @@
-"""A page that holds its pictures inside itself."""
+"""A page of HTML with embedded pictures."""
 
 import base64
 from collections.abc import Mapping
@@ -38,7 +38,7 @@ _PAGE = """<!doctype html>
 
 @dataclass(frozen=True)
 class ReportEntry:
-    """One part of a report: what was compared, what came of it, pictures as data addresses."""
+    """One part of a report: its name and result, facts, and pictures as data addresses."""
 
     name: str
     same: bool
@@ -66,6 +66,6 @@ def html_report(title: str, summary: str, entries: list[ReportEntry]) -> str:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file whole or not at all. Raises OutputError."""
+    """Write a text file, replacing it as a whole. Raises OutputError."""
     with replacing(path) as beside:
         beside.write_text(text, encoding="utf-8")

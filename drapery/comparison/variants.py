@@ -1,4 +1,4 @@
-"""What is compared: designs, packs, layer modes, backends, or finished pictures."""
+"""The variants to compare: designs, packs, layer modes, backends, or finished pictures."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -22,7 +22,7 @@ MAX_PICTURE_SIDE = 16384
 
 @dataclass(frozen=True)
 class Variant:
-    """One of the things compared: its label, and how to draw it with only its first layers.
+    """One variant of a comparison: its label, its picture, and how to draw its first layers.
 
     frame: the whole picture.
     banner, settings: None for a finished picture.
@@ -47,7 +47,7 @@ class Variant:
 def variant_of(
     label: str, subject: Banner | Frame, settings: Settings | None, options: Options
 ) -> Variant:
-    """A design drawn with these options, or a finished picture. Raises what `draw` raises."""
+    """A design drawn with these options, or a finished picture. Raises the errors of `draw`."""
     if isinstance(subject, Frame):
         return Variant(label, subject)
     chosen = settings or Settings()
@@ -64,18 +64,16 @@ def draw_variants(
     form: str | None = None,
     number: int | None = None,
 ) -> list[Variant]:
-    """The variants that a comparison names, each drawn.
+    """Draw the variants of a comparison.
 
     subjects: two or more pictures; or one or more designs, and packs to draw them with.
-    form, number: how designs are read, and which banner of those that hold several.
-    Raises OptionError where nothing, or more than one thing, varies.
+    form, number: the form of the designs, and which banner to use if a text holds several.
+    Raises OptionError unless exactly one of designs, packs, layer modes and backends varies.
     """
     pictures = [subject for subject in subjects if _is_picture(subject)]
     if pictures:
         if len(pictures) < len(subjects) or len(pictures) < 2:
-            raise OptionError(
-                f"{pictures[0]} is a picture; compare it with other pictures, and only with those"
-            )
+            raise OptionError(f"{pictures[0]} is a picture; compare it only with other pictures")
         return [Variant(Path(p).name, _load(Path(p))) for p in pictures]
     packs = [subject for subject in subjects if _is_pack(subject)]
     designs = [subject for subject in subjects if subject not in packs]
@@ -146,5 +144,5 @@ def _load(path: Path) -> Frame:
             return Frame(np.asarray(image.convert("RGBA")))
     except OptionError:
         raise
-    except Exception as error:  # Pillow raises many kinds for a broken file
+    except Exception as error:  # Pillow raises errors of many types for a broken file
         raise OptionError(f"{path} is not a readable picture ({error}); draw it again") from error

@@ -1,1 +1,1 @@
-"""A small service over HTTP: pictures of banners by their address."""
+"""A small HTTP service that draws banners from the parameters of an address."""

@@ -34,9 +34,9 @@ Ending: TypeAlias = Literal[".png", ".gif"]
 MEDIA_TYPES: dict[Ending, str] = {".png": "image/png", ".gif": "image/gif"}
 CACHE_CONTROL = "public, max-age=86400"
 WORKER_RESTARTS = RetryPolicy(limit=math.inf, pause=0.25, longest=30.0)
-"""Workers that end as they start are started again for ever: memory may be free again."""
+"""Workers that fail to start are started again without a limit: memory may be free later."""
 CLOSED_REQUEST = 499
-"""What metrics count for a client that did not wait; no client sees it."""
+"""The status that metrics count for a client that disconnected; it is not sent."""
 REASONS = {
     304: "the picture that If-None-Match names is unchanged",
     414: "the query is too long",
@@ -69,7 +69,7 @@ class Metrics:
 
 
 class PictureService:
-    """What the handlers share."""
+    """The state that the handlers share."""
 
     def __init__(
         self,
@@ -90,11 +90,11 @@ class PictureService:
         self.digests = DigestCache()
         for pack in config.base.pack_paths:
             self.digests.of(pack)
-        code_version()  # read once, not by the first request
+        code_version()  # computed once, before the first request
         self.queue: JobQueue[bytes | JobResult] = JobQueue(pool, self._finish, waiting)
 
     async def answer(self, request: Request, ending: Ending) -> Response:
-        """A picture, or why there is none."""
+        """A picture, or the reason why there is none."""
         pause = self.rates.wait(request.client.host if request.client else "")
         if pause:
             return _refusal(429, ["too many requests; ask again later"], pause)
@@ -120,7 +120,7 @@ class PictureService:
         return Response(data, media_type=MEDIA_TYPES[ending], headers=headers)
 
     def _job(self, query: list[tuple[str, str]], ending: Ending) -> Job | list[str]:
-        """The job of a query, with its key as its file; or what is wrong with the query."""
+        """The job of a query, with its key as its file, or the faults of the query."""
         request = read_request(query, ending, self.config)
         if isinstance(request, list):
             return request
@@ -128,7 +128,7 @@ class PictureService:
         return replace(job, outs=(f"{job.key}{ending}",))
 
     def _finish(self, result: JobResult) -> bytes | JobResult:
-        """The bytes of a picture, or the result that has none."""
+        """The bytes of a picture, or the result if it has none."""
         if result.error is not None:
             _log.warning("a picture was not drawn: %s", result.error)
             return result
@@ -217,7 +217,7 @@ def make_app(
 def _with_own_packs(config: ServiceConfig, folder: Path) -> ServiceConfig:
     """The configuration with copies of its packs.
 
-    A pack that is edited while the service runs would be drawn under the old ETag.
+    Without copies, a pack that is edited while the service runs would be drawn with the old ETag.
     """
     packs = []
     for number, pack in enumerate(map(Path, config.base.pack_paths)):
@@ -294,7 +294,7 @@ def _add_health(app: FastAPI) -> None:
 
 
 class CountRequests:
-    """Counts requests, and keeps browsers from guessing types."""
+    """Middleware that counts requests, and forbids browsers to guess media types."""
 
     def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
         self.app, self.metrics = app, metrics
@@ -329,7 +329,7 @@ def _matches(header: str, key: str) -> bool:
 
 
 def _answered(answer: bytes | JobResult | Unavailable) -> bytes | Response:
-    """The picture, or the refusal; reasons of the service go to its log, not to clients."""
+    """The picture, or an error response; details are logged and not sent to clients."""
     if isinstance(answer, bytes):
         return answer
     if isinstance(answer, Unavailable):

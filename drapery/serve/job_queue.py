@@ -1,4 +1,4 @@
-"""Jobs from many requests at once: each is drawn once, by workers that are kept running."""
+"""A queue for jobs of many requests: equal jobs are drawn once, by workers that keep running."""
 
 import logging
 import math
@@ -13,7 +13,7 @@ from drapery.batch.jobs import Job, JobResult
 
 T = TypeVar("T")
 RESTARTS = RetryPolicy(limit=math.inf, pause=0.5, longest=30.0)
-"""An executor that fails is made again after growing pauses, for ever."""
+"""A failed executor is replaced after growing pauses, without a limit."""
 CLOSE_TIMEOUT = 3.0
 """How long `close` waits for the thread [s]."""
 
@@ -34,7 +34,7 @@ Answer: TypeAlias = Future[T | Unavailable]
 
 @dataclass
 class _Pending(Generic[T]):
-    """A job that is queued or running. waiters: how many wait for its answer."""
+    """A job that is queued or running. waiters: the number of requests that wait for it."""
 
     job: Job
     answer: Answer[T] = field(default_factory=Future)
@@ -53,8 +53,8 @@ class JobQueue(Generic[T]):
     ) -> None:
         """Start the thread.
 
-        spawn: makes the executor. finish: turns a result into the answer of those who wait. Both
-        are called in the thread. limit: how many jobs may be queued.
+        spawn: makes the executor. finish: makes the answer from a result. Both are called in the
+        thread. limit: the most queued jobs.
         """
         self._spawn, self._finish, self._limit = spawn, finish, limit
         self._restarts = restarts
@@ -84,8 +84,8 @@ class JobQueue(Generic[T]):
     def ask(self, job: Job, known: Callable[[], T | None] = lambda: None) -> Answer[T]:
         """The answer to a job; equal jobs share one. Raises BusyError.
 
-        known: the answer if there is one already; what `finish` did is done when this is called.
-        Each call of `ask` is followed by one of `leave`.
+        known: returns the answer if it exists already; it is called after `finish` has returned.
+        Call `leave` once after each call of `ask`.
         """
         with self._changed:
             pending = self._pending.get(job.key)
@@ -104,7 +104,7 @@ class JobQueue(Generic[T]):
             return pending.answer
 
     def leave(self, job: Job, answer: Answer[T]) -> None:
-        """Say that one who asked waits no longer; a queued job that nobody waits for is dropped."""
+        """End the wait of one request; a queued job for which none waits is removed."""
         with self._changed:
             pending = self._pending.get(job.key)
             if pending is None or pending.answer is not answer:

@@ -1,4 +1,4 @@
-"""Sheets of drawn pictures: all rotations of one thing, one design over many packs."""
+"""Sheets of drawn pictures: all rotations of one design, one design with many packs."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -39,9 +39,9 @@ def _rotations(design: Banner | None, settings: Settings) -> list[Frame]:
 def packs_sheet(
     banner: Banner, paths: Sequence[str | Path], settings: Settings, *, scale: int | None = None
 ) -> PictureSheet:
-    """One design over our own art, and over each pack alone, drawn by the settings.
+    """One design with our own art, and with each pack alone, drawn by the settings.
 
-    scale: shows plain faces instead, each texel of a 64 x 64 pack so many pixels wide.
+    scale: draws plain faces instead; it is the width of a texel of a 64 x 64 pack [pixels].
     Raises OptionError, PackError or BackendError.
     """
     stacks: list[tuple[str, tuple[str | Path, ...]]] = [("our own art", ())]

@@ -42,7 +42,7 @@ def patterns_sheet(
 
 
 def contents_sheet(packs: Packs, *, base: str = "white", dye: str = "black") -> PictureSheet:
-    """Every pattern of a stack of packs, and which of the packs it is from.
+    """Every pattern of a stack of packs, with the pack that it is from.
 
     Raises OptionError for more than 2000 patterns.
     """

@@ -1,4 +1,4 @@
-"""A sheet as a page of HTML that holds its pictures inside itself."""
+"""A sheet as a page of HTML with embedded pictures."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""Labelled pictures together, written as one picture or as a page that holds them all."""
+"""Sheets of labelled pictures, written as one picture or as a page of HTML."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ from drapery.render import (
 
 @dataclass(frozen=True, eq=False)
 class SheetCell:
-    """One picture and what it is."""
+    """One picture and its label."""
 
     label: str
     pixels: Pixels
@@ -25,8 +25,8 @@ class SheetCell:
 class PictureSheet:
     """Pictures of one size in rows.
 
-    columns: pictures in a row. across, down: headings of columns and rows, which then take the
-    labels' place; both or neither.
+    columns: pictures in a row. across, down: headings of columns and rows, which replace the
+    labels; give both or neither.
     """
 
     title: str
@@ -58,7 +58,7 @@ class PictureSheet:
 
 
 def check_sheet_target(path: Path) -> None:
-    """Refuse a sheet's target before the work. Raises OptionError or OutputError."""
+    """Check the target of a sheet before drawing. Raises OptionError or OutputError."""
     if path.suffix.lower() == ".html":
         check_writable(path)
     else:

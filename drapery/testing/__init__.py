@@ -1,8 +1,8 @@
 """Golden-image tests: a pytest plugin, and the same checks without writing Python.
 
-With pytest the fixture `golden`, of the type `Golden`, compares a picture with its golden file. A
-TOML or YAML file of cases is checked by `read_cases` and `check_cases`. A picture is compared by
-itself with `agrees`, within a `Tolerance`. Names are loaded when they are first used.
+With pytest the fixture `golden`, of the type `Golden`, compares a picture with its golden file.
+`read_cases` and `check_cases` check a TOML or YAML file of cases. `agrees` compares two pictures
+within a `Tolerance`. Names are loaded when they are first used.
 """
 
 from importlib import import_module

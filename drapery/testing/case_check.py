@@ -1,4 +1,4 @@
-"""Checking a file of cases: each is drawn and compared with its golden, or becomes the new one."""
+"""Checks a file of cases: each is drawn and compared with its golden, or replaces it."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ from drapery.testing.golden import (
 
 @dataclass(frozen=True)
 class CaseResult:
-    """The result of a case. fault: one line, or None where the picture agrees with its golden."""
+    """The result of a case. fault: one line, or None if the picture agrees with its golden."""
 
     name: str
     fault: str | None = None
@@ -35,7 +35,7 @@ class CaseResult:
 def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[CaseResult]:
     """Draw each case and compare it with its golden; pictures of failures go to `report`.
 
-    Raises a DraperyError that names the case where one cannot be drawn.
+    Raises a DraperyError that names the case if it cannot be drawn.
     """
     for case in cases.case:
         frame, notes = _draw(case)
@@ -44,9 +44,9 @@ def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[CaseRes
 
 
 def update_cases(cases: CaseFile, folder: Path) -> Iterator[CaseResult]:
-    """Draw each case and write it as the golden where it differs from the one there.
+    """Draw each case and write it as the new golden if it differs from the present one.
 
-    Raises OutputError, or a DraperyError that names the case where one cannot be drawn.
+    Raises OutputError, or a DraperyError that names the case if it cannot be drawn.
     """
     for case in cases.case:
         frame, notes = _draw(case)

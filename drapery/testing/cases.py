@@ -35,7 +35,7 @@ OWN = ("name", "design", "tolerance", "pixels", "hashed")
 
 
 class Case(BaseModel):
-    """One picture: what is drawn, and how far it may differ from its golden."""
+    """One picture: its design and options, and how much it may differ from its golden."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -76,7 +76,7 @@ def read_cases(path: Path) -> CaseFile:
 
 
 def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
-    """A case's own keys, and its checked settings. Raises OptionError."""
+    """The keys of a case with its checked settings. Raises OptionError."""
     own = {name: value for name, value in words.items() if name in OWN}
     options = {name: value for name, value in words.items() if name in NAMES}
     known = NAMES.union(OWN)
@@ -116,7 +116,7 @@ def _check_names(path: Path, cases: tuple[Case, ...]) -> None:
     for case in cases:
         # Some file systems ignore case.
         if case.name.lower() in seen:
-            raise OptionError(f"{path}: two cases are named {case.name!r}; give each its own name")
+            raise OptionError(f"{path}: two cases are named {case.name!r}; rename one of them")
         seen.add(case.name.lower())
 
 

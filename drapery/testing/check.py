@@ -31,7 +31,7 @@ MAX_NAME = 200
 
 
 class _GoldenFile(SingleFileSnapshotExtension):
-    """The place and name of a golden file; subclasses define what is in it."""
+    """The place and name of a golden file; subclasses define its contents."""
 
     @classmethod
     def dirname(cls, *, test_location: PyTestLocation) -> str:
@@ -39,7 +39,7 @@ class _GoldenFile(SingleFileSnapshotExtension):
 
     @classmethod
     def get_snapshot_name(cls, *, test_location: PyTestLocation, index: Any = 0) -> str:
-        """Test and golden name as a file name; a digest stands for what no file name can hold."""
+        """Test and golden name as a file name; a digest replaces what a file name cannot hold."""
         whole = AbstractSyrupyExtension.get_snapshot_name(test_location=test_location, index=index)
         clean = super().get_snapshot_name(test_location=test_location, index=index)
         short = clean.encode()[:MAX_NAME].decode(errors="ignore")
@@ -108,7 +108,7 @@ _NAMES: pytest.StashKey[dict[Path, dict[str, str]]] = pytest.StashKey()
 
 
 def _check_case(config: pytest.Config, label: str, path: Path) -> None:
-    """Raise GoldenError for a file that differs from another by case alone.
+    """Raise GoldenError for a file whose name differs from another only in case.
 
     A file system that ignores case would keep one file for both.
     """
@@ -118,7 +118,7 @@ def _check_case(config: pytest.Config, label: str, path: Path) -> None:
     other = folders[path.parent].setdefault(path.name.casefold(), path.name)
     if other != path.name:
         raise GoldenError(
-            f"golden {label!r}: {path.name} differs from {other} by case alone; use another name"
+            f"golden {label!r}: {path.name} differs from {other} only in case; use another name"
         )
 
 
@@ -145,7 +145,7 @@ _PICTURE_GOLDENS: dict[Tolerance, type[PictureGolden]] = {Tolerance(): PictureGo
 
 
 def _picture_golden(tolerance: Tolerance) -> type[PictureGolden]:
-    """Syrupy makes its extensions itself, so a tolerance is a class attribute of one of them."""
+    """A class with this tolerance, since syrupy makes the objects of its extensions."""
     if tolerance not in _PICTURE_GOLDENS:
         _PICTURE_GOLDENS[tolerance] = type(
             "PictureGolden", (PictureGolden,), {"tolerance": tolerance}

@@ -1,4 +1,4 @@
-"""What changed between a golden and a picture, in one line."""
+"""Describes in one line what changed between a golden and a picture."""
 
 import base64
 import io
@@ -37,7 +37,7 @@ def explain_change(
     before: list[LayerNote] | None = None,
     after: list[LayerNote] | None = None,
 ) -> str:
-    """One line: how much changed and, where layer notes are given, which layer and how."""
+    """One line: how much changed and, if layer notes are given, which layer and how."""
     if expected.pixels.shape != actual.pixels.shape:
         return f"the size changed from {_size(expected)} to {_size(actual)}"
     difference = measure(expected.pixels, actual.pixels)

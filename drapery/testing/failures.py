@@ -1,6 +1,6 @@
 """The report of failed checks: expected, actual and difference of each, and a page of them all.
 
-Workers of pytest-xdist write at the same time: every failure has files of its own, and the main
+Workers of pytest-xdist write at the same time: every failure has separate files, and the main
 process makes the page from them at the end.
 """
 
@@ -39,7 +39,7 @@ def keep_failure(
 
 
 def write_report(folder: Path) -> Path | None:
-    """Make the page of all failures in a folder; None where there are none. Raises OutputError."""
+    """Make the page of all failures in a folder; None if there are none. Raises OutputError."""
     entries = [_entry(facts) for facts in sorted(folder.glob(f"*{_FACTS}"))]
     if not entries:
         return None
@@ -53,7 +53,7 @@ def write_report(folder: Path) -> Path | None:
 def clear_report(folder: Path) -> None:
     """Remove the failures of earlier runs; other files stay.
 
-    Raises OutputError where one cannot be removed, as in a folder of another user.
+    Raises OutputError if one cannot be removed, as in a folder of another user.
     """
     try:
         for facts in folder.glob(f"*{_FACTS}"):

@@ -25,8 +25,9 @@ class GoldenError(DraperyError):
 class Tolerance:
     """How far a picture may differ from its golden; by default not at all.
 
-    channel: an error of at most this much, 0..255, does not count.
-    pixels: at most so many pixels may be further away.
+    channel: channel errors up to this value, 0..255, do not count.
+    pixels: the number of pixels that may have larger errors, 0 or more.
+    Raises OptionError for numbers out of range.
     """
 
     channel: int = 0
@@ -64,7 +65,7 @@ def as_frame(picture: Any) -> Frame:
 
 
 def encode(frame: Frame, layers: list[dict[str, str]] | None = None) -> bytes:
-    """The bytes of a golden file: a PNG, with the design's layers as a note where given."""
+    """The bytes of a golden file: a PNG, with the design's layers as a note if given."""
     note = PngImagePlugin.PngInfo()
     if layers is not None:
         note.add_text(LAYERS_KEY, json.dumps(layers), zip=True)
@@ -89,13 +90,13 @@ def decode(data: bytes) -> tuple[Frame, list[dict[str, str]] | None]:
             )
     except GoldenError:
         raise
-    except Exception as error:  # Pillow raises many kinds for a broken file
+    except Exception as error:  # Pillow raises errors of many types for a broken file
         raise GoldenError(f"the golden is not a readable PNG ({error})") from error
     return frame, _layers(note) if note else None
 
 
 def _layers(note: str) -> list[dict[str, str]] | None:
-    """The layers that a golden remembers; None where another program has changed the note."""
+    """The layers in a golden's note; None if another program has changed the note."""
     try:
         layers = json.loads(note)
     except (ValueError, RecursionError):
@@ -108,7 +109,7 @@ def _layers(note: str) -> list[dict[str, str]] | None:
 
 
 def fingerprint(frame: Frame) -> bytes:
-    """The hash mode's golden: size and SHA-256 of the pixels, one line."""
+    """The golden of the hash mode: one line with size and SHA-256 of the pixels."""
     height, width = frame.pixels.shape[:2]
     digest = hashlib.sha256(frame.pixels.tobytes()).hexdigest()
     return f"{width}x{height} sha256:{digest}\n".encode()

@@ -1,7 +1,7 @@
-"""The pytest plugin: the fixture `golden`, `--drapery-update`, and a report of what failed.
+"""The pytest plugin: the fixture `golden`, `--drapery-update`, and a report of failures.
 
-Goldens live in `goldens/<test file>/` beside the test; syrupy keeps their names, finds those that
-no test uses any more, and gathers the results of pytest-xdist's workers.
+Goldens are in `goldens/<test file>/` beside the test. syrupy names them, finds those that no test
+uses any more, and collects the results of pytest-xdist's workers.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from drapery import Banner
 
 Golden = Callable[..., None]
-"""What the fixture `golden` is: `golden(picture, name, *, tolerance, pixels, ...)`."""
+"""The type of the fixture `golden`: `golden(picture, name, *, tolerance, pixels, ...)`."""
 
 _STALE: pytest.StashKey[bool] = pytest.StashKey()
 """Whether the report folder holds failures of an earlier run that cannot be removed."""
@@ -70,11 +70,11 @@ def golden(request: pytest.FixtureRequest) -> Golden:
 
     picture: a Frame, a Pillow image, a uint8 array, or a scene to be drawn by `backend`.
     name: the golden's name within the test; by default its number.
-    tolerance, pixels: errors of at most `tolerance` (0..255) do not count, and at most `pixels`
-        pixels may be further off; both 0 by default, which is right for the soft backend.
-    hashed: keep only size and SHA-256 instead of the picture.
-    backend: backends other than soft have goldens of their own.
-    banner, packs: the design that was drawn; a failure then says which layer changed.
+    tolerance, pixels: channel errors up to `tolerance` (0..255) do not count, and `pixels` pixels
+        may have larger errors; both are 0 by default, which is right for the soft backend.
+    hashed: store only size and SHA-256 instead of the picture.
+    backend: each backend other than soft has separate goldens.
+    banner, packs: the design that was drawn; a failure then names the layer that changed.
     """
     try:
         from drapery.testing.check import check_golden
