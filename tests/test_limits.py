@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from drapery import Banner, DraperyError, Layer
+from drapery import Banner, DraperyError, Layer, read_designs
 from drapery.banner.formats import registry
 from drapery.batch.manifest import ManifestError, read_manifest
 from drapery.cloth import builders
@@ -87,7 +87,7 @@ def test_a_world_has_a_largest_number_of_files(
     for number in range(3):
         (tmp_path / f"{number}.mca").write_bytes(b"")
     with pytest.raises(DesignError, match="over 2 files"):
-        registry.read_designs(tmp_path)
+        read_designs(tmp_path)
 
 
 def test_a_json_file_of_a_pack_has_a_largest_size(tmp_path: Path) -> None:
