@@ -21,10 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class MovingCloth:
-    """Cloths of one topology at one moment, and what steps them; see `begin` and `advance`.
-
-    Each call of `advance` may be given other forces and another path of the pins. For motion
-    under the same forces, `simulate` is simpler.
+    """Cloths of one topology at one moment; `simulate` for forces that change between steps.
 
     dt: one step [s]. solver_state: what the solver remembers between steps.
     resolve: the collision stage after each step; None where the cloths meet nothing.

@@ -1,17 +1,18 @@
 """The motion of cloth in the ready-made scenes: its state at each frame of a clip."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from itertools import islice
 
 import numpy as np
 
-from drapery.cloth import Cloth, Force, Gravity, PinPath, Solver, State, rest_state, simulate
+from drapery.cloth import Cloth, Force, Gravity, MovingCloth, PinPath, Solver, State, rest_state
 from drapery.cloth.collisions import Collisions
 from drapery.mesh import Array
 from drapery.scenes.catalogue import Clip
 
+GRAVITY = (Gravity(),)
+"""The forces of `motion` unless others are given."""
 STEP = 1.0 / 120.0
 """The longest time step [s], short enough for cloth that touches walking legs."""
 
@@ -21,36 +22,29 @@ def motion(
     clip: Clip,
     *,
     solver: Solver | None = None,
-    forces: Sequence[Force] = (Gravity(),),
+    forces: Sequence[Force] | Callable[[float], Sequence[Force]] = GRAVITY,
     collisions: Collisions | None = None,
     pins: PinPath | None = None,
     start: State | None = None,
     settle: float = 0.0,
     step: float = STEP,
 ) -> Iterator[State]:
-    """The state at each frame of the clip; see `simulate`.
+    """The state at each frame of the clip; see `simulate`. Raises OptionError.
 
-    start: the rest shape unless given. settle: time before the first frame [s], rounded to whole
-    frames. step: the longest time step [s].
+    forces: or a function that gives them at the time of each frame [s]. start: the rest shape
+    unless given. settle: time before the first frame [s], rounded to whole frames.
+    step: the longest time step [s].
     """
-    steps = steps_per_frame(clip, step)
-    states = simulate(
-        cloth,
-        solver,
-        forces,
-        1 / (clip.fps * steps),
-        start=start or rest_state(cloth, dtype=np.float64),
-        every=steps,
-        pins=pins,
-        collisions=collisions,
-    )
-    first = round(settle * clip.fps)
-    return islice(states, first, first + clip.count)
-
-
-def steps_per_frame(clip: Clip, step: float = STEP) -> int:
-    """How many time steps a frame of the clip takes; step: the longest one [s]."""
-    return max(1, math.ceil(1 / (clip.fps * step) - 1e-9))
+    steps = max(1, math.ceil(1 / (clip.fps * step) - 1e-9))
+    start = start or rest_state(cloth, dtype=np.float64)
+    dt, first = 1 / (clip.fps * steps), -round(settle * clip.fps)
+    moving = MovingCloth.begin(cloth, solver, dt, start=start, collisions=collisions)
+    for frame in range(first, clip.count):
+        if frame > first:
+            acting = forces((frame - 1) / clip.fps) if callable(forces) else forces
+            moving = moving.advance(acting, steps, pins)
+        if frame >= 0:
+            yield moving.state
 
 
 def placed(cloth: Cloth, position: Array, rotation: Array | None = None) -> Cloth:

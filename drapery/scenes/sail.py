@@ -7,18 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.banner.packs import Packs, open_packs
-from drapery.cloth import (
-    Cloth,
-    Drag,
-    Fabric,
-    Force,
-    Gravity,
-    MovingCloth,
-    State,
-    Wind,
-    grid,
-    rest_state,
-)
+from drapery.cloth import Cloth, Drag, Fabric, Force, Gravity, State, Wind, grid
 from drapery.cloth.colliders import Capsule, Collider
 from drapery.cloth.collisions import Collisions
 from drapery.cloth.exact import sine_of_turns
@@ -27,7 +16,7 @@ from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.moving import placed, steps_per_frame
+from drapery.scenes.moving import motion, placed
 from drapery.scenes.parameters import (
     SceneParameters,
     grid_parameter,
@@ -102,19 +91,13 @@ def sail_states(
 ) -> Iterator[State]:
     """The sail at each frame. A command takes effect at the first frame at or after its time."""
     times = [setting.time - 1e-9 for setting in settings]
-    steps = steps_per_frame(clip)
-    sail = MovingCloth.begin(
+    return motion(
         cloth,
-        SolverVerlet(),
-        1 / (clip.fps * steps),
-        start=rest_state(cloth, dtype=np.float64),
+        clip,
+        solver=SolverVerlet(),
+        forces=lambda time: _forces(parameters, settings[bisect_right(times, time) - 1]),
         collisions=Collisions(spars(), parameters.thickness, order=3),
     )
-    yield sail.state
-    for frame in range(clip.count - 1):
-        setting = settings[bisect_right(times, frame / clip.fps) - 1]
-        sail = sail.advance(_forces(parameters, setting), steps)
-        yield sail.state
 
 
 def spars() -> tuple[Collider, ...]:

@@ -64,14 +64,9 @@ def play(parameters: StressParameters, clip: Clip) -> Iterator[Scene]:
 def _motion(parameters: StressParameters, clip: Clip, places: Array) -> Iterator[Array]:
     cloth = grid(5, 9, *FLAG_SIZE)
     wind = Wind((0.4 * parameters.wind, 0.0, parameters.wind), seed=parameters.seed, origins=places)
-    states = motion(
-        cloth,
-        clip,
-        forces=(Gravity(), wind),
-        start=rest_state(cloth, len(places), np.float32),
-        settle=parameters.settle,
-        step=1 / 60,
-    )
+    start, settle = rest_state(cloth, len(places), np.float32), parameters.settle
+    forces = (Gravity(), wind)
+    states = motion(cloth, clip, forces=forces, start=start, settle=settle, step=1 / 60)
     return (state.positions for state in states)
 
 
