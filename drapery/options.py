@@ -2,7 +2,8 @@
 
 import difflib
 import re
-from collections.abc import Mapping
+from collections.abc import Hashable, Iterable, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ from drapery.errors import OptionError
 from drapery.settings import NAMED_OPTIONS, Settings
 
 NAMES = frozenset(NAMED_OPTIONS)
+MAX_HINTS = 8
+"""The most unknown names for which the nearest known name is looked up."""
 
 
 def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str]:
@@ -20,10 +23,11 @@ def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str
     """
     values: dict[str, Any] = {}
     faults: list[str] = []
+    refusals = iter(unknown_names(given, NAMES))
     for name, value in given.items():
         try:
             if name not in NAMED_OPTIONS:
-                raise OptionError(unknown(name, NAMES))
+                raise OptionError(next(refusals))
             values[name] = NAMED_OPTIONS[name].parse(value, folder)
         except OptionError as error:
             faults.append(one_line(str(error)))
@@ -35,8 +39,19 @@ def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str
         return [one_line(str(error))]
 
 
-def unknown(name: object, known: frozenset[str]) -> str:
-    """The message for an unknown option."""
+def unknown_names(names: Iterable[Hashable], known: frozenset[str]) -> list[str]:
+    """The message for each name that no option has.
+
+    Only the first `MAX_HINTS` are compared with all known names, which takes time.
+    """
+    strange = [name for name in names if name not in known]
+    plain = [f"{str(name)[:40]!r} is not an option; leave it out" for name in strange[MAX_HINTS:]]
+    return [unknown(name, known) for name in strange[:MAX_HINTS]] + plain
+
+
+@lru_cache(1024)
+def unknown(name: Hashable, known: frozenset[str]) -> str:
+    """The message for a name that no option has."""
     shown = str(name)[:40]
     close = difflib.get_close_matches(shown, known, 1)
     hint = f"did you mean {close[0]}?" if close else "leave it out"

@@ -1,5 +1,6 @@
 """One table describes every option, and all that takes options agrees with it."""
 
+import time
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
@@ -243,3 +244,11 @@ def test_paths_and_packs_in_memory_are_distinguished() -> None:
         Settings(packs=(Anything(read=1, label="x"),)).pack_paths  # type: ignore[arg-type] # noqa: B018
     with pytest.raises(OptionError, match="texture: it is an array"):
         Settings(texture=np.zeros((32, 64, 4), np.uint8)).texture_path  # noqa: B018
+
+
+def test_many_unknown_names_are_refused_soon() -> None:
+    start = time.process_time()
+    faults = check_options({f"winds{number}": 1 for number in range(20_000)}, Path())
+    assert isinstance(faults, list) and len(faults) == 20_000
+    assert "did you mean wind" in faults[0] and "leave it out" in faults[-1]
+    assert time.process_time() - start < 1

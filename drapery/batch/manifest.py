@@ -11,7 +11,7 @@ from drapery import Banner
 from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
 from drapery.option import shown
-from drapery.options import check_options, one_line, unknown
+from drapery.options import check_options, one_line, unknown_names
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 
 MAX_JOBS = 1_000_000
@@ -144,7 +144,7 @@ def _request(
         values["packs"] = values.pop("pack")
     options = {name: values.pop(name) for name in list(values) if name in OPTIONS}
     known = frozenset((*TEXTS, *LOOP_OPTIONS, *OPTIONS))
-    faults = [unknown(name, known) for name in values if name not in known]
+    faults = unknown_names(values, known)
     fields = _fields(values, faults)
     settings = check_options(options, folder)
     faults += settings if isinstance(settings, list) else _objects(settings, options)

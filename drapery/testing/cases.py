@@ -23,7 +23,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 
 from drapery.errors import OptionError
-from drapery.options import NAMES, check_options, one_line, unknown
+from drapery.options import NAMES, check_options, one_line, unknown_names
 from drapery.settings import Settings
 from drapery.yaml_text import load_yaml
 
@@ -80,7 +80,7 @@ def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
     own = {name: value for name, value in words.items() if name in OWN}
     options = {name: value for name, value in words.items() if name in NAMES}
     known = NAMES.union(OWN)
-    faults = [unknown(name, known) for name in words if name not in known]
+    faults = unknown_names(words, known)
     settings = check_options({"size": DEFAULTS.size} | options, path.parent)
     if isinstance(settings, list):
         faults += settings
