@@ -1,10 +1,11 @@
-"""Fuzzing of the forms: seeded mutations of sound inputs, and a report of their outcomes.
+"""Fuzzing of the forms: seeded mutations of valid inputs, and a report of what came of them.
 
-The suite runs a short slice of it, `benchmarks/fuzz_formats.py` the long run.
+The suite runs a short slice of it, `python -m benchmarks.fuzz` the long run.
 """
 
 import gzip
 import io
+import math
 import random
 import re
 import struct
@@ -62,13 +63,17 @@ def fuzz(
     read: Callable[[Any], Iterable[Any]],
     samples: Sequence[Any],
     mutate: Callable[[random.Random, Sequence[Any]], Any],
-    count: int,
+    count: float = math.inf,
     seed: int = 0,
+    seconds: float = math.inf,
 ) -> FuzzReport:
-    """Read `count` mutated samples and report the outcomes."""
+    """Read mutated samples and report the outcomes.
+
+    count: of the samples. seconds: after which no other is read, where fewer were.
+    """
     rng = random.Random(seed)
-    report = FuzzReport()
-    for _ in range(count):
+    report, end = FuzzReport(), time.monotonic() + seconds
+    while report.count < count and time.monotonic() < end:
         judge(read, mutate(rng, samples), report)
     return report
 
@@ -128,8 +133,8 @@ def mutate_bytes(rng: random.Random, samples: Sequence[bytes]) -> bytes:
     if rng.random() < 0.5:
         return _with_other_tree(rng, data)
     if data[:2] == GZIP and rng.random() < 0.8:
-        return gzip.compress(_changed(rng, gzip.decompress(data), samples), 1, mtime=0)
-    return _changed(rng, data, samples)
+        return gzip.compress(change_bytes(rng, gzip.decompress(data), samples), 1, mtime=0)
+    return change_bytes(rng, data, samples)
 
 
 def unwrapped(sample: bytes) -> bytes:
@@ -223,7 +228,8 @@ _ODD_TAGS = [
 ]
 
 
-def _changed(rng: random.Random, data: bytes, samples: Sequence[bytes]) -> bytes:
+def change_bytes(rng: random.Random, data: bytes, samples: Sequence[bytes]) -> bytes:
+    """One to eight changes of bytes."""
     for _ in range(rng.randint(1, 8)):
         data = rng.choice(_BYTE_CHANGES)(rng, data, samples)[:MAX_INPUT]
     return data

@@ -1,58 +1,41 @@
-"""Fuzz every form of a banner: `python -m benchmarks.fuzz_formats [--count N] [FORM…]`.
+"""Fuzz every reader of input from outside: `python -m benchmarks.fuzz [--minutes 10] [READER ...]`.
 
-Each form's sound samples are changed at random (seeded) and read. Every outcome must be banners
-or a DraperyError of one line, within a second and 200 MB; anything else is a failure, whose
-input `--save` keeps. By default 100,000 inputs for a form of text, 20,000 for one of bytes.
-With `--atheris FORM`, atheris (if installed) drives the changes by coverage instead.
+Valid inputs of each reader are changed at random (seeded) and read. Every outcome must be a result
+or a DraperyError of one line, within a second and 200 MB; anything else is a failure, and the exit
+code is then 1. `--save` writes the inputs that failed. The readers share the time, or read
+`--count` inputs each. With `--atheris READER`, atheris (if installed) drives the
+changes by coverage instead.
 """
 
 import argparse
+import contextlib
+import math
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
+import fuzz_targets
 import fuzzing
+from fuzz_targets import Target
 
-TEXT_COUNT, BINARY_COUNT = 100_000, 20_000
-
-
-class Target(NamedTuple):
-    """A form to fuzz: its reader, sound samples, how to change them, how often."""
-
-    read: Callable[[Any], Iterable[Any]]
-    samples: Sequence[Any]
-    mutate: Callable[..., Any]
-    count: int
+from drapery.errors import DraperyError
 
 
-def targets() -> dict[str, Target]:
-    """All forms by name; those of bytes first."""
-    readers, samples = fuzzing.binary_readers(), fuzzing.binary_samples()
-    found = {
-        name: Target(readers[name], samples[name], fuzzing.mutate_bytes, BINARY_COUNT)
-        for name in readers
-    }
-    readers, texts = fuzzing.text_readers(), fuzzing.text_samples()
-    return found | {
-        name: Target(readers[name], texts[name], fuzzing.mutate_text, TEXT_COUNT)
-        for name in readers
-    }
-
-
-def run(name: str, target: Target, count: int, seed: int) -> fuzzing.FuzzReport:
-    """Fuzz one form and print what came of it."""
+def run(name: str, target: Target, count: float, seed: int, seconds: float) -> fuzzing.FuzzReport:
+    """Fuzz one reader and print what came of it."""
     for sample in target.samples:  # whatever is loaded once is not the inputs' memory
-        list(target.read(sample))
+        with contextlib.suppress(DraperyError):
+            list(target.read(sample))
     start = time.perf_counter()
-    report = fuzzing.fuzz(target.read, target.samples, target.mutate, count, seed)
-    seconds = time.perf_counter() - start
+    report = fuzzing.fuzz(target.read, target.samples, target.mutate, count, seed, seconds)
+    taken = time.perf_counter() - start
     print(
-        f"{name}: {report.count} inputs in {seconds:.0f} s, slowest {report.slowest:.3f} s,"
+        f"{name}: {report.count} inputs in {taken:.0f} s, slowest {report.slowest:.3f} s,"
         f" heaviest {report.heaviest:.0f} MB, {len(report.failures)} failures",
         flush=True,
     )
@@ -66,14 +49,14 @@ def save(failures: Sequence[tuple[Any, str]], name: str, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for number, (given, _) in enumerate(failures):
         data = given if isinstance(given, bytes) else str(given).encode("utf-8", "surrogatepass")
-        (folder / f"{name}-{number}").write_bytes(data)
+        (folder / f"{name.replace(' ', '-')}-{number}").write_bytes(data)
 
 
 def drive_by_coverage(target: Target, arguments: list[str]) -> None:
     """Hand the form to atheris, which runs until it fails or is stopped."""
     import atheris
 
-    binary = target.mutate is fuzzing.mutate_bytes
+    binary = isinstance(target.samples[0], bytes)
 
     def one_input(data: bytes) -> None:
         given = data if binary else data.decode("utf-8", "replace")
@@ -94,20 +77,24 @@ def drive_by_coverage(target: Target, arguments: list[str]) -> None:
 def main() -> int:
     """The command line. 1 if anything failed."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("forms", nargs="*", help="all of them by default")
-    parser.add_argument("--count", type=int, help="inputs a form")
+    parser.add_argument("readers", nargs="*", help="all of them by default")
+    parser.add_argument("--minutes", type=float, default=10.0, help="of all readers together")
+    parser.add_argument("--count", type=int, help="inputs of a reader, in place of minutes")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--save", type=Path, help="folder for the inputs that failed")
-    parser.add_argument("--atheris", action="store_true", help="drive the one form by coverage")
+    parser.add_argument("--atheris", action="store_true", help="drive one reader by coverage")
     options, rest = parser.parse_known_args()
-    known = targets()
+    known = fuzz_targets.targets()
+    names = options.readers or list(known)
+    if strange := [name for name in names if name not in known]:
+        parser.error(f"{strange[0]} is not known; known are {', '.join(known)}")
     if options.atheris:
-        drive_by_coverage(known[options.forms[0]], rest)
+        drive_by_coverage(known[names[0]], rest)
         return 0
+    seconds = math.inf if options.count else options.minutes * 60 / len(names)
     failed = False
-    for name in options.forms or known:
-        target = known[name]
-        report = run(name, target, options.count or target.count, options.seed)
+    for name in names:
+        report = run(name, known[name], options.count or math.inf, options.seed, seconds)
         for _, reason in report.failures[:5]:
             print(f"  FAILURE {reason}")
         if options.save and report.failures:

@@ -1,0 +1,201 @@
+"""Every reader of input from outside, with valid inputs and a way to change them."""
+
+import atexit
+import contextlib
+import io
+import os
+import random
+import sys
+import tempfile
+import zipfile
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+from unittest import mock
+from urllib.parse import urlencode
+
+import fuzzing
+import numpy as np
+import pack_maker
+
+from drapery import cli
+from drapery.batch.manifest import ManifestError, read_manifest
+from drapery.errors import OptionError
+from drapery.packs import open_packs
+from drapery.testing.cases import read_cases
+
+GIVE = '/give @p white_banner[banner_patterns=[{pattern:"creeper",color:"lime"}]]'
+PACK = {
+    "pack.mcmeta": pack_maker.mcmeta(46, overlays={"entries": []}, filter={"block": []}),
+    pack_maker.CREEPER: pack_maker.plain(255, 0, 0, 255),
+    pack_maker.CREEPER + ".mcmeta": b'{"animation": {"frametime": 2, "frames": [0]}}',
+    pack_maker.NEW_BASE: pack_maker.png(pack_maker.noise(1)),
+    pack_maker.SHIELD + "creeper.png": pack_maker.png(np.zeros((64, 64), np.uint8)),
+}
+MANIFESTS = {
+    "csv": "design,name,size,wind\nwhite creeper:lime,a,32x32,5\nred,b,,\n",
+    "jsonl": '{"design": "red", "size": "32x32"}\n{"design": "white creeper:lime"}\n',
+    "yaml": "- design: &d white creeper:lime\n  size: 32x32\n- {design: *d, seed: 3}\n",
+}
+CASES = {
+    "toml": '[defaults]\nsize = "32x32"\n[[case]]\nname = "a"\ndesign = "red"\nwind = 5\n',
+    "yaml": "defaults: {size: 32x32}\ncase:\n- {name: a, design: red, wind: 5}\n",
+}
+COMMANDS = {
+    "show": [GIVE, "white creeper:lime\n--as\njson", "red\n--number\n1\n--from\ntext"],
+    "render": [
+        "white\n--size\n32x32\n--wind\n5\n--seed\n3\n--view\niso\n--background\n#aabbcc",
+        f"{GIVE}\n--grid\n9x9\n--pixel\n4\n--layers\nflat\n--rotation\n3\n--format\n75",
+    ],
+}
+"""Words on lines of their own; none of these draws, since the target's folder does not exist."""
+
+
+class Target(NamedTuple):
+    """A reader: valid inputs, and how to change them."""
+
+    read: Callable[[Any], Iterable[Any]]
+    samples: Sequence[Any]
+    mutate: Callable[[random.Random, Sequence[Any]], Any]
+
+
+def targets() -> dict[str, Target]:
+    """All readers by name."""
+    readers, samples = fuzzing.binary_readers(), fuzzing.binary_samples()
+    found = {name: Target(readers[name], samples[name], fuzzing.mutate_bytes) for name in readers}
+    readers, texts = fuzzing.text_readers(), fuzzing.text_samples()
+    found |= {name: Target(readers[name], texts[name], fuzzing.mutate_text) for name in readers}
+    return found | other_targets()
+
+
+def other_targets() -> dict[str, Target]:
+    """Readers of other things than designs."""
+    found = {"pack": Target(_read_pack, [_zipped(PACK)], _mutate_pack)}
+    for ending, text in MANIFESTS.items():
+        found[f"manifest.{ending}"] = Target(_file_reader(ending, _jobs), [text], _mutate_text)
+    for ending, text in CASES.items():
+        found[f"cases.{ending}"] = Target(_file_reader(ending, _cases), [text], _mutate_text)
+    for name, samples in COMMANDS.items():
+        found[f"command {name}"] = Target(_command(name), samples, fuzzing.mutate_text)
+    with contextlib.suppress(ImportError):  # the service is an extra
+        queries = [
+            urlencode({"design": GIVE, "size": "32x32", "seed": 3}),
+            "design=red&wind=9&time=1",
+        ]
+        found["query"] = Target(_query_reader(), queries, fuzzing.mutate_text)
+    return found
+
+
+def _folder() -> Path:
+    global _FOLDER
+    if _FOLDER is None:
+        holder = tempfile.TemporaryDirectory()
+        atexit.register(holder.cleanup)
+        _FOLDER = Path(holder.name)
+    return _FOLDER
+
+
+_FOLDER: Path | None = None
+
+
+def _mutate_text(rng: random.Random, samples: Sequence[str]) -> bytes:
+    # A row takes a millisecond, so that the bound on time is one on rows too.
+    return fuzzing.mutate_text(rng, samples)[:2000].encode("utf-8", "surrogatepass")
+
+
+def _file_reader(
+    ending: str, read: Callable[[Path], Iterable[Any]]
+) -> Callable[[bytes], Iterable[Any]]:
+    def write_and_read(data: bytes | str) -> Iterable[Any]:
+        path = _folder() / f"input.{ending}"
+        path.write_bytes(data if isinstance(data, bytes) else data.encode())
+        return read(path)
+
+    return write_and_read
+
+
+def _jobs(path: Path) -> Iterable[Any]:
+    try:
+        return read_manifest(path)
+    except ManifestError as error:
+        raise OptionError(str(error.faults[0])) from None
+
+
+def _cases(path: Path) -> Iterable[Any]:
+    return read_cases(path).case
+
+
+def _query_reader() -> Callable[[str], Iterable[Any]]:
+    from drapery.serve.request_params import ServiceConfig, parse_query, read_request
+
+    config = ServiceConfig()
+
+    def read(text: str) -> Iterable[Any]:
+        query = parse_query(text.encode("utf-8", "surrogatepass"))
+        requests = [read_request(query, ending, config) for ending in (".png", ".gif")]
+        for reasons in requests:
+            if isinstance(reasons, list):
+                raise OptionError(reasons[0])
+        return requests
+
+    return read
+
+
+def _command(name: str) -> Callable[[str], Iterable[Any]]:
+    def run(text: str) -> Iterable[Any]:
+        target = ["-o", "missing/out.png"] if name == "render" else []
+        line, errors = ["drapery", name, *target, *text.split("\n"), *target], io.StringIO()
+        with _standard_streams(line, errors):
+            try:
+                cli.main()
+            except SystemExit as ended:
+                code = ended.code
+        said = errors.getvalue()
+        assert code in (0, 2), f"exit code {code}: {said}"
+        assert all(line.startswith("drapery: ") for line in said.splitlines()), said
+        if code and "the folder missing does not exist" not in said:
+            raise OptionError(said.rstrip("\n"))
+        return [text]
+
+    return run
+
+
+@contextlib.contextmanager
+def _standard_streams(line: list[str], errors: io.StringIO) -> Iterator[None]:
+    here = Path.cwd()
+    os.chdir(_folder())
+    nothing = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+    try:
+        with (
+            mock.patch.object(sys, "argv", line),
+            mock.patch.object(sys, "stdin", nothing),
+            contextlib.redirect_stdout(io.StringIO()),
+            contextlib.redirect_stderr(errors),
+        ):
+            yield
+    finally:
+        os.chdir(here)
+
+
+def _read_pack(data: bytes) -> Iterable[Any]:
+    path = _folder() / "pack.zip"
+    path.write_bytes(data)
+    packs = open_packs([path])
+    return [packs.sheet("creeper"), *packs.patterns()[:1]]
+
+
+def _mutate_pack(rng: random.Random, samples: Sequence[bytes]) -> bytes:
+    if rng.random() < 0.3:
+        return fuzzing.change_bytes(rng, rng.choice(samples), samples)
+    files = dict(PACK)
+    name = rng.choice(list(files))
+    files[name] = fuzzing.change_bytes(rng, files[name], list(PACK.values()))
+    return _zipped(files)
+
+
+def _zipped(files: dict[str, bytes]) -> bytes:
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as pack:
+        for name, content in files.items():
+            pack.writestr(name, content)
+    return data.getvalue()

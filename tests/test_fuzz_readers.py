@@ -1,0 +1,21 @@
+"""A slice of the fuzzing of packs, manifests, cases, queries and command lines."""
+
+import fuzz_targets
+import fuzzing
+import pytest
+
+TARGETS = fuzz_targets.other_targets()
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_the_samples_are_valid(name: str) -> None:
+    for sample in TARGETS[name].samples:
+        assert list(TARGETS[name].read(sample))
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_changed_inputs_are_read_or_refused(name: str) -> None:
+    target = TARGETS[name]
+    report = fuzzing.fuzz(target.read, target.samples, target.mutate, 150, seed=3)
+    assert not report.failures, report.failures[0]
+    assert report.count == 150 and len(report.outcomes) > 3
