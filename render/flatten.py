@@ -21,7 +21,7 @@ _cache: IdentityCache[MaterialTables] = IdentityCache()
 
 
 def composite_layers(tables: MaterialTables) -> MaterialTables:
-    """The same materials with one layer each; `tables` itself where their sizes do not allow it."""
+    """The same materials with one layer each; `tables` itself if the textures' sizes prevent it."""
     return _cache.get((tables,), None, lambda: _flatten(tables))
 
 

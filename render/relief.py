@@ -24,7 +24,7 @@ SLACK = 1e-9
 
 
 def bake_normal_maps(scene: Scene) -> Scene:
-    """The scene with the light of surfaces that have normal maps in their textures.
+    """The scene with textures that contain the light of surfaces with normal maps.
 
     A scene without such maps is returned unchanged.
     """
