@@ -32,7 +32,7 @@ def run(
     background: o.BackgroundOption = "transparent",
     backend: o.BackendOption = "auto",
 ) -> None:
-    """Take a banner apart: its loom steps, hidden layers, and an exploded view."""
+    """Show the layers of a banner: loom steps, hidden layers, and an exploded view."""
     from drapery.banner import read_design
     from drapery.packs import open_packs
     from drapery.pictures import draw_scenes

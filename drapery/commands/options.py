@@ -115,7 +115,7 @@ def options_of(words: Mapping[str, Any]) -> Options:
 
 
 def design_of(words: Mapping[str, Any]) -> "Banner | None":
-    """The design that a command is given, if it is given any. Raises DesignError."""
+    """The design among a command's words, or None. Raises DesignError."""
     from drapery.banner import read_design
 
     text = words["design"]

@@ -86,7 +86,7 @@ def write_packs(
     background: o.BackgroundOption = "transparent",
     backend: o.BackendOption = "auto",
 ) -> None:
-    """One design over our own art and over each of many packs."""
+    """One design with our own art and with each of many packs."""
     from drapery.banner import read_design
     from drapery.settings import OPTIONS, Settings
     from drapery.sheets import check_sheet_target, packs_sheet
