@@ -84,6 +84,7 @@ def test_a_world_has_a_largest_number_of_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("drapery.banner.formats.files.MAX_FILES", 2)
+    (tmp_path / "level.dat").write_bytes(b"")
     for number in range(3):
         (tmp_path / f"{number}.mca").write_bytes(b"")
     with pytest.raises(DesignError, match="over 2 files"):
