@@ -22,7 +22,7 @@ RECONNECT = 2.0
 def make_app(
     studio: StudioConfig, *, hosts: frozenset[str] | None = LOOPBACK, token: str | None
 ) -> Guard:
-    """The studio as an ASGI application; one in a process, since its page framework is global."""
+    """The studio as an ASGI application. One per process: its page framework is global."""
     sessions = Sessions(studio)
 
     @asynccontextmanager
@@ -58,7 +58,7 @@ def run(
 ) -> None:
     """Serve until the process is stopped. Raises OutputError for a port that is in use.
 
-    ready: is called with the page's address as soon as the server answers.
+    ready: a callable; it gets the page's address as soon as the server answers.
     """
     local = host in LOOPBACK
     guarded = make_app(studio, hosts=LOOPBACK if local else None, token=token)
@@ -68,7 +68,7 @@ def run(
         ws_max_size=1 << 20,
         timeout_graceful_shutdown=1,
         server_header=False,
-        # Positions of a moving cloth hardly shrink, and shrinking them takes longer than sending.
+        # Compression hardly shortens positions of a moving cloth, and takes longer than sending.
         ws_per_message_deflate=False,
     )
     listening = _listen(host, port)

@@ -13,14 +13,14 @@ from drapery.studio.document import Document
 
 FACE_SCALE = 8
 COLUMNS = 9
-"""Patterns in a row of those that are compared."""
+"""The number of patterns in one row of the comparison."""
 CELL = (20, 40)
-"""Width and height of one pattern in a sheet of them [pixels]."""
+"""Width and height of one pattern in a pattern sheet [pixels]."""
 GAP = 2
 
 
 def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
-    """The plain face, 20 x 40 units of `scale` pixels; of a shield 12 x 22. Raises PackError."""
+    """The flat face: 20 x 40 units (shield: 12 x 22) of `scale` pixels each. Raises PackError."""
     if banner.kind == "banner":
         region, layers = FLAG_REGIONS["front"], flag_layers(banner, packs)
     else:
@@ -29,7 +29,7 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
 
 
 def pattern_names(packs: Packs) -> tuple[str, ...]:
-    """`packs.patterns()`, listed once for each opened stack of packs."""
+    """`packs.patterns()`; the result is cached for each opened stack of packs."""
     if packs not in _names:
         _names[packs] = packs.patterns()
     return _names[packs]
@@ -66,19 +66,19 @@ def pattern_rows(sheet: bytes) -> bytes:
 
 
 def thumbnail(banner: Banner, packs: Packs) -> bytes:
-    """The face at two pixels a texel, as a PNG file. Raises PackError."""
+    """The face with two pixels per texel, as a PNG file. Raises PackError."""
     step = FACE_SCALE // 2
     face = read_png(face_png(banner, packs), "the face")
     return png_bytes(face[step // 2 :: step, step // 2 :: step].copy())
 
 
 def _cell(packs: Packs, banner: Banner) -> Texels:
-    # Small sheets are enough: the textures of fine packs have 256 times the texels.
+    # A small sheet is enough here; high-resolution packs have 256 times as many texels.
     return FLAG_REGIONS["front"].sample(composite(flag_layers(banner, packs), side=64), 1)
 
 
 def sheet_address(document: Document, dye: str) -> str:
-    """The address of `pattern_sheet` for the tab's packs and field, in a dye."""
+    """The address of `pattern_sheet` for the tab's packs, the dye of its field and this dye."""
     settings = document.settings
     mark = crc32(repr((settings.packs, settings.format)).encode())
     return f"/patterns/{document.token}.png?base={document.sketch.base}&dye={dye}&packs={mark:x}"

@@ -8,7 +8,7 @@ from nicegui.events import GenericEventArguments
 
 class _VueElement(Element):
     def show(self, **props: Any) -> None:
-        """Give the element other properties; nothing is sent where none has changed."""
+        """Set properties of the element; only sends a message if one of them has changed."""
         changed = {key: value for key, value in props.items() if self.props.get(key) != value}
         if changed:
             self.props.update(changed)
@@ -16,7 +16,7 @@ class _VueElement(Element):
 
 
 class Palette(_VueElement, component="palette.js"):
-    """Dyes of which one is marked; emits `dye` with a name."""
+    """A palette of dyes, one of them marked; emits `dye` with a name."""
 
 
 class PatternGrid(_VueElement, component="patterns.js"):

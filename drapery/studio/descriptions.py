@@ -8,12 +8,12 @@ from drapery.studio.sketch import Sketch
 
 
 def dye_title(dye: str) -> str:
-    """`light_blue` is "Light blue"."""
+    """The dye's title: "Light blue" for `light_blue`."""
     return dye.replace("_", " ").capitalize()
 
 
 def dye_colour(dye: Dye) -> str:
-    """The dye as a colour of CSS."""
+    """The dye as a CSS colour."""
     return "#{:02x}{:02x}{:02x}".format(*dye.rgb)
 
 
@@ -31,7 +31,7 @@ def view_title(view: str) -> str:
 
 
 def with_unit(option: Option, value: float) -> str:
-    """A number with the unit of its option, as `1 texel`."""
+    """A number with the unit of its option, for example `1 texel`."""
     is_symbol = len(option.unit) < 4  # such as m/s, which has no plural
     unit = option.unit if is_symbol or value != 1 else option.unit.removesuffix("s")
     return f"{value:g} {unit}".rstrip()

@@ -20,7 +20,7 @@ Event = Literal["sketch", "settings", "packs", "scene"]
 
 
 class Document:
-    """What one tab works on. A change calls the listeners of its event in the order they came.
+    """What one tab works on. A change calls the event's listeners in the order they were added.
 
     token: identifies the tab to the server; it cannot be guessed.
     survival: whether the six layers of a loom should be enough.
@@ -34,14 +34,14 @@ class Document:
         self.closed = False
         self._folder: Path | None = None
         self._packs: tuple[object, Packs] | None = None
-        # Pictures are drawn in threads, which ask for the packs while the page changes them.
+        # Threads that draw pictures read the packs while the page may change them.
         self._lock = threading.Lock()
         self._listeners: defaultdict[str, list[Callable[[], object]]] = defaultdict(list)
         self._at_close: list[Callable[[], object]] = []
 
     @property
     def sketch(self) -> Sketch:
-        """The present design."""
+        """The current design."""
         return self.history.present
 
     @property
@@ -52,7 +52,10 @@ class Document:
         return self._folder
 
     def packs(self) -> Packs:
-        """The packs of the settings, opened once while they stay the same. Raises PackError."""
+        """The packs of the settings; opened again only when the settings name others.
+
+        Raises PackError.
+        """
         return self._opened(self.settings)
 
     def _opened(self, settings: Settings) -> Packs:
@@ -63,15 +66,15 @@ class Document:
             return self._packs[1]
 
     def edit(self, sketch: Sketch) -> None:
-        """Make this the present design, as a step that can be undone; notifies "sketch"."""
+        """Replace the design, as a step that can be undone; notifies "sketch"."""
         self._go(self.history.push(sketch))
 
     def undo(self) -> None:
-        """Go one step back, if there is one; notifies "sketch"."""
+        """Undo one step, if there is one; notifies "sketch"."""
         self._go(self.history.undo())
 
     def redo(self) -> None:
-        """Repeat one undone step, if there is one; notifies "sketch"."""
+        """Redo one undone step, if there is one; notifies "sketch"."""
         self._go(self.history.redo())
 
     def _go(self, history: History[Sketch]) -> None:
@@ -82,7 +85,7 @@ class Document:
     def adjust(self, **options: Any) -> None:
         """Change options of the picture; notifies "settings", and "packs" if those changed.
 
-        Raises OptionError, or PackError for packs that cannot be opened; nothing has changed then.
+        Raises OptionError, or PackError for packs that cannot be opened; then nothing changes.
         """
         before, after = self.settings, replace(self.settings, **options)
         new_packs = (after.packs, after.format) != (before.packs, before.format)
@@ -111,7 +114,7 @@ class Document:
             self._at_close.append(call)
 
     def close(self) -> None:
-        """Stop what the tab had running and remove its files. A second call does nothing."""
+        """Stop all that runs for the tab and remove its files. A second call does nothing."""
         if self.closed:
             return
         self.closed = True

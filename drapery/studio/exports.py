@@ -17,26 +17,26 @@ from drapery.studio.document import Document
 from drapery.studio.snippets import KINDS, LOOPS, SCALE, Order, file_name, options_for
 
 MAX_PIXELS = 1 << 31
-"""Of all frames together: 512 x 512 for six minutes at 20 frames/s."""
+"""The most pixels of all frames together: 512 x 512 for six minutes at 20 frames/s."""
 MAX_RUNNING = 4
-"""Exports of all tabs at once."""
+"""The most exports that run at the same time, over all tabs."""
 
 LOG = logging.getLogger(__name__)
 
 Progress = Callable[[int, int], None]
-"""Takes how many frames are done, of how many."""
+"""A callable that gets the number of finished frames and the number of all frames."""
 
 Item = TypeVar("Item")
 
 
 class StoppedError(DraperyError):
-    """The export was stopped by its user."""
+    """The user stopped the export."""
 
 
 def make(order: Order, path: Path, progress: Progress | None = None) -> None:
     """Write the file, as the command of `snippets.as_command` does.
 
-    progress may raise, which stops the work and leaves no file. Raises OptionError, PackError,
+    If progress raises, the work stops and no file remains. Raises OptionError, PackError,
     BackendError or OutputError.
     """
     check(order)
@@ -48,12 +48,12 @@ def make(order: Order, path: Path, progress: Progress | None = None) -> None:
 
 
 def count_frames(order: Order) -> int:
-    """How many frames the file has; 1 for what does not move. Raises OptionError."""
+    """The number of frames in the file; 1 for a file without motion. Raises OptionError."""
     return frame_count(order.seconds, order.fps) if order.kind in (*LOOPS, "glb") else 1
 
 
 def check(order: Order) -> None:
-    """Raise OptionError for an order that is out of bounds, before anything is drawn."""
+    """Raise OptionError for an order that exceeds the limits; called before drawing starts."""
     one_of("kind", order.kind, KINDS)
     SCALE.check(order.scale)
     width, height = order.settings.size
@@ -139,9 +139,9 @@ def _counted(items: Iterable[Item], total: int, on_progress: Progress) -> Iterat
 
 @dataclass(eq=False)
 class Export:
-    """One export under way, or done, or stopped.
+    """One export: running, done, failed or stopped.
 
-    path: where the file lies once `state` is "done". fault: the line that says why it is "failed".
+    path: the place of the file once `state` is "done". fault: the reason if `state` is "failed".
     """
 
     order: Order
@@ -155,16 +155,16 @@ class Export:
     _thread: threading.Thread | None = None
 
     def start(self) -> None:
-        """Begin, in a thread of its own."""
+        """Start the export in a new thread."""
         self._thread = threading.Thread(target=self._run, name="export", daemon=True)
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop at the next frame; what was written goes."""
+        """Stop at the next frame; removes what has been written."""
         self._stop.set()
 
     def wait(self, seconds: float) -> bool:
-        """Wait until it has ended; whether it has."""
+        """Wait for the end of the export; returns whether it has ended."""
         if self._thread is not None:
             self._thread.join(seconds)
         return self.state != "running"
@@ -185,7 +185,7 @@ class Export:
         except (OSError, MemoryError) as error:
             self.state, self.fault = "failed", f"the export failed: {error or 'out of memory'}"
         except Exception as error:
-            # A fault in the program: the user gets a line, and the log the traceback.
+            # This is an error in the program: show one line to the user, log the traceback.
             LOG.exception("the export of %s failed", self.name)
             kind = type(error).__name__
             self.state, self.fault = "failed", f"the export failed ({kind}); see the studio's log"
@@ -196,7 +196,7 @@ class Export:
 
 
 class ExportSlots:
-    """The exports that run at once, of all tabs. limit: how many may."""
+    """The running exports of all tabs. limit: how many may run at the same time."""
 
     def __init__(self, limit: int = MAX_RUNNING) -> None:
         self._limit = limit
@@ -204,7 +204,7 @@ class ExportSlots:
         self._running: list[Export] = []
 
     def take(self, export: Export, instead_of: Export | None) -> None:
-        """Let an export run, in the place of another. Raises OptionError if no slot is free."""
+        """Let an export run; it may replace `instead_of`. Raises OptionError if no slot is free."""
         with self._lock:
             self._running = [each for each in self._running if each.state == "running"]
             others = [each for each in self._running if each is not instead_of]
@@ -214,9 +214,9 @@ class ExportSlots:
 
 
 class Exports:
-    """The exports of one tab: one at a time, and the last one's file.
+    """The exports of one tab: one at a time, and the file of the last one.
 
-    current: the one that was started last.
+    current: the export that was started last.
     """
 
     def __init__(self, document: Document, slots: ExportSlots) -> None:
@@ -228,16 +228,16 @@ class Exports:
 
     @property
     def number(self) -> int:
-        """Names the current export."""
+        """Identifies the current export."""
         return self._number
 
     def start(self, order: Order, stem: str = "banner") -> Export:
-        """Begin another export; the one before is stopped and its file goes.
+        """Start another export; stops the previous one and removes its file.
 
-        Raises OptionError for an order out of bounds, or while too many are under way.
+        Raises OptionError for an order that exceeds the limits, or while too many exports run.
         """
         check(order)
-        # Only the ending of the file's name comes from the order.
+        # The order determines only the file name's ending.
         suffix = Path(file_name(order)).suffix
         path = self._document.folder / f"export-{self._number + 1}{suffix}"
         export = Export(order, path, file_name(order, stem))
@@ -248,12 +248,12 @@ class Exports:
         return export
 
     def finished(self, number: int) -> Export | None:
-        """The export of this number, if its file is there."""
+        """The export with this number, if its file exists."""
         work = self.current
         return work if work and number == self._number and work.state == "done" else None
 
     def clear(self) -> None:
-        """Stop what is under way, and forget the file."""
+        """Stop the current export, if there is one, and remove its file."""
         if self.current is not None:
             self.current.stop()
             if self.current.state != "running":
@@ -262,13 +262,13 @@ class Exports:
 
 
 def _lower_priority() -> None:
-    """Let the live cloth go first. On Linux a thread has a niceness of its own."""
+    """Give the live cloth priority over this thread. On Linux each thread has its own niceness."""
     if sys.platform == "linux":
         with suppress(OSError):
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 5)
 
 
 def stem_of(title: str) -> str:
-    """A file's name for a title: letters, digits and dashes."""
+    """The file name, without ending, for a title: letters, digits and dashes."""
     plain = "".join(letter if letter.isalnum() else " " for letter in title.lower())
     return "-".join(plain.split())[:60] or "banner"

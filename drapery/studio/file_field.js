@@ -13,7 +13,7 @@ export default {
     </div>`,
   props: {
     address: String, label: String, accept: String, multiple: Boolean, maxBytes: Number,
-    // The tab to open when files of these endings are dropped elsewhere on the page.
+    // The tab that opens when a file with such an ending is dropped elsewhere on the page.
     tab: String,
   },
   data() {

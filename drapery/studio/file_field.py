@@ -14,9 +14,10 @@ from drapery.studio.uploads import PURPOSES
 class FileField(ui.element, component="file_field.js"):
     """A field that can be clicked, reached by Tab and dropped on.
 
-    purpose: one of PURPOSES. take: is called with the number of each file that has arrived; the
-    user is shown why another was refused. endings: as `.zip,.jar`; "" is any. tab: the panel to
-    open for files of these endings that are dropped anywhere on the page; "" ignores them.
+    purpose: one of PURPOSES. take: a callable that gets the number of each file that has arrived;
+    if a file is refused, the user sees the reason. endings: for example `.zip,.jar`; "" accepts
+    all. tab: the panel that opens when a file with such an ending is dropped elsewhere on the
+    page; "" opens none.
     """
 
     def __init__(

@@ -1,11 +1,11 @@
-"""Who may use the studio: only its own page, under a name of its own, with the token if it has one.
+"""Who may use the studio: only its own page, under a permitted host name, with the token if set.
 
-A page of another site can reach a server on this machine through its visitor's browser: by a name
-that is re-bound to 127.0.0.1, or by a websocket, which no same-origin policy protects. So the Host
-must be one of the studio's, and the Origin, if there is one, must be that Host.
+A page of another site can reach a server on this machine through its visitor's browser: with a
+host name that is re-bound to 127.0.0.1, or with a websocket, which no same-origin policy protects.
+So the Host must be one of the studio's names, and the Origin, if present, must match the Host.
 
-Starlette's TrustedHostMiddleware checks the Host alone; the Origin needs the same parsed Host, and
-a websocket that is refused needs a close frame, so both checks are made here.
+Starlette's TrustedHostMiddleware checks only the Host. The check of the Origin needs the same
+parsed Host, and a refused websocket needs a close frame, so this module makes both checks.
 """
 
 import hashlib
@@ -34,10 +34,10 @@ _HEADERS = {
 
 
 class Guard:
-    """Passes permitted requests to `app`; all others are 403.
+    """Passes permitted requests to `app`; answers all others with status 403.
 
-    hosts: the names under which the studio may be called; None is any, which needs a token.
-    token: what a visitor must bring, once as `?token=` and from then on as a cookie.
+    hosts: the permitted host names; None permits all, and then a token is required.
+    token: what a visitor must send, first as `?token=` and from then on as a cookie.
     """
 
     def __init__(self, app: ASGIApp, hosts: frozenset[str] | None, token: str | None) -> None:
@@ -78,10 +78,13 @@ class Guard:
         return is_page and self.token is not None and _equal(given, self.token)
 
     def _welcome(self, request: HTTPConnection) -> RedirectResponse:
-        """A cookie, and the same address without the token: it must not stay in the history."""
+        """Set the cookie and redirect to the address without the token.
+
+        The token must not remain in the browser's history.
+        """
         query = request.query_params.multi_items()
         rest = urlencode([(key, value) for key, value in query if key != "token"])
-        # A path that begins with two slashes would lead to another host.
+        # A browser reads a path that begins with two slashes as another host.
         path = "/" + request.scope["path"].lstrip("/\\")
         response = RedirectResponse(f"{path}?{rest}" if rest else path, 303)
         value = _cookie_value(self.token or "")
@@ -102,12 +105,12 @@ def _equal(given: str, wanted: str) -> bool:
 
 
 def _cookie_value(token: str) -> str:
-    """What the cookie holds: not the token itself, which people see."""
+    """The value of the cookie; it differs from the token, which is visible in addresses."""
     return hashlib.sha256(b"drapery studio\0" + token.encode()).hexdigest()
 
 
 def _cookie_name(request: HTTPConnection) -> str:
-    # Cookies are shared by all ports; two studios on one machine would overwrite each other's.
+    # All ports of a host share cookies: with equal names, two studios would overwrite each other's.
     port = request.headers.get("host", "").rpartition(":")[2]
     return f"drapery-studio-{port if port.isdigit() else '80'}"
 

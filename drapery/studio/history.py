@@ -1,4 +1,4 @@
-"""The steps that can be undone and repeated."""
+"""The steps that can be undone and redone."""
 
 from dataclasses import dataclass
 from typing import Generic, TypeVar
@@ -11,26 +11,26 @@ LIMIT = 200
 
 @dataclass(frozen=True)
 class History(Generic[T]):
-    """The states before the present, latest last, and those undone, next first."""
+    """The current state, the earlier states (latest last) and the undone states (next first)."""
 
     present: T
     past: tuple[T, ...] = ()
     future: tuple[T, ...] = ()
 
     def push(self, state: T) -> "History[T]":
-        """A new present; what was undone is forgotten. An equal state is no step."""
+        """Make `state` the current one; drops undone states. An equal state adds no step."""
         if state == self.present:
             return self
         return History(state, (*self.past, self.present)[-LIMIT:])
 
     def undo(self) -> "History[T]":
-        """One step back, or the same where there is none."""
+        """The history after one undo; unchanged if there is no step to undo."""
         if not self.past:
             return self
         return History(self.past[-1], self.past[:-1], (self.present, *self.future))
 
     def redo(self) -> "History[T]":
-        """One undone step forth, or the same where there is none."""
+        """The history after one redo; unchanged if there is no step to redo."""
         if not self.future:
             return self
         return History(self.future[0], (*self.past, self.present), self.future[1:])

@@ -1,5 +1,5 @@
 // The layers, topmost first. Drag a row by mouse or finger, or move it by Alt and an arrow key.
-const DRAG_START = 4; // The pointer moves so far before a drag starts [px].
+const DRAG_START = 4; // The distance that the pointer must move before a drag starts [px].
 
 export default {
   template: `
@@ -72,7 +72,7 @@ export default {
       };
     },
     pick(row) {
-      // The click that ends a drag chooses nothing.
+      // Ignore the click that ends a drag.
       if (!this.justDragged) this.$emit("choose", row.number);
     },
     act(what, row, place = 0) {
@@ -85,7 +85,7 @@ export default {
     index(row) {
       return [...this.$el.children].indexOf(row);
     },
-    // A row that moves in the page loses the focus, and so does one that is removed.
+    // A row loses the focus when it moves in the page or is removed.
     refocus() {
       if (!this.focused || document.activeElement !== document.body) return;
       const rows = [...this.$el.children];
@@ -135,7 +135,7 @@ export default {
         if (moved) this.act("move", row, place);
         else this.order = null;
         this.drop = null;
-        // After the click event that the browser sends for the drag.
+        // Reset after the click event that the browser sends at the end of the drag.
         setTimeout(() => (this.justDragged = false));
       };
     },

@@ -38,7 +38,7 @@ VERSION = 1
 FILE = "library.sqlite"
 
 LOCK_TIMEOUT = 10.0
-"""How long to wait for another studio's change [s]."""
+"""How long to wait while another studio changes the file [s]."""
 
 
 class _Base(DeclarativeBase):
@@ -82,9 +82,9 @@ class Library:
             raise OutputError(f"library {path}: {reason}") from None
         self._engine = create_engine(
             URL.create("sqlite", database=str(path)),
-            # No transaction but those that are asked for.
+            # Do not start transactions implicitly.
             connect_args={"timeout": lock_timeout, "isolation_level": None},
-            poolclass=NullPool,  # threads come and go, and a connection belongs to one
+            poolclass=NullPool,  # a connection belongs to one thread, and threads end
         )
         event.listen(self._engine, "connect", _set_pragmas)
         event.listen(self._engine, "begin", lambda conn: conn.exec_driver_sql("BEGIN IMMEDIATE"))
@@ -99,13 +99,13 @@ class Library:
             return _insert(session, valid)
 
     def change(self, design: Design) -> None:
-        """Replace the design of its number. Raises DesignError, OutputError."""
+        """Replace the saved design that has the same number. Raises DesignError, OutputError."""
         valid = checked(design)
         with self._change() as session:
             _fill(_found(session, design.number), valid, _next(session))
 
     def get(self, number: int) -> Design:
-        """The design of a number. Raises DesignError, OutputError."""
+        """The design with this number. Raises DesignError, OutputError."""
         with self._change() as session:
             return _design(_found(session, number))
 
@@ -119,7 +119,7 @@ class Library:
         self.change(replace(self.get(number), tags=tuple(tags)))
 
     def remove(self, number: int) -> Design:
-        """Take a design out; `add` puts it back. Raises DesignError, OutputError."""
+        """Remove and return a design; `add` restores it. Raises DesignError, OutputError."""
         with self._change() as session:
             row = _found(session, number)
             design = _design(row)
@@ -129,10 +129,10 @@ class Library:
     def search(
         self, words: str = "", tag: str | None = None, *, first: int = 0, limit: int = 60
     ) -> tuple[list[Design], int]:
-        """The designs with all the words in title, tags, dyes or patterns, and their total number.
+        """The designs with all words, and their total number.
 
-        first, limit: the part of the list that is returned; the latest change comes first. Raises
-        OutputError.
+        It searches title, tags, dyes and patterns. first, limit: the returned part of the list; the
+        design that was changed last comes first. Raises OutputError.
         """
         wanted = select(_Row)
         for word in words.lower().split()[:16]:
@@ -145,27 +145,27 @@ class Library:
             return [*_readable(session.scalars(page))], count or 0
 
     def tags(self) -> dict[str, int]:
-        """All tags, with how many designs have each. Raises OutputError."""
+        """All tags with the number of designs that have each. Raises OutputError."""
         counted = select(_Tag.name, func.count()).group_by(_Tag.name).order_by(_Tag.name)
         with self._change() as session:
             return {row[0]: row[1] for row in session.execute(counted)}
 
     def dump(self) -> bytes:
-        """The whole library as JSON, in the order in which designs changed. Raises OutputError."""
+        """The whole library as JSON, ordered by each design's last change. Raises OutputError."""
         with self._change() as session:
             rows = session.scalars(select(_Row).order_by(_Row.changed))
             return write_designs(_design(row) for row in rows)
 
     def load(self, data: bytes) -> tuple[int, int]:
-        """Add all designs of an export file; returns how many are new and how many were there.
+        """Add all designs of an export file; returns the numbers of new and of existing designs.
 
-        Raises DesignError, with the place, if one of them is broken; then none is added.
+        Raises DesignError, which names the place, if a design is not valid; then adds none.
         """
         designs = read_designs(data)
         with self._change() as session:
             known = {(row.tree, _names(row)) for row in session.scalars(select(_Row))}
             fresh = [design for design in designs if identity(design) not in known]
-            # The same design twice in one file counts once.
+            # A design that occurs twice in one file counts once.
             unique = list({identity(design): design for design in fresh}.values())
             _check_room(session, len(unique))
             for design in unique:
@@ -174,7 +174,7 @@ class Library:
 
     @contextmanager
     def _change(self) -> Iterator[Session]:
-        """One transaction."""
+        """A session for one transaction."""
         try:
             with Session(self._engine) as session, session.begin():
                 yield session
@@ -185,9 +185,9 @@ class Library:
 
 
 def default_place(environment: dict[str, str] | None = None) -> Path:
-    """The user's own library, in the system's folder for data of programs.
+    """The path of the user's library, in the system's folder for application data.
 
-    On Linux that is XDG_DATA_HOME (XDG Base Directory Specification 0.8), if it is absolute.
+    On Linux this is XDG_DATA_HOME (XDG Base Directory Specification 0.8), if it is absolute.
     """
     words = os.environ if environment is None else environment
     home = Path(words.get("HOME") or Path.home())
@@ -203,7 +203,7 @@ def default_place(environment: dict[str, str] | None = None) -> Path:
 
 def _set_pragmas(connection: Any, _record: object) -> None:
     connection.execute("PRAGMA foreign_keys = ON")
-    # Views and triggers of a file from elsewhere must call nothing.
+    # Views and triggers of an untrusted file must not call functions.
     connection.execute("PRAGMA trusted_schema = OFF")
 
 
@@ -270,7 +270,7 @@ def _found(session: Session, number: int) -> _Row:
 
 
 def _readable(rows: Iterable[_Row]) -> Iterator[Design]:
-    """The designs of rows; one that was damaged from outside must not hide the others."""
+    """The designs of the rows; skips rows that another program has damaged."""
     for row in rows:
         with suppress(DesignError):
             yield _design(row)

@@ -1,9 +1,8 @@
-"""The live banner: the stager of pictures, advanced step by step, with a wind that can change
-and cloth that can be grabbed.
+"""The live banner: it uses the same stager as pictures, but advances it step by step.
 
-All changes come from calls between time steps, so the same calls in the same order give the same
-motion to the bit. Without such calls the motion is that of pictures: after three seconds the cloth
-is where a picture of `time` 3 shows it.
+Its wind can change and its cloth can be grabbed. All changes are calls between time steps, so the
+same calls in the same order give a bit-identical motion. Without such calls the motion is the same
+as in pictures: after three seconds the cloth has the positions of a picture of `time` 3.
 """
 
 from collections.abc import Iterable, Sequence
@@ -31,16 +30,16 @@ from drapery.studio.wind_controls import (
 from drapery.style import Body, body_of, turn
 
 SHADOW_STEPS = 6
-"""A contact shadow is drawn again after this number of time steps."""
+"""The number of time steps after which a contact shadow is drawn again."""
 SWINGS = np.array(((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7)))
-"""How far cloth in a breeze moves from its rest: to both sides, and to the front [m]."""
+"""How far a light wind moves cloth from its rest position: to both sides, to the front [m]."""
 UNFRAMED = Camera((0, 0, 3), (0, 0, 0))
-"""The camera of a scene that each viewer frames for the shape of its own picture."""
+"""A placeholder camera: each viewer frames the scene for the aspect ratio of its own picture."""
 
 
 @dataclass(frozen=True, eq=False)
 class Ray:
-    """A line of sight. origin: [m]. along: its direction, of any length. facing: the camera's."""
+    """A line of sight. origin: [m]. along: its direction, any length. facing: the camera's."""
 
     origin: Array
     along: Array
@@ -50,8 +49,8 @@ class Ray:
 class Live:
     """A body in the wind.
 
-    wind_controls: the present wind. leaves_room: whether its views leave room for later motion;
-    otherwise they are those of pictures. Raises OptionError or PackError.
+    wind_controls: the current wind. leaves_room: whether its views leave room for later motion;
+    if false, they equal the views of pictures. Raises OptionError or PackError.
     """
 
     def __init__(self, design: Banner | None, packs: Packs, settings: Settings) -> None:
@@ -70,12 +69,12 @@ class Live:
 
     @property
     def time(self) -> float:
-        """How long the cloth has moved [s]."""
+        """The simulated time [s]."""
         return self._stager.time
 
     @property
     def is_picture(self) -> bool:
-        """Whether it looks as in a picture of this `time`: only the settings' wind has moved it."""
+        """Whether it equals a picture of this `time`: true if only the settings' wind moved it."""
         own = wind_controls_of(self._stager.settings)
         return not self._disturbed and self.wind_controls == own
 
@@ -87,10 +86,10 @@ class Live:
         beside: Packs | None = None,
         captions: tuple[str, str] = ("", ""),
     ) -> None:
-        """Show this from now on; cloth whose spec is the same continues its motion.
+        """Show other designs, packs, settings; cloth with an unchanged spec continues its motion.
 
-        beside: other packs, to show the same design in both side by side. captions: of the two.
-        Raises OptionError or PackError; nothing has changed then.
+        beside: other packs; then the design is shown twice, side by side. captions: the labels of
+        the two sides. Raises OptionError or PackError; then nothing changes.
         """
         before = self._stager
         body = body_of(design, packs, settings)
@@ -100,12 +99,12 @@ class Live:
         self._stager, self._other = stager, other
         self._captions = captions if other is not None else ("",)
         self._shadow = None
-        # A wind that keys have changed stays, unless the wind of the settings has changed.
+        # Keep a wind that keys have changed, unless the wind of the settings has changed.
         if wind_controls_of(settings) != wind_controls_of(before.settings):
             self.set_wind(wind_controls_of(settings, self.wind_controls.on))
 
     def set_wind(self, controls: WindControls) -> None:
-        """Another wind from now on."""
+        """Replace the wind; it applies from the next time step."""
         stager = self._stager
         self._disturbed |= stager.steps > 0
         self.wind_controls = controls
@@ -115,17 +114,17 @@ class Live:
     def press(self, keys: Iterable[str], azimuth: float) -> None:
         """Hold these keys until the next call; see `steered`.
 
-        azimuth: of the viewer about the banner's block [degrees].
+        azimuth: the viewer's azimuth about the banner's block [degrees].
         """
         self._keys = tuple(sorted(set(keys)))
         self._azimuth = azimuth
 
     def reframe(self) -> None:
-        """Frame what is seen as the named view does."""
+        """Reset the camera to the named view."""
         self._cuts += 1
 
     def reset(self) -> None:
-        """Back to the start: the cloth at rest, in the same wind."""
+        """Return to the start: the cloth at rest, in the same wind."""
         self._disturbed = False
         self._held = None
         self._shadow = None
@@ -151,7 +150,7 @@ class Live:
         return True
 
     def pull(self, ray: Ray) -> None:
-        """Pull the grabbed particle to a line of sight, at its distance from the camera."""
+        """Pull the grabbed particle to a line of sight; its distance from the camera stays."""
         grab = None if self._held is None else self._cloths[self._held].grab
         depth = float(np.sum(ray.along * ray.facing))
         if self._held is None or grab is None or abs(depth) < 1e-6:
@@ -168,7 +167,7 @@ class Live:
         self._held = None
 
     def step(self, steps: int = 1) -> None:
-        """Make time steps. Raises OptionError if the cloth blew up; it then starts at rest."""
+        """Make time steps. Raises OptionError if the cloth blew up; it then restarts at rest."""
         for _ in range(steps):
             if self._keys:
                 azimuth = self._azimuth + self._stager.settings.turned
@@ -183,7 +182,7 @@ class Live:
                 ) from error
 
     def particles(self) -> list[Array]:
-        """The particles of each cloth in its own frame [m], shape [N, 3]."""
+        """The particles of each cloth, in the cloth's frame [m], shape [N, 3]."""
         return [cloth.positions for cloth in self._cloths]
 
     def shown(self) -> Shown:
@@ -211,7 +210,7 @@ class Live:
         return [cloth for cloth in self._stager.cloths if isinstance(cloth, LiveCloth)]
 
     def _cloths_for(self, body: Body, settings: Settings) -> list[LiveCloth]:
-        """A cloth for each panel: the present one, or a new one if its spec has changed."""
+        """A cloth for each panel: the current one, or a new one if its spec has changed."""
         old = dict(enumerate(self._cloths))
         cloths = []
         for number, panel in enumerate(body.panels):
@@ -243,7 +242,7 @@ class Live:
         return self._shadow[1]
 
     def _nearest(self, number: int, cloth: LiveCloth, ray: Ray) -> tuple[float, int | None]:
-        """The free particle nearest to a line of sight, and its distance from it, squared [m²]."""
+        """The free particle nearest to a line of sight, and their squared distance [m²]."""
         among = cloth.free
         if self._stager.settings.pose != "cloth" or not len(among):
             return np.inf, None
@@ -255,7 +254,7 @@ class Live:
         return float(misses[best]), int(among[best])
 
     def _to_world(self, number: int, points: Array) -> Array:
-        """Points of a cloth's frame in the world [m], shape [..., 3]."""
+        """Convert points from a cloth's frame to the world's [m], shape [..., 3]."""
         origin = self._stager.body.panels[number].origin
         return _turned_points(points + origin, self._stager.settings.turned)
 

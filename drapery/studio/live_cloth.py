@@ -29,8 +29,8 @@ PROJECTIONS = 48
 class Grab:
     """A pull at a particle and its neighbours.
 
-    particle: the one that is pulled. around: all that are held, shape [K]; offsets: their places
-    relative to the particle [m], shape [K, 3].
+    particle: the index of the pulled particle. around: the indices of all held particles, shape
+    [K]. offsets: their positions relative to the pulled particle [m], shape [K, 3].
     target: where the particle is pulled to [m], in the cloth's frame, shape [3].
     """
 
@@ -42,7 +42,7 @@ class Grab:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LiveCloth(MovingCloth):
-    """A panel's cloth that can be grabbed. whole: without a grab. spec: how it is made."""
+    """A panel's cloth that can be grabbed. spec: how to make it. whole: the ungrabbed cloth."""
 
     spec: ClothSpec
     whole: Cloth
@@ -50,27 +50,27 @@ class LiveCloth(MovingCloth):
 
     @property
     def positions(self) -> Array:
-        """Positions in the panel's own frame [m], shape [N, 3]."""
+        """Positions in the panel's frame [m], shape [N, 3]."""
         positions: Array = self.state.positions[0]
         return positions
 
     @property
     def free(self) -> NDArray[np.intp]:
-        """The particles that can be grabbed, which are those without a pin."""
+        """The indices of the particles that can be grabbed: those without a pin."""
         return np.flatnonzero(self.whole.inv_mass > 0)
 
     def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
         """The cloth some time steps later; held particles move towards their targets.
 
-        Raises OptionError where the cloth has blown up.
+        Raises OptionError if the cloth has blown up.
         """
         moved = super().advance(forces, steps, pins or self._path())
-        # A picture makes all its steps in one call, which rounds the time only once.
+        # A picture makes all its steps in one call, so its time is rounded only once.
         time = round(moved.state.time / STEP) * STEP
         return replace(moved, state=replace(moved.state, time=time))
 
     def grabbed(self, particle: int) -> Self:
-        """The cloth held at a particle, which stays where it is."""
+        """The cloth with a grab at a particle; the grab does not move the particle."""
         inv_mass, rest = self.whole.inv_mass.copy(), self.whole.rest_positions
         near = _lengths(rest - rest[particle]) <= GRAB_RADIUS
         around = np.flatnonzero(near & (inv_mass > 0))
@@ -90,10 +90,10 @@ class LiveCloth(MovingCloth):
         return self if self.grab is None else self._with_cloth(self.whole, None)
 
     def reachable(self, target: Array) -> Array:
-        """The place near a target [m] that the grabbed particle can reach, shape [3].
+        """A point near a target [m] that the grabbed particle can reach, shape [3].
 
-        No pin is further away than the flat cloth between them: the target is projected onto the
-        ball about the pin that it violates most, again and again.
+        A pin can be no further away than the length of the flat cloth between pin and particle.
+        The target is repeatedly projected onto the ball about the pin whose limit it exceeds most.
         """
         if self.grab is None:
             return target
@@ -124,7 +124,7 @@ class LiveCloth(MovingCloth):
         return replace(self, cloth=cloth, solver_state=solver_state, grab=grab)
 
     def _path(self) -> PinPath | None:
-        """The path of the held particles in a time step; None if all are at their targets."""
+        """The path of the held particles during a time step; None if all are at their targets."""
         held = np.flatnonzero(self.cloth.inv_mass == 0)
         start, began = self.positions[held], self.state.time
         goal = self.cloth.rest_positions[held].astype(start.dtype)
@@ -144,7 +144,7 @@ def new_live_cloth(spec: ClothSpec) -> LiveCloth:
 
 
 def _resampled(old: LiveCloth, new: LiveCloth) -> State:
-    """The state on another grid, linear between the particles of the old one."""
+    """The state on another grid, linearly interpolated between the particles of the old one."""
     if old.spec.shape == new.spec.shape:
         return old.state
     positions, velocities = (
@@ -155,7 +155,7 @@ def _resampled(old: LiveCloth, new: LiveCloth) -> State:
 
 
 def _bilinear(values: Array, shape: tuple[int, int], uvs: Array) -> Array:
-    """Values [N, 3] of a grid of columns and rows at places [M, 2] of 0..1."""
+    """Interpolate the values [N, 3] of a grid (columns, rows) at places [M, 2] in 0..1."""
     columns, rows = shape
     table = values.reshape(rows, columns, 3)
     across, down = uvs[:, 0] * (columns - 1), uvs[:, 1] * (rows - 1)
@@ -168,7 +168,7 @@ def _bilinear(values: Array, shape: tuple[int, int], uvs: Array) -> Array:
 
 
 def _nearer(start: Array, goal: Array) -> Array:
-    """Where held particles are after a time step, on their way from start to goal [m], [K, 3]."""
+    """Positions of held particles after one time step from start towards goal [m], shape [K, 3]."""
     apart = goal - start
     length = np.sqrt((apart * apart).sum(axis=1, keepdims=True))
     share = np.minimum(EASE, MAX_SPEED / np.maximum(length, MAX_SPEED))

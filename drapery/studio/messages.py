@@ -1,10 +1,11 @@
-"""Messages of the live cloth to the page: one for what stays, and one for each moment.
+"""Messages of the live cloth to the page: one for the constant parts, and one for each moment.
 
-A message is a header of JSON with arrays of numbers behind it, little-endian. Its first four bytes
-are the header's length. Blanks fill the header up to a multiple of four, and zeros each array. The
-header's `arrays` gives each array's name, type, length and start, counted from the header's end.
+A message is a JSON header followed by arrays of numbers, all little-endian. Its first four bytes
+give the header's length. Blanks pad the header, and zeros pad each array, to a multiple of four
+bytes. The header's `arrays` gives each array's name, type, length and start; starts count from the
+end of the header.
 
-`scene`: panes, triangles, materials; everything that stays from one moment to the next.
+`scene`: panes, triangles, materials: everything that is the same in successive moments.
 `moment`: positions and light of the vertices that have moved, and cameras that have changed.
 """
 
@@ -31,7 +32,7 @@ from drapery.studio.panes import Pane, Shown
 
 TYPES = {"float32": "<f4", "uint32": "<u4", "int32": "<i4", "uint8": "|u1"}
 Run = tuple[int, int]
-"""The first vertex of a run, and how many."""
+"""A run of vertices: the first one and the number of vertices."""
 
 
 def pack(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> bytes:
@@ -61,9 +62,9 @@ def unpack(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
 
 @dataclass
 class MessageEncoder:
-    """Encodes what one viewer does not know yet, so that each moment holds only what is new.
+    """Encodes messages for one viewer; each moment holds only what has changed since the last.
 
-    which: all panes, or only the first or last. shape: width and height of the viewer.
+    which: "all" panes, or only the first or last. shape: width and height of the viewer [pixels].
     """
 
     which: str = "all"
@@ -78,16 +79,16 @@ class MessageEncoder:
     _recent: IdentityCache[Topology] = field(default_factory=lambda: IdentityCache(2))
 
     def forget(self) -> None:
-        """Send everything again."""
+        """Forget what was sent, so that the next messages hold everything."""
         self._topology = None
 
     def reframe(self, shape: tuple[int, int]) -> None:
-        """The viewer has another shape."""
+        """Set the width and height of the viewer."""
         if shape != self.shape:
             self.shape, self._cut = shape, None
 
     def messages(self, shown: Shown) -> list[bytes]:
-        """The messages for this moment: the scene too, if it is another than before.
+        """The messages for this moment; they include the scene if it differs from the last one.
 
         Raises OptionError for what cannot be drawn.
         """
@@ -102,7 +103,7 @@ class MessageEncoder:
         return [*found, self._moment(constant, shown, panes)]
 
     def _constant(self, models: list[Model]) -> Topology:
-        """What stays of the models, remembered here: the renderer's own cache serves all tabs."""
+        """The constant parts of the models, cached here: all tabs share the renderer's cache."""
         arrays = tuple(
             part
             for model in models
@@ -205,10 +206,10 @@ class MessageEncoder:
         return old[0] is state[0] and old[1] is state[1] and old[2] == state[2]
 
     def _views(self, shown: Shown) -> dict[str, Any] | None:
-        """The cameras if they have changed; `cut`: the viewer's own view starts again."""
+        """The cameras if they have changed. `cut`: whether the viewer resets the user's view."""
         cut = self._cut is None or self._cut != (shown.cut,)
         self._cut = (shown.cut,)
-        # A live body is framed once for each cut, a scene may carry its camera about.
+        # A live body is framed once after each cut; the camera of a scene may move.
         if not cut and shown.live:
             return None
         rows = -(-len(shown.panes) // shown.columns)
@@ -221,7 +222,7 @@ class MessageEncoder:
 
 
 def _arranged(shown: Shown, which: str, shape: tuple[int, int]) -> Shown:
-    """The panes that a viewer shows; a row of scenes becomes a column in an upright viewer."""
+    """The panes that a viewer shows; a portrait viewer shows a row of scenes as a column."""
     count = len(shown.panes)
     if which != "all" and count > 1:
         return replace(
@@ -234,7 +235,7 @@ def _arranged(shown: Shown, which: str, shape: tuple[int, int]) -> Shown:
 
 
 class _DrawnPane:
-    """A pane and its models as they are drawn: normal maps are applied to their textures."""
+    """A pane and the models to draw; their textures include the effect of normal maps."""
 
     def __init__(self, pane: Pane) -> None:
         self.pane = pane
@@ -258,7 +259,7 @@ def _pane_headers(topology: Topology, panes: list[_DrawnPane]) -> list[dict[str,
 
 
 def _firsts(panes: list[_DrawnPane]) -> list[int]:
-    """The number of each pane's first model."""
+    """The index of each pane's first model."""
     counts = [len(pane.models) for pane in panes]
     return [sum(counts[:number]) for number in range(len(counts))]
 

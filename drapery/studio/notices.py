@@ -1,4 +1,4 @@
-"""Notices on the page for its user: errors of input, warnings, and that something is done."""
+"""Notices on the page for its user: input errors, warnings and confirmations."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -37,7 +37,7 @@ def show_notice(line: str, tone: Tone = "done") -> None:
 
 @contextmanager
 def errors_shown() -> Iterator[None]:
-    """Show the user a DraperyError of the block; the page goes on."""
+    """If the block raises a DraperyError, show it to the user; the page continues to work."""
     try:
         yield
     except DraperyError as error:

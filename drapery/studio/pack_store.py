@@ -1,4 +1,4 @@
-"""The packs of a tab: which there are, in which order, and which of them are on."""
+"""The packs of a tab: the list, its order, and which packs are on."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -14,9 +14,9 @@ from drapery.studio.uploads import Uploads
 class PackEntry:
     """One pack.
 
-    name: the user's name for it: the path that was given, or the name of the uploaded file.
+    name: what the user calls it: the path that was given, or the name of the uploaded file.
     upload: the number of the uploaded file, 0 if the studio was started with the pack.
-    on: whether it is used. summary: what it holds, in a few words.
+    on: whether it is used. summary: its contents in a few words.
     """
 
     number: int
@@ -33,7 +33,7 @@ class PackEntry:
 
 
 class PackStore:
-    """The packs of one tab, the lowest first; later ones win. It sets `settings.packs`."""
+    """The packs of one tab, lowest first; later ones have priority. Sets `settings.packs`."""
 
     def __init__(self, document: Document, uploads: Uploads) -> None:
         self._document = document
@@ -57,9 +57,9 @@ class PackStore:
         return line
 
     def check(self, number: int) -> str:
-        """Read everything in an uploaded file that a banner may need; says what it holds.
+        """Read everything in an uploaded file that a banner may need; returns a summary of it.
 
-        Raises PackError with the same line as the commands, under the user's name of the file.
+        Raises PackError with the same line as the commands; the line has the user's file name.
         """
         upload = self._uploads.get(number, "pack")
         try:
@@ -83,7 +83,7 @@ class PackStore:
         self._change(number, lambda entry: replace(entry, on=not entry.on))
 
     def move(self, number: int, by: int) -> None:
-        """Put a pack higher by so many places, or lower. Raises PackError, DesignError."""
+        """Move a pack up by some places, or down if negative. Raises PackError, DesignError."""
         place = self._place(number)
         rest = [*self.entries]
         entry = rest.pop(place)
@@ -134,7 +134,7 @@ def _summary(entry: PackEntry) -> str:
 
 
 def _contents(path: Path, format: int | None) -> str:
-    """What a pack holds of banners, in a few words; every texture is read once. PackError."""
+    """A pack's banner contents in a few words; reads every texture once. Raises PackError."""
     packs = open_packs([path], format=format)
     names = packs.patterns()
     for name in names:

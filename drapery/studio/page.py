@@ -1,4 +1,4 @@
-"""The page: where each panel stands. A new panel is a file in `panels/` and a line in PANELS."""
+"""The page: the place of each panel. A new panel needs a file in `panels/` and a line in PANELS."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -37,10 +37,10 @@ Place = Literal["left", "viewport", "under", "side"]
 class PagePanel:
     """One part of the page.
 
-    name: in the ids of its elements. build: draws it for a session. title: its heading and tab.
-    icon: of its tab, by its name in Material Icons. place: panels `left` of and `under` the
-    viewport are always visible on a wide window; those at the `side` share one place by tabs. On a
-    phone all but the viewport and the palette are tabs.
+    name: part of the ids of its elements. build: draws it for a session. title: the text of its
+    heading and tab. icon: the tab's icon, a name in Material Icons. place: panels `left` of and
+    `under` the viewport are always visible in a wide window; panels at the `side` share one place,
+    with tabs. On a phone every panel except the viewport and the palette is a tab.
     """
 
     name: str
@@ -71,7 +71,7 @@ _FOLDER = Path(__file__).parent
 
 
 def add_page(sessions: Sessions) -> None:
-    """Serve the page at `/`: each tab with a session of its own that ends with the tab."""
+    """Serve the page at `/`; each tab gets a session, which ends with the tab."""
 
     @ui.page("/")
     def studio(client: Client) -> None:
@@ -84,7 +84,7 @@ def add_page(sessions: Sessions) -> None:
 
 
 def opened(base: Settings, request: Request | None) -> tuple[Settings, Sketch | None, str]:
-    """What the page begins with: the design of a link, or the error in that link."""
+    """The page's initial state: the design of a link, or the error in that link."""
     link = request.query_params.get("d") if request is not None else None
     if not link:
         return base, None, ""
@@ -117,11 +117,11 @@ def build(session: Session) -> None:
 
 
 def _write_into_address(session: Session) -> None:
-    """Write the design into the page's address: to reload the page, or go back, loses no work."""
+    """Write the design into the page's address, so that it survives a reload or a step back."""
     client = ui.context.client
 
     def write() -> None:
-        # It has only characters of base64url, none of which can end the text.
+        # It has only base64url characters; none of them can end the quoted text.
         link = write_link(session.sketch, session.settings)
         client.run_javascript(f'studio.writeAddress("{link}")')
 
@@ -130,7 +130,7 @@ def _write_into_address(session: Session) -> None:
 
 
 def _head(session: Session) -> None:
-    # Inline: each is small, and a page that arrives whole does not jump.
+    # Inline: each is small, and a page that arrives complete does not shift while it loads.
     for sheet in sorted(_FOLDER.glob("*.css")):
         ui.add_head_html(f"<style>{sheet.read_text()}</style>")
     ui.add_head_html(f'<script type="module">{(_FOLDER / "studio.js").read_text()}</script>')

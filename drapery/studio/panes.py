@@ -9,15 +9,15 @@ from drapery.render import UNLIT, Camera, Frame, Material, Mesh, Model, Scene, T
 from drapery.scenes import Picture, PictureGrid
 
 Framing = Callable[[float], Camera]
-"""The camera for a picture of width / height."""
+"""A callable that gives the camera for a picture of this aspect ratio, width / height."""
 
 Wind = tuple[float, float, bool]
-"""Speed [m/s], heading in the world [degrees from +z towards +x], whether it blows."""
+"""Speed [m/s], heading in the world [degrees from +z towards +x], whether the wind blows."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pane:
-    """One picture. flat: a finished picture, which has no other sides."""
+    """One picture. flat: whether it is a finished 2-D picture, which has only one side."""
 
     scene: Scene
     framing: Framing
@@ -29,9 +29,9 @@ class Pane:
 class Shown:
     """Everything that the viewer shows.
 
-    columns: panes in a row. grip: the models of each pane that can be grabbed. live: whether it is
-    the design, not a scene. wind: None if keys cannot steer it. cut: when its value changes, the
-    viewer resets its view. time: how long the cloth has moved [s].
+    columns: panes in a row. grip: the models of each pane that can be grabbed. live: whether it
+    shows the design, not a scene. wind: None if keys cannot change it. cut: when its value
+    changes, the viewer resets its view. time: the simulated time [s].
     """
 
     panes: tuple[Pane, ...]

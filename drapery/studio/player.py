@@ -9,18 +9,18 @@ from drapery.scenes import Clip, Picture, PictureGrid, SceneEntry, find_scene
 from drapery.studio.panes import Shown, shown_picture
 
 MAX_CACHED = 96 << 20
-"""The moments of a scene are cached up to this size [bytes] and not simulated again."""
+"""The most memory for cached moments of a scene [bytes]; cached moments are simulated once."""
 REDUCED = {"stress": {"side": "7"}}
-"""Parameters of scenes that are otherwise too large for a browser."""
+"""Parameters for scenes that would be too large for a browser with their defaults."""
 MAX_SIDE = 960
-"""The longest side of the picture for which a scene is framed [pixels]; the viewer has its own."""
+"""The longest side of the picture for which a scene is framed [pixels]; a viewer may be larger."""
 
 
 class Player:
-    """A scene of the catalogue, from its first moment to its last, again and again.
+    """Plays a scene of the catalogue from its first moment to its last, in a loop.
 
-    size: width and height of the picture for which it is framed [pixels]. Raises OptionError for a
-    name that is not known.
+    size: width and height of the picture for which it is framed [pixels]. Raises OptionError for
+    an unknown name.
     """
 
     def __init__(self, name: str, size: tuple[int, int] = (640, 480)) -> None:
@@ -39,7 +39,7 @@ class Player:
         return self._clip.fps
 
     def step(self) -> Shown:
-        """The next moment; after the last the first again."""
+        """The next moment; after the last moment comes the first."""
         shown = next(self._upcoming, None)
         if shown is None:
             self.restart()
@@ -48,12 +48,12 @@ class Player:
         return self.now
 
     def restart(self) -> None:
-        """From the first moment again."""
+        """Restart at the first moment."""
         whole = self._cache is not None and len(self._cache) == self._clip.count
         self._upcoming = iter(self._cache or ()) if whole else self._simulated()
 
     def _simulated(self) -> Iterator[Shown]:
-        """All moments, simulated; they are cached unless the scene has proved too large."""
+        """Simulate all moments; caches them unless they exceed the cache's limit."""
         self._cache, self._free = ([], MAX_CACHED) if self._cache is not None else (None, 0)
         self._counted = set()
         for picture in self.entry.play(self.parameters, self._clip):
@@ -70,7 +70,7 @@ class Player:
             self._cache = None
 
     def _new_bytes(self, picture: Picture) -> int:
-        """The bytes of the arrays that no cached moment holds yet."""
+        """The size of those arrays that no cached moment refers to yet [bytes]."""
         total = 0
         for array in _arrays(picture):
             # An array keeps its identity while a cached moment holds it.

@@ -1,4 +1,4 @@
-"""Records of a library: what a design may hold, the text that is searched, the export file."""
+"""Records of a library: the limits of a design, the text that is searched, the export file."""
 
 import json
 from base64 import b64decode, b64encode
@@ -13,15 +13,15 @@ from drapery.studio.share import as_tree, checked_title, of_tree
 from drapery.studio.sketch import Sketch
 
 VERSION = 1
-"""Of the export file."""
+"""The version of the export file's form."""
 MAX_DESIGNS = 20_000
 MAX_TAGS = 12
 MAX_TAG = 32
 MAX_THUMBNAIL = 64 << 10
-"""Of a thumbnail's PNG file [bytes]."""
+"""The largest PNG file of a thumbnail [bytes]."""
 MAX_THUMBNAIL_SIDE = 256
 MAX_IMPORT = 64 << 20
-"""Of a library's JSON [bytes]."""
+"""The largest JSON export of a library [bytes]."""
 
 _MARK = "drapery_library"
 
@@ -30,8 +30,8 @@ _MARK = "drapery_library"
 class Design:
     """A design in a library.
 
-    number: identifies it in its library; 0 before it is saved. thumbnail: a PNG file, or nothing.
-    changed: grows with every change in the library, so it orders designs by their last change.
+    number: identifies it in its library; 0 before it is saved. thumbnail: a PNG file, or b"".
+    changed: a counter of the library's changes; it orders designs by their last change.
     """
 
     sketch: Sketch
@@ -48,12 +48,12 @@ class Design:
 
 
 def tree_of(design: Design) -> str:
-    """Sketch and options as a text, equal for equal designs."""
+    """Sketch and options as JSON text; equal designs have equal texts."""
     return json.dumps(as_tree(design.sketch, design.settings), ensure_ascii=False, sort_keys=True)
 
 
 def identity(design: Design) -> tuple[str, tuple[str, ...]]:
-    """A key that is equal for two designs that count as one."""
+    """A key; two designs with equal keys count as the same design."""
     return tree_of(design), design.tags
 
 
@@ -69,7 +69,7 @@ def words_of(design: Design) -> str:
 def checked(design: Design) -> Design:
     """The design as it may be saved. Raises DesignError, or PackError for its thumbnail."""
     title = checked_title(design.title)
-    # What is saved must be what is read again.
+    # Convert there and back: a design must be the same after it is saved and read.
     sketch, _ = of_tree(as_tree(replace(design.sketch, title=title), design.settings))
     return replace(
         design, sketch=sketch, tags=checked_tags(design.tags), thumbnail=_picture(design.thumbnail)
@@ -138,7 +138,7 @@ def read_designs(data: bytes) -> list[Design]:
 def _imported(tree: object, at: str) -> Design:
     try:
         sketch, settings = of_tree(tree)
-        assert isinstance(tree, dict)  # else of_tree has refused it
+        assert isinstance(tree, dict)  # otherwise of_tree has raised
         tags, picture = tree.get("tags", []), tree.get("thumbnail", "")
         if not isinstance(tags, list) or not isinstance(picture, str):
             raise DesignError("tags must be a list, thumbnail a text; export the library again")

@@ -1,6 +1,6 @@
 """What a tab fetches and sends over HTTP: pictures, files and designs.
 
-Every address holds the token of an open session; nothing else in it ever names a file.
+Every address holds the token of an open session; no part of an address is a file's path.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ MEDIA_TYPES = {
 
 
 def add_routes(app: FastAPI, sessions: Sessions) -> None:
-    """Serve the open sessions; an unknown token is 404."""
+    """Serve the open sessions; an unknown token gets status 404."""
 
     def session_of(token: str) -> Session:
         session = sessions.find(token)
@@ -43,7 +43,7 @@ def add_routes(app: FastAPI, sessions: Sessions) -> None:
 
 
 SessionOf = Callable[[str], Session]
-"""The session of a token; raises HTTPException."""
+"""The session with this token; raises HTTPException."""
 
 
 def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
@@ -70,7 +70,7 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
     @app.get("/patterns/{token}.png")
     def patterns(token: str, base: str, dye: str) -> Response:
         session = session_of(token)
-        caching = "private, max-age=3600"  # its address changes with all that it shows
+        caching = "private, max-age=3600"  # the address changes whenever the content does
         return _picture(session, lambda: pattern_sheet(session.packs(), base, dye), caching)
 
     @app.get("/compare/{token}/{pack}/{what}.png")
@@ -97,7 +97,7 @@ def _picture(session: Session, draw: Callable[[], bytes], caching: str = "no-sto
 
 
 def _packs(session: Session, pack: str) -> Packs:
-    """`now`: all packs of the tab; `own`: only the art of Drapery; a number: that pack alone."""
+    """`now`: all packs of the tab; `own`: only Drapery's art; a number: only that pack."""
     if pack == "now":
         return session.packs()
     paths = [] if pack == "own" else [session.pack_store.path_of(_number(pack))]
@@ -160,12 +160,12 @@ def _add_uploads(app: FastAPI, session_of: SessionOf) -> None:
 
 
 def _refusal(line: str, status: int) -> JSONResponse:
-    # Without this the server would read the rest of the body, only to discard it.
+    # Otherwise the server would read and discard the rest of the body.
     return JSONResponse({"line": line}, status, {"Connection": "close"})
 
 
 def _check_length(request: Request, purpose: str, name: str) -> None:
-    """Refuse a body whose own header says that it is too long. Raises DesignError."""
+    """Refuse a body that is too long according to its header. Raises DesignError."""
     length, maximum = request.headers.get("content-length", ""), PURPOSES[purpose].max_bytes
     if length.isdigit() and int(length[:20]) > maximum:
         raise DesignError(f"{name} is over {shown_bytes(maximum)}; send a smaller one")

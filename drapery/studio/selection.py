@@ -1,4 +1,4 @@
-"""What is chosen while one designs: a part of the design, and the dye for the next layer."""
+"""What is chosen in the editor: a part of the design, and the dye for the next layer."""
 
 from collections.abc import Callable
 from typing import Literal
@@ -9,7 +9,7 @@ from drapery.studio.document import Document
 from drapery.studio.sketch import Sketch
 
 Chosen = int | Literal["field"] | None
-"""A stroke's number, the field, or None: then dyes are for the next layer."""
+"""A stroke's number, the field, or None; with None, a dye applies to the next layer."""
 
 
 class Selection:
@@ -28,7 +28,7 @@ class Selection:
 
     @property
     def shown_dye(self) -> str:
-        """The dye that the palette marks: that of the choice, or that for the next layer."""
+        """The dye that the palette marks: that of the chosen part, or that for the next layer."""
         sketch = self._document.sketch
         if self.chosen == "field":
             return sketch.base
@@ -38,11 +38,11 @@ class Selection:
 
     @property
     def pattern_dye(self) -> str:
-        """The dye in which a pattern would be added; never that of the field."""
+        """The dye in which a pattern would be added; it always differs from the field's dye."""
         return self.dye if self.chosen == "field" else self.shown_dye
 
     def listen(self, call: Callable[[], None]) -> None:
-        """Call this whenever what is chosen changes, the design with it or not."""
+        """Call this whenever the choice changes, even if the design stays the same."""
         self._listeners.append(call)
 
     def choose(self, chosen: Chosen) -> None:
@@ -53,7 +53,7 @@ class Selection:
         self.notify()
 
     def press_dye(self, dye: str) -> None:
-        """Dye what is chosen, and use the dye for the next layer too unless it is the field's."""
+        """Dye what is chosen; also use the dye for the next layer, unless the field has it."""
         if dye not in DYES:
             return
         if self.chosen == "field":
@@ -65,7 +65,7 @@ class Selection:
         self.notify()
 
     def press_pattern(self, pattern: str) -> None:
-        """Add a pattern in the present dye; or change the chosen layer's, if `swaps` is set."""
+        """Add a pattern in the current dye; with `swaps`, replace the chosen layer's pattern."""
         sketch = self._document.sketch
         if self.swaps and isinstance(self.chosen, int):
             self._edit(edits.repattern(sketch, self.chosen, pattern))
@@ -93,13 +93,13 @@ class Selection:
             self._edit(edits.remove(sketch, number))
 
     def act_on_chosen(self, what: str, step: int = 0) -> None:
-        """Do the same to the chosen stroke, if there is one; step: places upwards."""
+        """Call `act` for the chosen stroke, if there is one. step: the number of places upwards."""
         if isinstance(self.chosen, int):
             place = edits.place_of(self._document.sketch, self.chosen)
             self.act(what, self.chosen, place + step)
 
     def lay_out(self, sketch: Sketch) -> None:
-        """Replace the design by another, which can be undone."""
+        """Replace the design; this can be undone."""
         self.chosen, self.swaps = None, False
         self._edit(sketch)
         self.notify()

@@ -1,4 +1,4 @@
-"""One browser tab: its document and all that serves it; and the tabs that are open."""
+"""The session of one browser tab (its document and all that serves it), and all open sessions."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,14 +15,15 @@ from drapery.studio.uploads import Uploads
 from drapery.studio.viewport import Viewport
 
 MAX_SESSIONS = 64
-"""Tabs at once; more than a person opens."""
+"""The most open tabs; more than a person needs."""
 
 
 @dataclass(frozen=True)
 class StudioConfig:
     """The options with which the studio was started.
 
-    settings: what every tab begins with. library: the file of saved designs; None is the user's.
+    settings: the initial settings of every tab. library: the file of saved designs; None means the
+    user's library.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -32,7 +33,7 @@ class StudioConfig:
 class Session(Document):
     """The document of one tab with everything that works on it.
 
-    library, slots: shared with the other tabs of the studio; without them, its own.
+    library, slots: shared with the other tabs of the studio; if not given, the session makes them.
     """
 
     def __init__(
@@ -66,9 +67,10 @@ class Sessions:
         return len(self._open)
 
     def open(self, settings: Settings | None = None, sketch: Sketch | None = None) -> Session:
-        """A new session that `find` knows until it closes; if there are too many the oldest ends.
+        """Open a session, which `find` returns until it closes.
 
-        settings: instead of those of the configuration.
+        If too many are open, the oldest one ends.
+        settings: replaces the settings of the configuration.
         """
         while len(self._open) >= MAX_SESSIONS:
             next(iter(self._open.values())).close()
@@ -80,10 +82,10 @@ class Sessions:
         return session
 
     def find(self, token: str) -> Session | None:
-        """The open session of a token."""
+        """The open session with this token, or None."""
         return self._open.get(token)
 
     def close_all(self) -> None:
-        """End all sessions, as when the server stops."""
+        """End all sessions, for example when the server stops."""
         for session in [*self._open.values()]:
             session.close()

@@ -1,8 +1,8 @@
 """A sketch and the options of its picture as characters that an address can hold.
 
-They are one character for the version, then a zlib stream of the JSON of `as_tree` in base64 for
-addresses (RFC 4648, section 5) without padding. They never name a file: packs and textures are
-left out.
+The first character is the version. The rest is the JSON of `as_tree`, compressed as a zlib stream
+and encoded as URL-safe base64 (RFC 4648, section 5) without padding. A link never names a file: it
+leaves out packs and textures.
 """
 
 import json
@@ -22,10 +22,10 @@ VERSION = "a"
 MAX_LINK = 4096
 """Most characters of a link; a sketch of sixteen layers takes about 400."""
 MAX_JSON = 16 << 10
-"""What a link may unpack to [bytes]."""
+"""The largest size of a link's data after it is decompressed [bytes]."""
 
 LOCAL_OPTIONS = frozenset({"packs", "texture", "kind", "backend"})
-"""Options that a link leaves out: they name files, need one, or name what is installed."""
+"""Options that a link leaves out: they name or need a file, or depend on installed software."""
 SHARED = tuple(name for name in NAMED_OPTIONS if name not in LOCAL_OPTIONS)
 
 _LETTERS = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_")
@@ -35,7 +35,7 @@ _REMEDY = "copy the whole link again"
 def write_link(sketch: Sketch, settings: Settings) -> str:
     """The sketch and the options that differ from their default, as part of an address.
 
-    settings: its packs, texture and backend are left out.
+    settings: the link leaves out its packs, texture and backend.
     """
     text = json.dumps(as_tree(sketch, settings), separators=(",", ":"), ensure_ascii=False)
     squeezed = zlib.compress(text.encode(), 9)
@@ -43,7 +43,7 @@ def write_link(sketch: Sketch, settings: Settings) -> str:
 
 
 def read_link(text: str) -> tuple[Sketch, Settings]:
-    """What `write_link` wrote. Raises DesignError for any other text."""
+    """Read the output of `write_link`. Raises DesignError for any other text."""
     word = text.strip()
     if len(word) > MAX_LINK:
         raise DesignError(f"the link has {len(word)} characters, over {MAX_LINK}; {_REMEDY}")
@@ -57,7 +57,7 @@ def read_link(text: str) -> tuple[Sketch, Settings]:
 
 
 def opened_link(base: Settings, link: str) -> tuple[Settings, Sketch]:
-    """What a page with this link begins with: the studio's settings with those of the link.
+    """The initial state of a page with this link: the studio's settings, changed by the link's.
 
     Raises DesignError.
     """
@@ -66,7 +66,7 @@ def opened_link(base: Settings, link: str) -> tuple[Settings, Sketch]:
 
 
 def with_shared(base: Settings, settings: Settings) -> Settings:
-    """`base` with the shared options of `settings`; a format that is None is left as it is."""
+    """`base` with the shared options of `settings`; a format of None leaves that of `base`."""
     chosen = {name: getattr(settings, name) for name in SHARED}
     if settings.format is None:
         chosen["format"] = base.format
@@ -76,8 +76,8 @@ def with_shared(base: Settings, settings: Settings) -> Settings:
 def as_tree(sketch: Sketch, settings: Settings) -> dict[str, Any]:
     """The sketch and its options as JSON: Drapery's form of a design with three more members.
 
-    `title`; `hidden`: the places of hidden layers, from 0; `options`: those that differ from their
-    default.
+    `title`; `hidden`: the places of hidden layers, from 0; `options`: the options that differ from
+    their default.
     """
     whole = replace(sketch, strokes=tuple(replace(s, hidden=False) for s in sketch.strokes))
     tree: dict[str, Any] = json.loads(write_banner(banner_of(whole)))
@@ -97,7 +97,7 @@ def options_of(settings: Settings) -> dict[str, Any]:
 
 
 def of_tree(tree: object) -> tuple[Sketch, Settings]:
-    """What `as_tree` made. Raises DesignError that names the fault."""
+    """Read the output of `as_tree`. Raises a DesignError that names the error."""
     if not isinstance(tree, dict):
         raise DesignError(f"the design is not a JSON object; {_REMEDY}")
     sketch = sketch_of(_banner_in(tree))
@@ -121,7 +121,7 @@ def settings_of(words: object) -> Settings:
 
 
 def checked_title(title: object) -> str:
-    """The title without blanks around it. Raises DesignError if it is not one printable line."""
+    """The title without surrounding blanks. Raises DesignError if it is not one printable line."""
     if not isinstance(title, str) or len(title) > MAX_TITLE or not title.isprintable():
         raise DesignError(f"the title must be a line of at most {MAX_TITLE} characters; shorten it")
     return title.strip()

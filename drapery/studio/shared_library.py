@@ -9,9 +9,9 @@ if TYPE_CHECKING:
 
 
 class SharedLibrary:
-    """A library that is opened at first use: its database takes time to import.
+    """A library that is opened at first use, because its database module is slow to import.
 
-    path: its file; None is the user's own.
+    path: its file; None means the user's library.
     """
 
     def __init__(self, path: Path | None) -> None:
@@ -20,7 +20,7 @@ class SharedLibrary:
         self._library: Library | None = None
 
     def open(self) -> "Library":
-        """The library, the same for all threads. Raises OutputError."""
+        """The library; all threads get the same object. Raises OutputError."""
         from drapery.studio.library import Library, default_place
 
         with self._lock:

@@ -1,4 +1,4 @@
-"""A design while it is edited: strokes that keep their numbers when they move."""
+"""A design while it is edited: a move does not change a stroke's number."""
 
 import random
 from dataclasses import dataclass, replace
@@ -25,7 +25,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Sketch:
-    """A design that is edited: the dye of its field, and its strokes, lowest first."""
+    """A design in the editor: the dye of its field, and its strokes, lowest first."""
 
     base: str = "white"
     strokes: tuple[Stroke, ...] = ()
@@ -113,7 +113,7 @@ def random_sketch(seed: int) -> Sketch:
     chance = random.Random(seed)
     dyes = chance.sample(DYE_NAMES, 3)
     patterns = chance.sample(PATTERN_NAMES[1:], chance.randint(2, LOOM_LAYERS))
-    # No layer has the dye of the one below it, or their overlap would not be visible.
+    # Adjacent layers differ in their dye; otherwise their overlap would not be visible.
     layers: list[Layer] = []
     for pattern in patterns:
         below = layers[-1].dye if layers else dyes[0]

@@ -1,4 +1,4 @@
-"""The command, or the lines of Python, that make the same file as an export."""
+"""The command or the Python code that makes the same file as an export."""
 
 import json
 import shlex
@@ -14,17 +14,17 @@ from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
 STILLS = ("png",)
 LOOPS = ("gif", "apng", "webp", "mp4")
 KINDS = (*STILLS, "face", *LOOPS, "glb", "json")
-"""What can be made: `face` is the plain flat face, `json` the design itself."""
+"""The kinds of files: `face` is the flat face without cloth, `json` is the design itself."""
 
 PICTURE_OPTIONS = tuple(NAMED_OPTIONS)
 SCALE = Option("scale", "Pixels of a texel", int, 8, bounds=(1, 256), unit="pixels")
-"""The option of `drapery flat`."""
+"""The option `--scale` of `drapery flat`."""
 MODEL_OPTIONS = (
     *("packs", "format", "kind", "texture", "pose", "placement", "rotation", "facing"),
     *("view", "grid", "solver", "pins", "wind", "direction", "gusts", "time", "seed"),
     "thickness",
 )
-"""Options of `drapery model`; the others mean nothing in a 3-D file."""
+"""Options of `drapery model`; the others have no effect on a 3-D file."""
 FACE_OPTIONS = ("packs", "format")
 
 _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-:./,#")
@@ -32,9 +32,9 @@ _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ012345678
 
 @dataclass(frozen=True)
 class Order:
-    """What is to be made.
+    """The description of a file to make.
 
-    kind: one of KINDS. seconds, fps: of a loop. scale: pixels a texel of a face.
+    kind: one of KINDS. seconds, fps: for a loop. scale: pixels per texel, for a face.
     """
 
     banner: Banner | None
@@ -46,7 +46,7 @@ class Order:
 
 
 def file_name(order: Order, stem: str = "banner") -> str:
-    """The name of the file, as `banner.png`."""
+    """The name of the file, for example `banner.png`."""
     return f"{stem}.{'png' if order.kind == 'face' else order.kind}"
 
 
@@ -59,7 +59,7 @@ def options_for(order: Order) -> Settings:
 def as_command(order: Order, called: Mapping[str, str] | None = None, stem: str = "banner") -> str:
     """The command that writes the file, quoted for a shell.
 
-    called: the user's names of packs, by their path.
+    called: the user's names of packs, by path.
     """
     design = [] if order.banner is None else [_quoted(write_banner(order.banner, "text"))]
     out = _quoted(file_name(order, stem))
@@ -93,7 +93,7 @@ def _names(order: Order) -> tuple[str, ...]:
 
 
 def _changed(order: Order, called: Mapping[str, str]) -> dict[str, Any]:
-    """This kind of file's options that differ from their default, packs by the user's names."""
+    """This kind's options that differ from their default; packs have the user's names."""
     values = {name: getattr(order.settings, name) for name in _names(order)}
     changed = {
         name: value for name, value in values.items() if value != NAMED_OPTIONS[name].default
@@ -128,24 +128,24 @@ def _flags(order: Order, called: Mapping[str, str]) -> Iterator[str]:
 
 
 def plain(value: object) -> str:
-    """The value as a person writes it: 4 for 4.0; nothing is rounded."""
+    """The value in short form: 4 for 4.0; without rounding."""
     return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
 
 
 def _quoted(word: str) -> str:
-    """The word for a shell; in double quotes if possible, the only ones of Windows."""
+    """The word quoted for a shell; in double quotes if possible, as Windows knows no others."""
     if word and _SAFE.issuperset(word):
         return f'"{word}"' if {" ", "#"}.intersection(word) else word
     return shlex.quote(word)
 
 
 def _text(value: object) -> str:
-    """The value in Python, texts in double quotes."""
+    """The value as Python code; strings have double quotes."""
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)
 
 
 def _named(order: Order, called: Mapping[str, str]) -> list[str]:
-    """Keyword arguments: `view="iso"`."""
+    """Keyword arguments as Python code, for example `view="iso"`."""
     changed = _changed(order, called)
     if "packs" in changed:
         changed["packs"] = _Listed(changed["packs"])
@@ -153,7 +153,7 @@ def _named(order: Order, called: Mapping[str, str]) -> list[str]:
 
 
 class _Listed(list[str]):
-    """A list whose texts are shown in double quotes."""
+    """A list whose representation has its strings in double quotes."""
 
     def __repr__(self) -> str:
         return f"[{', '.join(map(_text, self))}]"

@@ -1,8 +1,8 @@
 """The socket between a viewer and the live cloth of its tab.
 
-The server sends `messages`; the viewer answers when it has drawn one, and at most two are under
-way, so a slow viewer sees fewer moments and nothing piles up. A viewer's message is a small JSON
-object; one that is not valid ends the connection.
+The server sends `messages`; the viewer answers when it has drawn one. At most two messages are
+unanswered, so a slow viewer sees fewer moments and no queue grows. A viewer's message is a small
+JSON object; the server closes the connection if a message is not valid.
 """
 
 import asyncio
@@ -23,17 +23,17 @@ from drapery.studio.viewport import Viewport, in_thread
 from drapery.studio.wind_controls import KEYS
 
 UNDER_WAY = 2
-"""Messages that may be sent before the viewer answers that they are drawn."""
+"""The most messages that are sent before the viewer reports that it has drawn them."""
 MAX_TEXT = 2048
 MAX_VIEWERS = 8
-"""Viewers of one tab at once."""
+"""The most simultaneous viewers of one tab."""
 UNKNOWN, ENOUGH, WRONG, BROKEN = 4404, 4429, 4400, 1011
 """Why the server closes a socket: no such tab, too many viewers, a message that is not valid, a
 fault in the program."""
 
 
 class ViewerConnection:
-    """The server's end of one viewer: what was sent to it and what it has drawn."""
+    """The server side of one viewer's connection; it counts the messages sent and drawn."""
 
     def __init__(self, viewport: Viewport, which: str) -> None:
         self.viewport = viewport
@@ -57,7 +57,7 @@ class ViewerConnection:
         try:
             await self._send(socket)
         except Exception:
-            # The viewer has gone, or the program has a fault: the viewer may connect again.
+            # The viewer has disconnected, or the program has an error: it may connect again.
             with suppress(Exception):
                 await socket.close(BROKEN)
 
@@ -113,7 +113,7 @@ class ViewerConnection:
         self.viewport.size = columns, rows
         self.encoder.reframe((columns, rows))
         self._shaped = True
-        self.viewport.do(lambda live: None)  # draws it again, even if time stands still
+        self.viewport.do(lambda live: None)  # draws it again, even while it is paused
 
     def _press(self, value: Any) -> None:
         keys, azimuth = _list(value, 2)
@@ -163,7 +163,7 @@ def add_routes(app: FastAPI, sessions: Sessions) -> None:
 
 
 async def _serve(socket: WebSocket, viewport: Viewport, which: str) -> None:
-    """Serve one viewer until it goes; then nothing of it is left."""
+    """Serve one viewer until it disconnects; then undo all that it did."""
     viewer = ViewerConnection(viewport, which)
     viewport.viewers += 1
     viewport.enter()
@@ -171,11 +171,11 @@ async def _serve(socket: WebSocket, viewport: Viewport, which: str) -> None:
     try:
         await _listen(socket, viewer)
     except (WebSocketDisconnect, RuntimeError):
-        pass  # the viewer has gone
+        pass  # the viewer has disconnected
     except (ValueError, TypeError, OptionError):
         await socket.close(WRONG)
     finally:
-        # No await before all is undone: a cancellation must not interrupt it.
+        # Do not await before the cleanup is complete: a cancellation would interrupt it.
         sending.cancel()
         viewport.do(lambda live: live.release())
         viewport.press((), 0.0)

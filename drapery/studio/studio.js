@@ -11,7 +11,7 @@ const studio = (window.studio = {
   writeAddress,
 });
 
-// The design in the address. A browser limits the changes per second: the last one is repeated.
+// The design in the address. Browsers limit the changes per second, so repeat the last one later.
 let addressTimer;
 function writeAddress(link) {
   const write = () => history.replaceState(null, "", `?d=${link}`);
@@ -43,7 +43,7 @@ WIDE.addEventListener("change", () => {
   if (!chosen?.offsetParent && visibleTabs().length) tab(visibleTabs()[0].dataset.panel);
 });
 
-// Theme: the system's, until the user chooses.
+// Theme: follows the system until the user chooses one.
 function theme(choice) {
   window.Quasar?.Dark.set(choice === "dark" ? true : choice === "light" ? false : "auto");
 }
@@ -58,7 +58,7 @@ function toggleTheme() {
   theme(choice);
 }
 
-// Copying. Browsers offer the clipboard only over https or on the same machine.
+// Copying. Browsers provide the clipboard only over https or on localhost.
 async function copy(text, from) {
   try {
     await navigator.clipboard.writeText(text);
@@ -76,7 +76,7 @@ async function copy(text, from) {
   setTimeout(() => (label.textContent = before), 1500);
 }
 
-// Shortcuts, while no field has the focus.
+// Shortcuts. They work while no field has the focus.
 const KEYS = {
   "ctrl+z": "undo", "ctrl+shift+z": "redo", "ctrl+y": "redo", "ctrl+d": "duplicate",
   r: "random", b: "kind", m: "mode", h: "hide", delete: "remove", backspace: "remove",
@@ -180,7 +180,7 @@ document.addEventListener("change", (event) => {
   event.target.value = "";
 });
 
-// The page's elements are made a moment after this script runs.
+// Wait for the page's elements: they are created shortly after this script runs.
 new MutationObserver((_, observer) => {
   if (!root() || !window.Quasar) return;
   observer.disconnect();

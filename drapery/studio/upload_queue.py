@@ -13,20 +13,20 @@ from drapery.studio.uploads import Uploads, shown_name
 from drapery.studio.warning_log import collected_warnings
 
 MAX_ADDRESS = 20_000
-"""The longest link that is read as one [characters]."""
+"""The longest text that is read as a link [characters]."""
 
 MAX_FOUND = 200
-"""The most banners of one file that are offered."""
+"""The most banners of one file that the user can choose from."""
 
 MAX_NOTES = 3
 """The most warnings of one file that are shown."""
 
 
 class UploadQueue:
-    """What was read last.
+    """The result of the last read.
 
-    found: the banners. line: the error, or "". notes: the warnings. name: of the file, or "".
-    beside: whether it was read from the text field, next to which the line is shown.
+    found: the banners. line: the error, or "". notes: the warnings. name: the file's name, or "".
+    beside: whether the text field was read; then the page shows the line next to that field.
     """
 
     def __init__(self, uploads: Uploads) -> None:
@@ -43,7 +43,7 @@ class UploadQueue:
         self._listeners.append(call)
 
     def read_text(self, text: str, *, beside: bool = False) -> None:
-        """Read a text in any form; it never names a file of this machine."""
+        """Read a text in any form; the text is never used as the path of a file."""
         self._finish("", *_read(lambda: _of_text(text)), beside=beside)
 
     async def receive(self, chunks: AsyncIterator[bytes], name: str) -> None:

@@ -1,7 +1,7 @@
-"""Files that a tab sends: counted and measured while they stream in, and named by the studio.
+"""Files that a tab sends: the studio checks count and size while they arrive, and names them.
 
-They lie in the tab's own folder and are removed with it. The sender's name of a file is only
-shown, and chooses one of the purpose's endings; it is never opened.
+The studio stores them in the tab's folder and removes them with it. It shows the sender's name of a
+file and takes the ending from it, if the purpose has this ending; it never opens that name.
 """
 
 from collections.abc import AsyncIterator
@@ -17,8 +17,8 @@ from drapery.studio.document import Document
 class Purpose:
     """What files are sent for.
 
-    max_bytes: of one file. max_count: files at once. endings: those that a stored file may have,
-    for readers that choose a form by it.
+    max_bytes: the limit of one file. max_count: the most files at the same time. endings: the
+    endings that a stored file may have; some readers choose a form by the ending.
     """
 
     max_bytes: int
@@ -40,13 +40,13 @@ PURPOSES = {
     "design": Purpose(64 << 20, 8, _DESIGN_ENDINGS),
 }
 MAX_SESSION = 1 << 30
-"""Bytes of all files of one tab."""
+"""The most bytes of all files of one tab."""
 MAX_NAME = 80
 
 
 @dataclass(frozen=True)
 class Upload:
-    """A file that has arrived whole. name: the sender's name for it, safe to show."""
+    """A file that has arrived completely. name: the sender's name for it, safe to show."""
 
     number: int
     purpose: str
@@ -65,9 +65,9 @@ class Uploads:
         self._last = 0
 
     async def receive(self, chunks: AsyncIterator[bytes], purpose: str, name: str) -> Upload:
-        """Write a stream to a file of its own name.
+        """Write a stream to a new file.
 
-        Raises DesignError for one that exceeds the limits; nothing of it stays.
+        Raises DesignError for a stream that exceeds the limits; then removes the file.
         """
         shown = shown_name(name)
         self._check_open(shown)
@@ -92,7 +92,7 @@ class Uploads:
         return self._stored[number]
 
     def get(self, number: object, purpose: str) -> Upload:
-        """The upload of a number, sent for this purpose. Raises DesignError."""
+        """The upload with this number and purpose. Raises DesignError if there is none."""
         upload = self._stored.get(number) if isinstance(number, int) else None
         if upload is None or upload.purpose != purpose:
             raise DesignError("the file is not here any more; send it again")
@@ -102,7 +102,7 @@ class Uploads:
         """Forget an upload, and delete its file."""
         upload = self._stored.pop(number, None)
         if upload is not None:
-            with suppress(OSError):  # if a drawing still reads it, it is removed with the tab
+            with suppress(OSError):  # if a thread still reads it, closing the tab removes it
                 upload.path.unlink()
 
     def _check_open(self, name: str) -> None:
@@ -110,7 +110,7 @@ class Uploads:
             raise DesignError(f"{name}: the page is gone; open it again")
 
     def _check_count(self, purpose: str, name: str) -> int:
-        """The most bytes that may arrive now. Raises DesignError where there are too many files."""
+        """The most bytes that may arrive now. Raises DesignError if there are too many files."""
         present = [upload.purpose for upload in self._stored.values()]
         present += [each for each, _ in self._arriving.values()]
         bounds = PURPOSES[purpose]
@@ -154,5 +154,5 @@ def shown_name(name: str) -> str:
 
 
 def shown_bytes(count: int) -> str:
-    """`256 MiB`."""
+    """A size as text, for example `256 MiB`."""
     return f"{count >> 20} MiB" if count >= 1 << 20 else f"{count} bytes"

@@ -32,7 +32,7 @@ export default {
     const onStatus = (line) => (this.line = line);
     const onState = (state) => this.update(state);
     try {
-      // Not in Vue's data: Vue would make proxies of everything in the viewer.
+      // Not in Vue's data, because Vue would wrap everything in the viewer in proxies.
       this.$el.viewer = new Viewer(this.$refs.canvas, this.$refs.labels, address, onStatus, onState);
     } catch (error) {
       onStatus(`The live cloth cannot be drawn: ${error.message}`);

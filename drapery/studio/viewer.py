@@ -1,4 +1,4 @@
-"""The live cloth as an element of the page; `viewer/` draws it and `stream` feeds it."""
+"""The live cloth as an element of the page; `viewer/` draws it, `stream` sends it the data."""
 
 from typing import Literal
 
@@ -18,8 +18,8 @@ LABEL = (
 class ViewerElement(ui.element, component="viewer.js", esm={"drapery-viewer": "viewer"}):
     """A canvas on which a session's cloth moves.
 
-    which: of designs side by side: all, or only that on the left or right. All viewers of one
-    session show the same motion.
+    which: which of two designs side by side it shows: all, or only the left or the right one. All
+    viewers of one session show the same motion.
     """
 
     def __init__(self, session: Session, which: Which = "all", label: str = LABEL) -> None:

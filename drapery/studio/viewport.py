@@ -1,7 +1,7 @@
 """The live cloth of one tab: it moves while a viewer is visible, and wakes the viewers.
 
-Each input is a call that is queued and made between two ticks, in the thread that ticks; the
-page's own event loop only queues and waits.
+Each input is a function that is queued and called between two ticks, in the thread that makes the
+ticks; the page's event loop only adds to the queue and waits.
 """
 
 import asyncio
@@ -27,14 +27,17 @@ from drapery.studio.sketch import banner_of
 from drapery.studio.wind_controls import wind_controls_of
 
 BEHIND = 4
-"""Ticks that are caught up at once; further ones are left out, and time runs slower."""
+"""The most ticks in one turn; more delayed ticks are skipped, so simulated time runs slower."""
 THREADS = 4
 LONG = 0.8
-"""A turn that takes longer is announced to the user [s]."""
+"""The user gets a note if a turn takes longer than this [s]."""
 FIRST = 2.0
-"""How long the cloth waits for its first picture to be seen [s]."""
+"""How long the cloth waits until its first picture has been seen [s]."""
 LONGEST = 60.0
-"""A later moment is not set as the picture's, which is simulated from the start [s]."""
+"""The latest moment of a pause that becomes the picture's `time` [s].
+
+A picture is simulated from the start, so a later moment would take too long.
+"""
 
 T = TypeVar("T")
 Input = Callable[[Live], object]
@@ -42,10 +45,11 @@ Input = Callable[[Live], object]
 
 @dataclass(frozen=True)
 class ViewportRequest:
-    """What the live cloth shows, beyond the settings of a picture.
+    """What the live cloth shows, in addition to the settings of a picture.
 
-    on: the wind blows. paused: time stands still. scene: a ready-made scene instead of the design.
-    beside: packs in which the design is shown a second time, side by side; None for only one.
+    on: whether the wind blows. paused: whether time stands still. scene: a ready-made scene, shown
+    in place of the design. beside: packs for a second view of the design, side by side with the
+    first; None shows only one view.
     """
 
     on: bool = True
@@ -56,12 +60,12 @@ class ViewportRequest:
 
 @cache
 def _pool() -> ThreadPoolExecutor:
-    """The threads in which all tabs' cloths move."""
+    """The threads that move the cloths of all tabs."""
     return ThreadPoolExecutor(THREADS, thread_name_prefix="live")
 
 
 async def in_thread(call: Callable[[], T]) -> T:
-    """The call's result, made in a thread of the live cloths."""
+    """Call a function in a thread of the live cloths and return its result."""
     return await asyncio.get_running_loop().run_in_executor(_pool(), call)
 
 
@@ -69,8 +73,9 @@ class Viewport:
     """The live cloth of a tab.
 
     request: what it shows. version: grows with every visible change. fault: why the last change
-    failed, or "". note: what takes a while, or "". size: of the viewer [pixels]. viewers: how many
-    are connected, hidden ones too. closed: whether its tab is gone.
+    failed, or "". note: a line about work that takes long, or "". size: width and height of the
+    viewer [pixels]. viewers: the number of connected viewers, including hidden ones. closed:
+    whether its tab is closed.
     """
 
     def __init__(self, document: Document, packs: PackStore) -> None:
@@ -95,7 +100,7 @@ class Viewport:
         self._pulse = asyncio.Event()
         self._owed = 0.0
         self._turning = threading.Lock()
-        self._swapping = threading.Lock()  # for what both the event loop and the thread change
+        self._swapping = threading.Lock()  # guards what both the event loop and the thread change
         self._picture: tuple[int, Shown | None] = (-1, None)
         self._beside: tuple[object, Packs] | None = None
         for event in ("sketch", "settings", "packs"):
@@ -103,9 +108,9 @@ class Viewport:
         document.on_close(self.close)
 
     def update(self, **options: Any) -> None:
-        """Change the request; notifies "scene" if the scene is another.
+        """Change the request; notifies "scene" if the scene changes.
 
-        Raises OptionError or PackError; nothing has changed then.
+        Raises OptionError or PackError; then nothing changes.
         """
         before, after = self.request, replace(self.request, **options)
         self._open_beside(after.beside)
@@ -118,11 +123,11 @@ class Viewport:
             self._wake()
 
     def listen(self, call: Callable[[], None]) -> None:
-        """Call this whenever keys have changed the request, or a fault has come or gone."""
+        """Call this whenever keys have changed the request, or a fault appears or disappears."""
         self._listeners.append(call)
 
     def do(self, call: Input) -> None:
-        """Queue an input, which is made before the next tick."""
+        """Queue an input; it is called before the next tick."""
         with self._swapping:
             self._inputs.append(call)
 
@@ -132,16 +137,16 @@ class Viewport:
         self.do(lambda live: live.press(keys, azimuth))
 
     def switch(self) -> None:
-        """Switch the wind off, or on again."""
+        """Switch the wind on or off."""
         self.update(on=not self.request.on)
         self._notify()
 
     def reset(self) -> None:
-        """Put the cloth back to rest, and a scene back to its start."""
+        """Reset the cloth to rest, and a scene to its start."""
         self.do(self._restart)
 
     def look_anew(self) -> None:
-        """Frame what is seen as the named view does."""
+        """Reset the camera to the named view."""
         self.do(lambda live: live.reframe())
 
     def enter(self) -> None:
@@ -151,13 +156,13 @@ class Viewport:
             self._task = asyncio.get_running_loop().create_task(self._run(), name="live cloth")
 
     def leave(self) -> None:
-        """Count a viewer that is hidden now; after the last, nothing moves and nothing is spent."""
+        """Count a viewer that has become hidden; after the last one, the motion stops."""
         self._visible -= 1
         if self._visible <= 0:
             self._stop()
 
     def close(self) -> None:
-        """End the motion and its viewers: the tab is gone."""
+        """End the motion and disconnect its viewers, because the tab is closed."""
         self.closed = True
         self._stop()
         self._count_change()
@@ -167,18 +172,18 @@ class Viewport:
 
     @property
     def moving(self) -> bool:
-        """Whether a task of it runs."""
+        """Whether its motion task runs."""
         return self._task is not None
 
     async def after(self, version: int) -> None:
-        """Wait until there is something newer than this version."""
+        """Wait for a version newer than this one."""
         while self.version <= version:
             await self._pulse.wait()
 
     def shown(self) -> Shown | None:
-        """What is visible now; None before there is anything, and while a turn takes long.
+        """What is visible now; None before the first picture, and while a turn takes long.
 
-        It blocks: call it in a thread.
+        It blocks, so call it in a thread.
         """
         if not self._turning.acquire(timeout=LONG):
             return None
@@ -202,7 +207,7 @@ class Viewport:
         return self._live.shown() if self._live is not None else None
 
     def _open_beside(self, paths: tuple[str | Path, ...] | None) -> Packs | None:
-        """The packs beside those of the settings, opened once while they stay the same."""
+        """The packs of the second view; opened again only when they change."""
         key = paths, self._document.settings.format
         with self._swapping:
             if paths is None:
@@ -240,7 +245,7 @@ class Viewport:
     async def _run(self) -> None:
         try:
             await self._keep_moving()
-        except Exception as error:  # a fault in the program: the user must see that it stopped
+        except Exception as error:  # an error in the program: tell the user
             self.fault = f"the live cloth has stopped ({type(error).__name__}); reload the page"
             self._count_change()
             self._wake()
@@ -253,7 +258,7 @@ class Viewport:
         while True:
             ticks = min(int((clock() - due) / STEP) + 1, BEHIND)
             if self._picture[1] is None and clock() < patience:
-                ticks = 0  # the first picture need not wait for the kernels
+                ticks = 0  # show the first picture before the kernels are compiled
             fault, version = self.fault, self.version
             if not self.request.paused or self._stale or self._inputs:
                 await self._run_in_thread(partial(self._turn, ticks))
@@ -266,23 +271,23 @@ class Viewport:
             await asyncio.sleep(max(0.0, due - clock()))
 
     def _note_pause(self) -> None:
-        """Set the moment of a pause as the picture's time, if a picture can show it."""
+        """Set the picture's `time` to the moment of the pause, if a picture can show it."""
         stopped = self.request.paused and not self._paused
         self._paused = self.request.paused
         live = self._live
         if not stopped or self._player is not None or live is None or not live.is_picture:
             return
         if 0 < live.time <= LONGEST:
-            # Rounded down: the picture must not take one step more.
+            # Round down: the picture must not make one more step.
             self._document.adjust(time=math.floor(live.time * 1e6) / 1e6)
 
     def _wake(self) -> None:
-        """Wake all that wait for a change."""
+        """Wake all tasks that wait for a change."""
         self._pulse.set()
         self._pulse = asyncio.Event()
 
     async def _run_in_thread(self, call: Callable[[], None]) -> None:
-        """Make a turn in a thread; a note says so if it takes long, as at the first compile."""
+        """Run a turn in a thread; sets a note if it takes long, such as at the first compile."""
         turn = asyncio.ensure_future(in_thread(call))
         try:
             done, _ = await asyncio.wait({turn}, timeout=LONG)
@@ -298,7 +303,7 @@ class Viewport:
             turn.cancel()
 
     def _has_steered(self) -> bool:
-        """Whether keys have changed the wind; the settings then take it over."""
+        """Whether keys have changed the wind; if so, the settings adopt the new wind."""
         wind = self._live.wind_controls if self._live is not None else None
         if wind is None or self._stale or self._inputs:
             return False
@@ -314,7 +319,7 @@ class Viewport:
             self._change(ticks)
 
     def _change(self, ticks: int) -> None:
-        """Make the changes, then move on; an error is kept as `fault`."""
+        """Apply the queued changes, then advance the motion; stores an error in `fault`."""
         with self._swapping:
             inputs, self._inputs = self._inputs, []
             stale, self._stale = self._stale, False
@@ -345,13 +350,13 @@ class Viewport:
         self._owed += ticks * STEP * self._player.fps
         if self._owed < 1.0:
             return False
-        # A scene that is late stays late: each of its moments is simulated only once.
+        # Do not catch up on a delay: a scene advances by at most one moment per turn.
         self._owed = min(self._owed - 1.0, 1.0)
         self._player.step()
         return True
 
     def _renew(self) -> None:
-        """Take over the design, the settings and the request. Raises DraperyError."""
+        """Apply the design, the settings and the request. Raises DraperyError."""
         document, request = self._document, self.request
         if request.scene != (self._player.entry.name if self._player is not None else None):
             self._player = None

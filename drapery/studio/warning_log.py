@@ -1,8 +1,9 @@
-"""Warnings of one task or thread alone.
+"""Collect the warnings of a single task or thread.
 
-`warnings.catch_warnings` swaps the state of the whole process: in a server with threads it takes
-the warnings of others, and puts back what another has just set. Here one hook stays in place for
-the life of the process, and a context variable says who collects.
+`warnings.catch_warnings` replaces the state of the whole process: in a server with threads it
+collects the warnings of other threads too, and then overwrites what another thread has just set.
+This module installs one hook for the life of the process; a context variable holds the list to
+which the warnings of the current task or thread are added.
 """
 
 import threading
@@ -35,7 +36,7 @@ def _install() -> None:
         if warnings.showwarning is not _show:
             _show_elsewhere = warnings.showwarning
             warnings.showwarning = _show
-            # Else a second file with the same fault would be read without a word.
+            # The default filter would hide the same warning about a second file.
             warnings.simplefilter("always", UserWarning)
 
 

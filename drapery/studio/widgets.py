@@ -10,7 +10,7 @@ Press = Callable[[], object]
 
 
 def button(label: str, press: Press, *, icon: str = "", text: str = "", key: str = "") -> Element:
-    """A button. label: what it does, for all; icon, text: what it shows; key: its shortcut."""
+    """A button. label: its accessible name; icon, text: what it shows; key: its shortcut."""
     element = ui.element("button").classes("button")
     element.props("type=button")
     element.props.update({"aria-label": label, "title": f"{label} ({key})" if key else label})
@@ -30,7 +30,7 @@ def text_element(text: str, tag: str = "span") -> ui.label:
 
 
 class SegmentedControl:
-    """Buttons side by side of which one is pressed.
+    """A row of buttons; exactly one of them is pressed.
 
     options: the choices by name, with their titles. choose: takes the name that was pressed.
     """
@@ -45,7 +45,7 @@ class SegmentedControl:
                 self._buttons[name] = element
 
     def show(self, chosen: str) -> None:
-        """Mark what is chosen."""
+        """Mark the chosen button."""
         for name, element in self._buttons.items():
             pressed = "true" if name == chosen else "false"
             if element.props.get("aria-pressed") != pressed:

@@ -1,4 +1,4 @@
-"""The wind of the live cloth: set by sliders or keys, and without a jump where it changes."""
+"""The wind of the live cloth: sliders or keys set it, and it changes without a jump."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -10,16 +10,16 @@ from drapery.scenes import WIND_AXIS, flow
 from drapery.settings import MAX_WIND, OPTIONS, Settings
 
 DEFAULT_HEADING = float(np.degrees(np.arctan2(WIND_AXIS[0], WIND_AXIS[2])))
-"""Where the wind of a picture blows to [degrees]: 0 is straight out of the banner's front."""
+"""The direction to which a picture's wind blows [degrees]; 0 is straight out of the front."""
 TURN_RATE = 150.0
 """How fast the keys turn the wind [degrees/s]."""
 SPEED_RATE = 5.0
-"""How fast the keys change its strength [m/s²]."""
+"""How fast the keys change the wind's speed [m/s²]."""
 KEY_DIRECTIONS = {"w": 180.0, "s": 0.0, "a": -90.0, "d": 90.0}
 """The direction of each key, seen by the viewer: away, towards, left, right [degrees]."""
 KEYS = (*KEY_DIRECTIONS, "q", "e")
 PHASES = 1 << 16
-"""How many phases of the gusts `carried_on` compares."""
+"""The number of gust phases that `carried_on` compares."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class WindControls:
 
     @property
     def heading(self) -> float:
-        """Where the wind blows to [degrees], -180..180; 0 is straight out of the banner's front."""
+        """The direction to which the wind blows [degrees], -180..180; 0 is away from the front."""
         return DEFAULT_HEADING if self.direction is None else around(self.direction)
 
 
@@ -52,7 +52,7 @@ def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
 
 
 def wind_of(controls: WindControls) -> Wind:
-    """The wind on a cloth in its own frame: that of pictures, to the bit."""
+    """The wind on a cloth, in the cloth's frame; bit-identical to the wind of pictures."""
     speed = controls.speed if controls.on else 0.0
     return Wind(flow(speed, controls.direction), gusts=controls.gusts, seed=controls.seed)
 
@@ -60,10 +60,10 @@ def wind_of(controls: WindControls) -> Wind:
 def steered(
     controls: WindControls, keys: Iterable[str], azimuth: float, seconds: float
 ) -> WindControls:
-    """The controls after keys have been held for some seconds.
+    """The controls after keys have been held for a time [s].
 
     w, a, s, d turn the wind away from the viewer, to the left, towards the viewer, to the right;
-    q and e make it weaker and stronger. azimuth: of the viewer about the banner [degrees].
+    q and e make it weaker and stronger. azimuth: the viewer's azimuth about the banner [degrees].
     """
     pressed = set(keys)
     towards = [
@@ -87,15 +87,15 @@ def around(degrees: float) -> float:
 def carried_on(before: Wind, after: Wind, time: float) -> Wind:
     """A wind that replaces another at a time [s] and continues its gusts and swell.
 
-    Gusts travel with the wind, so a change of the speed alone would jump to other gusts. Of the
-    phases that continue the swell, the result has the one that continues the gusts best.
+    Gusts travel with the wind, so a change of only the speed would jump to other gusts. Several
+    phases continue the swell; the result has the one of them that continues the gusts best.
     """
     phase = float(np.asarray(before.phases))
     old, new = (_speed(wind) / wind.gust_size for wind in (before, after))
     if new in (0.0, old) or old == 0.0:
         return replace(after, phases=phase)
     later = phase + after.sine_period * np.arange(PHASES)
-    # The gusts repeat after 4096 gust sizes.
+    # The gust pattern repeats after a length of 4096 gust sizes.
     apart = (time + later) * new - (time + phase) * old
     apart -= 4096.0 * np.round(apart / 4096.0)
     return replace(after, phases=float(later[np.argmin(np.abs(apart))]))

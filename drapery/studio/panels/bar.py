@@ -88,7 +88,7 @@ def set_mode(session: Session, name: str) -> None:
 
 
 def act(session: Session, what: str) -> None:
-    """Do the action of a shortcut of `studio.js`."""
+    """Perform the action of a keyboard shortcut from `studio.js`."""
     selection = session.selection
     actions: dict[str, Callable[[], object]] = {
         "undo": session.undo,

@@ -1,7 +1,7 @@
 """Sliders, lists and buttons that show what the session holds and change it.
 
-A control reads its value again at each event of the session, so that it shows the effect of undo,
-links and keys too.
+A control reads its value again at each event of the session, so it also shows the effects of undo,
+links and keys.
 """
 
 from collections.abc import Callable, Mapping
@@ -32,14 +32,14 @@ class Controls:
         self._quiet = False
 
     def follow(self) -> None:
-        """Follow the session from now on; call this after all controls have been made."""
+        """Refresh at every event of the session; call this after all controls have been made."""
         self._session.listen("settings", self.refresh)
         self._session.listen("scene", self.refresh)
         self._session.viewport.listen(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
-        """Show the present values."""
+        """Show the current values."""
         self._quiet = True
         try:
             for element, get in self._shown:
@@ -85,7 +85,7 @@ class Controls:
         self.slider(label, (*option.bounds, step), get, change, to_text, option.describe())
 
     def choice(self, name: str, label: str, **also: Any) -> None:
-        """A list for an option with few choices; also: other options that change with it."""
+        """A list for an option with few choices. also: other options that change with it."""
         option = OPTIONS[name]
         element = self.select(
             label,
@@ -107,7 +107,7 @@ class Controls:
         """A list of choices, by value, with their titles."""
         element = ui.select(dict(choices), label=label, value=get()).classes("control")
         element.props(f'dense outlined options-dense aria-label="{label}"')
-        # With the focus on it, it would take the keys that steer the wind.
+        # If it had the focus, it would consume the keys that change the wind.
         element.on("popup-hide", js_handler=BLUR)
         self._listen(element, get, change)
         return element
@@ -145,7 +145,7 @@ class Controls:
 
     def _listen(self, element: ValueElement[Any], get: Get, change: Set) -> None:
         def changed(event: Any) -> None:
-            # A value that the session has set is not the user's input.
+            # Ignore a change that the session made: it is not the user's input.
             if self._quiet or event.value == get():
                 return
             with errors_shown():

@@ -112,14 +112,14 @@ class _ExportForm:
 
 
 def shown_size(count: int) -> str:
-    """`12.3 kB`, as file managers write it."""
+    """A size as file managers show it, for example `12.3 kB`."""
     if count < 1000:
         return f"{count} bytes"
     return f"{count / 1000:.1f} kB" if count < 1_000_000 else f"{count / 1_000_000:.1f} MB"
 
 
 def _copies(session: Session, choice: FileChoice) -> Callable[[], None]:
-    """The link, the command and the lines of Python; the callable updates them."""
+    """The link, the command and the lines of Python; returns a callable that updates them."""
     request = ui.context.client.request
     base = str(request.base_url) if request is not None else "/"
     link = copy_field("share-link", "Link to this design (packs stay here)", 2)
@@ -143,7 +143,7 @@ def _copies(session: Session, choice: FileChoice) -> Callable[[], None]:
 def _follow_changes(session: Session, show: Callable[[], None]) -> None:
     """Let the page's address follow the design, so that reloading the page restores it.
 
-    The viewport's request is compared as often, since no event announces its changes.
+    It also polls the viewport's request, because no event announces changes of the request.
     """
     written = write_link(session.sketch, session.settings)
     request = session.viewport.request

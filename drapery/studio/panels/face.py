@@ -1,4 +1,4 @@
-"""The flat face: the design as banner sites show it, exact to the texel."""
+"""The flat face: the design as banner websites show it, with exact texels."""
 
 from itertools import count
 
@@ -17,7 +17,7 @@ def build(session: Session) -> None:
     announced = text_element("").classes("sr").props("role=status")
 
     def show() -> None:
-        # Each state has a new address: the browser must not show an older picture.
+        # Each state has a new address, so the browser cannot show an old picture from its cache.
         picture.props["src"] = f"/face/{session.token}.png?v={next(version)}"
         picture.props["alt"] = described(session.sketch)
         picture.props["data-kind"] = session.sketch.kind

@@ -1,7 +1,8 @@
 """Labelled fields: numbers, choices, colours, check boxes and lines of text.
 
-A field shows the value of `get`, again at every `refresh`. The user's input goes to `change`; if
-that raises a DraperyError, the user sees it and the field returns to the value of `get`.
+A field shows the value of `get` and updates it at every `refresh`. The user's input goes to
+`change`; if that raises a DraperyError, the user sees it and the field returns to the value of
+`get`.
 """
 
 from collections.abc import Callable, Mapping
@@ -35,7 +36,7 @@ class Fields:
         self._shown: list[_BoundProp] = []
 
     def refresh(self) -> None:
-        """Show the present values."""
+        """Show the current values."""
         for field in self._shown:
             value = field.get()
             if field.element.props.get(field.prop) != value:
@@ -43,7 +44,7 @@ class Fields:
                 field.element.update()
 
     def number(self, label: str, option: Option, get: Get, change: Change) -> None:
-        """A number with the bounds and help of an option; an empty field returns to its value."""
+        """A number with an option's bounds and help; an empty field returns to its last value."""
         assert option.bounds is not None
         minimum, maximum = option.bounds
         step = "1" if option.type is int else "any"
@@ -87,7 +88,7 @@ class Fields:
         value: str = "e.target.value",
     ) -> Element:
         def changed(event: Any) -> None:
-            # The browser shows this value already.
+            # Record the value that the browser already shows.
             element.props[prop] = value_of(event)
             with errors_shown():
                 change(value_of(event))
@@ -110,7 +111,7 @@ def _is_number(text: object) -> bool:
 
 
 def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:
-    """A text to read, with a button that copies it; the callable puts a text into it.
+    """A read-only text with a copy button; returns a callable that sets the text.
 
     name: its id on the page.
     """

@@ -61,7 +61,7 @@ class FileChoice:
 
 
 def order_of(session: Session, choice: FileChoice) -> Order:
-    """The order for the present state of the page. Raises DesignError."""
+    """The order for the current state of the page. Raises DesignError."""
     # A cape or elytra has a texture instead of a design.
     banner = None if session.settings.texture is not None else banner_of(session.sketch)
     settings = session.settings
@@ -74,7 +74,7 @@ Groups = list[tuple[Element, Callable[[], bool]]]
 
 
 def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
-    """The kind of file and the options of this kind; the callable updates them."""
+    """The kind of file and the options of this kind; returns a callable that updates them."""
     fields, groups = Fields(), Groups()
     with ui.element("div").classes("options"):
         fields.choice("File", KINDS, lambda: choice.kind, lambda kind: choice.set(kind=kind))
@@ -113,7 +113,7 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
 
 @contextmanager
 def _only(groups: Groups, counts: Callable[[], bool]) -> Iterator[None]:
-    """Options that are visible only while `counts` is true."""
+    """Within the block, add options that are visible only while `counts` returns true."""
     with ui.element("div").classes("option-group") as group:
         yield
     groups.append((group, counts))
@@ -135,13 +135,13 @@ def _times(choice: FileChoice, fields: Fields) -> None:
 
 
 def _choice_number(fields: Fields, label: str, choice: FileChoice, option: Option) -> None:
-    """A number of the file alone."""
+    """A field for a number that affects only the file."""
     get = partial(getattr, choice, option.name)
     fields.number(label, option, get, lambda number: choice.set(**{option.name: number}))
 
 
 def _number(session: Session, fields: Fields, label: str, name: str) -> None:
-    """A number that is an option of the picture."""
+    """A field for a numeric option of the picture."""
     get = partial(_value, session, name)
     fields.number(label, OPTIONS[name], get, lambda number: session.adjust(**{name: number}))
 
@@ -149,7 +149,7 @@ def _number(session: Session, fields: Fields, label: str, name: str) -> None:
 def _pick(
     session: Session, fields: Fields, label: str, name: str, titles: Mapping[str, str]
 ) -> None:
-    """An option of the picture that is one of several."""
+    """A field for an option of the picture that has a list of choices."""
     fields.choice(
         label,
         titles,
@@ -188,7 +188,7 @@ def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups
 
 
 def difference(request: ViewportRequest, kind: str) -> str:
-    """What the live banner shows and the file will not."""
+    """What the live banner shows but the file will not contain."""
     if kind in ("face", "json") or request.scene is None:
         return ""
     return "The file shows your banner, not the scene."

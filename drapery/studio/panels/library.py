@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 PAGE = 24
-"""Designs that are shown at first, and more by every More."""
+"""The number of designs shown at first, and the number that each click on More adds."""
 LATER = 1.2
-"""The library is first read so long after the page has been built [s]."""
+"""The delay between building the page and first reading the library [s]."""
 PAUSE = 0.25
 """The shortest time between two searches while the user types [s]."""
 
@@ -43,7 +43,7 @@ class LibraryPanel:
     def __init__(self, session: Session) -> None:
         self._session = session
         self._client = ui.context.client
-        # The number of the present design in the library; 0 for one that is not saved yet.
+        # The number of the current design in the library; 0 if it is not saved yet.
         self._open = 0
         self._title = session.sketch.title
         self._tags = ""
@@ -61,7 +61,7 @@ class LibraryPanel:
         self._more.set_visibility(False)
         self._whole_library()
         session.listen("sketch", self._follow)
-        # The database is not needed for the first picture.
+        # Load the database after the first picture, which does not need it.
         ui.timer(LATER, self._refresh, once=True)
 
     def _form(self) -> None:
@@ -141,12 +141,12 @@ class LibraryPanel:
             self._fields.refresh()
 
     def _notice(self, line: str, tone: Tone = "done") -> None:
-        # The pressed button may be gone: the cards have been replaced.
+        # The pressed button may not exist any more, because the cards have been replaced.
         with self._client:
             show_notice(line, tone)
 
     async def _do(self, act: "Callable[[Library], T]") -> T | None:
-        """The library's answer, in a thread; None after an error, which the user is shown."""
+        """Call the library in a thread; after an error, notify the user and return None."""
 
         def ask() -> T:
             return act(self._session.library.open())
@@ -164,13 +164,13 @@ class LibraryPanel:
             return *library.search(wanted, tag, limit=limit), library.tags()
 
         answer = await self._do(ask)
-        # The answer to a later search may have arrived earlier.
+        # Drop this answer if a newer search has started since: that search shows its own result.
         stale = (wanted, tag, limit) != (self._words, self._tag or None, self._limit)
         if answer is None or stale or self._session.closed:
             return
         designs, count, names = answer
         if tag is not None and tag not in names:
-            # The last design with this tag is gone.
+            # No design has this tag any more.
             self._tag = ""
             self._tag_choice.refresh()
             await self._refresh()
@@ -294,11 +294,11 @@ class LibraryPanel:
             self._set_open(0)
         self._offer(f"Deleted {_title(gone)}", "Put it back", gone)
         await self._refresh()
-        # The pressed button is gone; the keyboard's focus goes on from here.
+        # The pressed button no longer exists, so move the keyboard's focus to the undo button.
         self._client.run_javascript("document.querySelector('.undo button')?.focus()")
 
     def _offer(self, line: str, offer: str, design: "Design") -> None:
-        """Say what was done, with a button that restores the earlier design."""
+        """Show what was done, with a button that restores the earlier design."""
         self._undo.clear()
         with self._undo:
             text_element(line)

@@ -13,9 +13,9 @@ from drapery.studio.viewer import ViewerElement
 from drapery.studio.viewport import in_thread
 
 OWN = "your banner"
-"""The choice that shows no scene but the design."""
+"""The choice that shows the design instead of a scene."""
 LATER = 1.5
-"""The scenes are listed so long after the page has been built [s]."""
+"""The delay between building the page and listing the scenes [s]."""
 
 
 def build(session: Session) -> None:
@@ -46,7 +46,7 @@ def build(session: Session) -> None:
     controls.follow()
 
     async def list_scenes() -> None:
-        # Listing the scenes imports them; the first picture need not wait for that.
+        # Listing the scenes imports them, so do it after the first picture.
         names = await in_thread(_scenes)
         if not session.closed:
             scenes.set_options({None: OWN, **names}, value=viewport.request.scene)

@@ -1,4 +1,4 @@
-"""The design as a recipe for the loom: the items that it needs, and the steps."""
+"""The design as a recipe for the loom: the required items and the steps."""
 
 from collections import Counter
 from html import escape

@@ -50,7 +50,7 @@ def _wind(session: Session, controls: Controls) -> None:
 
 def _cloth(session: Session, controls: Controls) -> None:
     controls.choice("solver", "Solver")
-    # The list must hold the present grid, which a link may have set.
+    # The list must contain the current grid, because a link can set any grid.
     grids = dict.fromkeys((*GRIDS, tuple(session.settings.grid)))
     option = OPTIONS["grid"]
     controls.select(
@@ -78,12 +78,12 @@ def _placement(session: Session, controls: Controls) -> None:
 
 
 def _rotation(session: Session) -> int:
-    """In sixteenths of a turn, for standing and wall banners alike."""
+    """The rotation in sixteenths of a turn, for standing banners and wall banners."""
     return round(session.settings.turned * ROTATIONS / 360)
 
 
 def _rotate(session: Session, number: int) -> None:
-    """Turn the banner; on a wall, to the nearest of four sides."""
+    """Turn the banner; a wall banner turns to the nearest of four sides."""
     if session.settings.placement == "wall":
         sides = OPTIONS["facing"].choices
         session.adjust(facing=sides[round(number / 4) % len(sides)])
@@ -121,12 +121,12 @@ def _light(session: Session, controls: Controls) -> None:
 
 
 def daylight_at(hour: float) -> float:
-    """The brightness of the sky at an hour 0..24: 1 about noon, 0 at night, between at dusk."""
+    """The brightness of the sky at an hour 0..24: 1 around noon, 0 at night, between at dusk."""
     return min(1.0, max(0.0, 0.5 + 2 * math.cos(math.tau * (hour - NOON) / 24)))
 
 
 def hour_of(daylight: float) -> float:
-    """The hour from noon to midnight whose sky has this brightness, in quarters of an hour."""
+    """The hour from noon to midnight with this sky brightness, in steps of a quarter of an hour."""
     if daylight >= 1.0:
         return NOON
     if daylight <= 0.0:

@@ -1,4 +1,4 @@
-"""Resource packs: add, order, switch and compare them."""
+"""Resource packs: add them, order them, switch them on or off, compare them."""
 
 from collections.abc import Callable
 from itertools import count
@@ -73,7 +73,7 @@ def _row(session: Session, entry: PackEntry) -> None:
         before = session.settings.packs
         with client, errors_shown():
             call()
-        # A change among packs that are off changes no option, so no event has announced it.
+        # A change among packs that are off changes no option, so it has not notified "packs".
         if session.settings.packs == before:
             session.notify("packs")
 
@@ -127,7 +127,7 @@ def _comparison(session: Session) -> None:
 
     def follow() -> None:
         chooser.refresh()
-        # The pack on the other side may be gone, or be another file now.
+        # The pack on the other side may have been removed or replaced by another file.
         if other != NO_PACK:
             choose(other)
 
@@ -138,7 +138,7 @@ def _comparison(session: Session) -> None:
 
 
 def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
-    """The packs of the right side, over Drapery's own art; None if nothing is compared."""
+    """The packs of the right side, above Drapery's art; None if there is no comparison."""
     if other == "own":
         return ()
     return (str(pack_store.path_of(int(other))),) if other.isdigit() else None

@@ -44,7 +44,10 @@ def _swatch(dye: Dye) -> dict[str, str]:
 
 
 def _luminance(dye: Dye) -> float:
-    """Relative luminance of sRGB, WCAG 2.2; black and white contrast alike at 0.18."""
+    """Relative luminance of an sRGB colour (WCAG 2.2).
+
+    At 0.18, black and white have the same contrast with the colour.
+    """
     red, green, blue = (
         part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
         for part in (channel / 255 for channel in dye.rgb)

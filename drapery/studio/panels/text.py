@@ -13,7 +13,7 @@ from drapery.studio.upload_queue import MAX_FOUND, UploadQueue
 from drapery.studio.widgets import button, text_element
 
 MAX_PLACE = 60
-"""Letters of a place that are shown for a banner that was found."""
+"""The most characters shown of the place where a banner was found."""
 
 _PLACEHOLDER = (
     "Paste a /give command, an item, JSON, the address of a banner editor,"

@@ -74,7 +74,7 @@ export class Drawing {
     this.buffers = {};
   }
 
-  // Take over what stays; positions come with the next moment.
+  // Set the constant parts of the scene; the positions follow with the next moment.
   setScene(header, arrays) {
     const gl = this.gl;
     const count = header.vertices;
@@ -92,7 +92,7 @@ export class Drawing {
     this.table("layers", widened(arrays.layers), 4);
   }
 
-  // Put what has moved in its new place.
+  // Update the vertices that have moved.
   setMoment(header, arrays) {
     const gl = this.gl;
     const { positions, light } = this.scene;
@@ -111,7 +111,7 @@ export class Drawing {
     this.tints = header.tints;
   }
 
-  // Draw each pane into its rectangle of the canvas, [x, y, width, height] from the lower left.
+  // Draw each pane into its rectangle of the canvas: [x, y, width, height], origin at lower left.
   draw(rects, matrices) {
     const gl = this.gl;
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
@@ -193,7 +193,7 @@ export class Drawing {
     for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
   }
 
-  // The graphics side's memory, given back at once.
+  // Release the GPU memory immediately.
   free() {
     const gl = this.gl;
     Object.values(this.buffers).forEach((buffer) => gl.deleteBuffer(buffer));
@@ -217,7 +217,7 @@ function link(gl) {
   return program;
 }
 
-// A pane's triangles: those that are solid, and those that blend.
+// Split a pane's triangles into opaque ones and blended ones.
 function splitPane(pane, { triangles, triangleMaterials, materials }) {
   const [first, count] = pane.triangles;
   const solid = [];
@@ -242,7 +242,7 @@ function allIndices(panes) {
   return indices;
 }
 
-// Layers of seven numbers as rows of eight.
+// Pad layers of seven numbers to rows of eight.
 function widened(layers) {
   const rows = new Int32Array((layers.length / 7) * 8);
   for (let layer = 0; 7 * layer < layers.length; layer++) rows.set(layers.subarray(7 * layer, 7 * layer + 7), 8 * layer);

@@ -1,4 +1,4 @@
-// The live cloth on a canvas: what the server streams, seen by the user's own camera.
+// The live cloth on a canvas: draws what the server streams, with the user's camera.
 
 import { Drawing } from "./drawing.js";
 import { InputHandler } from "./input.js";
@@ -83,7 +83,7 @@ export class Viewer {
     this.cameras = list.map(readCamera);
   }
 
-  // The panes' labels, over them.
+  // Place the labels over the panes.
   label({ panes, columns }) {
     this.labels.replaceChildren();
     if (!panes.some((pane) => pane.label)) return;
@@ -110,7 +110,7 @@ export class Viewer {
   }
 
   draw() {
-    // The cameras of a scene come with its first moment, which may be a frame later.
+    // The first moment of a scene brings its cameras; it may arrive one frame after the scene.
     if (this.gl.isContextLost() || this.cameras.length !== this.drawing.scene?.header.panes.length) return;
     const rects = this.rects(this.canvas.width, this.canvas.height);
     const matrices = rects.map(([, , width, height], number) => clipMatrix(this.camera(number), width / height));
@@ -121,7 +121,7 @@ export class Viewer {
     else this.onState({ wind: null });
   }
 
-  // If a picture takes too long, it is drawn with one sample a pixel.
+  // If a picture takes too long, draw with one sample per pixel.
   measure(start) {
     this.untimed = false;
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
@@ -183,7 +183,7 @@ export class Viewer {
   resize() {
     const { clientWidth, clientHeight } = this.canvas;
     if (!clientWidth || !clientHeight) return this.hide();
-    // Several samples a pixel: a larger picture, which the browser scales down.
+    // Several samples per pixel: draw a larger picture, which the browser scales down.
     const ratio = window.devicePixelRatio || 1;
     const finer = (this.drawing.scene?.header.samples ?? 1) > 1 && ratio < 1.5 && !this.tooSlow ? 2 : 1;
     const [width, height] = [clientWidth, clientHeight].map((side) => Math.round(side * ratio * finer));
@@ -197,7 +197,7 @@ export class Viewer {
     this.hide();
   }
 
-  // A viewer that is not visible needs no motion.
+  // Report whether the viewer is visible: a hidden viewer does not need motion.
   hide() {
     const hidden = document.hidden || this.away || !this.canvas.clientWidth;
     if (hidden !== this.hidden) this.stream?.send({ hidden }, true);

@@ -9,7 +9,7 @@ const STEERING = {
 const TEXT_FIELDS =
   "input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=''],"
   + " [contenteditable=true], [role=textbox], [role=combobox], [role=listbox]";
-const OVERLAYS = "dialog[open], .q-dialog, .q-menu"; // while one is open, it has the keys
+const OVERLAYS = "dialog[open], .q-dialog, .q-menu"; // while one is open, it receives the keys
 
 const viewers = new Set();
 
@@ -116,7 +116,7 @@ export class InputHandler {
     this.change(() => this.viewer.orbit.dolly(Math.exp(Math.min(120, Math.max(-120, event.deltaY * lines)) * 0.0015)));
   }
 
-  // With the focus on the viewer, Shift with arrows turns the view, + and - zoom, Home resets it.
+  // While the viewer has the focus: Shift + arrows turn the view, + and - zoom, Home resets it.
   key(event, down) {
     const inside = event.target === this.viewer.canvas;
     if (inside && down && this.moveCamera(event)) return event.preventDefault();

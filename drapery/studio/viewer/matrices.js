@@ -17,14 +17,14 @@ export function readCamera([position, target, up, fov, height, near, far]) {
   return { position, target, up, fov, height, near, far };
 }
 
-// Right, up and back of a camera, in the world.
+// The right, up and back directions of a camera, in world coordinates.
 export function axes(camera) {
   const back = unit(subtract(camera.position, camera.target));
   const right = unit(cross(camera.up, back));
   return { right, up: cross(back, right), back };
 }
 
-// World to clip space for a picture of this width / height.
+// The matrix from world to clip space for a picture with this aspect ratio, width / height.
 export function clipMatrix(camera, aspect) {
   const { right, up, back } = axes(camera);
   const rows = [right, up, back].map((axis) => [...axis, -dot(axis, camera.position)]);

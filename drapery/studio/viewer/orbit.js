@@ -26,13 +26,13 @@ export class Orbit {
     this.zoom = Math.min(8, Math.max(0.05, this.zoom * factor));
   }
 
-  // In parts of the picture's height.
+  // Distances are fractions of the picture's height.
   shift(right, up) {
     const near = (value) => Math.min(2, Math.max(-2, value));
     this.offset = [near(this.offset[0] + right), near(this.offset[1] + up)];
   }
 
-  // The server's camera after the user's moves.
+  // The server's camera, changed by the user's moves.
   camera(base) {
     const away = subtract(base.position, base.target);
     const distance = length(away);
@@ -56,7 +56,7 @@ export class Orbit {
   }
 }
 
-// From a new place, neither the near nor the far plane may cut what was visible.
+// Near and far planes for a moved camera; they must not clip anything that was visible before.
 function planes(base, distance, far) {
   const deep = 2 * Math.max(distance, base.far - distance);
   if (base.height !== null) return { near: base.near - deep, far: base.far + deep };
@@ -66,7 +66,7 @@ function planes(base, distance, far) {
 // The direction from a camera's target to the camera [degrees from +z towards +x].
 export function azimuth(camera) {
   const { back, up } = axes(camera);
-  // Seen from straight above, up in the picture points away from the viewer.
+  // From straight above, use the picture's up direction, which points away from the viewer.
   const level = Math.hypot(back[0], back[2]) > 1e-3 ? back : scale(up, -Math.sign(dot(back, UPRIGHT)));
   return (Math.atan2(level[0], level[2]) * 180) / Math.PI;
 }

@@ -1,4 +1,4 @@
-// Whether a ray meets first a cloth that can be grabbed.
+// Whether the first surface that a ray hits is a cloth that can be grabbed.
 
 import { cross, dot, subtract } from "./matrices.js";
 

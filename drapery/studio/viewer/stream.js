@@ -7,7 +7,7 @@ const UNKNOWN = 4404;
 const ENOUGH = 4429;
 
 export class Stream {
-  // onMessage: takes each message; onStatus: takes a line for the user, "" when all works again.
+  // onMessage: gets each message; onStatus: gets a line for the user, or "" when all works again.
   constructor(address, onMessage, onStatus) {
     this.address = address;
     this.onMessage = onMessage;
