@@ -90,11 +90,11 @@ class PictureService:
         self.digests = DigestCache()
         for pack in config.base.pack_paths:
             self.digests.of(pack)
-        code_version()  # computed once, before the first request
+        code_version()  # cache the result before the first request
         self.queue: JobQueue[bytes | JobResult] = JobQueue(pool, self._finish, waiting)
 
     async def answer(self, request: Request, ending: Ending) -> Response:
-        """A picture, or the reason why there is none."""
+        """The response to a request: a picture, or an error that states the reason."""
         pause = self.rates.wait(request.client.host if request.client else "")
         if pause:
             return _refusal(429, ["too many requests; ask again later"], pause)
@@ -102,7 +102,7 @@ class PictureService:
             query = parse_query(request.scope["query_string"])
         except OptionError as error:
             return _refusal(414, [str(error)])
-        # In a thread, so that a long design does not stop the others.
+        # Use a thread, so that a long design does not block other requests.
         job = await run_in_threadpool(self._job, query, ending)
         if isinstance(job, list):
             return _refusal(422, job)
@@ -120,7 +120,7 @@ class PictureService:
         return Response(data, media_type=MEDIA_TYPES[ending], headers=headers)
 
     def _job(self, query: list[tuple[str, str]], ending: Ending) -> Job | list[str]:
-        """The job of a query, with its key as its file, or the faults of the query."""
+        """The job of a query, whose key is its file name, or the errors of the query."""
         request = read_request(query, ending, self.config)
         if isinstance(request, list):
             return request
@@ -128,7 +128,7 @@ class PictureService:
         return replace(job, outs=(f"{job.key}{ending}",))
 
     def _finish(self, result: JobResult) -> bytes | JobResult:
-        """The bytes of a picture, or the result if it has none."""
+        """The bytes of the result's picture, or the result itself if drawing failed."""
         if result.error is not None:
             _log.warning("a picture was not drawn: %s", result.error)
             return result
@@ -147,7 +147,7 @@ class PictureService:
             return _refusal(503, ["too many pictures are waiting; ask again"], 2)
         left = asyncio.create_task(_disconnected(request))
         try:
-            # Others may wait for the same picture, so nothing here cancels it.
+            # Other requests may wait for the same picture, so do not cancel the job here.
             ends: set[asyncio.Future[Any]] = {asyncio.wrap_future(answer), left}
             first = asyncio.FIRST_COMPLETED
             await asyncio.wait(ends, timeout=self.deadline, return_when=first)
@@ -173,11 +173,12 @@ def make_app(
     waiting: int = 64,
     deadline: float = 30.0,
 ) -> FastAPI:
-    """The application; its processes live as long as it runs.
+    """Make the application; its worker processes live as long as it runs.
 
-    workers: processes that draw. limits: of one picture's time and memory.
-    rate: requests a minute of one client, 0 for any. cache: bytes of pictures that are cached.
-    waiting: pictures that may wait to be drawn. deadline: of an answer [s].
+    workers: the number of processes that draw. limits: time and memory for one picture.
+    rate: requests per minute of one client; 0 means no limit. cache: the size of the picture cache
+    [bytes]. waiting: the most pictures that wait to be drawn. deadline: the longest time until an
+    answer [s].
     """
     chosen, bounds = config or ServiceConfig(), limits or JobLimits(20.0, 1 << 30)
     metrics = Metrics()
@@ -215,9 +216,9 @@ def make_app(
 
 
 def _with_own_packs(config: ServiceConfig, folder: Path) -> ServiceConfig:
-    """The configuration with copies of its packs.
+    """The configuration with private copies of its packs.
 
-    Without copies, a pack that is edited while the service runs would be drawn with the old ETag.
+    Without copies, a picture of a pack that was edited meanwhile would have the old ETag.
     """
     packs = []
     for number, pack in enumerate(map(Path, config.base.pack_paths)):
@@ -294,7 +295,7 @@ def _add_health(app: FastAPI) -> None:
 
 
 class CountRequests:
-    """Middleware that counts requests, and forbids browsers to guess media types."""
+    """Middleware that counts requests, and tells browsers not to guess media types."""
 
     def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
         self.app, self.metrics = app, metrics
@@ -317,7 +318,7 @@ class CountRequests:
 
 
 async def _disconnected(request: Request) -> None:
-    """Wait until the client goes away."""
+    """Wait until the client disconnects."""
     while (await request.receive())["type"] != "http.disconnect":
         pass
 
@@ -329,7 +330,7 @@ def _matches(header: str, key: str) -> bool:
 
 
 def _answered(answer: bytes | JobResult | Unavailable) -> bytes | Response:
-    """The picture, or an error response; details are logged and not sent to clients."""
+    """The picture, or an error response; details go to the log, not to clients."""
     if isinstance(answer, bytes):
         return answer
     if isinstance(answer, Unavailable):

@@ -1,4 +1,4 @@
-"""A queue for jobs of many requests: equal jobs are drawn once, by workers that keep running."""
+"""A queue for the jobs of many requests: permanent workers draw equal jobs only once."""
 
 import logging
 import math
@@ -24,7 +24,7 @@ class BusyError(Exception):
 
 @dataclass(frozen=True)
 class Unavailable:
-    """An answer without a result, because no worker could do the job. reason: for the log."""
+    """The answer if no worker could do the job. reason: a line for the log."""
 
     reason: str
 
@@ -34,7 +34,7 @@ Answer: TypeAlias = Future[T | Unavailable]
 
 @dataclass
 class _Pending(Generic[T]):
-    """A job that is queued or running. waiters: the number of requests that wait for it."""
+    """A queued or running job. waiters: the number of requests that wait for it."""
 
     job: Job
     answer: Answer[T] = field(default_factory=Future)
@@ -53,8 +53,8 @@ class JobQueue(Generic[T]):
     ) -> None:
         """Start the thread.
 
-        spawn: makes the executor. finish: makes the answer from a result. Both are called in the
-        thread. limit: the most queued jobs.
+        spawn: makes the executor. finish: converts a result to an answer. The thread calls both.
+        limit: the most queued jobs.
         """
         self._spawn, self._finish, self._limit = spawn, finish, limit
         self._restarts = restarts
@@ -68,7 +68,7 @@ class JobQueue(Generic[T]):
         self._thread.start()
 
     def __len__(self) -> int:
-        """How many jobs are queued or running."""
+        """The number of jobs that are queued or running."""
         return len(self._pending)
 
     @property
@@ -82,7 +82,7 @@ class JobQueue(Generic[T]):
         return self._thread.is_alive()
 
     def ask(self, job: Job, known: Callable[[], T | None] = lambda: None) -> Answer[T]:
-        """The answer to a job; equal jobs share one. Raises BusyError.
+        """The answer to a job; equal jobs share one answer. Raises BusyError if the queue is full.
 
         known: returns the answer if it exists already; it is called after `finish` has returned.
         Call `leave` once after each call of `ask`.
@@ -104,7 +104,7 @@ class JobQueue(Generic[T]):
             return pending.answer
 
     def leave(self, job: Job, answer: Answer[T]) -> None:
-        """End the wait of one request; a queued job for which none waits is removed."""
+        """End the wait of one request; removes a queued job if no other request waits for it."""
         with self._changed:
             pending = self._pending.get(job.key)
             if pending is None or pending.answer is not answer:
@@ -114,7 +114,7 @@ class JobQueue(Generic[T]):
                 del self._queued[job.key], self._pending[job.key]
 
     def close(self) -> None:
-        """End the workers; those who wait get `Unavailable`."""
+        """End the workers; requests that still wait get `Unavailable`."""
         self._closing.set()
         self._thread.join(CLOSE_TIMEOUT)
 
@@ -133,7 +133,7 @@ class JobQueue(Generic[T]):
         self._give_up("the service is closing")
 
     def _work(self) -> None:
-        """Give jobs to one executor until the queue closes, or it raises."""
+        """Give jobs to one executor until the queue closes or the executor raises."""
         executor = self._spawn()
         running: set[str] = set()
         try:
@@ -181,8 +181,10 @@ class JobQueue(Generic[T]):
 
 
 def _timeout(free: int, running: bool) -> float:
-    """How long to wait for a result [s]: not long while a new job could begin at once, since its
-    arrival does not end this wait."""
+    """How long to wait for a result [s].
+
+    The wait is short while a worker is free, because the arrival of a new job does not end it.
+    """
     if not free:
         return 0.1
     return 0.005 if running else 0.0

@@ -1,4 +1,4 @@
-"""Pictures that were drawn, up to a number of bytes; the least recently used goes first."""
+"""A cache of drawn pictures with a size limit; it evicts the least recently used one first."""
 
 import threading
 
@@ -6,7 +6,7 @@ from cachetools import LRUCache
 
 
 class PictureCache:
-    """Encoded pictures by their keys. Threads may share it. limit: bytes of all pictures."""
+    """Encoded pictures by key. Threads may share it. limit: the most bytes of all pictures."""
 
     def __init__(self, limit: int = 64 << 20) -> None:
         self._pictures: LRUCache[str, bytes] = LRUCache(limit, getsizeof=len)

@@ -1,7 +1,7 @@
-"""How often a client may ask: a token bucket for each client, filled at a steady rate.
+"""Rate limits: each client has a token bucket that fills at a constant rate.
 
-The bucket is ten lines over cachetools. The package `limits` was tried: its storage in memory runs
-a timer thread over all clients, has no bound on their number, and follows the wall clock.
+The bucket takes ten lines on top of cachetools. The package `limits` does not fit: its in-memory
+storage runs a timer thread over all clients, does not bound their number, and uses the wall clock.
 """
 
 import time
@@ -13,7 +13,7 @@ MAX_CLIENTS = 10_000
 
 
 class RateLimiter:
-    """per_minute: requests of one client; 0 is without limit. burst: how many at once."""
+    """per_minute: the most requests of one client; 0 means no limit. burst: how many at once."""
 
     def __init__(
         self,
@@ -25,7 +25,7 @@ class RateLimiter:
         self._buckets: LRUCache[str, tuple[float, float]] = LRUCache(MAX_CLIENTS)
 
     def wait(self, client: str) -> float:
-        """Count a request: 0 if the client may ask now, else how long it must wait [s]."""
+        """Count a request; returns how long the client must wait first [s], 0 if not at all."""
         if self.per_second <= 0:
             return 0.0
         now = self._clock()

@@ -1,4 +1,4 @@
-"""The parameters of an address become a checked request, or the reasons why they cannot."""
+"""Converts the parameters of an address to a checked request, or to a list of their errors."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -15,15 +15,15 @@ from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 PUBLIC_OPTIONS = tuple(name for name, option in OPTIONS.items() if option.public)
 """Options that anyone may set. Only the service sets those that name files, packs or backends."""
 MAX_QUERY = 32 << 10
-"""Bytes of the query. A design of 8000 characters fits, with three bytes for each."""
+"""The most bytes of a query; enough for a design of 8000 characters with three bytes each."""
 MAX_PARAMETERS = 64
 MAX_REASONS = 8
-"""The most reasons of one refusal."""
+"""The most errors that one response lists."""
 
 _PAIR = {"type": "string", "pattern": "^[1-9][0-9]{0,3}x[1-9][0-9]{0,3}$"}
 _COLOUR = {"type": "string", "pattern": "^(transparent|#?[0-9a-fA-F]{6})$"}
 _NEEDS_FILE = ("cape", "elytra")
-"""Kinds that show a texture of the user's."""
+"""Kinds that show a texture from the user."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class PictureLimits:
     """Limits of one picture.
 
     side [pixels], pixels of all frames, seconds and fps of a loop, particles along a side of the
-    cloth, time that the cloth hangs [s], max_length of a design [characters].
+    cloth, simulated time before the picture [s], max_length of a design [characters].
     """
 
     side: int = 1024
@@ -45,14 +45,14 @@ class PictureLimits:
 
 @dataclass(frozen=True)
 class ServiceConfig:
-    """What the service draws with. base: its packs and the format it reads them as."""
+    """What the service draws with. base: its packs and the pack format for reading them."""
 
     base: Settings = field(default_factory=lambda: Settings(size=(256, 320)))
     limits: PictureLimits = field(default_factory=PictureLimits)
 
 
 def parameters(animated: bool, limits: PictureLimits) -> list[dict[str, Any]]:
-    """The query's parameters, for OpenAPI."""
+    """The query's parameters in OpenAPI form."""
     length = {"minLength": 1, "maxLength": limits.max_length}
     schemas: dict[str, dict[str, Any]] = {"design": {"type": "string", **length}}
     schemas |= {name: _schema(OPTIONS[name]) for name in PUBLIC_OPTIONS}
@@ -68,7 +68,7 @@ def parameters(animated: bool, limits: PictureLimits) -> list[dict[str, Any]]:
 
 
 def _schema(option: Option) -> dict[str, Any]:
-    """The JSON schema of an option's texts."""
+    """The JSON schema of an option's values, which are texts."""
     if option.parts:
         return dict(_PAIR)
     if option.name == "background":
@@ -83,7 +83,7 @@ def _schema(option: Option) -> dict[str, Any]:
 
 
 def parse_query(query: bytes) -> list[tuple[str, str]]:
-    """Names and values of a query. Raises OptionError where it is too long."""
+    """Names and values of a query. Raises OptionError if it is too long."""
     if len(query) > MAX_QUERY:
         raise OptionError(f"the query has over {MAX_QUERY} bytes; make it shorter")
     text = query.decode("latin-1")
@@ -96,9 +96,9 @@ def parse_query(query: bytes) -> list[tuple[str, str]]:
 def read_request(
     query: Sequence[tuple[str, str]], ending: str, config: ServiceConfig
 ) -> PictureRequest | list[str]:
-    """The request of a query, or the reasons why it is none, one line each.
+    """The request of a query, or the errors in the query, one line each.
 
-    query: names and values as they stand in the address. ending: `.png` or `.gif`.
+    query: names and values from the address. ending: `.png` or `.gif`.
     """
     faults = _faults(query, ending)
     values = dict(query)
@@ -116,13 +116,13 @@ def read_request(
 
 
 def _faults(query: Sequence[tuple[str, str]], ending: str) -> list[str]:
-    """What is wrong with the names of a query."""
+    """The errors in the names of a query."""
     loop = tuple(LOOP_OPTIONS) if ending == ".gif" else ()
     known = frozenset({"design", *PUBLIC_OPTIONS, *loop})
     names = [name for name, _ in query]
     strange = [name for name in dict.fromkeys(names) if name not in known]
     twice = sorted({name for name in names if name in known and names.count(name) > 1})
-    # Each is compared with all known names, which takes time.
+    # Limit the number: comparing a name with all known names takes time.
     faults = [unknown(name, known) for name in strange[:MAX_REASONS]]
     return faults + [f"{name} is given twice; give it once" for name in twice]
 
@@ -138,7 +138,7 @@ def _request(
         raise OptionError("design is missing; write ?design=white+creeper:lime")
     if len(text) > limits.max_length:
         raise OptionError(f"design has over {limits.max_length} characters; write it shorter")
-    # A client's text must not name a file, so it is parsed and never opened.
+    # A client's text must not name a file, so only parse it and never open it.
     banner = Banner.parse(text)
     if settings.kind in _NEEDS_FILE:
         raise OptionError(f"kind {settings.kind} shows a file, which an address cannot name")

@@ -15,19 +15,19 @@ from drapery.errors import OptionError, OutputError
 HEAD_TIMEOUT = 10.0
 """How long a client may take to send the head of a request [s]."""
 MAX_HEAD = 48 << 10
-"""Bytes of the head of a request."""
+"""The most bytes of the head of a request."""
 MAX_CONNECTIONS = 512
 MAX_CONNECTIONS_OF_CLIENT = 128
-"""The most connections of one address that is not a trusted proxy's."""
+"""The most connections from one address, except from a trusted proxy."""
 STOP_TIMEOUT = 5
-"""How long answers in work may take after SIGTERM [s]; the workers end after that."""
+"""How long unfinished answers may take after SIGTERM [s]; the workers end after that."""
 
 
 class LimitedProtocol(H11Protocol):
-    """Closes connections that send no whole head in time, or that are too many.
+    """Closes connections that do not send a complete request head in time, or that are too many.
 
-    uvicorn's own timeout begins after the first response, and its limit of concurrency refuses
-    every client while silent connections last.
+    uvicorn's timeout starts only after the first response, and its concurrency limit refuses every
+    client while silent connections are open.
     """
 
     _head_timer: asyncio.TimerHandle | None = None
@@ -83,13 +83,13 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 def address_of(listening: socket.socket) -> str:
-    """Its address as a URL."""
+    """The address of a listening socket as a URL."""
     host, port = listening.getsockname()[:2]
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
 
 def check_proxies(proxies: Sequence[str]) -> list[str]:
-    """Addresses or networks of trusted proxies. Raises OptionError."""
+    """Check addresses or networks of trusted proxies. Raises OptionError."""
     for text in proxies:
         try:
             ipaddress.ip_network(text)
@@ -111,7 +111,7 @@ def run_server(app: FastAPI, listening: socket.socket, proxies: Sequence[str] = 
 def make_server(app: Any, proxies: Sequence[str] = ()) -> uvicorn.Server:
     """A server for an ASGI application.
 
-    proxies: the only addresses or networks whose X-Forwarded-For is believed.
+    proxies: the addresses or networks whose X-Forwarded-For is trusted; all others are ignored.
     """
     config = uvicorn.Config(
         app,
