@@ -1,15 +1,15 @@
 """Batches and the service, measured: `python -m benchmarks.batch WHAT [--jobs N] …`.
 
 WHAT is one of
-  overhead   the pool of one worker against the same loop in one process, and the memory of it
-  workers    what a second worker process gains
-  kills      a run killed at random moments and resumed, against an undisturbed one
+  overhead   a pool of one worker against a loop in one process, and the memory of the loop
+  workers    the gain in speed from a second worker process
+  kills      a run that is killed at random moments and resumed, against an uninterrupted run
   dask       a mixed manifest on a local Dask cluster whose workers and run are killed
   scheduler  a mixed manifest on a Dask cluster of separate processes, whose scheduler is killed
-  catalogue  all 16 x 43 banners of one layer as GIFs on a local Dask cluster
+  catalogue  all 16 x 43 banners with one layer, as GIFs, on a local Dask cluster
   soak       the service under many clients for a while
-  scale      a simulation of a cluster: jobs, workers, the cost of each part
-Run them on a quiet machine.
+  scale      a simulated cluster: jobs, workers, the cost of each part
+Run them on a machine that does no other work.
 """
 
 import argparse
@@ -57,7 +57,7 @@ def mixed(path: Path, count: int, size: str = "48x48", loops: int = 10) -> Path:
 
 
 def catalogue_manifest(path: Path, size: str) -> Path:
-    """All banners of one layer, as loops of a second."""
+    """All banners with one layer, as loops of one second."""
     lines: list[dict[str, object]] = [{"defaults": {"size": size, "seconds": 1, "fps": 20}}]
     lines += [
         {"design": f"{'white' if dye != 'white' else 'black'} {pattern}:{dye}",
@@ -72,7 +72,7 @@ def catalogue_manifest(path: Path, size: str) -> Path:
 def by_pool(
     jobs: list[Job], folder: Path, workers: int, on_event=lambda progress: None
 ) -> Progress:
-    """A run of a pool into a folder."""
+    """Run jobs in a process pool and store the results in a folder."""
     store = open_store(str(folder))
     with ResultsDB(folder / FILE) as results:
         return execute(
@@ -85,11 +85,11 @@ def by_pool(
 
 
 FIRST = 20
-"""Jobs that are not timed: the first of a process is slower."""
+"""The number of first jobs that are not timed, because a process starts slowly."""
 
 
 def timed_pool(jobs: list[Job], folder: Path, workers: int) -> tuple[float, float]:
-    """Seconds for a job of a running pool, and the part of them that is not the job itself."""
+    """Time per job in a running pool [s], and the fraction of it spent outside of the jobs."""
     moments: list[tuple[float, float]] = []
     by_pool(
         jobs, folder, workers, lambda progress: moments.append((time.perf_counter(), progress.busy))
@@ -100,7 +100,7 @@ def timed_pool(jobs: list[Job], folder: Path, workers: int) -> tuple[float, floa
 
 
 def overhead(jobs: list[Job], folder: Path) -> None:
-    """The same loop in one process, then the pool of one worker with as many threads."""
+    """Time a loop in one process, then a pool of one worker with the same number of threads."""
     warm_up()
     store = open_store(str(folder / "loop"))
     memory = []
@@ -119,7 +119,7 @@ def overhead(jobs: list[Job], folder: Path) -> None:
 
 
 def workers(jobs: list[Job], folder: Path) -> None:
-    """One worker of one thread against two."""
+    """Compare one worker with two; each has one thread."""
     os.environ["NUMBA_NUM_THREADS"] = "1"
     warm_up()
     times = {}
@@ -137,9 +137,9 @@ def outputs(folder: Path) -> dict[str, bytes]:
 
 
 def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
-    """Kill workers, or the whole run, at random moments; then let it end, and compare.
+    """Kill workers, or the whole run, at random moments; let it finish and compare outputs.
 
-    The moments are spread over about the time that an undisturbed run takes.
+    The moments are spread over about the time that an uninterrupted run takes.
     """
     chance = random.Random(os.getpid())
     calm, torn = folder / "calm", folder / "torn"
@@ -172,7 +172,7 @@ def kills(manifest: Path, folder: Path, count: int, *words: str) -> None:
 
 
 def schedulers(manifest: Path, folder: Path, count: int, port: int) -> None:
-    """Kill the scheduler of a cluster again and again; the last cluster is left alone."""
+    """Kill the scheduler of one cluster after another; the last cluster runs to the end."""
     chance = random.Random(os.getpid())
     calm, torn = folder / "calm", folder / "torn"
     batch = [sys.executable, "-m", "drapery", "batch", str(manifest)]
@@ -196,7 +196,7 @@ def schedulers(manifest: Path, folder: Path, count: int, port: int) -> None:
 
 
 def _cluster(address: str, workers: int, folder: Path) -> list[subprocess.Popen[bytes]]:
-    """A scheduler and its workers, each a process."""
+    """Start a scheduler and its workers, each in its own process."""
     host, port = address.removeprefix("tcp://").split(":")
     dask = [sys.executable, "-m", "dask"]
     commands = [[*dask, "scheduler", "--host", host, "--port", port, "--no-dashboard"]]
@@ -212,20 +212,20 @@ def written(folder: Path) -> dict[str, int]:
 
 
 def rewritten(before: dict[str, int], folder: Path) -> int:
-    """How many pictures were written anew."""
+    """The number of pictures that were written again."""
     now = written(folder)
     return sum(now[name] != moment for name, moment in before.items())
 
 
 def _await_more(folder: Path, run: subprocess.Popen[bytes]) -> None:
-    """Wait for the first new picture, for a kill while workers start shows little."""
+    """Wait for the first new picture, because a kill while workers start tests little."""
     before, end = len(outputs(folder)), time.monotonic() + 60
     while len(outputs(folder)) == before and run.poll() is None and time.monotonic() < end:
         time.sleep(0.05)
 
 
 def _kill(run: subprocess.Popen[bytes], victim: str) -> str:
-    """Kill -9 the run, or one of its processes; which it was."""
+    """Kill -9 the run, or one of its processes; returns what was killed."""
     import psutil
 
     try:
@@ -243,7 +243,7 @@ def _kill(run: subprocess.Popen[bytes], victim: str) -> str:
 
 
 def soak(seconds: float, clients: int, port: int) -> None:
-    """Clients that ask for pictures, half of them known, until the time is over."""
+    """Let clients request pictures, half of them cached, until the time is over."""
     command = [sys.executable, "-m", "drapery", "serve", "--port", str(port), "--rate", "0"]
     server = subprocess.Popen(command)
     base = f"http://127.0.0.1:{port}"
@@ -309,8 +309,11 @@ def _watch(pid: int, end: float) -> list[int]:
 
 @dataclass(frozen=True)
 class Costs:
-    """What the parts of a run cost [s]. job: drawing and storing. schedule: the scheduler's work
-    for one task. client: submitting it and writing its result down. trip: there and back."""
+    """The time that the parts of a run take [s].
+
+    job: draw and store. schedule: the scheduler's work for one task. client: submit a task and
+    record its result. trip: the way to the worker and back.
+    """
 
     job: float
     schedule: float
@@ -319,11 +322,11 @@ class Costs:
 
 
 def simulate(jobs: int, machines: int, ahead: int, bundle: int, costs: Costs) -> float:
-    """Seconds that a run takes, event by event.
+    """The time that a run takes [s], from a discrete-event simulation.
 
-    Client and scheduler are each one thread that does one thing at a time; a worker has one
-    task in work and the others that were sent ahead waiting beside it.
-    bundle: jobs in a task. A task passes client, scheduler, worker, scheduler, client.
+    Client and scheduler are each one thread that does one thing at a time. A worker runs one task
+    and has a queue of tasks that were sent ahead. A task passes client, scheduler, worker,
+    scheduler, client. bundle: the number of jobs in a task.
     """
     client = scheduler = end = 0.0
     free = [0.0] * machines
@@ -336,8 +339,8 @@ def simulate(jobs: int, machines: int, ahead: int, bundle: int, costs: Costs) ->
         start = max(heapq.heappop(free), scheduler + costs.trip / 2)
         done = start + costs.job * bundle
         heapq.heappush(free, done)
-        # The scheduler's and the client's second halves are charged at once: over many tasks
-        # only their sums count.
+        # Add the second halves for scheduler and client here already: over many tasks, only the
+        # sums matter.
         scheduler += costs.schedule / 2
         client += costs.client / 2
         end = max(end, done + costs.trip / 2)
@@ -346,8 +349,10 @@ def simulate(jobs: int, machines: int, ahead: int, bundle: int, costs: Costs) ->
 
 
 def measured(folder: Path, count: int) -> Costs:
-    """The costs on this machine: a job by `do`, a task by an empty one on a local cluster, the
-    results by itself."""
+    """Measure the costs on this machine.
+
+    A job is timed with `run_job`, a task as an empty one on a local cluster, a record on its own.
+    """
     import distributed
 
     warm_up()
@@ -372,7 +377,7 @@ def measured(folder: Path, count: int) -> Costs:
         start, used = time.perf_counter(), time.process_time()
         client.gather([client.submit(abs, n, pure=False) for n in range(tasks)])
         task = (time.perf_counter() - start) / tasks
-        # Scheduler and client share this process here, so half of its time is a fair guess.
+        # Scheduler and client share this process, so estimate half of its time for each.
         share = (time.process_time() - used) / tasks / 2
     print(f"measured: job {1000 * job:.1f} ms, a record {1e6 * record:.0f} us,")
     print(f"empty task {1000 * task:.2f} ms, of which the scheduler about {1000 * share:.2f} ms")
@@ -380,7 +385,7 @@ def measured(folder: Path, count: int) -> Costs:
 
 
 def scale(costs: Costs, jobs: int, machines: int) -> None:
-    """What a large run would take, and where the scheduler is what limits it."""
+    """The time of a large run, and the number of workers at which the scheduler limits it."""
     for bundle in (1, 10):
         seconds = simulate(jobs, machines, 2, bundle, costs)
         ideal = jobs * costs.job / machines

@@ -33,7 +33,7 @@ WORKLOADS = {
 }
 LIMITS = {"W1": 0.05, "W2": 0.02, "W3": 0.05}
 STILL = ("W2", "W3")
-"""Without wind."""
+"""The workloads without wind."""
 OURS = {"W1": (("desbrun", 0), ("xpbd", 0), ("xpbd", 3))}
 """Our solvers and their substeps; 0 is their default."""
 LINEAR = 100, 1000, 10_000, 100_000
@@ -89,13 +89,15 @@ def our_solver(name: str, threads: int, substeps: int) -> Any:
 
 
 def measure(workload: str, whole: Load, system: str, effort: int, seconds: float) -> Row:
-    """Settle, then step for about so many seconds; the best of three stretches of time."""
+    """Settle, then step for about this time [s]; the rate is the best of three periods."""
     load, scale = whole, 1.0
     own = system.startswith("drapery")
     if own:
         _, name, count = system.split("-")
         threads, method = int(count), our_solver(name, int(count), effort)
-        Ours(Load(1, load.columns, load.rows, 0), method, True).step(1)  # compiled by now
+        Ours(Load(1, load.columns, load.rows, 0), method, True).step(
+            1
+        )  # the code is compiled by now
     else:
         peer = import_module(f"benchmarks.peers.{system}")
         threads = peer.THREADS
@@ -121,7 +123,7 @@ def _pace(runner: Runner, load: Load, seconds: float) -> tuple[float, float]:
     start = perf_counter()
     runner.step(1)
     first = perf_counter() - start
-    # A slow system is not made to settle for minutes; its stretch is then what it has got to.
+    # A slow system settles for fewer steps; its stretch is then the value reached so far.
     settle = int(min(SETTLE_STEPS, max(2, 4 * seconds / max(first, 1e-9))))
     runner.step(settle)
     worst = stretch(load, runner.positions())
@@ -140,14 +142,14 @@ def _pace(runner: Runner, load: Load, seconds: float) -> tuple[float, float]:
 def _child(queue: Any, *what: Any) -> None:
     try:
         queue.put(measure(*what))
-    except Exception as fault:  # a peer may fail in any way; the table goes on
+    except Exception as fault:  # a peer may fail in any way; continue with the table
         queue.put(
             f"{type(fault).__name__}: {str(fault).splitlines()[0][:100] if str(fault) else ''}"
         )
 
 
 def run(workload: str, load: Load, system: str, effort: int, seconds: float) -> Row | str:
-    """Measure in a process of its own; a line of words where that fails."""
+    """Measure in a new process; returns an error line if that fails."""
     context = multiprocessing.get_context("spawn")
     queue = context.Queue()
     child = context.Process(target=_child, args=(queue, workload, load, system, effort, seconds))
@@ -162,7 +164,7 @@ def run(workload: str, load: Load, system: str, effort: int, seconds: float) -> 
 
 
 def systems(workload: str, quick: bool) -> Iterator[tuple[str, int]]:
-    """Those to run, with their substeps or passes."""
+    """The systems to run, with their substeps or passes."""
     for name, substeps in OURS.get(workload, (("desbrun", 0), ("xpbd", 0))):
         for threads in (1, 2) if WORKLOADS[workload].cloths > 1 else (1,):
             yield f"drapery-{name}-{threads}", substeps
@@ -181,8 +183,11 @@ def show(row: Row) -> str:
 
 
 def ratios(rows: list[Row]) -> Iterator[str]:
-    """Ours over the best peer that stretches no more than the workload allows, and over the best
-    that stretches no more than ours."""
+    """The speed of each of our solvers relative to the best peers.
+
+    There are two ratios: to the best peer within the workload's stretch limit, and to the best peer
+    that stretches no more than our solver.
+    """
     for row in (row for row in rows if "drapery" in row.system):
         limit = LIMITS[row.workload]
         peers = [r for r in rows if r.workload == row.workload and "drapery" not in r.system]
@@ -202,7 +207,7 @@ def _against(row: Row, peers: list[Row], limit: float) -> str:
 
 
 def rooflines(rows: list[Row]) -> Iterator[str]:
-    """A line for each of ours on one thread."""
+    """A roofline result for each of our solvers on one thread."""
     from benchmarks import roofline
 
     machine = roofline.measured()
@@ -217,7 +222,7 @@ def rooflines(rows: list[Row]) -> Iterator[str]:
 
 
 def linear(counts: Sequence[int], seconds: float) -> list[Row]:
-    """Desbrun and xpbd, in wind, on more and more small banners; with progress."""
+    """Time desbrun and xpbd in wind on increasing numbers of small banners; shows progress."""
     rows = []
     with Progress() as progress:
         for name in ("desbrun", "xpbd"):

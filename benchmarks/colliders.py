@@ -1,8 +1,8 @@
-"""What a user's shape costs: `python -m benchmarks.colliders`.
+"""The cost of a user-defined shape: `python -m benchmarks.colliders`.
 
-The collision stage alone, on one thread, with the same motion of the same cloth in every row, and
-each row next to the one it is compared with. Times are the least of a few runs; beside other work
-only their ratios mean something.
+It times only the collision step, on one thread. Every row has the same motion of the same cloth,
+and is next to the row that it is compared with. Times are the minimum of a few runs; on a busy
+machine only their ratios are meaningful.
 """
 
 import math
@@ -23,7 +23,7 @@ DT = 1 / 60
 
 
 class UserSphere:
-    """A sphere about the origin by a signed distance."""
+    """A sphere about the origin, defined by a signed distance function."""
 
     def __init__(self, radius: float) -> None:
         self.parameters = (radius,)
@@ -36,7 +36,7 @@ class UserSphere:
 
 
 class UserTorus:
-    """A torus about the y axis by a signed distance."""
+    """A torus about the y axis, defined by a signed distance function."""
 
     def __init__(self, radius: float, tube: float) -> None:
         reach = radius + tube
@@ -58,7 +58,7 @@ SHAPES: dict[str, Shape] = {
 
 
 def motion(shape: Shape) -> tuple[list[State], list[State]]:
-    """States before and after steps of a cloth that falls on a shape and lies there."""
+    """States before and after the steps of a cloth that falls on a shape and comes to rest."""
     cloth = grid(SIDE, SIDE, 1.2, 1.2, pins="none")
     start = rest_state(cloth, dtype=np.float64)
     places = start.positions[..., [0, 2, 1]] * (1, 1, -1)

@@ -12,12 +12,12 @@ from drapery.cloth.solvers.registry import SOLVERS, solver
 
 STEPS_A_CALL = 2000
 CLOTHS = 8
-"""A register of double precision holds so many; each has gusts of its own."""
+"""As many cloths as a register holds in double precision; each has different gusts."""
 
 
 @dataclass(frozen=True)
 class Endured:
-    """steps: until the end, or the first that is not finite. fastest: [m/s]."""
+    """steps: the number until the end, or until a state is not finite. fastest: the speed [m/s]."""
 
     solver: str
     steps: int
@@ -28,7 +28,7 @@ class Endured:
 
 
 def endure(name: str, steps: int, progress: Progress) -> Endured:
-    """Small banners in hard gusts, the wind's seed new every `STEPS_A_CALL` steps."""
+    """Simulate small banners in strong gusts, with a new wind seed every `STEPS_A_CALL` steps."""
     cloth, method = grid(5, 9, 0.8333, 1.6667), solver(name, threads=1)
     solver_state, state = method.init(cloth, 1 / 60), rest_state(cloth, CLOTHS, np.float32)
     places = np.arange(CLOTHS)[:, None] * np.array([7.3, 0.0, 3.1])
@@ -67,7 +67,7 @@ def _finite(state: State) -> bool:
 
 
 def endure_all(steps: int) -> list[Endured]:
-    """Every solver, one after another, with progress."""
+    """Test every solver, one after another; shows progress."""
     with Progress() as progress:
         return [endure(name, steps, progress) for name in SOLVERS]
 

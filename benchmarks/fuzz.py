@@ -1,10 +1,10 @@
 """Fuzz every reader of input from outside: `python -m benchmarks.fuzz [--minutes 10] [READER ...]`.
 
-Valid inputs of each reader are changed at random (seeded) and read. Every outcome must be a result
-or a DraperyError of one line, within a second and 200 MB; anything else is a failure, and the exit
-code is then 1. `--save` writes the inputs that failed. The readers share the time, or read
-`--count` inputs each. With `--atheris READER`, atheris (if installed) drives the
-changes by coverage instead.
+Valid inputs of each reader are changed at random (seeded) and read. Each reading must give a result
+or a DraperyError of one line, within a second and 200 MB. Anything else is a failure; then the exit
+code is 1. `--save` writes the inputs that failed. The readers share the time, or each reads
+`--count` inputs. With `--atheris READER`, atheris (if installed) chooses the changes by code
+coverage.
 """
 
 import argparse
@@ -27,8 +27,8 @@ from drapery.errors import DraperyError
 
 
 def run(name: str, target: Target, count: float, seed: int, seconds: float) -> fuzzing.FuzzReport:
-    """Fuzz one reader and print what came of it."""
-    for sample in target.samples:  # whatever is loaded once is not the inputs' memory
+    """Fuzz one reader and print the result."""
+    for sample in target.samples:  # exclude what is loaded only once from the inputs' memory
         with contextlib.suppress(DraperyError):
             list(target.read(sample))
     start = time.perf_counter()
@@ -45,7 +45,7 @@ def run(name: str, target: Target, count: float, seed: int, seconds: float) -> f
 
 
 def save(failures: Sequence[tuple[Any, str]], name: str, folder: Path) -> None:
-    """Keep the inputs that failed, each in a file."""
+    """Write each input that failed to a file."""
     folder.mkdir(parents=True, exist_ok=True)
     for number, (given, _) in enumerate(failures):
         data = given if isinstance(given, bytes) else str(given).encode("utf-8", "surrogatepass")
@@ -53,7 +53,7 @@ def save(failures: Sequence[tuple[Any, str]], name: str, folder: Path) -> None:
 
 
 def drive_by_coverage(target: Target, arguments: list[str]) -> None:
-    """Hand the form to atheris, which runs until it fails or is stopped."""
+    """Fuzz a reader with atheris, which runs until a failure or until it is stopped."""
     import atheris
 
     binary = isinstance(target.samples[0], bytes)
@@ -75,7 +75,7 @@ def drive_by_coverage(target: Target, arguments: list[str]) -> None:
 
 
 def main() -> int:
-    """The command line. 1 if anything failed."""
+    """Run the command line; returns 1 if anything failed."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("readers", nargs="*", help="all of them by default")
     parser.add_argument("--minutes", type=float, default=10.0, help="of all readers together")

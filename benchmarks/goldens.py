@@ -13,7 +13,7 @@ from drapery.testing.cases import Case, CaseFile
 
 
 def cases(count: int, size: int) -> CaseFile:
-    """Banners of six layers, all different, each a picture of size x size."""
+    """Different banners with six layers, each drawn at size x size."""
     chance = random.Random(0)
     made = []
     for number in range(count):

@@ -46,7 +46,7 @@ SIX = Banner("white", tuple(Layer(p, d) for p, d in zip(PATTERN_NAMES[1:7], DYES
 class Row:
     """One measurement, as `--json` writes it.
 
-    workload: see the functions of these names: one banner at 512 x 512, 4913 at 1280 x 720.
+    workload: the name of its function: one banner at 512 x 512, or 4913 at 1280 x 720.
     """
 
     workload: str
@@ -62,7 +62,7 @@ def row(workload: str, backend: str, layers: str, threads: int, seconds: float) 
 
 
 def opengl() -> Draw | None:
-    """pyrender's renderer, or None where OpenGL does not start."""
+    """pyrender's renderer, or None if OpenGL does not start."""
     try:
         from drapery.render import gl
 
@@ -74,7 +74,7 @@ def opengl() -> Draw | None:
 
 
 def measure(draws: dict[str, Draw], scenes: Sequence[Scene], seconds: float) -> dict[str, float]:
-    """Median time [s] of a frame for each way of drawing, over about so many seconds each."""
+    """Median time of a frame for each renderer [s]; each is measured for about `seconds`."""
     times: dict[str, list[float]] = {name: [] for name in draws}
     for draw in draws.values():
         for scene in scenes[:2]:
@@ -92,12 +92,12 @@ def measure(draws: dict[str, Draw], scenes: Sequence[Scene], seconds: float) -> 
 def compare(
     workload: str, layers: str, scenes: Sequence[Scene], gl: Draw | None, seconds: float
 ) -> list[Row]:
-    """Our own rasteriser on one and on all threads, and pyrender."""
+    """Compare our rasteriser on one thread and on all threads with pyrender."""
     draws: dict[str, Draw] = {"soft 1": partial(draw_scene, threads=1)}
     if worker_count() > 1:
         draws[f"soft {worker_count()}"] = draw_scene
     if gl:
-        # OpenGL composites layers beforehand as we do, unless told to draw every layer.
+        # OpenGL composites layers beforehand like our rasteriser, unless `stacked` is set.
         draws[f"pyrender {worker_count()}"] = partial(gl, stacked=layers == "stacked")
     taken = measure(draws, scenes, seconds)
     return [
@@ -107,7 +107,7 @@ def compare(
 
 
 def swaying(cloth: Cloth, phases: Array, time: float) -> Array:
-    """Sheets [B, N, 3] in a made-up wave: new vertices without the cost of a simulation."""
+    """Sheets [B, N, 3] in an artificial wave: new vertices without the cost of a simulation."""
     rest = cloth.rest_positions
     bend = np.sin(4 * rest[:, 1] + 3 * rest[:, 0] + phases[:, None] + time) * -rest[:, 1]
     out = np.stack([0 * bend, 0 * bend, 0.12 * bend], axis=-1)
@@ -133,7 +133,7 @@ def one_banner(layers: str) -> list[Scene]:
 
 
 def banner_to_png(seconds: float) -> list[Row]:
-    """From a state of the cloth to a PNG file: thickness, drawing, encoding, writing."""
+    """Time the way from a cloth state to a PNG file: thickness, drawing, encoding, writing."""
     cloth, shell = flag(10, 20)
     material = flag_material(SIX, open_packs(()))
     camera = one_banner("stacked")[0].camera
@@ -153,7 +153,7 @@ def banner_to_png(seconds: float) -> list[Row]:
 
 
 def crowd_looks() -> tuple[Material, ...]:
-    """64 designs of a base and four layers."""
+    """64 designs, each with a base and four layers."""
     random, packs = np.random.default_rng(0), open_packs(())
     designs = [
         Banner(
@@ -209,7 +209,7 @@ def crowd_simulated(seconds: float, side: int = 17) -> list[Row]:
 
 
 def growth(seconds: float) -> Iterator[tuple[str, float, float]]:
-    """What grows, how large it is, and the time of a frame [s]."""
+    """For each size: the name of the varied quantity, its value, and the time of a frame [s]."""
     scene = one_banner("flat")[0]
     for side in (256, 512, 1024, 2048):
         yield "pixels", side * side, _time(replace(scene, size=(side, side)), seconds)
@@ -218,7 +218,7 @@ def growth(seconds: float) -> Iterator[tuple[str, float, float]]:
         count = len(many.models[0].mesh.triangles) * side**3
         yield "triangles", count, _time(many, seconds)
     noise = np.random.default_rng(0)
-    # Odd sizes cannot be composited beforehand: every layer is laid over at every sample.
+    # Layers of unequal sizes cannot be composited beforehand, so every sample blends all layers.
     layers = [TextureLayer(noise.integers(0, 256, (61 + k, 64, 4), np.uint8)) for k in range(17)]
     for layers in (1, 2, 4, 8, 16):
         model = replace(scene.models[0], materials=(Material(tuple(layers[: layers + 1])),))
@@ -245,7 +245,7 @@ def show(rows: Sequence[Row], console: Console) -> None:
 
 
 def show_growth(points: Sequence[tuple[str, float, float]], console: Console) -> None:
-    """Times, and what each further unit costs: a constant, if growth is linear."""
+    """Show times and the cost of each additional unit, which is constant if growth is linear."""
     table = Table(title="Cost against size")
     for name in ("grows", "size", "ms a frame", "ns for each more"):
         table.add_column(name, justify="right")

@@ -1,10 +1,10 @@
-"""How near the solvers come to what this machine can do at most.
+"""How close the solvers come to the peak performance of this machine.
 
-A step's flops and bytes are counted from the solver's own plan: one for every addition, product,
-quotient and root that changes a particle, and every number that such a calculation reads or
-writes, whatever it lies in. The machine's rates are those of a copy and of additions and products
-by turns, both by the same registers, on one thread and on numbers in the first cache: the most
-that any order of the work could reach.
+The flops and bytes of a step are counted from the solver's plan: one flop for every addition,
+product, quotient and root that changes a particle, and the bytes of every number that such a
+calculation reads or writes, in any kind of memory. The machine's rates are measured with a copy,
+and with alternating additions and products. Both use the same registers, one thread and numbers in
+the first-level cache, so no order of the work could be faster.
 """
 
 from dataclasses import dataclass
@@ -19,15 +19,15 @@ from drapery.cloth import Cloth, simd
 BLOCK = 16, 128
 """Rows and lanes of the copied array, 8 KB of single precision."""
 PULL, SPRING, DRIFT, VELOCITY, PRESS, NOISE = 25, 27, 9, 6, 75, 300
-"""Flops: a constraint of two particles, a spring's force, a particle's drift and speed, the
+"""The flops of a constraint of two particles, a spring's force, a particle's drift and speed, the
 pressure of the wind on it, and the noise at one sample."""
 BOTH_ENDS, FORCE_ENDS, WAY, SPEED, PRESSED, SAMPLED = 12, 18, 9, 9, 33, 12
-"""Numbers that they read and write."""
+"""The numbers that the same calculations read and write."""
 
 
 @dataclass(frozen=True)
 class Machine:
-    """copy: bytes read and written a second; flops: a second."""
+    """copy: bytes read and written per second. flops: flops per second."""
 
     copy: float
     flops: float
@@ -35,19 +35,19 @@ class Machine:
 
 @dataclass(frozen=True)
 class Cost:
-    """Of one step of one particle."""
+    """The flops and bytes of one step of one particle."""
 
     flops: float
     bytes: float
 
     def fraction(self, machine: Machine, particle_steps_per_s: float) -> float:
-        """Of the rate that the machine could reach at most."""
+        """The fraction of the machine's peak rate that these particle steps per second reach."""
         shortest = max(self.flops / machine.flops, self.bytes / machine.copy)
         return shortest * particle_steps_per_s
 
 
 def measured() -> Machine:
-    """This machine's rates: the best of several tries."""
+    """Measure this machine's rates; each is the best of several tries."""
     x, y = np.ones(BLOCK, np.float32), np.zeros(BLOCK, np.float32)
     copy = _best(lambda: _copy(y, x, 20_000)) / (20_000 * 2 * x.nbytes)
     flops = _best(lambda: _calculate(x, np.float32(0.5), 20_000)) / (20_000 * 16 * 16)
@@ -73,7 +73,7 @@ def _copy(y: Any, x: Any, times: int) -> None:
 
 @njit(error_model="numpy")
 def _calculate(x: Any, part: Any, times: int) -> None:
-    """Eight chains of a product and a sum: enough for the processor to do at once."""
+    """Eight independent chains of a product and a sum, which the processor can run in parallel."""
     a, b, c, d = simd.load(x, 0, 0), simd.load(x, 1, 0), simd.load(x, 2, 0), simd.load(x, 3, 0)
     e, f, g, h = simd.load(x, 4, 0), simd.load(x, 5, 0), simd.load(x, 6, 0), simd.load(x, 7, 0)
     for _ in range(times):
@@ -85,7 +85,7 @@ def _calculate(x: Any, part: Any, times: int) -> None:
 
 
 def cost(cloth: Cloth, solver_state: Any, winds: int) -> Cost:
-    """Of a step by the plan in a solver state, desbrun's or xpbd's."""
+    """The cost of a step, from the plan in a solver state of desbrun or xpbd."""
     plan, free = solver_state.plan, int((cloth.inv_mass > 0).sum())
     sheet = hasattr(plan, "sheet")
     controls = plan.sheet.controls if sheet else plan.body.controls
@@ -117,14 +117,14 @@ def cost(cloth: Cloth, solver_state: Any, winds: int) -> Cost:
 
 
 def _pairs(batches: Any) -> int:
-    """Pairs in a sheet's pulls: those with a part to move."""
+    """The number of particle pairs in a sheet's constraint batches that can move."""
     moved = (batches.values[1:] != 0).any(axis=0)
     ends = zip(batches.start, batches.lanes, strict=True)
     return int(sum(moved[start : start + lanes].sum() for start, lanes in ends))
 
 
 def _filter(cloth: Cloth, filter: Any) -> tuple[float, float]:
-    """Flops and numbers of one filtering."""
+    """The flops of one filter pass, and the numbers that it reads and writes."""
     if hasattr(filter, "into"):
         rows, columns = cloth.grid_shape or (0, 0)
         flops = 3 * rows * columns * (4 * columns + 9)

@@ -33,7 +33,7 @@ class Path:
         self.run(60)
 
     def run(self, steps: int) -> float:
-        """Seconds for so many steps."""
+        """The time for this number of steps [s]."""
         begin = perf_counter()
         self.state, self.solver_state = self.solver.step(
             self.cloth, self.state, self.solver_state, FORCES, DT, steps=steps
@@ -41,7 +41,7 @@ class Path:
         return perf_counter() - begin
 
     def time(self, seconds: float) -> None:
-        """Step for about so long; keep the best rate [steps/s]."""
+        """Step for about this time [s]; updates the best rate [steps/s]."""
         steps = max(1, int(30 * seconds / self.run(30)))
         self.best = max(self.best, steps / self.run(steps))
 

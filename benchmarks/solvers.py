@@ -48,8 +48,11 @@ FLOOR = -0.85
 
 @dataclass(frozen=True)
 class Row:
-    """One solver. Times [ms] of a step of 1/60 s; stretch as a part of the rest length;
-    energy_left: part of a swinging curtain's energy after 5 s without air."""
+    """The results of one solver.
+
+    Times are for a step of 1/60 s [ms]; stretch is a fraction of the rest length; energy_left: the
+    fraction of a swinging curtain's energy that is left after 5 s without air.
+    """
 
     solver: str
     small_ms: float
@@ -61,7 +64,7 @@ class Row:
 
 
 def measure(name: str) -> Row:
-    """All numbers of one solver."""
+    """Measure all values of one solver."""
     return Row(
         name,
         step_ms(name, grid(5, 9, *SIZE), 1, 200),
@@ -74,7 +77,7 @@ def measure(name: str) -> Row:
 
 
 def step_ms(name: str, cloth: Cloth, count: int, steps: int) -> float:
-    """Time of a step of `count` cloths in wind, on one thread [ms]."""
+    """The time of a step of `count` cloths in wind, on one thread [ms]."""
     method, state = solver(name, threads=1), rest_state(cloth, count)
     solver_state, forces = method.init(cloth, DT), [Gravity(), Wind((0.0, 0.0, 4.0))]
     times = []
@@ -86,7 +89,7 @@ def step_ms(name: str, cloth: Cloth, count: int, steps: int) -> float:
 
 
 def stretch(name: str, speed: float) -> float:
-    """Largest stretch of a 21 x 41 banner, after 2 s, in wind of a speed [m/s]."""
+    """The largest stretch of a 21 x 41 banner after 2 s in wind of this speed [m/s]."""
     cloth = grid(21, 41, *SIZE)
     forces = [Gravity(), Drag(0.1), Wind((0.3 * speed, 0.0, 0.95 * speed))]
     states = simulate(cloth, solver(name), forces, DT, every=6)
@@ -94,7 +97,7 @@ def stretch(name: str, speed: float) -> float:
 
 
 def energy_left(name: str) -> float:
-    """Part of a curtain's energy, let go at 30 degrees, that is left after 5 s in no air."""
+    """The fraction of energy left after 5 s without air; the curtain starts at 30 degrees."""
     cloth = grid(11, 21, *SIZE)
     start = leaning(cloth, 30)
     states = islice(simulate(cloth, solver(name), [Gravity()], DT, start=start, every=300), 2)
@@ -120,7 +123,7 @@ def leaning(cloth: Cloth, degrees: float) -> State:
 
 
 def level(cloth: Cloth, height: float) -> State:
-    """A cloth laid level at a height [m]."""
+    """A horizontal cloth at a height [m]."""
     state = rest_state(cloth)
     places = state.positions[..., [0, 2, 1]] * np.array([1, 1, -1], np.float32)
     places = places - places.mean(axis=1, keepdims=True)
@@ -129,7 +132,7 @@ def level(cloth: Cloth, height: float) -> State:
 
 
 def at(seconds: float, cloth: Cloth, name: str, *forces: object, **options: object) -> Array:
-    """Places [N, 3] after a time."""
+    """The positions after a time, shape [N, 3]."""
     states = simulate(
         cloth,
         solver(name),
@@ -178,7 +181,7 @@ ABOVE = LAID, np.array([[-0.6, -0.65, -0.6], [0.6, 0.2, 0.6]])
 def draw(
     cloth: Cloth, places: Array, size: int, shot: tuple[View, Array], *others: Model
 ) -> Pixels:
-    """A cloth in checks of its own cells, thick, and what is with it."""
+    """Draw a thick cloth, with a checkerboard of its grid cells, and other models."""
     shell = make_shell(cloth.triangles, cloth.uvs)
     mesh = shell.cover(places, vertex_normals(places, cloth.triangles), 0.025)
     worn = Model(mesh, (Material((TextureLayer(checks(*(cloth.grid_shape or (2, 2)))),)),))
@@ -190,14 +193,14 @@ def draw(
 
 
 def checks(rows: int, columns: int) -> Pixels:
-    """A texel a cell, light and dark by turns."""
+    """A checkerboard texture with one texel for each grid cell."""
     light = np.add.outer(np.arange(rows - 1), np.arange(columns - 1)) % 2 == 0
     colours = np.array([[176, 46, 38, 255], [229, 148, 60, 255]], np.uint8)
     return np.ascontiguousarray(colours[light.astype(int)])
 
 
 def ball_model() -> Model:
-    """The ball as it is met."""
+    """A model of the ball with the same shape as the collider."""
     ball = trimesh.creation.icosphere(subdivisions=3, radius=BALL.radius)
     places = (ball.vertices + BALL.centre).astype(np.float32)
     triangles = np.asarray(ball.faces, np.int32)

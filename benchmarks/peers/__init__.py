@@ -1,4 +1,4 @@
-"""Other cloth simulations on the same workloads, one file each; `start(load)` is all they share."""
+"""Other cloth simulations on the same workloads, one file each; all define `start(load)`."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -14,9 +14,9 @@ class Load:
     """Cloths that hang from their top row under gravity.
 
     cloths: how many; columns, rows: particles of each; width, height: [m]; dt: one step [s].
-    effort: iterations or substeps; what that means is the system's, and 0 is its default.
-    mass: of a particle [kg]. stiffness: of structural, shear and flexion springs [N/m], where a
-    system has such.
+    effort: iterations or substeps, depending on the system; 0 is its default.
+    mass: of a particle [kg]. stiffness: of structural, shear and flexion springs [N/m], if a
+    system has such springs.
     """
 
     cloths: int
@@ -43,7 +43,7 @@ class Runner(Protocol):
     """A started simulation."""
 
     def step(self, count: int) -> None:
-        """Move on by `count` steps."""
+        """Advance by `count` steps."""
 
     def positions(self) -> Positions:
         """Positions [m], shape [cloths, rows, columns, 3]."""

@@ -13,8 +13,8 @@ THREADS = 1
 def _stiffness(load: Load) -> float:
     """The stiffest springs that stay stable [N/m].
 
-    Its corrections of all springs at a particle are added up, not averaged, so with eight springs
-    their compliance must outweigh the masses: 1 / (k dt²) >= 8 * 2 / m.
+    Newton adds the corrections of all springs at a particle and does not average them. With eight
+    springs, their compliance must therefore exceed the masses' part: 1 / (k dt²) >= 8 * 2 / m.
     """
     return load.mass / (16 * (load.dt / load.effort) ** 2)
 
@@ -23,7 +23,7 @@ class Newton:
     def __init__(self, load: Load) -> None:
         import warp
 
-        warp.config.quiet = True  # before newton wakes it
+        warp.config.quiet = True  # must be set before newton initialises warp
         import newton
 
         builder = newton.ModelBuilder(up_axis=newton.Axis.Y)
@@ -46,7 +46,7 @@ class Newton:
                 add_springs=True,
                 spring_ke=_stiffness(load),
                 spring_kd=0.0,
-                # Smaller than half a cell, or the particles collide with each other at rest.
+                # Less than half a cell; otherwise the particles collide with each other at rest.
                 particle_radius=1e-3,
             )
         self.load = load

@@ -1,6 +1,6 @@
-"""The tutorial's way: plain Python loops over particles and springs, as in many blog posts.
+"""The method of many tutorials: plain Python loops over particles and springs.
 
-Verlet integration, then passes over all edges that move each free end half of the error.
+Verlet integration, then passes over all edges; a pass moves each free end by half of the error.
 """
 
 from math import sqrt

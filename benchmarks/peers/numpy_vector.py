@@ -1,4 +1,4 @@
-"""The same Verlet cloth in whole-array numpy: edges in four groups that share no particle."""
+"""The same Verlet cloth with whole-array numpy; edges of one of four groups share no particle."""
 
 import numpy as np
 

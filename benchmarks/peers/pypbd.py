@@ -39,7 +39,7 @@ class PBD:
         count = load.columns * load.rows
         for i in range(count):
             particles.setMass(first + i, 0.0 if i >= count - load.columns else load.mass)
-        # Method 4 is XPBD distance constraints; then their stiffness.
+        # Method 4 selects XPBD distance constraints; the next argument is their stiffness.
         self.model.addClothConstraints(mesh, 4, 1e8, 1e8, 1e8, 1e8, 0.3, 0.3, False, False)
 
     def step(self, count: int) -> None:

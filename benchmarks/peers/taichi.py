@@ -1,4 +1,4 @@
-"""The mass-spring cloth of Taichi's documentation, in its way: explicit, damped, many substeps.
+"""The mass-spring cloth of Taichi's documentation: explicit, damped, with many substeps.
 
 Springs join every particle with all neighbours up to two cells away.
 """
@@ -8,7 +8,7 @@ import numpy as np
 from benchmarks.peers import Load, Positions
 
 EFFORTS = (60, 400)
-"""Substeps of each step: explicit springs want many."""
+"""Substeps of each step; explicit springs need many."""
 MOST_PARTICLES = 70_000
 THREADS = 2
 STIFFNESS, DAMPING, DRAG = 3e4, 1e4, 1.0
