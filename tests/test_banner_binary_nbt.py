@@ -1,8 +1,10 @@
 """The reader of binary NBT: it agrees with nbtlib on sound files and refuses the others soon."""
 
+import gc
 import gzip
 import io
 import struct
+import sys
 import time
 import tracemalloc
 import zlib
@@ -170,10 +172,13 @@ HOSTILE = {
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_files_are_refused_soon(name: str):
     data, place = HOSTILE[name]
+    gc.freeze()  # objects that other tests left behind cost the reader no time
     start = time.process_time()
     with pytest.raises(DesignError, match=place) as caught:
         read_nbt(data, "evil.nbt")
-    assert time.process_time() - start < 1
+    gc.unfreeze()
+    # A tracer, such as that of coverage, makes Python several times slower.
+    assert time.process_time() - start < (1 if sys.gettrace() is None else 10)
     assert str(caught.value).startswith("evil.nbt: ") and "\n" not in str(caught.value)
 
 

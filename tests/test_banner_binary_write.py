@@ -103,6 +103,7 @@ def test_show_writes_a_file_by_its_ending(drapery: Run, tmp_path: Path, name: st
 
 
 def test_show_writes_and_reads_a_form_of_bytes_by_its_name(drapery: Run, tmp_path: Path):
+    (tmp_path / "empty").mkdir()
     path = tmp_path / "banner"
     assert drapery("show", "red border:black", "-o", path, "--as", "schem")[0] == 0
     assert drapery("show", path, "--from", "schem", "--as", "text")[1] == "red border:black\n"
@@ -112,7 +113,7 @@ def test_show_writes_and_reads_a_form_of_bytes_by_its_name(drapery: Run, tmp_pat
         ((path, "--from", "schemm"), "did you mean 'schem'?"),
         (("white", "--from", "schem"), "this is a text; give a file"),
         (("white", "--as", "litematic", "-o", path), "can be read but not written"),
-        ((tmp_path, "--from", "nbt"), "a folder"),
+        ((tmp_path / "empty", "--from", "nbt"), "no design in the folder"),
     ):
         code, _, said = drapery("show", *words)
         assert (code, said.count("\n")) == (2, 1)
