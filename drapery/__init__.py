@@ -12,8 +12,9 @@ and list pictures, `drapery.testing` checks them against golden ones. Names are 
 are first used.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.banner.design import Banner, Layer
@@ -65,37 +66,33 @@ __all__ = [
     "simulate",
 ]
 
-_NAMES = {
-    "drapery.banner.design": ("Banner", "Layer"),
-    "drapery.banner.formats": ("FoundBanner", "parse_banners", "read_designs"),
-    "drapery.banner.packs": ("Packs",),
-    "drapery.cloth": ("simulate",),
-    "drapery.comparison.pairs": ("Comparison", "compare"),
-    "drapery.errors": (
-        *("BackendError", "DesignError", "DraperyError"),
-        *("OptionError", "OutputError", "PackError"),
-    ),
-    "drapery.pictures": ("animate", "draw", "draw_face", "iter_frames", "save_model"),
-    "drapery.render.frame": ("Animation", "Frame"),
-    "drapery.settings": ("Settings",),
-    "drapery.style.extrusion": ("extrude",),
-}
-_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
+_get_lazy_name, __dir__ = lazy_names(
+    __name__,
+    {
+        "banner.design": ("Banner", "Layer"),
+        "banner.formats": ("FoundBanner", "parse_banners", "read_designs"),
+        "banner.packs": ("Packs",),
+        "cloth": ("simulate",),
+        "comparison.pairs": ("Comparison", "compare"),
+        "errors": (
+            "BackendError",
+            "DesignError",
+            "DraperyError",
+            "OptionError",
+            "OutputError",
+            "PackError",
+        ),
+        "pictures": ("animate", "draw", "draw_face", "iter_frames", "save_model"),
+        "render.frame": ("Animation", "Frame"),
+        "settings": ("Settings",),
+        "style.extrusion": ("extrude",),
+    },
+)
 
 
 def __getattr__(name: str) -> Any:
-    # `drapery --help` must not wait for numba.
     if name == "__version__":
         from importlib.metadata import version
 
-        value: Any = version("drapery")
-    elif name in _MODULE_OF:
-        value = getattr(import_module(_MODULE_OF[name]), name)
-    else:
-        raise AttributeError(f"module 'drapery' has no attribute {name!r}")
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+        return version("drapery")
+    return _get_lazy_name(name)

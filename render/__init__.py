@@ -15,8 +15,9 @@ Lengths are metres, angles degrees, colours 8-bit sRGB with straight alpha. The 
 right-handed with y up. Names are loaded when they are first used.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.mesh import Mesh, face_normals, make_mesh, vertex_normals
@@ -128,53 +129,44 @@ __all__ = [
     "view_matrix",
 ]
 
-_NAMES = {
-    "drapery.mesh": ("Mesh", "face_normals", "make_mesh", "vertex_normals"),
-    "drapery.render.backends": ("DrawScene", "backend", "backend_names"),
-    "drapery.render.camera": ("Camera", "clip_matrix", "projection_matrix", "view_matrix"),
-    "drapery.render.contact": ("contact_sheet", "contact_table", "on_checker", "stack_frames"),
-    "drapery.render.debug": (
-        *("at_particles", "edges_model", "normals_model", "pins_model", "spring_stretch"),
-        *("springs_model", "stretch_model"),
-    ),
-    "drapery.render.doctor": ("BackendReport", "backend_report"),
-    "drapery.render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),
-    "drapery.render.drawlist": ("DrawList", "Topology", "draw_list", "make_topology"),
-    "drapery.render.encode": (
-        *("check_animation_target", "check_still_target", "save_animation", "save_frame"),
-    ),
-    "drapery.render.encode.output": ("check_writable", "make_folder", "replacing"),
-    "drapery.render.encode.png": ("png_bytes",),
-    "drapery.render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
-    "drapery.render.flatten": ("composite_layers",),
-    "drapery.render.frame": ("Animation", "Frame", "Pixels"),
-    "drapery.render.identity_cache": ("IdentityCache",),
-    "drapery.render.light": ("GAME_LIGHT", "UNLIT", "Light", "lit_at"),
-    "drapery.render.lines": ("dot_model", "line_model"),
-    "drapery.render.materials": ("MaterialTables",),
-    "drapery.render.relief": ("bake_normal_maps",),
-    "drapery.render.resize": ("enlarge",),
-    "drapery.render.scene": ("Material", "Model", "Scene", "Texels", "TextureLayer"),
-    "drapery.render.shadow": ("contact_shadow",),
-    "drapery.render.views": (
-        "VIEWS",
-        "View",
-        "find_view",
-        "frame_points",
-        "frame_view",
-        "turntable",
-    ),
-}
-_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module 'drapery.render' has no attribute {name!r}")
-    value = getattr(import_module(_MODULE_OF[name]), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "mesh": ("Mesh", "face_normals", "make_mesh", "vertex_normals"),
+        "render.backends": ("DrawScene", "backend", "backend_names"),
+        "render.camera": ("Camera", "clip_matrix", "projection_matrix", "view_matrix"),
+        "render.contact": ("contact_sheet", "contact_table", "on_checker", "stack_frames"),
+        "render.debug": (
+            "at_particles",
+            "edges_model",
+            "normals_model",
+            "pins_model",
+            "spring_stretch",
+            "springs_model",
+            "stretch_model",
+        ),
+        "render.doctor": ("BackendReport", "backend_report"),
+        "render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),
+        "render.drawlist": ("DrawList", "Topology", "draw_list", "make_topology"),
+        "render.encode": (
+            "check_animation_target",
+            "check_still_target",
+            "save_animation",
+            "save_frame",
+        ),
+        "render.encode.output": ("check_writable", "make_folder", "replacing"),
+        "render.encode.png": ("png_bytes",),
+        "render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
+        "render.flatten": ("composite_layers",),
+        "render.frame": ("Animation", "Frame", "Pixels"),
+        "render.identity_cache": ("IdentityCache",),
+        "render.light": ("GAME_LIGHT", "UNLIT", "Light", "lit_at"),
+        "render.lines": ("dot_model", "line_model"),
+        "render.materials": ("MaterialTables",),
+        "render.relief": ("bake_normal_maps",),
+        "render.resize": ("enlarge",),
+        "render.scene": ("Material", "Model", "Scene", "Texels", "TextureLayer"),
+        "render.shadow": ("contact_shadow",),
+        "render.views": ("VIEWS", "View", "find_view", "frame_points", "frame_view", "turntable"),
+    },
+)

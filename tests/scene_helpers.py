@@ -9,13 +9,13 @@ from drapery.cloth.colliders import Collider
 from drapery.cloth.colliders.packing import distance
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.render.frame import Frame
-from drapery.scenes.catalogue import Clip, find
+from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.drawing import scene_frames
 
 
 def still(name: str, frames: int = 1, fps: float = 20.0, **words: str) -> Frame:
     """The last picture of a short, small clip."""
-    scene = find(name)
+    scene = find_scene(name)
     clip = Clip((160, 160), frames, fps)
     return next(scene_frames(scene, scene.parameters(words), clip, "soft", last=True))
 

@@ -18,7 +18,10 @@ FOLDERS = {
 }
 NOT_INSTALLED = ROOT / "assets" / "drawing"
 
-FOUNDATION = {"errors", "mesh", "option", "options", "settings", "yaml_text", "jit", "jit_cache"}
+FOUNDATION = {
+    *("errors", "mesh", "option", "options", "settings", "yaml_text", "jit", "jit_cache"),
+    "lazy",
+}
 CORE = {"cloth", "banner", "packs", "render", "style", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets"}
 APPLICATIONS = {"commands", "testing", "batch", "serve", "studio", "beet", "cli", "__main__"}
@@ -29,6 +32,7 @@ RINGS = (FOUNDATION, CORE, PICTURES, APPLICATIONS)
 ALLOWED: dict[str, set[str]] = {
     "errors": set(),
     "jit_cache": set(),
+    "lazy": set(),
     "jit": {"jit_cache"},
     "mesh": {"errors"},
     "option": {"errors"},

@@ -6,13 +6,13 @@ from html import escape
 import pytest
 from PIL import Image
 
-from drapery.scenes.catalogue import find, names
+from drapery.scenes.catalogue import find_scene, scene_names
 
 
 def test_the_list_names_every_scene(drapery) -> None:
     code, out, _ = drapery("scene", "--list")
     assert code == 0
-    assert [line.split()[0] for line in out.splitlines()] == names()
+    assert [line.split()[0] for line in out.splitlines()] == scene_names()
     assert all(len(line) < 120 for line in out.splitlines())
 
 
@@ -83,7 +83,7 @@ def test_the_gallery_shows_every_scene_that_it_drew(drapery, tmp_path) -> None:
     page = (folder / "index.html").read_text()
     assert re.findall(r'src="([^"]+)"', page) == [f"{name}.webp" for name in chosen]
     for name in chosen:
-        assert escape(find(name).summary).replace("&#x27;", "&#39;") in page
+        assert escape(find_scene(name).summary).replace("&#x27;", "&#39;") in page
         with Image.open(folder / f"{name}.webp") as image:
             assert image.size == (96, 96)
 

@@ -8,7 +8,7 @@ from drapery.cloth import max_stretch
 from drapery.errors import OptionError
 from drapery.mesh import vertex_normals
 from drapery.scenes import cape, scarf, skirt
-from drapery.scenes.catalogue import Clip, find
+from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.gait import LEG, Gait
 from drapery.style.extrusion import boundary_edges
 from drapery.style.figure import PARTS, TEXEL
@@ -91,6 +91,6 @@ def test_a_skirt_is_a_closed_ring_seen_from_outside() -> None:
     [({"panels": "3"}, "panels"), ({"sides": "outside under"}, "under"), ({"dye": "sky"}, "sky")],
 )
 def test_a_parameter_that_a_skirt_cannot_have_is_named(words, fault) -> None:
-    scene = find("skirt")
+    scene = find_scene("skirt")
     with pytest.raises(OptionError, match=fault):
         next(scene.play(scene.parameters(words), STRIDE))

@@ -4,7 +4,7 @@ import pytest
 from scene_helpers import still
 
 from drapery.render.frame import Frame
-from drapery.scenes.catalogue import Clip, find, names
+from drapery.scenes.catalogue import Clip, find_scene, scene_names
 from drapery.testing.plugin import Golden
 
 FRAMES = {
@@ -21,7 +21,7 @@ CORNERS = dict.fromkeys(("four-corners", "three-corners", "two-corners"), 12)
 WORDS = {"stress": {"side": "5", "settle": "0.5"}, "freefall": {"grid": "12x12"}}
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", scene_names())
 def test_a_scene_looks_as_it_did(name: str, golden: Golden) -> None:
     frames = {**FRAMES, **CORNERS}.get(name, 3)
     golden(still(name, frames, **WORDS.get(name, {})))
@@ -30,7 +30,7 @@ def test_a_scene_looks_as_it_did(name: str, golden: Golden) -> None:
 @pytest.mark.parametrize("name", ["julia", "cape-pixel", "vanilla"])
 @pytest.mark.parametrize("size", [(96, 61), (33, 120)])
 def test_pictures_of_parts_are_of_the_size_asked_for(name: str, size: tuple[int, int]) -> None:
-    scene = find(name)
+    scene = find_scene(name)
     first = next(scene.play(scene.parameters(), Clip(size, 1)))
     if isinstance(first, Frame):
         assert first.pixels.shape[:2] == (size[1], size[0])

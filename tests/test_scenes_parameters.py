@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from drapery.errors import DraperyError, OptionError
-from drapery.scenes.catalogue import Clip, find, names
+from drapery.scenes.catalogue import Clip, find_scene, scene_names
 from drapery.scenes.parameters import SceneParameters
 
 SLOW = {
@@ -32,7 +32,7 @@ CLIP = Clip((24, 24), 1, 20.0)
 
 
 def numeric_fields(name: str) -> Iterator[Any]:
-    return (f for f in fields(find(name).parameters()) if f.metadata["bounds"] is not None)
+    return (f for f in fields(find_scene(name).parameters()) if f.metadata["bounds"] is not None)
 
 
 def filled(field: Any, number: float) -> Any:
@@ -43,7 +43,7 @@ def filled(field: Any, number: float) -> Any:
 
 
 def played(name: str, **values: Any) -> None:
-    scene = find(name)
+    scene = find_scene(name)
     words = {k: v for k, v in SMALL.get(name, {}).items() if k not in values}
     small = scene.parameters(words)
     given = {f.name: getattr(small, f.name) for f in fields(small)} | values
@@ -51,9 +51,9 @@ def played(name: str, **values: Any) -> None:
     assert len(pictures) == CLIP.count
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", scene_names())
 def test_numbers_beyond_their_bounds_are_refused(name: str) -> None:
-    scene = find(name)
+    scene = find_scene(name)
     for field in numeric_fields(name):
         least, most = field.metadata["bounds"]
         far = (least - 1, most + 1, -1e20, 1e20, 10**400, -(10**400))
@@ -66,7 +66,7 @@ def test_numbers_beyond_their_bounds_are_refused(name: str) -> None:
                 scene.parameters({field.name: text})
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", scene_names())
 @pytest.mark.parametrize("end", [0, 1], ids=["lowest", "highest"])
 def test_the_bounds_can_be_played(name: str, end: int) -> None:
     fields_of_play = [f for f in numeric_fields(name) if end == 0 or f.name not in SLOW]
@@ -76,10 +76,10 @@ def test_the_bounds_can_be_played(name: str, end: int) -> None:
         assert "\n" not in str(error)
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", scene_names())
 @pytest.mark.parametrize("text", ["no such thing", "../../etc", "\0", "é" * 300])
 def test_any_text_is_played_or_refused_in_one_line(name: str, text: str) -> None:
-    for field in (f for f in fields(find(name).parameters()) if isinstance(f.default, str)):
+    for field in (f for f in fields(find_scene(name).parameters()) if isinstance(f.default, str)):
         try:
             played(name, **{field.name: text})
         except DraperyError as error:
@@ -91,7 +91,7 @@ def test_fine_grids_fold_too() -> None:
 
 
 def test_a_parameter_of_another_type_is_refused() -> None:
-    kind = type(find("banner").parameters())
+    kind = type(find_scene("banner").parameters())
     for values in ({"wind": "much"}, {"left_grid": 3}, {"left": 5}, {"seed": 1.5}, {"wind": True}):
         with pytest.raises(OptionError, match=next(iter(values))):
             kind(**values)

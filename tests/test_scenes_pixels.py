@@ -7,7 +7,7 @@ import pytest
 
 from drapery.mesh import Array
 from drapery.scenes import cape_pixel, julia
-from drapery.scenes.catalogue import Clip, find
+from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.dots import CapeTweaks, dot_grid, step
 from drapery.style.block import FLAG_MAPPING, SCALE
 from drapery.style.blocky import pixelled, stepped
@@ -57,9 +57,9 @@ def test_the_curtain_moves_by_the_published_numbers() -> None:
 
 
 def test_the_curtain_plays_at_its_own_rate() -> None:
-    own = find("julia").clip
+    own = find_scene("julia").clip
     assert (own.count, own.fps) == (300, 30.0)
-    assert find("banner").clip == Clip()
+    assert find_scene("banner").clip == Clip()
 
 
 def cape(tweaks: CapeTweaks) -> tuple[Array, list[float]]:
@@ -126,7 +126,7 @@ def test_the_hero_runs_jumps_and_lands_and_a_loop_has_no_seam() -> None:
 
 @pytest.mark.parametrize("debug", ["yes", "no"])
 def test_the_art_is_enlarged_by_a_whole_number(debug) -> None:
-    scene = find("cape-pixel")
+    scene = find_scene("cape-pixel")
     clip = Clip((288, 288), 1)
     words = {"compare": "no", "debug": debug}
     (picture,) = next(scene.play(scene.parameters(words), clip)).pictures

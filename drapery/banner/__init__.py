@@ -12,10 +12,10 @@ Texels are 8-bit sRGB with straight alpha, the top row first. Names are loaded w
 used.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from drapery.banner.design import use_parser
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS, Banner, Layer
@@ -82,37 +82,36 @@ __all__ = [
     "write_banner",
 ]
 
-_NAMES = {
-    "drapery.banner.design": ("LOOM_LAYERS", "MAX_LAYERS", "Banner", "Layer"),
-    "drapery.banner.dyes": ("DYES", "DYE_NAMES", "Dye"),
-    "drapery.banner.formats.form": ("BinaryForm", "Form"),
-    "drapery.banner.formats.found": ("FoundBanner", "find_banners"),
-    "drapery.banner.formats.reading": ("read_design", "read_designs"),
-    "drapery.banner.formats.registry": (
-        *("FORMS", "binary_forms", "choose_banner", "parse_banner", "parse_banners"),
-        *("recognise", "write_banner"),
-    ),
-    "drapery.banner.loom": ("LoomStep", "fits_loom", "loom_steps", "simplify"),
-    "drapery.banner.names": ("dye_name", "pattern_id"),
-    "drapery.banner.patterns": ("PATTERNS", "PATTERN_NAMES", "Pattern"),
-    "drapery.banner.sprites": (
-        *("FLAG_REGIONS", "SHIELD_REGIONS", "SheetRegion"),
-        *("composite", "flag_layers", "shield_layers"),
-    ),
-}
-_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module 'drapery.banner' has no attribute {name!r}")
-    value = getattr(import_module(_MODULE_OF[name]), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "banner.design": ("LOOM_LAYERS", "MAX_LAYERS", "Banner", "Layer"),
+        "banner.dyes": ("DYES", "DYE_NAMES", "Dye"),
+        "banner.formats.form": ("BinaryForm", "Form"),
+        "banner.formats.found": ("FoundBanner", "find_banners"),
+        "banner.formats.reading": ("read_design", "read_designs"),
+        "banner.formats.registry": (
+            "FORMS",
+            "binary_forms",
+            "choose_banner",
+            "parse_banner",
+            "parse_banners",
+            "recognise",
+            "write_banner",
+        ),
+        "banner.loom": ("LoomStep", "fits_loom", "loom_steps", "simplify"),
+        "banner.names": ("dye_name", "pattern_id"),
+        "banner.patterns": ("PATTERNS", "PATTERN_NAMES", "Pattern"),
+        "banner.sprites": (
+            "FLAG_REGIONS",
+            "SHIELD_REGIONS",
+            "SheetRegion",
+            "composite",
+            "flag_layers",
+            "shield_layers",
+        ),
+    },
+)
 
 
 def _parse(text: str) -> "Banner":

@@ -3,7 +3,9 @@
 `run_batch` runs a whole batch; the command `drapery batch` uses it.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.batch.batch_run import BatchResult, run_batch
@@ -29,27 +31,14 @@ __all__ = [
     "run_batch",
 ]
 
-_MODULES = {
-    "BatchResult": "batch_run",
-    "LostError": "cluster",
-    "ManifestError": "manifest",
-    "ManifestFault": "rows",
-    "OutputRecord": "results",
-    "PictureRequest": "manifest",
-    "Progress": "run",
-    "read_manifest": "manifest",
-    "run_batch": "batch_run",
-}
-
-
-def __getattr__(name: str) -> Any:
-    # A name is imported when it is first used, so that `drapery --help` does not wait for numba.
-    if name not in _MODULES:
-        raise AttributeError(f"module 'drapery.batch' has no attribute {name!r}")
-    from importlib import import_module
-
-    return getattr(import_module(f"drapery.batch.{_MODULES[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    return __all__
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "batch.batch_run": ("BatchResult", "run_batch"),
+        "batch.cluster": ("LostError",),
+        "batch.manifest": ("ManifestError", "PictureRequest", "read_manifest"),
+        "batch.results": ("OutputRecord",),
+        "batch.rows": ("ManifestFault",),
+        "batch.run": ("Progress",),
+    },
+)

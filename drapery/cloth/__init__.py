@@ -16,8 +16,9 @@ particles has positions [B, N, 3]. The same input gives the same bits, for any n
 Names are imported when they are first used, so importing the package is cheap.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.cloth.builders import grid, max_stretch, strip
@@ -123,98 +124,49 @@ __all__ = [
     "swinging",
 ]
 
-_MODULES = {
-    "builders": (
-        "grid",
-        "max_stretch",
-        "strip",
-    ),
-    "cloth": (
-        "Cloth",
-        "FLEXION",
-        "SHEAR",
-        "STRUCTURAL",
-    ),
-    "colliders": (
-        "Box",
-        "Capsule",
-        "Collider",
-        "Plane",
-        "Pose",
-        "Shape",
-        "SignedDistance",
-        "Sphere",
-        "TriangleMesh",
-        "Voxels",
-        "check_collider",
-        "height_collider",
-        "load_mesh",
-        "mesh_collider",
-        "rotation_about",
-        "still",
-        "straight",
-        "swinging",
-    ),
-    "collisions": ("Collisions",),
-    "fabric": ("Fabric",),
-    "forces": (
-        "Drag",
-        "Force",
-        "ForceField",
-        "Gravity",
-    ),
-    "meshes": (
-        "disc",
-        "from_mesh",
-        "from_triangles",
-    ),
-    "pins": (
-        "PinPath",
-        "Pins",
-        "PosePath",
-        "carried",
-    ),
-    "sewing": (
-        "Seam",
-        "sew",
-    ),
-    "solvers.base": ("Solver",),
-    "solvers.desbrun": ("SolverDesbrun",),
-    "solvers.driver": ("SolverState",),
-    "solvers.implicit": ("SolverImplicit",),
-    "solvers.pbd": ("SolverPBD",),
-    "solvers.provot": ("SolverProvot",),
-    "solvers.registry": (
-        "SOLVERS",
-        "solver",
-    ),
-    "solvers.verlet": ("SolverVerlet",),
-    "solvers.xpbd": ("SolverXPBD",),
-    "state": (
-        "State",
-        "rest_state",
-    ),
-    "stepping": (
-        "MovingCloth",
-        "simulate",
-    ),
-    "wind": ("Wind",),
-    "world": (
-        "Detail",
-        "World",
-        "WorldView",
-    ),
-}
-_HOMES = {name: module for module, names in _MODULES.items() for name in names}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module 'drapery.cloth' has no attribute {name!r}")
-    value = getattr(import_module(f"drapery.cloth.{_HOMES[name]}"), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return __all__
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "cloth.builders": ("grid", "max_stretch", "strip"),
+        "cloth.cloth": ("Cloth", "FLEXION", "SHEAR", "STRUCTURAL"),
+        "cloth.colliders": (
+            "Box",
+            "Capsule",
+            "Collider",
+            "Plane",
+            "Pose",
+            "Shape",
+            "SignedDistance",
+            "Sphere",
+            "TriangleMesh",
+            "Voxels",
+            "check_collider",
+            "height_collider",
+            "load_mesh",
+            "mesh_collider",
+            "rotation_about",
+            "still",
+            "straight",
+            "swinging",
+        ),
+        "cloth.collisions": ("Collisions",),
+        "cloth.fabric": ("Fabric",),
+        "cloth.forces": ("Drag", "Force", "ForceField", "Gravity"),
+        "cloth.meshes": ("disc", "from_mesh", "from_triangles"),
+        "cloth.pins": ("PinPath", "Pins", "PosePath", "carried"),
+        "cloth.sewing": ("Seam", "sew"),
+        "cloth.solvers.base": ("Solver",),
+        "cloth.solvers.desbrun": ("SolverDesbrun",),
+        "cloth.solvers.driver": ("SolverState",),
+        "cloth.solvers.implicit": ("SolverImplicit",),
+        "cloth.solvers.pbd": ("SolverPBD",),
+        "cloth.solvers.provot": ("SolverProvot",),
+        "cloth.solvers.registry": ("SOLVERS", "solver"),
+        "cloth.solvers.verlet": ("SolverVerlet",),
+        "cloth.solvers.xpbd": ("SolverXPBD",),
+        "cloth.state": ("State", "rest_state"),
+        "cloth.stepping": ("MovingCloth", "simulate"),
+        "cloth.wind": ("Wind",),
+        "cloth.world": ("Detail", "World", "WorldView"),
+    },
+)

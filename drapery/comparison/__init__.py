@@ -5,8 +5,9 @@
 which they differ. Names are loaded when they are first used.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.comparison.cost import Cost, cost_of
@@ -52,50 +53,27 @@ __all__ = [
     "write_text",
 ]
 
-_NAMES = {
-    "drapery.comparison.pairs": (
-        "Comparison",
-        "build_up_sheet",
-        "compare",
-        "compare_variants",
-        "pair_entry",
-        "pair_sheet",
-    ),
-    "drapery.comparison.cost": (
-        "Cost",
-        "cost_of",
-    ),
-    "drapery.comparison.metrics": (
-        "Difference",
-        "errors",
-        "measure",
-    ),
-    "drapery.comparison.panels": (
-        "difference_panel",
-        "side_by_side",
-    ),
-    "drapery.comparison.report": (
-        "ReportEntry",
-        "data_address",
-        "data_of",
-        "html_report",
-        "write_text",
-    ),
-    "drapery.comparison.variants": (
-        "Variant",
-        "draw_variants",
-    ),
-}
-_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module 'drapery.comparison' has no attribute {name!r}")
-    value = getattr(import_module(_MODULE_OF[name]), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "comparison.cost": ("Cost", "cost_of"),
+        "comparison.metrics": ("Difference", "errors", "measure"),
+        "comparison.pairs": (
+            "Comparison",
+            "build_up_sheet",
+            "compare",
+            "compare_variants",
+            "pair_entry",
+            "pair_sheet",
+        ),
+        "comparison.panels": ("difference_panel", "side_by_side"),
+        "comparison.report": (
+            "ReportEntry",
+            "data_address",
+            "data_of",
+            "html_report",
+            "write_text",
+        ),
+        "comparison.variants": ("Variant", "draw_variants"),
+    },
+)

@@ -54,15 +54,15 @@ class SceneEntry:
         return pictures
 
 
-def names() -> list[str]:
+def scene_names() -> list[str]:
     """The names of all scenes, as on the command line."""
     found = (info.name for info in pkgutil.iter_modules(drapery.scenes.__path__))
     return sorted(name.replace("_", "-") for name in found if _is_scene(name))
 
 
-def find(name: str) -> SceneEntry:
+def find_scene(name: str) -> SceneEntry:
     """The scene of this name. Raises OptionError if there is none."""
-    known = names()
+    known = scene_names()
     if name not in known:
         raise OptionError(f"scene {shown(name)} is not known; use one of: {', '.join(known)}")
     module = import_module(f"drapery.scenes.{name.replace('-', '_')}")

@@ -15,7 +15,7 @@ GAP = 0.6
 """Distance between two layers [m]."""
 
 
-def apart(banner: Banner, packs: Packs, settings: Settings) -> Scene:
+def exploded_view(banner: Banner, packs: Packs, settings: Settings) -> Scene:
     """The layers in a row, the lowest at the back. Raises PackError."""
     cloth, base, *layers = flag_layers(banner, packs)
     # Cloth and base dye are one sheet, because the cloth is never seen without a dye.

@@ -4,8 +4,9 @@ Each function makes a `PictureSheet`, which is saved as a picture or as a page o
 loaded when they are first used.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.sheets.drawn import packs_sheet, rotations_sheet
@@ -23,32 +24,11 @@ __all__ = [
     "steps_sheet",
 ]
 
-_NAMES = {
-    "drapery.sheets.drawn": (
-        "packs_sheet",
-        "rotations_sheet",
-    ),
-    "drapery.sheets.faces": (
-        "contents_sheet",
-        "patterns_sheet",
-        "steps_sheet",
-    ),
-    "drapery.sheets.sheet": (
-        "PictureSheet",
-        "SheetCell",
-        "check_sheet_target",
-    ),
-}
-_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module 'drapery.sheets' has no attribute {name!r}")
-    value = getattr(import_module(_MODULE_OF[name]), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "sheets.drawn": ("packs_sheet", "rotations_sheet"),
+        "sheets.faces": ("contents_sheet", "patterns_sheet", "steps_sheet"),
+        "sheets.sheet": ("PictureSheet", "SheetCell", "check_sheet_target"),
+    },
+)

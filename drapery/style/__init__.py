@@ -17,8 +17,9 @@ average of its faces' normals; a `UVMapping` says where front, back and rim lie 
 Names are imported when they are first used.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, turn
@@ -52,25 +53,15 @@ __all__ = [
     "turn",
 ]
 
-_MODULES = {
-    "block": ("FLAG_MAPPING", "FLAG_SIZE", "turn"),
-    "body": ("Body", "MaterialAt", "Panel", "Part"),
-    "crowds": ("cover_crowd",),
-    "extrusion": ("Shell", "boundary_edges", "extrude", "make_shell"),
-    "kinds": ("Kind", "body_of", "check_kind"),
-    "layers": ("flag_material",),
-    "uv_mapping": ("BoxMapping", "SheetMapping", "UVMapping", "box_mapping"),
-}
-_HOMES = {name: module for module, names in _MODULES.items() for name in names}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module 'drapery.style' has no attribute {name!r}")
-    value = getattr(import_module(f"drapery.style.{_HOMES[name]}"), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return __all__
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "style.block": ("FLAG_MAPPING", "FLAG_SIZE", "turn"),
+        "style.body": ("Body", "MaterialAt", "Panel", "Part"),
+        "style.crowds": ("cover_crowd",),
+        "style.extrusion": ("Shell", "boundary_edges", "extrude", "make_shell"),
+        "style.kinds": ("Kind", "body_of", "check_kind"),
+        "style.layers": ("flag_material",),
+        "style.uv_mapping": ("BoxMapping", "SheetMapping", "UVMapping", "box_mapping"),
+    },
+)

@@ -5,8 +5,9 @@ With pytest the fixture `golden`, of the type `Golden`, compares a picture with 
 within a `Tolerance`. Names are loaded when they are first used.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.testing.case_check import CaseResult, check_cases, unused_goldens, update_cases
@@ -48,49 +49,22 @@ __all__ = [
     "write_report",
 ]
 
-_NAMES = {
-    "drapery.testing.case_check": (
-        "CaseResult",
-        "check_cases",
-        "unused_goldens",
-        "update_cases",
-    ),
-    "drapery.testing.cases": (
-        "Case",
-        "CaseFile",
-        "read_cases",
-    ),
-    "drapery.testing.explain": (
-        "LayerNote",
-        "explain_change",
-        "layer_notes",
-    ),
-    "drapery.testing.failures": (
-        "clear_report",
-        "keep_failure",
-        "write_report",
-    ),
-    "drapery.testing.golden": (
-        "GoldenError",
-        "Tolerance",
-        "agrees",
-        "as_frame",
-        "decode",
-        "encode",
-        "fingerprint",
-    ),
-    "drapery.testing.plugin": ("Golden",),
-}
-_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module 'drapery.testing' has no attribute {name!r}")
-    value = getattr(import_module(_MODULE_OF[name]), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "testing.case_check": ("CaseResult", "check_cases", "unused_goldens", "update_cases"),
+        "testing.cases": ("Case", "CaseFile", "read_cases"),
+        "testing.explain": ("LayerNote", "explain_change", "layer_notes"),
+        "testing.failures": ("clear_report", "keep_failure", "write_report"),
+        "testing.golden": (
+            "GoldenError",
+            "Tolerance",
+            "agrees",
+            "as_frame",
+            "decode",
+            "encode",
+            "fingerprint",
+        ),
+        "testing.plugin": ("Golden",),
+    },
+)
