@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import settings
-from studio_browser import chromium, studio
+from studio_browser import chromium, compiled_kernels, studio
 
 from drapery import cli
 
@@ -17,7 +17,7 @@ from drapery import cli
 sys.path.append(str(Path(__file__).parents[1]))
 
 # Fixtures are found by their names here.
-__all__ = ["chromium", "studio"]
+__all__ = ["chromium", "compiled_kernels", "studio"]
 
 # How long one example takes is the machine's business on a shared machine, not the example's.
 settings.register_profile("shared machine", deadline=None)

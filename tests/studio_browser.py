@@ -16,6 +16,8 @@ from typing import Any, TypeVar
 
 import pytest
 
+from drapery import draw
+
 T = TypeVar("T")
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -71,7 +73,13 @@ class Studio:
 
 
 @pytest.fixture(scope="session")
-def studio() -> Iterator[Studio]:
+def compiled_kernels() -> None:
+    """Fill the kernel cache, so that no deadline of a page's test includes a compiler's time."""
+    draw("red creeper:lime", samples=2, shadow=True, wind=4.0)
+
+
+@pytest.fixture(scope="session")
+def studio(compiled_kernels: None) -> Iterator[Studio]:
     """A studio at a free port with an empty library."""
     pytest.importorskip("nicegui")
     with tempfile.TemporaryDirectory() as folder:
