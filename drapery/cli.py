@@ -58,6 +58,9 @@ for name, command in {
 app.add_typer(golden.app, name="golden")
 app.add_typer(sheet.app, name="sheet")
 
+INTERRUPTED = 130
+"""The exit code after Ctrl-C: 128 and the number of SIGINT."""
+
 
 def main() -> None:
     """Run a command. Bad input prints one line on standard error; the exit code is 2.
@@ -83,8 +86,9 @@ def main() -> None:
         say(f"{place}: {error.strerror or error}; correct that and try again")
         code = 2
     except (KeyboardInterrupt, typer.Abort):
+        code = INTERRUPTED
+    if code == INTERRUPTED:  # some versions of typer return it in place of the exception
         say("stopped")
-        code = 130
     if received:
         code = 128 + received[0]
     sys.exit(code if isinstance(code, int) else 0)

@@ -287,13 +287,14 @@ def test_a_stopped_animation_leaves_no_partial_file(tmp_path: Path, name: str, c
     target = "frames/" if name == "SIGHUP" else "out.gif"
     words = ["animate", "white", "-o", target, "--size", "512x512", "--seconds", "60"]
     line = [sys.executable, "-m", "drapery", *words]
-    run = subprocess.Popen(line, cwd=tmp_path, stderr=subprocess.DEVNULL)
+    run = subprocess.Popen(line, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     end = time.monotonic() + 120
     while not list(tmp_path.glob(".*.part")):
         assert time.monotonic() < end and run.poll() is None
         time.sleep(0.01)
     run.send_signal(getattr(signal, name))
-    assert run.wait(60) == code
+    assert run.communicate(timeout=60)[1].endswith("drapery: stopped\n")
+    assert run.returncode == code
     assert not list(tmp_path.rglob(".*.part"))
 
 
