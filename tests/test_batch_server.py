@@ -176,10 +176,10 @@ async def echo(scope: dict[str, Any], receive: Any, send: Any) -> None:
 
 
 @contextmanager
-def running(*proxies: str) -> Iterator[tuple[str, Any]]:
-    """The server in this process with `echo`, and its address."""
+def running(*proxies: str, app: Any = echo) -> Iterator[tuple[str, Any]]:
+    """The server in this process with an application, and its address."""
     listening = listen("127.0.0.1", 0)
-    base, one = address_of(listening), make_server(echo, proxies)
+    base, one = address_of(listening), make_server(app, proxies)
     one.config.lifespan = "off"
     thread = threading.Thread(target=one.run, args=([listening],))
     thread.start()
@@ -233,6 +233,22 @@ def test_silent_connections_are_closed_and_others_answered(monkeypatch) -> None:
             time.sleep(0.3)
         _wait_until(lambda: not one.server_state.connections)
         for client in (*silent, *half, again):
+            client.close()
+
+
+def test_clients_that_do_not_read_are_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def long_answer(scope: Any, receive: Any, send: Any) -> None:
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        for _ in range(64):
+            await send({"type": "http.response.body", "body": bytes(1 << 20), "more_body": True})
+        await send({"type": "http.response.body", "body": b""})
+
+    monkeypatch.setattr(server, "SEND_TIMEOUT", 0.7)
+    with running(app=long_answer) as (base, one):
+        deaf = [_ask(base, "/") for _ in range(10)]
+        assert len(get(base).content) == 64 << 20
+        _wait_until(lambda: not one.server_state.connections)
+        for client in deaf:
             client.close()
 
 

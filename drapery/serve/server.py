@@ -14,6 +14,8 @@ from drapery.errors import OptionError, OutputError
 
 HEAD_TIMEOUT = 10.0
 """How long a client may take to send the head of a request [s]."""
+SEND_TIMEOUT = 30.0
+"""How long a client may take to read what waits to be sent, about 48 kB [s]."""
 MAX_HEAD = 48 << 10
 """The most bytes of the head of a request."""
 MAX_CONNECTIONS = 512
@@ -24,13 +26,14 @@ STOP_TIMEOUT = 5
 
 
 class LimitedProtocol(H11Protocol):
-    """Closes connections that do not send a complete request head in time, or that are too many.
+    """Closes connections that do not send a request head or read an answer in time, or too many.
 
     uvicorn's timeout starts only after the first response, and its concurrency limit refuses every
     client while silent connections are open.
     """
 
     _head_timer: asyncio.TimerHandle | None = None
+    _send_timer: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: Any) -> None:
         """Accept a connection, or close it if there are too many."""
@@ -48,9 +51,25 @@ class LimitedProtocol(H11Protocol):
         self._watch_head()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Forget the timer."""
+        """Forget the timers."""
         self._stop_timer()
+        self._stop_send_timer()
         super().connection_lost(exc)
+
+    def pause_writing(self) -> None:
+        """Wait for a client that reads too slowly, but not for ever."""
+        super().pause_writing()
+        self._send_timer = self.loop.call_later(SEND_TIMEOUT, self.transport.abort)
+
+    def resume_writing(self) -> None:
+        """Go on: the client has read almost everything."""
+        self._stop_send_timer()
+        super().resume_writing()
+
+    def _stop_send_timer(self) -> None:
+        if self._send_timer is not None:
+            self._send_timer.cancel()
+            self._send_timer = None
 
     def _watch_head(self) -> None:
         answering = self.cycle is not None and not self.cycle.response_complete
