@@ -142,6 +142,7 @@ class Settings:
         Path,
         "Texture of a cape or elytra: a PNG file, 64 x 32 or a multiple",
         takes=_has("shape", "dtype"),
+        default_text="elytra.png of the packs",
         metavar="FILE",
     )
     pose: Pose = _option(

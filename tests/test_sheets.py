@@ -23,7 +23,7 @@ from drapery.sheets.drawn import packs_sheet, rotations_sheet
 from drapery.sheets.faces import contents_sheet, patterns_sheet, steps_sheet
 from drapery.sheets.sheet import PictureSheet
 
-pytestmark = pytest.mark.filterwarnings("ignore:not in the packs")
+pytestmark = pytest.mark.filterwarnings("ignore:not in .*, taken from our own art")
 
 DESIGN = Banner("white", (Layer("creeper", "lime"), Layer("border", "black")))
 

@@ -46,11 +46,12 @@ def _lines(report: "PackReport") -> list[str]:
     sizes = ", ".join(f"{count} of {side} x {side} px" for side, count in report.sides)
     facts = {
         "description": report.description,
-        "format": "unknown" if report.format is None else str(report.format),
+        "format": _format(report),
         "overlays": ", ".join(report.overlays),
         "patterns": f"{len(report.has)} of {len(report.has) + len(report.lacks)}",
         "lacks": ", ".join(report.lacks) if report.has else "",
         "adds": ", ".join(report.added),
+        "extra": ", ".join(report.extra),
         "for shields": f"{len(report.shields)} patterns" if report.shields else "",
         "bases": ", ".join(report.bases) or "none",
         "sheets": sizes,
@@ -61,7 +62,17 @@ def _lines(report: "PackReport") -> list[str]:
         "not checked": _too_many(report.unchecked),
     }
     lines = [f"  {name:13} {' '.join(text.split())}" for name, text in facts.items() if text]
+    lines += [f"  note          {line}" for line in report.notes]
     return [report.label, *lines, *(f"  problem       {line}" for line in report.problems)]
+
+
+def _format(report: "PackReport") -> str:
+    """The formats that the pack supports, and the one that it was read as where they differ."""
+    lowest, highest = report.formats or (report.format, report.format)
+    own = "unknown" if lowest is None else str(lowest)
+    if lowest != highest:
+        own = f"{lowest} to {highest}"
+    return own if lowest == highest == report.format else f"{own}, read as {report.format}"
 
 
 def _too_many(names: "tuple[str, ...]") -> str:

@@ -5,9 +5,11 @@ from typing import Literal
 
 import numpy as np
 
-from drapery.banner.design import Banner, Layer
+from drapery.banner.design import Banner
+from drapery.banner.dyes import DYES
 from drapery.banner.loom import loom_steps
 from drapery.banner.packs import Packs
+from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
 from drapery.errors import OptionError, PackError
 from drapery.pictures import face_pixels
 from drapery.render import Pixels
@@ -21,7 +23,7 @@ Side = Literal["front", "back"]
 def patterns_sheet(
     packs: Packs, base: str, dyes: Sequence[str], *, side: Side = "front", scale: int = 3
 ) -> PictureSheet:
-    """Every pattern of the packs in every one of these dyes, on a base.
+    """Every pattern of the packs, extra ones too, in every one of these dyes, on a base.
 
     A pattern whose file is broken is an empty cell labelled as broken. Raises OptionError for more
     than 2000 faces.
@@ -31,7 +33,7 @@ def patterns_sheet(
     if count > MAX_FACES:
         raise OptionError(f"{count} faces are too many for a sheet of {MAX_FACES}; use fewer dyes")
     cells = tuple(
-        _pattern_cell(packs, Banner(base, (Layer(pattern, dye),)), len(dyes) > 1, side, scale)
+        _pattern_cell(packs, base, (pattern, dye), len(dyes) > 1, side, scale)
         for pattern in patterns
         for dye in dyes
     )
@@ -70,12 +72,14 @@ def steps_sheet(banner: Banner, packs: Packs) -> PictureSheet:
 
 
 def _pattern_cell(
-    packs: Packs, banner: Banner, with_dye: bool, side: Side, scale: int
+    packs: Packs, base: str, layer: tuple[str, str], with_dye: bool, side: Side, scale: int
 ) -> SheetCell:
-    (layer,) = banner.layers
-    label = _short(layer.pattern) + (f", {_words(layer.dye)}" if with_dye else "")
+    """One pattern in one dye. It is laid over the base as it is: no Layer can name an extra one."""
+    pattern, dye = layer
+    label = _short(pattern) + (f", {_words(dye)}" if with_dye else "")
     try:
-        return SheetCell(label, face_pixels(banner, packs, scale, side))
+        layers = *flag_layers(Banner(base), packs), (packs.sheet(pattern), DYES[dye].rgb)
+        return SheetCell(label, FLAG_REGIONS[side].sample(composite(layers), scale))
     except PackError:
         return SheetCell(f"{label} (broken)", _nothing(scale))
 
@@ -98,7 +102,8 @@ def _origin(packs: Packs, pattern: str) -> str:
 
 
 def _short(pattern: str) -> str:
-    return pattern.removeprefix("minecraft:")
+    name = pattern.removeprefix("minecraft:")
+    return name if name == pattern else f"{name} (extra)"
 
 
 def _words(dye: str) -> str:

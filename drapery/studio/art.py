@@ -29,9 +29,10 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
 
 
 def pattern_names(packs: Packs) -> tuple[str, ...]:
-    """`packs.patterns()`; the result is cached for each opened stack of packs."""
+    """The patterns that a design can name; the result is cached for each opened stack of packs."""
     if packs not in _names:
-        _names[packs] = packs.patterns()
+        extra = packs.extra_sprites()
+        _names[packs] = tuple(name for name in packs.patterns() if name not in extra)
     return _names[packs]
 
 

@@ -4,7 +4,8 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from drapery.banner.packs.pack import Pack, added_patterns
+from drapery.banner.packs.meta import NEWEST_FORMAT
+from drapery.banner.packs.pack import Pack, added_patterns, extra_sprites
 from drapery.banner.packs.png import png_size
 from drapery.banner.packs.stack import Base, Kind, PackFile, PackLike, Packs, open_packs
 from drapery.banner.patterns import PATTERN_NAMES
@@ -19,13 +20,16 @@ class PackReport:
     """One pack of a stack.
 
     format: the resource format that it is read as, or None. overlays: the folders in use.
-    has, lacks: of the 43 patterns. added: other patterns that it defines. shields: those of the 43
-    patterns that it has for shields.
+    formats: the lowest and the highest format that it claims to support, or None.
+    has, lacks: of the 43 patterns. added: other patterns that it defines. extra: sheets in the
+        game's own namespace that are no pattern, so that no design can name them.
+    shields: those of the 43 patterns that it has for shields.
     bases: which of banner_base, shield_base and shield_base_nopattern it has.
     overrides: pairs of a pattern and the pack below whose sheet it overrides.
     sides: pairs of a sheet's side [px] and how many have it, small ones first.
     normal_maps, specular_maps: patterns with LabPBR maps. animated: patterns with frames.
     problems: the errors of files that cannot be read.
+    notes: what was read otherwise than it lies in the files, or not at all.
     unchecked: patterns beyond MAX_CHECKED_BYTES; their sheets and maps are not decoded, and are
         not among the sides, maps, animations and problems.
     """
@@ -46,6 +50,9 @@ class PackReport:
     animated: tuple[str, ...]
     problems: tuple[str, ...]
     unchecked: tuple[str, ...] = ()
+    formats: tuple[int, int] | None = None
+    extra: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def describe_packs(
@@ -67,10 +74,11 @@ def describe_packs(
 
 def _report(pack: Pack, alone: Packs, lower: Sequence[Packs]) -> PackReport:
     problems: list[str] = []
-    added = added_patterns(pack)
+    added, extra = added_patterns(pack), extra_sprites(pack)
     has = _had(alone, PATTERN_NAMES, "banner", problems)
     shields = _had(alone, PATTERN_NAMES, "shield", problems)
-    mine = (*has, *_had(alone, added, "banner", problems))
+    mine = (*has, *_had(alone, (*added, *extra), "banner", problems))
+    bases = _bases(alone, problems)
     sheets, unchecked = _decoded_sheets(alone, mine, problems)
     return PackReport(
         pack.label,
@@ -81,7 +89,7 @@ def _report(pack: Pack, alone: Packs, lower: Sequence[Packs]) -> PackReport:
         tuple(name for name in PATTERN_NAMES if name not in has),
         added,
         shields,
-        _bases(alone, problems),
+        bases,
         tuple(pair for name in mine for pair in _hidden(name, lower)),
         tuple(sorted(Counter(sheet.side for sheet in sheets.values()).items())),
         tuple(name for name, sheet in sheets.items() if sheet.has_normal),
@@ -89,7 +97,17 @@ def _report(pack: Pack, alone: Packs, lower: Sequence[Packs]) -> PackReport:
         tuple(name for name, sheet in sheets.items() if sheet.is_animated),
         tuple(dict.fromkeys(problems)),
         unchecked,
+        pack.meta.supported(),
+        extra,
+        (*_newer(pack), *alone.notes()),
     )
+
+
+def _newer(pack: Pack) -> list[str]:
+    formats = pack.meta.supported()
+    if formats is None or formats[0] <= NEWEST_FORMAT:
+        return []
+    return [f"{pack.label} is only for formats after {NEWEST_FORMAT}, the newest known here"]
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ Format = tuple[float, float]
 """Major and minor format number."""
 
 NEWEST_FORMAT = 84
-"""The newest resource format known here; packs for newer ones are read as of this one."""
+"""The newest resource format known here; packs only for newer ones are read as their lowest."""
 
 MAX_JSON = 1 << 20
 """Largest JSON file that is read [bytes]."""
@@ -60,10 +60,17 @@ class PackMeta:
     description: str = ""
 
     def newest(self) -> int | None:
-        """The newest known format that the pack claims to support."""
+        """The newest known format that the pack claims to support, or else its lowest."""
         if self.formats is None:
             return self.format
-        return int(min(max(self.formats.highest[0], self.format or 0), NEWEST_FORMAT))
+        highest = max(self.formats.highest[0], self.format or 0)
+        return int(min(highest, max(self.formats.lowest[0], NEWEST_FORMAT)))
+
+    def supported(self) -> tuple[int, int] | None:
+        """The lowest and the highest format that the pack claims to support."""
+        if self.formats is not None:
+            return int(self.formats.lowest[0]), int(self.formats.highest[0])
+        return None if self.format is None else (self.format, self.format)
 
     def directories(self, wanted: int | None) -> tuple[str, ...]:
         """The folders of the overlays for a format, topmost first; None is the pack's newest."""
@@ -98,14 +105,13 @@ def parse_meta(data: bytes, name: str) -> PackMeta:
     if declared is not None and not _is_count(declared):
         raise PackError(f"{name}: pack_format must be a number, not {shown(declared)}")
     if declared is None and formats is not None:
-        declared = int(min(formats.lowest[0], NEWEST_FORMAT))
-    description = pack.get("description", "")
+        declared = int(formats.lowest[0])
     return PackMeta(
         declared,
         formats,
         _overlays(root, name),
         _filters(root, name),
-        _one_line(description if isinstance(description, str) else json.dumps(description)),
+        _one_line(_plain_text(pack.get("description", ""))),
     )
 
 
@@ -118,6 +124,16 @@ def parse_version(data: bytes, name: str) -> PackMeta:
     title = root.get("name") if isinstance(root, dict) else None
     text = _one_line(f"Minecraft {title}") if isinstance(title, str) else ""
     return PackMeta(version if _is_count(version) else None, description=text)
+
+
+def _plain_text(component: Any, depth: int = 16) -> str:
+    """The text of a text component: a string, a list, or an object with text and extra."""
+    if isinstance(component, list) and depth:
+        return "".join(_plain_text(part, depth - 1) for part in component)
+    if isinstance(component, dict) and depth:
+        own = component.get("text", component.get("fallback", component.get("translate", "")))
+        return _plain_text(own, 0) + _plain_text(component.get("extra", []), depth - 1)
+    return component if isinstance(component, str) else ""
 
 
 def _one_line(text: str) -> str:

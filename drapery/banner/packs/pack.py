@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from drapery.banner.names import is_custom
 from drapery.banner.packs.meta import MAX_JSON, PackMeta, parse_meta, parse_version
 from drapery.banner.packs.sources import PackSource, open_source
 from drapery.banner.packs.texture_ids import is_id
@@ -72,6 +73,18 @@ def open_pack(path: str | Path | PackSource, format: int | None = None) -> Pack:
 
 def added_patterns(pack: Pack) -> tuple[str, ...]:
     """Full ids, sorted, of the patterns beyond the 43 that a pack defines or has a texture for."""
+    return tuple(name for name in _found_patterns(pack) if is_custom(name))
+
+
+def extra_sprites(pack: Pack) -> tuple[str, ...]:
+    """Full ids, sorted, of further patterns in the game's own namespace; no design can name them.
+
+    The game has no such pattern, so their textures are left over or wrongly named.
+    """
+    return tuple(name for name in _found_patterns(pack) if not is_custom(name))
+
+
+def _found_patterns(pack: Pack) -> list[str]:
     found = {
         name
         for namespace in pack.folders("data")
@@ -81,7 +94,7 @@ def added_patterns(pack: Pack) -> tuple[str, ...]:
         folder = f"assets/{namespace}/textures/entity/banner"
         found |= _without_maps(set(_ids(pack, namespace, folder, ".png")))
     ours = {f"minecraft:{name}" for name in (*PATTERN_NAMES, "banner_base")}
-    return tuple(sorted(found - ours))
+    return sorted(found - ours)
 
 
 def _ids(pack: Pack, namespace: str, folder: str, ending: str) -> Iterator[str]:

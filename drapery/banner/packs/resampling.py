@@ -38,3 +38,15 @@ def resize(texels: Texels, side: int) -> Texels:
         return texels.copy()
     index = nearest_texels(len(texels), side)
     return texels[index[:, None], index]
+
+
+def squared(texels: Texels) -> Texels:
+    """A picture [H, W, 4] stretched to a square of `common_side`; itself where it is one."""
+    height, width = texels.shape[:2]
+    if height == width:
+        return texels
+    side = common_side((height, width))
+    rows, columns = nearest_texels(height, side), nearest_texels(width, side)
+    sheet = texels[rows[:, None], columns]
+    sheet.setflags(write=False)
+    return sheet

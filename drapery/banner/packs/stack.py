@@ -5,6 +5,7 @@ earlier ones. The overlays of a pack, named in its `pack.mcmeta`, override its o
 """
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
@@ -12,22 +13,24 @@ from typing import Literal
 from drapery.banner.names import shown
 from drapery.banner.packs.checks import listed
 from drapery.banner.packs.folders import OwnArt
+from drapery.banner.packs.masks import LAST_MASK_FORMAT, are_masks, looks_like_mask
 from drapery.banner.packs.memory import MemoryPack
 from drapery.banner.packs.meta import MAX_JSON, read_json
-from drapery.banner.packs.pack import Pack, added_patterns, open_pack
-from drapery.banner.packs.png import Texels, png_size, read_png
+from drapery.banner.packs.pack import Pack, added_patterns, extra_sprites, open_pack
+from drapery.banner.packs.png import MAX_PIXELS, Texels, png_size, read_png
+from drapery.banner.packs.resampling import squared
 from drapery.banner.packs.sources import PackSource
 from drapery.banner.packs.sprite_sources import SpriteFolder, SpriteSource, parse_atlas, textures_of
 from drapery.banner.packs.texture_cache import TextureCache
 from drapery.banner.packs.texture_ids import full_id, is_id, split_id, texture_file
 from drapery.banner.packs.textures import (
+    MAX_SHEET,
+    FrameLayout,
     Texture,
     check_sheet,
     checker,
     cut_frames,
     frame_layout,
-    is_mask,
-    looks_like_mask,
 )
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
@@ -39,7 +42,10 @@ MAX_PNG = 32 << 20
 """Largest PNG file that is read [bytes]."""
 
 LAST_OLD_FORMAT = 75
-"""Last format (1.21.11) in which the base texture was beside `entity/banner`, not in it."""
+"""Last format (1.21.11) in which bases were beside `entity/banner` and `entity/shield`."""
+
+LAST_OLD_WINGS_FORMAT = 41
+"""Last format before 1.21.2, which moved the texture of elytra to `entity/equipment`."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +71,7 @@ class Packs:
     _atlases: dict[Kind, tuple[SpriteSource, ...]] = field(
         default_factory=dict, init=False, repr=False
     )
+    _masked: dict[tuple[int, Kind], bool] = field(default_factory=dict, init=False, repr=False)
     _used: set[int] = field(default_factory=set, init=False, repr=False)
     # Dictionaries as sets that keep their order.
     _ours: dict[str, None] = field(default_factory=dict, init=False, repr=False)
@@ -100,6 +107,21 @@ class Packs:
         full = full_id(name)
         return self._textures.get(full, lambda: self._any_texture(full)).at(time)
 
+    def elytra(self) -> Texels | None:
+        """The sheet of wings and sometimes of a cape, shape [H, W, 4], or None if no pack has one.
+
+        Raises PackError.
+        """
+        old, new = (
+            f"assets/minecraft/textures/entity/{name}.png"
+            for name in ("elytra", "equipment/wings/elytra")
+        )
+        is_old = self.format is not None and self.format <= LAST_OLD_WINGS_FORMAT
+        found = self._find([old, new] if is_old else [new, old])
+        if found is None:
+            return None
+        return self._textures.get("elytra", lambda: self._read(found, "elytra")).at(0.0)
+
     def period(self, pattern: str, kind: Kind = "banner") -> float:
         """The length of the animation of a pattern's sheet [s]; 0 if it is still."""
         return self._sheet(pattern, kind).period
@@ -127,9 +149,19 @@ class Packs:
         return self._map(self._find_base(base), "_s")
 
     def patterns(self) -> tuple[str, ...]:
-        """Ids of the 43 patterns, then those that packs add by definition or texture, sorted."""
+        """Ids of the 43 patterns, then those that packs add by definition or texture, sorted.
+
+        Those in the game's own namespace are extra: no design can name them; see `extra_sprites`.
+        """
         added = {name for pack in self.packs for name in added_patterns(pack)}
-        return PATTERN_NAMES + tuple(sorted(added))
+        return PATTERN_NAMES + tuple(sorted({*added, *self.extra_sprites()}))
+
+    def extra_sprites(self) -> tuple[str, ...]:
+        """Ids, sorted, of sheets in the game's own namespace that are none of the 43 patterns.
+
+        No design can name them; `sheet` reads them.
+        """
+        return tuple(sorted({name for pack in self.packs for name in extra_sprites(pack)}))
 
     def level(self, pattern: str, kind: Kind = "banner") -> int | None:
         """The index in `packs` of the pack with a pattern's sheet, or None if it is missing."""
@@ -150,22 +182,26 @@ class Packs:
         found = (sheet, self._find_map(sheet, "_n"), self._find_map(sheet, "_s"))
         return tuple(file for file in found if file is not None)
 
+    def notes(self) -> tuple[str, ...]:
+        """What was read otherwise than it lies in the packs, or not at all, one line each."""
+        return tuple(self._notes)
+
     def warnings(self) -> tuple[str, ...]:
-        """Warnings about the textures read so far, one line each."""
+        """Warnings about the textures read so far, one line each; they name the packs."""
         lines = list(self._notes)
+        labels = listed(pack.label for pack in self.packs[1:])
         if self._missing:
-            names = ", ".join(self._missing)
-            lines.append(f"missing from the packs, drawn as the game's checker: {names}")
+            names, where = ", ".join(self._missing), labels or "our own art"
+            lines.append(f"missing from {where}, drawn as the game's checker: {names}")
         if self._ours and self._used and not self._all_in_memory():
-            lines.append(f"not in the packs, taken from our own art: {', '.join(self._ours)}")
+            lines.append(f"not in {labels}, taken from our own art: {', '.join(self._ours)}")
         if self._black:
             names = ", ".join(self._black)
             lines.append(
-                f"drawn with opaque black, as the game draws it: {names}"
+                f"drawn with opaque black, as the game draws it: {names} of {labels}"
                 " (masks from before 1.15? use format 4 to read them as masks)"
             )
-        if (self._ours or self._missing) and len(self.packs) > 1 and not self._used:
-            labels = ", ".join(pack.label for pack in self.packs[1:])
+        if (self._ours or self._missing) and labels and not self._used:
             lines.append(f"no texture comes from {labels}: the textures needed are not in it")
         return tuple(lines)
 
@@ -182,14 +218,29 @@ class Packs:
         sheet = self._read(found, name, is_sheet=True)
         if found is None:
             return sheet
-        pack = self.packs[found.level]
         # Our own art has no masks, whatever the format of the game.
-        if found.level == 0 or not is_mask(sheet.frames[0], pack.format):
+        if found.level == 0 or not self._has_masks(found.level, kind):
             if looks_like_mask(sheet.frames[0]):
                 self._black[name] = None
             return sheet
         base = self.base("banner_base" if kind == "banner" else "shield_base")
         return replace(sheet, base=base)
+
+    def _has_masks(self, level: int, kind: Kind) -> bool:
+        """Whether a pack's sheets are masks: by the format if one is asked for, else by vote."""
+        pack = self.packs[level]
+        is_old = pack.format is not None and pack.format <= LAST_MASK_FORMAT
+        is_given = self.format is not None or pack.format != pack.meta.newest()
+        if is_given or not (is_old or pack.format is None):
+            return is_old
+        if (level, kind) not in self._masked:
+            self._masked[level, kind] = are_masks(_voters(pack, kind), default=is_old)
+            if is_old and not self._masked[level, kind]:
+                self._notes[
+                    f"{pack.label} has format {pack.format}, but its {kind} sheets are not masks,"
+                    " so they are read as those of newer packs (use format 4 to read them as masks)"
+                ] = None
+        return self._masked[level, kind]
 
     def _read_base(self, base: Base) -> Texture:
         return self._read(self._find_base(base), base, is_sheet=True)
@@ -200,7 +251,7 @@ class Packs:
     def _read(self, found: PackFile | None, name: str, *, is_sheet: bool = False) -> Texture:
         """The texture of a file, or the checker if it is None. Notes the name for the warnings.
 
-        is_sheet: whether it must be square, which is checked before anything is decoded.
+        is_sheet: whether it is stretched to a square; its size is checked before it is decoded.
         """
         if found is None:
             self._missing[name] = None
@@ -209,18 +260,34 @@ class Packs:
             self._used.add(found.level)
         elif len(self.packs) > 1:
             self._ours[name] = None
-        place = self._place(found)
-        mcmeta = self.packs[found.level].read(f"{found.name}.mcmeta", MAX_JSON)
-        layout = frame_layout(*png_size(found.data, place), mcmeta, f"{place}.mcmeta")
+        place, layout = self._place(found), self._layout(found)
         if is_sheet:
             check_sheet(layout, place)
-        return cut_frames(read_png(found.data, place), layout)
+            if layout.width != layout.height:
+                self._notes[
+                    f"{place} is {layout.width} x {layout.height} px: it is stretched to a square,"
+                    " as in the game"
+                ] = None
+        return replace(cut_frames(read_png(found.data, place), layout), is_sheet=is_sheet)
+
+    def _layout(self, found: PackFile) -> FrameLayout:
+        """The frames of a picture. Raises PackError."""
+        place = self._place(found)
+        mcmeta = self.packs[found.level].read(f"{found.name}.mcmeta", MAX_JSON)
+        return frame_layout(*png_size(found.data, place), mcmeta, f"{place}.mcmeta")
 
     def _map(self, found: PackFile | None, ending: str) -> Texels | None:
         """The map beside a texture, from its pack or one above. Maps of lower packs belong to
         other textures."""
         beside = self._find_map(found, ending)
-        return None if beside is None else read_png(beside.data, self._place(beside))
+        if found is None or beside is None:
+            return None
+        texels = read_png(beside.data, self._place(beside))
+        layout = self._layout(found)
+        height, width = texels.shape[:2]
+        # A map that is stretched like its sheet; else what is tall is a strip of frames.
+        is_alike = width * layout.height == height * layout.width
+        return squared(texels) if is_alike and max(width, height) <= MAX_SHEET else texels
 
     def _find_map(self, found: PackFile | None, ending: str) -> PackFile | None:
         if found is None:
@@ -239,10 +306,10 @@ class Packs:
         return None
 
     def _find_base(self, base: Base) -> PackFile | None:
+        """The file of a base, at its place before or since 26.1."""
+        folder = base.split("_", 1)[0]
         old = f"assets/minecraft/textures/entity/{base}.png"
-        if base != "banner_base":
-            return self._find([old])
-        new = "assets/minecraft/textures/entity/banner/banner_base.png"
+        new = f"assets/minecraft/textures/entity/{folder}/{base}.png"
         is_old = self.format is not None and self.format <= LAST_OLD_FORMAT
         return self._find([old, new] if is_old else [new, old])
 
@@ -294,6 +361,24 @@ class Packs:
 
     def _place(self, found: PackFile) -> str:
         return f"{self.packs[found.level].label}: {found.name}"
+
+
+def _voters(pack: Pack, kind: Kind) -> Iterator[Texels]:
+    """The sheets of a pack that tell whether they are masks, one at a time, within a limit.
+
+    Gradients come first, which tell most in packs of large sheets. Broken files do not vote.
+    """
+    left = MAX_PIXELS
+    for name in sorted(PATTERN_NAMES, key=lambda name: not name.startswith("gradient")):
+        file = f"assets/minecraft/textures/entity/{kind}/{name}.png"
+        with suppress(PackError):
+            data = pack.read(file, MAX_PNG)
+            if data is None:
+                continue
+            width, height = png_size(data, file)
+            if width * height <= left:
+                left -= width * height
+                yield read_png(data, file)
 
 
 PackLike = str | Path | PackSource | Pack | Packs

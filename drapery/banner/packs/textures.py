@@ -1,4 +1,4 @@
-"""Textures of packs: still or animated by their `.mcmeta`, and the masks of old packs."""
+"""Textures of packs: still or animated by their `.mcmeta`, stretched and masked as in the game."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -6,18 +6,16 @@ from typing import Any
 import numpy as np
 
 from drapery.banner.names import shown
+from drapery.banner.packs.masks import from_mask
 from drapery.banner.packs.meta import read_json
 from drapery.banner.packs.png import Texels
-from drapery.banner.packs.resampling import common_side, resize
+from drapery.banner.packs.resampling import common_side, squared
 from drapery.errors import PackError
 
 TICKS_PER_SECOND = 20
 
 MAX_SHEET = 2048
 """Largest side of a banner's or shield's sheet [px]."""
-
-LAST_MASK_FORMAT = 4
-"""Up to this pack format (1.14) a pattern was a mask: its red channel was the dye's alpha."""
 
 _MAX_FRAMES = 8192
 _CHECKER_SIDE = 16
@@ -27,37 +25,47 @@ _CHECKER_SIDE = 16
 class Texture:
     """Frames of one size and the ticks (1/20 s) that each is shown; a still one has one frame.
 
+    is_sheet: whether a frame that is not square is stretched to a square, as in the game's atlas.
     base: the sheet that each frame masks, or None where the frames are the texels themselves.
     """
 
     frames: tuple[Texels, ...]
     ticks: tuple[int, ...] = (1,)
+    is_sheet: bool = False
     base: Texels | None = None
-    # The masked frame that was shown last, by its index.
-    _masked: dict[int, Texels] = field(default_factory=dict, init=False, repr=False)
+    # The frame that was stretched or masked last, by its index: all of them could fill the memory.
+    _made: dict[int, Texels] = field(default_factory=dict, init=False, repr=False)
 
     def at(self, time: float) -> Texels:
         """The frame shown at a time [s], shape [H, W, 4]. Frames are not blended."""
         index = self._index(time)
-        if self.base is None:
+        if self._is_plain:
             return self.frames[index]
-        shown = self._masked.get(index)
-        if shown is None:
-            shown = from_mask(self.frames[index], self.base)
-            self._masked.clear()
-            self._masked[index] = shown
-        return shown
+        made = self._made.get(index)
+        if made is None:
+            sheet = squared(self.frames[index])
+            made = sheet if self.base is None else from_mask(sheet, self.base)
+            self._made.clear()
+            self._made[index] = made
+        return made
+
+    @property
+    def _is_plain(self) -> bool:
+        """Whether the frames are shown as they are in the file."""
+        height, width = self.frames[0].shape[:2]
+        return self.base is None and (height == width or not self.is_sheet)
 
     @property
     def side(self) -> int:
         """The height of a frame as `at` gives it [px]."""
-        own = len(self.frames[0])
+        height, width = self.frames[0].shape[:2]
+        own = common_side((height, width)) if self.is_sheet else height
         return own if self.base is None else common_side((own, len(self.base)))
 
     def texel_count(self) -> int:
         """How many texels are in memory for this texture."""
         frames = sum({id(frame): frame.size // 4 for frame in self.frames}.values())
-        return frames if self.base is None else frames + self.side**2
+        return frames if self._is_plain else frames + self.side**2
 
     def _index(self, time: float) -> int:
         if len(self.frames) == 1:
@@ -117,56 +125,12 @@ def cut_frames(texels: Texels, layout: FrameLayout) -> Texture:
 
 
 def check_sheet(layout: FrameLayout, name: str) -> None:
-    """Raise PackError unless the frames are square and have at most MAX_SHEET px a side."""
+    """Raise PackError unless the frames have at most MAX_SHEET px a side."""
     width, height = layout.width, layout.height
-    if height != width:
-        raise PackError(
-            f"{name} is {width} x {height} px, but a sheet is square:"
-            " change its size, or add an .mcmeta with its animation"
-        )
-    if height > MAX_SHEET:
+    if max(width, height) > MAX_SHEET:
         raise PackError(
             f"{name} is {width} x {height} px; a sheet has at most {MAX_SHEET} a side: shrink it"
         )
-
-
-def is_mask(texels: Texels, pack_format: int | None) -> bool:
-    """Whether a sheet is a mask of the kind used before 1.15.
-
-    In a pack of that time every sheet is one, except sheets with half-transparent texels, which
-    had no meaning then. If the format is unknown, only a black and white sheet without any
-    transparent texels is one.
-    """
-    alpha = texels[..., 3]
-    if pack_format is None:
-        return bool((alpha == 255).all()) and looks_like_mask(texels)
-    return pack_format <= LAST_MASK_FORMAT and bool(((alpha == 0) | (alpha == 255)).all())
-
-
-def looks_like_mask(texels: Texels) -> bool:
-    """Whether a newer sheet looks like an old mask: grey, with opaque black and opaque white."""
-    alpha, red = texels[..., 3], texels[..., 0]
-    if ((alpha > 0) & (alpha < 255)).any():
-        return False
-    shown = red[alpha > 0]
-    return (
-        bool((shown == 0).any() and (shown == 255).any())
-        and bool(((red == texels[..., 1]) | (alpha == 0)).all())
-        and bool(((red == texels[..., 2]) | (alpha == 0)).all())
-    )
-
-
-def from_mask(mask: Texels, base: Texels) -> Texels:
-    """A sheet of the present kind that looks like a mask over a base: its colours, alpha from red.
-
-    Its side is that of `common_side`.
-    """
-    side = common_side((len(mask), len(base)))
-    shown = np.where(mask[..., 3] > 0, mask[..., 0], 0).astype(np.uint8)
-    sheet = resize(base, side)
-    sheet[..., 3] = resize(shown, side)
-    sheet.setflags(write=False)
-    return sheet
 
 
 def checker() -> Texels:

@@ -24,7 +24,7 @@ SPREAD = 15.0
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """Both wings, cut out by their texture. Raises OptionError or PackError."""
-    material = Material((TextureLayer(back_texture(settings, (46, 22))),), "cutout")
+    material = Material((TextureLayer(back_texture(settings, packs, (46, 22))),), "cutout")
     left = _left_wing()
     return Body(tuple(Part(wing, lambda time: material) for wing in (left, _mirrored(left))))
 

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drapery.banner.names import shown
+from drapery.banner.packs import Packs
 from drapery.banner.packs.checks import reason
 from drapery.banner.packs.png import Texels, read_png
 from drapery.banner.packs.stack import MAX_PNG
@@ -21,14 +21,12 @@ _SHAPES = (SHEET, (46, 22), (22, 17))
 """Sizes of a sheet [texels], or its multiples: whole, cut after the wings, after the cape."""
 
 
-def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
-    """The sheet of a cape and elytra, shape [32 n, 64 n, 4].
+def back_texture(settings: Settings, packs: Packs, least: tuple[int, int]) -> Texels:
+    """The sheet of a cape and elytra, shape [32 n, 64 n, 4]: the texture given, or the packs'.
 
     least: width and height of the part that is needed [texels]. Raises OptionError or PackError.
     """
-    if settings.texture is None:
-        raise OptionError(f"kind {settings.kind} needs a texture; give its PNG file by texture")
-    name, texels = _texels(settings.texture)
+    name, texels = _texels(settings, packs)
     height, width = texels.shape[:2]
     for across, down in _SHAPES:
         times = width // across
@@ -41,8 +39,11 @@ def back_texture(settings: Settings, least: tuple[int, int]) -> Texels:
     )
 
 
-def _texels(texture: str | Path | NDArray[np.uint8]) -> tuple[str, Texels]:
+def _texels(settings: Settings, packs: Packs) -> tuple[str, Texels]:
     """The texture and what messages call it. Raises OptionError or PackError."""
+    texture = settings.texture
+    if texture is None:
+        return "elytra.png of the packs", _of_packs(settings.kind, packs)
     if isinstance(texture, str | Path):
         name = f"texture {shown(str(texture), 200)}"
         return name, read_png(_read(Path(texture), name), name)
@@ -51,6 +52,22 @@ def _texels(texture: str | Path | NDArray[np.uint8]) -> tuple[str, Texels]:
             f"texture: an array of {texture.dtype} {list(texture.shape)}; use uint8 [H, W, 4]"
         )
     return "texture: the array", texture
+
+
+def _of_packs(kind: str, packs: Packs) -> Texels:
+    """The packs' sheet of wings, for a cape only where one is drawn beside the wings."""
+    texels = packs.elytra()
+    if texels is None:
+        raise OptionError(
+            f"kind {kind} needs a texture; give its PNG file by texture,"
+            " or a pack that has elytra.png"
+        )
+    height, width = texels.shape[:2]
+    if kind == "cape" and not texels[: height * 17 // SHEET[1], : width * 22 // SHEET[0], 3].any():
+        raise OptionError(
+            "elytra.png of the packs has no cape beside the wings; give a PNG file by texture"
+        )
+    return texels
 
 
 def _widened(texels: Texels, times: int) -> Texels:
