@@ -149,6 +149,11 @@ def is_dye(value: str) -> bool:
     return key in DYES or key in _DYE_ALSO
 
 
+def is_pattern(value: str) -> bool:
+    """Whether the text is a name of one of the game's patterns."""
+    return plain(value) in _pattern_table()
+
+
 def _place(at: str) -> str:
     return f"{at}: " if at else ""
 

@@ -1,19 +1,23 @@
 """Typed by hand: `white creeper:lime border:black`, or as the game's tooltip shows it.
 
 The base dye comes first, then the layers, lowest first. A layer is `pattern:dye`, or, between
-commas or on its own line, `Lime Creeper Charge`. `shield` before the base makes a shield; `ominous
-banner` is the banner of the illagers.
+commas or on its own line, `Lime Creeper Charge`. A dye may be a number, from white, which is 0.
+`shield` before the base makes a shield; `ominous banner` is the banner of the illagers. What is not
+of this form is read as English words (`phrases`) or as another language's (`languages`).
 """
 
 from drapery.banner.design import Banner, Layer
+from drapery.banner.formats import languages, phrases
 from drapery.banner.formats.tree import OMINOUS, base_of, check_count
-from drapery.banner.names import dye_name, is_dye, pattern_id, plain, shown
+from drapery.banner.names import dye_name, is_dye, is_pattern, pattern_id, plain, shown
 from drapery.errors import DesignError
 
 NAME = "text"
 TITLE = "shorthand, typed by hand"
 EXAMPLE = "white creeper:lime border:black"
+SOURCE = "our own, and the game's tooltip"
 
+_LONGEST_PHRASE = 1000
 _BREAKS = str.maketrans(dict.fromkeys(",;\r", "\n"))
 
 
@@ -24,6 +28,35 @@ def recognises(text: str) -> bool:
 
 
 def parse(text: str) -> Banner:
+    """Read the shorthand, English words, or the names of another language.
+
+    Raises DesignError in the words of the way of writing that the text resembles.
+    """
+    try:
+        return _shorthand(text)
+    except DesignError as error:
+        fault = error
+    faults = {"shorthand": fault}
+    for name, parse_other in (("phrase", phrases.parse), ("language", languages.parse)):
+        try:
+            return parse_other(text)
+        except DesignError as error:
+            faults[name] = error
+    raise faults[_resembles(text)]
+
+
+def _resembles(text: str) -> str:
+    """The way of writing of a text that none of them can read."""
+    first = text.split(maxsplit=1)[0] if text.strip() else ""
+    foreign = not text.isascii() or (not is_dye(first) and languages.is_known(text))
+    if languages.may_be(text) and foreign:
+        return "language"
+    if len(text) < _LONGEST_PHRASE and phrases.resembles(text):
+        return "phrase"
+    return "shorthand"
+
+
+def _shorthand(text: str) -> Banner:
     """Read the shorthand. Raises DesignError naming the layer, counted from 1."""
     if plain(text) in ("ominous", "ominous_banner"):
         return OMINOUS
@@ -33,6 +66,11 @@ def parse(text: str) -> Banner:
     shield = pieces[0][0].lower() == "shield" and bool(pieces[0].pop(0))
     if not pieces[0]:
         raise DesignError("the shield has no base dye: write 'shield white creeper:lime'")
+    if len(pieces) > 1 and _is_layer(pieces[0]):
+        raise DesignError(
+            f"{shown(' '.join(pieces[0]))}: this is a layer, but the base is missing:"
+            " write the banner's name in the first line, such as 'White Banner'"
+        )
     base = _base(pieces[0].pop(0))
     if pieces[0][:1] in (["banner"], ["Banner"]):
         pieces[0].pop(0)
@@ -66,6 +104,11 @@ def _base(word: str) -> str:
     return base_of(word) or dye_name(word, "base")
 
 
+def _is_layer(words: list[str]) -> bool:
+    """Whether words are a dye and a pattern, as in a line of a tooltip."""
+    return len(words) > 1 and is_dye(words[0]) and is_pattern(" ".join(words[1:]))
+
+
 def _phrases(words: list[str]) -> list[str]:
     """The layers in a row of words. Each ends with its `:dye`; the last may have none."""
     phrases: list[list[str]] = [[]]
@@ -83,4 +126,5 @@ def _layer(phrase: str, at: str) -> Layer:
         dye, _, pattern = phrase.partition(" ")
         if not pattern or not is_dye(dye):
             raise DesignError(f"{at}: it has no dye: write pattern:dye, such as 'creeper:lime'")
-    return Layer(pattern_id(pattern, at), dye_name(dye, at))
+    number = int(dye) if dye.isdecimal() and len(dye) < 4 else dye
+    return Layer(pattern_id(pattern, at), dye_name(number, at))

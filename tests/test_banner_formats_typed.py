@@ -1,0 +1,113 @@
+"""Designs as people type them: English words, other languages' names, lists of lines."""
+
+import pytest
+
+from drapery.banner.design import Banner
+from drapery.banner.dyes import DYE_NAMES
+from drapery.banner.formats import parse_banner, parse_banners, read_design
+from drapery.banner.formats.languages import known_languages
+from drapery.banner.patterns import PATTERN_NAMES
+from drapery.errors import DesignError
+
+RED_CREEPER = Banner.parse("red creeper:white border:black")
+
+
+def fault(text: str) -> str:
+    with pytest.raises(DesignError) as caught:
+        parse_banner(text)
+    message = str(caught.value)
+    assert len(message.splitlines()) == 1 and len(message) < 500
+    return message
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("red banner with white skull", "red skull:white"),
+        ("A red banner with a white skull and a black border.", "red skull:white border:black"),
+        ("white creeper lime border black", "white creeper:lime border:black"),
+        ("red shield with white skull", "shield red skull:white"),
+        ("light blue banner with gray top stripe", "light_blue stripe_top:gray"),
+        ("white skull on a red banner", "red skull:white"),
+        ("white skull on red field", "red skull:white"),
+        ("black banner with white Per Bend Sinister", "black diagonal_left:white"),
+        ("white cre:5", "white creeper:lime"),
+        ("white cre:0 border:15", "white creeper:white border:black"),
+    ],
+)
+def test_english_words_are_read(text: str, expected: str):
+    assert parse_banner(text) == parse_banner(expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("red banner with skull", ["'skull' has no dye", "red banner with white skull"]),
+        ("red banner with white kreeper", ["'kreeper'", "did you mean 'creeper'"]),
+        ("Lime Creeper Charge\nBlack Bordure", ["the base is missing", "White Banner"]),
+        ("Lime Creeper Charge", ["the base", "red banner with white skull"]),
+        ("White Banner\nLime Creper Charge", ["layer 1", "did you mean 'creeper_charge'"]),
+        ("white creeper:16", ["layer 1", "16", "0 to 15"]),
+        ("Weißer Creeper", ["the base is missing", "de_de"]),
+        ("Rotes Banner\nWeißer Kreeper", ["layer 1 'weißer kreeper'", "de_de", "pattern:dye"]),
+        ("пёс", ["'пёс'", "known languages are", "ru_ru"]),
+    ],
+)
+def test_a_refusal_speaks_of_what_the_text_resembles(text: str, parts: list[str]):
+    message = fault(text)
+    assert [part for part in parts if part not in message] == [], message
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Rotes Banner\nWeißer Creeper\nSchwarzer Bord",
+        "rotes banner, weißer creeper, schwarzer bord",
+        "rot creeper:weiß bord:schwarz",
+        "Bannière rouge\nFace de Creeper d'argent\nBordure de sable",
+        "Estandarte rojo\nEstampado blanco de creeper\nBordura negra",
+        "Estandarte vermelho\nFigura de Creeper Branco\nBordadura Preta",
+        "红色旗帜\n白色苦力怕盾徽\n黑色方框边",
+        "赤色の旗、白色のクリーパー模様、黒色の縁取り",
+        "Красный флаг\nБелый крипер\nЧёрная кайма",
+        "Czerwony sztandar\nBiały wizerunek creepera\nCzarne obramowanie",
+        "Червоний стяг\nБіла емблема кріпера\nЧорна рамка",
+    ],
+)
+def test_a_tooltip_in_another_language_is_read(text: str):
+    assert parse_banner(text) == RED_CREEPER
+
+
+@pytest.mark.parametrize("language", known_languages(), ids=lambda language: language.name)
+def test_every_phrase_of_a_language_is_read_after_its_base(language):
+    assert {layer.pattern for layer in language.phrases.values()} == set(PATTERN_NAMES)
+    assert set(language.dyes.values()) == set(DYE_NAMES)
+    base = next(name for name, dye in language.dyes.items() if dye == "red")
+    for phrase, layer in list(language.phrases.items())[::7]:
+        assert parse_banner(f"{base}\n{phrase}") == Banner("red", (layer,)), phrase
+
+
+def test_one_design_on_each_line():
+    text = (
+        "# ours\nwhite creeper:lime\n\n- black\n2. https://www.planetminecraft.com/banner/?b=b1f\n"
+    )
+    found = parse_banners(text)
+    assert [one.where for one in found] == ["line 2", "line 4", "line 5"]
+    assert [one.banner.base for one in found] == ["white", "black", "lime"]
+
+
+def test_a_broken_line_of_a_list_is_named():
+    with pytest.warns(UserWarning, match=r"line 2 'whit': base: unknown dye 'whit'"):
+        found = parse_banners("red\nwhit\nblue creeper:lime")
+    assert [one.banner.base for one in found] == ["red", "blue"]
+
+
+def test_a_tooltip_is_one_banner_not_a_list():
+    assert len(parse_banners("White Banner\nLime Creeper Charge\nBlack Bordure")) == 1
+    assert len(parse_banners("white\ncreeper:lime\nborder:black")) == 1
+
+
+def test_nothing_is_read_from_an_empty_text():
+    for text in ("", " "):
+        with pytest.raises(DesignError, match="the text is empty"):
+            read_design(text)
