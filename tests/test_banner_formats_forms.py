@@ -1,21 +1,20 @@
 """Every form of text: its example, any banner to it and back, and what it cannot hold."""
 
 import re
-from pathlib import Path
 
+import forms_page
 import pytest
 from conftest import Run
 from hypothesis import given
 from hypothesis import strategies as st
 
+from drapery.banner import BinaryForm, Form, binary_forms
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYE_NAMES, DYES
 from drapery.banner.formats import FORMS, parse_banner, parse_banners, recognise, write_banner
 from drapery.banner.formats.tree import OMINOUS
 from drapery.banner.patterns import PATTERN_NAMES, PATTERNS
 from drapery.errors import DesignError
-
-DOCS = Path(__file__).parents[1] / "docs" / "forms.md"
 
 
 def shorthand(text: str) -> Banner:
@@ -40,18 +39,29 @@ LACKS = {
     "give-1.12": NO_CODE | {"globe", "piglin"},
     "planet-minecraft": {"base"},
     "minecraft-tools": {"base"} | NO_CODE,
+    "gamergeeks": NO_CODE,
+    "optifine": {"mojang"},
+    "crafttweaker": NO_CODE,
+    "essentialsx": NO_CODE,
 }
 NO_SHIELDS = {
     *("give-1.12", "setblock", "block-entity", "bedrock", "wynncraft"),
-    *("planet-minecraft", "needcoolshoes"),
+    *("planet-minecraft", "needcoolshoes", "gamergeeks", "optifine"),
+    *("bentobox", "commandpanels", "crazycrates", "skript", "loom-assistant"),
 }
-NO_DATA_PACKS = {*NO_SHIELDS, "give-legacy", "minecraft-tools"} - {"setblock", "block-entity"}
+NO_DATA_PACKS = {
+    *(NO_SHIELDS - {"setblock", "block-entity", "loom-assistant"}),
+    *("give-legacy", "minecraft-tools"),
+    *("crafttweaker", "deluxemenus", "denizen", "essentialsx", "mythicmobs"),
+}
+MOST_LAYERS = {"optifine": 8}
 
 
 def can_hold(form: str, banner: Banner) -> bool:
     patterns = {layer.pattern for layer in banner.layers}
     return not (
-        (banner.kind == "shield" and form in NO_SHIELDS)
+        len(banner.layers) > MOST_LAYERS.get(form, 16)
+        or (banner.kind == "shield" and form in NO_SHIELDS)
         or patterns & LACKS.get(form, set())
         or (form in NO_DATA_PACKS and patterns - set(PATTERNS))
     )
@@ -75,11 +85,14 @@ def test_an_example_is_known_as_its_own_form(form: str):
     assert parse_banners(FORMS[form].example)
 
 
-def test_the_docs_list_every_form_with_its_example():
-    rows = re.findall(r"^\| `([\w.-]+)` \| .* \| `(.+)` \|$", DOCS.read_text("utf-8"), re.MULTILINE)
-    listed = dict(rows)
-    for name, form in FORMS.items():
-        assert listed[name] == form.example
+def test_the_docs_are_generated_from_the_registry():
+    page = forms_page.PAGE.read_text("utf-8")
+    assert forms_page.generated(page) == page, "run `python tests/forms_page.py`"
+
+
+@pytest.mark.parametrize("form", [*FORMS.values(), *binary_forms().values()], ids=lambda f: f.name)
+def test_every_form_names_its_source(form: Form | BinaryForm):
+    assert form.source.startswith(("https://", "our own"))
 
 
 CREEPER = shorthand("white creeper:lime border:black")

@@ -16,6 +16,7 @@ from drapery.errors import DesignError
 NAME = "bedrock"
 TITLE = "Bedrock's item or block entity in SNBT or JSON"
 EXAMPLE = '{id:"Banner",Base:15,Patterns:[{Pattern:"cre",Color:10},{Pattern:"flw",Color:0}],Type:0}'
+SOURCE = "https://minecraft.wiki/w/Banner"
 
 
 def recognises(text: str) -> bool:

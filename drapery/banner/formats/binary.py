@@ -25,6 +25,7 @@ def _nbt_form(
     suffixes: tuple[str, ...],
     recognises: Recognises,
     find: Find,
+    source: str,
     write: Callable[[Banner], bytes] | None = None,
 ) -> BinaryForm:
     """A form that is recognised by its suffix; a file of another layout is refused."""
@@ -35,7 +36,7 @@ def _nbt_form(
             raise DesignError(f"{name}: the file is NBT but not a {title}; leave the form out")
         return find(tree)
 
-    return BinaryForm(name, title, suffixes, _by_suffix(suffixes), read, write)
+    return BinaryForm(name, title, suffixes, _by_suffix(suffixes), read, write, source)
 
 
 def _by_suffix(suffixes: tuple[str, ...]) -> Callable[[bytes, str], bool]:
@@ -62,6 +63,7 @@ _TABLE = (
         (".nbt",),
         structure.recognises,
         structure.find,
+        "https://minecraft.wiki/w/Structure_file",
         lambda banner: structure.write([banner]),
     ),
     _nbt_form(
@@ -70,6 +72,7 @@ _TABLE = (
         (".schem", ".schematic"),
         schem.recognises,
         schem.find,
+        "https://github.com/SpongePowered/Schematic-Specification",
         lambda banner: schem.write([banner]),
     ),
     _nbt_form(
@@ -78,6 +81,7 @@ _TABLE = (
         (".litematic",),
         litematic.recognises,
         litematic.find,
+        "https://github.com/maruohon/litematica",
     ),
     _nbt_form(
         mcstructure.NAME,
@@ -85,9 +89,13 @@ _TABLE = (
         (".mcstructure",),
         mcstructure.recognises,
         mcstructure.find,
+        "https://wiki.bedrock.dev/nbt/mcstructure",
         lambda banner: mcstructure.write([banner]),
     ),
-    BinaryForm(region.NAME, "world's region", (".mca",), _is_region, _read_region),
+    BinaryForm(
+        *(region.NAME, "world's region", (".mca",), _is_region, _read_region),
+        source="https://minecraft.wiki/w/Region_file_format",
+    ),
     BinaryForm(
         "nbt",
         "other NBT: an item, a player, level.dat",
@@ -95,6 +103,7 @@ _TABLE = (
         lambda head, name: _opens_as_nbt(head),
         lambda data: find_in_bytes(data, "nbt"),
         lambda banner: encode(item_object(banner)),
+        "https://minecraft.wiki/w/NBT_format",
     ),
 )
 

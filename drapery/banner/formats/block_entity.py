@@ -12,6 +12,7 @@ from drapery.banner.formats.tree import is_banner_id
 NAME = "block-entity"
 TITLE = "block entity in SNBT, after its block's id"
 EXAMPLE = 'minecraft:red_banner[rotation=8]{patterns:[{pattern:"minecraft:creeper",color:"lime"}]}'
+SOURCE = "https://minecraft.wiki/w/Banner"
 
 
 def recognises(text: str) -> bool:

@@ -16,6 +16,7 @@ class Form:
     read: all banners of a text, at least one; raises DesignError.
     write: the text of a banner; raises DesignError if the form cannot hold it. None if the form
         can only be read.
+    source: where the form is defined: the address of a page or of a project.
     """
 
     name: str
@@ -24,6 +25,7 @@ class Form:
     recognises: Callable[[str], bool]
     read: Callable[[str], list[FoundBanner]]
     write: Callable[[Banner], str] | None = None
+    source: str = ""
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class BinaryForm:
 
     suffixes: endings of its files' names, such as `.mca`. recognises: whether the first bytes and
     the name of a file are of this form. read: all banners in the file, which may be none; raises
-    DesignError for a broken file.
+    DesignError for a broken file. source: where the form is defined.
     """
 
     name: str
@@ -41,6 +43,7 @@ class BinaryForm:
     recognises: Callable[[bytes, str], bool]
     read: Callable[[bytes], Iterable[FoundBanner]]
     write: Callable[[Banner], bytes] | None = None
+    source: str = ""
 
 
 def single(parse: Callable[[str], Banner]) -> Callable[[str], list[FoundBanner]]:

@@ -15,6 +15,7 @@ EXAMPLE = (
     '/give @p minecraft:white_banner[banner_patterns=[{pattern:"creeper",color:"lime"},'
     '{pattern:"border",color:"black"}]]'
 )
+SOURCE = "https://minecraft.wiki/w/Data_component_format"
 
 
 def recognises(text: str) -> bool:

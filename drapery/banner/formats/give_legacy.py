@@ -15,6 +15,7 @@ EXAMPLE = (
     "/give @p minecraft:white_banner{BlockEntityTag:{Patterns:["
     '{Pattern:"cre",Color:5},{Pattern:"bo",Color:15}]}}'
 )
+SOURCE = "https://minecraft.wiki/w/Item_format/Before_1.20.5"
 
 
 def recognises(text: str) -> bool:

@@ -18,6 +18,7 @@ EXAMPLE = (
     "/give @p minecraft:banner 1 15 {BlockEntityTag:{Base:15,Patterns:["
     '{Pattern:"cre",Color:10},{Pattern:"bo",Color:0}]}}'
 )
+SOURCE = "https://minecraft.wiki/w/Item_format/Before_1.20.5"
 
 LACKS = ("globe", "piglin")
 """Patterns with a code that came after 1.12."""

@@ -14,6 +14,7 @@ EXAMPLE = (
     '{id:"minecraft:white_banner",count:1,components:{"minecraft:banner_patterns":'
     '[{pattern:{asset_id:"acme:anvil",translation_key:"pattern.acme.anvil"},color:"red"}]}}'
 )
+SOURCE = "https://minecraft.wiki/w/Item_format"
 
 
 def recognises(text: str) -> bool:

@@ -13,6 +13,7 @@ EXAMPLE = (
     "/item replace entity @s armor.head with minecraft:white_banner"
     '[banner_patterns=[{pattern:"creeper",color:"lime"}]]'
 )
+SOURCE = "https://minecraft.wiki/w/Commands/item"
 
 
 def recognises(text: str) -> bool:

@@ -20,6 +20,7 @@ from drapery.banner.patterns import BY_CODE
 NAME = "minecraft_tools"
 TITLE = "minecraft.tools' address"
 EXAMPLE = "https://minecraft.tools/en/banner.php?color_id_0=4&shape_id_1=28&color_id_1=15"
+SOURCE = "https://minecraft.tools/en/banner.php"
 KINDS = ("banner", "shield")
 SITE = "minecraft.tools"
 HOST = "minecraft.tools"
@@ -33,7 +34,9 @@ _PARAMETER = re.compile(r"(color|shape)_id_(0|[1-9][0-9]?)")
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is an address of this site, of the editor or of the gallery."""
+    """Whether the text is an address of this site, or the parameters of its editor."""
+    if text.lstrip("? \n").startswith(("color_id_", "shape_id_")):
+        return True
     address = split_address(text)
     return address is not None and (address.host == HOST or address.host.endswith("." + HOST))
 
@@ -70,8 +73,8 @@ def write(banner: Banner) -> str:
 
 
 def _address(text: str) -> Address:
-    bare = text.startswith(("color_id_", "shape_id_"))
-    address = split_address(f"{HOST}/?{text}") if bare else site_address(text, HOST)
+    bare = text.lstrip("?").startswith(("color_id_", "shape_id_"))
+    address = split_address(f"{HOST}/?{text.lstrip('?')}") if bare else site_address(text, HOST)
     if address is None:
         refuse(SITE, text, "not an address of the site", REMEDY)
     return address

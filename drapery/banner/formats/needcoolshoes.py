@@ -11,6 +11,7 @@ from drapery.banner.formats.urls import (
     Address,
     character,
     is_bare_code,
+    is_no_word,
     refuse,
     refuse_pattern,
     site_address,
@@ -21,6 +22,7 @@ NAME = "needcoolshoes"
 TITLE = "NeedCoolShoes', ncrs.skin's or skinmc's address"
 EXAMPLE = "https://www.needcoolshoes.com/banner?=ealleNhEehppai"
 KINDS = ("banner",)
+SOURCE = "https://www.needcoolshoes.com/banner"
 SITE = "NeedCoolShoes"
 HOSTS = ("needcoolshoes.com", "needcoolershoes.com", "ncrs.skin", "skinmc.net")
 ALPHABET = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+/"
@@ -33,8 +35,11 @@ REMEDY = "open the banner in the site's editor and copy the address there, …/b
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is an address of one of the sites, an editor or a gallery."""
-    return site_address(text, *HOSTS) is not None
+    """Whether the text is an address of one of the sites, or the code of an editor.
+
+    A code has a capital or a digit, as words have none; its first pair ends with `a`.
+    """
+    return site_address(text, *HOSTS) is not None or _is_code(text.strip())
 
 
 def parse(text: str) -> Banner:
@@ -58,13 +63,27 @@ def write(banner: Banner) -> str:
 
     Raises DesignError for the patterns of data packs, for which the editor has no code.
     """
+    return f"https://www.{HOSTS[0]}/banner?={encode(banner)}"
+
+
+def encode(banner: Banner) -> str:
+    """The editor's code of a banner. Raises DesignError for the patterns of data packs."""
     code = ALPHABET[COLOURS.index(banner.base)] + ALPHABET[0]
     for number, layer in enumerate(banner.layers, 1):
         if layer.pattern not in PATTERN_ORDER:
             refuse_pattern(SITE, number, layer.pattern)
         code += ALPHABET[COLOURS.index(layer.dye)]
         code += ALPHABET[PATTERN_ORDER.index(layer.pattern)]
-    return f"https://www.{HOSTS[0]}/banner?={code}"
+    return code
+
+
+def _is_code(text: str) -> bool:
+    if not is_bare_code(text, ALPHABET) or len(text) % 2 or not 4 <= len(text) <= 2 + 32:
+        return False
+    places = [ALPHABET.index(character) for character in text]
+    pairs = list(zip(places[::2], places[1::2], strict=True))
+    known = all((e >> 4 << 6 | a) < len(PATTERN_ORDER) for e, a in pairs)
+    return known and pairs[0][1] == 0 and is_no_word(text)
 
 
 def _code(text: str) -> str:

@@ -13,6 +13,7 @@ from drapery.errors import DesignError
 NAME = "json"
 TITLE = "our own JSON"
 EXAMPLE = '{"base": "red", "layers": [{"pattern": "creeper", "color": "lime"}]}'
+SOURCE = "our own"
 
 
 def recognises(text: str) -> bool:

@@ -9,6 +9,7 @@ from drapery.banner.formats.urls import (
     COLOURS,
     character,
     is_bare_code,
+    is_no_word,
     refuse,
     refuse_pattern,
     site_address,
@@ -17,6 +18,7 @@ from drapery.banner.formats.urls import (
 NAME = "planet_minecraft"
 TITLE = "Planet Minecraft's address"
 EXAMPLE = "https://www.planetminecraft.com/banner/?b=2c729cmcf28"
+SOURCE = "https://www.planetminecraft.com/banner/"
 KINDS = ("banner",)
 SITE = "Planet Minecraft"
 HOST = "planetminecraft.com"
@@ -35,8 +37,11 @@ REMEDY = "copy the address from the editor's 'Remix Banner', planetminecraft.com
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is an address of this site, of the editor or of the gallery."""
-    return site_address(text, HOST) is not None
+    """Whether the text is an address of this site, or a code of the editor.
+
+    A code has a digit or a capital, as words have none.
+    """
+    return site_address(text, HOST) is not None or _is_code(text.strip())
 
 
 def parse(text: str) -> Banner:
@@ -66,6 +71,16 @@ def write(banner: Banner) -> str:
         index = PATTERN_ORDER.index(layer.pattern) + FIRST_PATTERN
         code += ALPHABET[COLOURS.index(layer.dye)] + ALPHABET[index]
     return f"https://www.{HOST}/banner/?b={code}"
+
+
+def _is_code(text: str) -> bool:
+    if not is_bare_code(text, ALPHABET) or not 3 <= len(text) <= 1 + 2 * MAX_LAYERS:
+        return False
+    dyes, patterns = text[0] + text[1::2], text[2::2]
+    known = all(ALPHABET.index(c) < len(COLOURS) for c in dyes) and all(
+        FIRST_PATTERN <= ALPHABET.index(c) < FIRST_PATTERN + len(PATTERN_ORDER) for c in patterns
+    )
+    return known and len(text) % 2 == 1 and is_no_word(text)
 
 
 def _code(text: str) -> str:

@@ -2,25 +2,41 @@
 
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from itertools import islice
 from types import ModuleType
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import (
     bedrock,
+    bentobox,
     block_entity,
+    bukkit,
+    commandpanels,
     commands,
+    crafttweaker,
+    crazycrates,
+    deluxemenus,
+    denizen,
+    essentialsx,
+    gamergeeks,
     give,
     give_legacy,
     give_old,
     item,
     item_replace,
+    kubejs,
+    loom_assistant,
     minecraft_tools,
+    mythicmobs,
     needcoolshoes,
+    optifine,
     own_json,
     planet_minecraft,
     setblock,
+    several,
     shorthand,
+    skript,
     summon,
     trees,
     wynncraft,
@@ -28,6 +44,7 @@ from drapery.banner.formats import (
 from drapery.banner.formats.form import BinaryForm, Form, single
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.snbt import MAX_TEXT
+from drapery.banner.formats.wrapping import unwrap, without_suffix
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
@@ -38,7 +55,10 @@ _MOST_WARNINGS = 5
 
 
 def _form(module: ModuleType, read: Callable[[str], list[FoundBanner]]) -> Form:
-    return Form(module.NAME, module.TITLE, module.EXAMPLE, module.recognises, read, module.write)
+    return Form(
+        *(module.NAME, module.TITLE, module.EXAMPLE, module.recognises),
+        *(read, module.write, module.SOURCE),
+    )
 
 
 def _site(module: ModuleType) -> Form:
@@ -49,20 +69,37 @@ def _site(module: ModuleType) -> Form:
         return address
 
     name = module.NAME.replace("_", "-")
-    title = f"address of {module.SITE}'s editor, or its code alone"
-    return Form(name, title, module.EXAMPLE, module.recognises, single(module.parse), write)
+    title = f"{module.TITLE}, or its code alone"
+    return Form(
+        *(name, title, module.EXAMPLE, module.recognises, single(module.parse), write),
+        module.SOURCE,
+    )
 
 
 _TABLE = (
     _site(planet_minecraft),
     _site(needcoolshoes),
     _site(minecraft_tools),
+    _site(gamergeeks),
+    _site(optifine),
+    _form(kubejs, kubejs.read),
+    _form(crafttweaker, crafttweaker.read),
+    _form(denizen, denizen.read),
+    _form(bukkit, bukkit.read),
+    _form(deluxemenus, deluxemenus.read),
+    _form(mythicmobs, mythicmobs.read),
+    _form(crazycrates, crazycrates.read),
+    _form(commandpanels, commandpanels.read),
+    _form(skript, skript.read),
+    _form(bentobox, bentobox.read),
+    _form(essentialsx, essentialsx.read),
     _form(give_old, commands.read_command),
     _form(setblock, commands.read_command),
     _form(summon, commands.read_command),
     _form(item_replace, commands.read_command),
     _form(block_entity, block_entity.read),
     _form(wynncraft, trees.read_wynncraft),
+    _form(loom_assistant, trees.read),
     _form(own_json, trees.read),
     _form(bedrock, trees.read),
     _form(item, trees.read),
@@ -115,7 +152,33 @@ def parse_all(text: str, form: str | None, errors: list[DesignError]) -> list[Fo
     if form is not None:
         return _named(form).read(text)
     lines = _command_lines(text)
-    return _all_lines(lines, errors) if len(lines) > 1 else recognise(text).read(text)
+    return _all_lines(lines, errors) if len(lines) > 1 else _any_form(unwrap(text), errors)
+
+
+def _any_form(text: str, errors: list[DesignError]) -> list[FoundBanner]:
+    """The banners of a text in the form that recognises it, or line by line."""
+    try:
+        return _recognised(text)
+    except DesignError as error:
+        if found := several.find_in_lines(text, _recognised, errors):
+            return found
+        found = _without_suffix(text)
+        if any(one.banner.layers for one in found):
+            return found
+        raise error from None
+
+
+def _without_suffix(text: str) -> list[FoundBanner]:
+    """The banners of a text without the amount or size at its end; empty if it has none."""
+    shorter = without_suffix(text)
+    with suppress(DesignError):
+        return _recognised(shorter) if shorter else []
+    return []
+
+
+def _recognised(text: str) -> list[FoundBanner]:
+    text = unwrap(text)
+    return recognise(text).read(text)
 
 
 def parse_banner(text: str, *, form: str | None = None, number: int | None = None) -> Banner:
@@ -149,6 +212,7 @@ def choose_banner(found: list[FoundBanner], number: int | None = None) -> Banner
         first, last = found[0].where, found[-1].where
         raise DesignError(
             f"{len(found)} banners, from {shown(first)} to {shown(last)}: choose one by its number"
+            f" (--number 1 to {len(found)}); 'drapery show --list' lists them"
         )
     if not 1 <= number <= len(found):
         raise DesignError(f"there is no banner number {number}; use 1 to {len(found)}")

@@ -16,6 +16,7 @@ EXAMPLE = (
     "/setblock ~ ~ ~ minecraft:red_wall_banner[facing=north]"
     '{patterns:[{pattern:"minecraft:creeper",color:"lime"}]}'
 )
+SOURCE = "https://minecraft.wiki/w/Commands/setblock"
 
 
 def recognises(text: str) -> bool:

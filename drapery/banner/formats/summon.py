@@ -14,6 +14,7 @@ EXAMPLE = (
     '/summon minecraft:item_frame ~ ~ ~ {Item:{id:"minecraft:white_banner",count:1,'
     'components:{"minecraft:banner_patterns":[{pattern:"creeper",color:"lime"}]}}}'
 )
+SOURCE = "https://minecraft.wiki/w/Commands/summon"
 
 
 def recognises(text: str) -> bool:

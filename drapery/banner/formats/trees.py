@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 
 from drapery.banner.design import Banner
-from drapery.banner.formats import own_json, wynncraft
+from drapery.banner.formats import loom_assistant, own_json, wynncraft
 from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.snbt import MAX_TEXT, parse_snbt
 from drapery.banner.formats.tree import DataTree, banner_from_block_entity, banner_from_tag, get
@@ -53,7 +53,9 @@ def read_text(text: str) -> DataTree:
 
 
 def _found(tree: DataTree) -> Iterator[FoundBanner]:
-    if wynncraft.matches(tree):
+    if loom_assistant.matches(tree):
+        yield FoundBanner(loom_assistant.from_tree(tree))
+    elif wynncraft.matches(tree):
         yield FoundBanner(wynncraft.from_tree(tree))
     elif own_json.matches(tree):
         yield FoundBanner(own_json.from_tree(tree))

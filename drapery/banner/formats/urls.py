@@ -32,11 +32,12 @@ COLOURS = (
 
 @dataclass(frozen=True)
 class Address:
-    """A web address: host in lower case without `www.`, path, and the query, not decoded."""
+    """A web address: host in lower case without `www.`, path, query and fragment, not decoded."""
 
     host: str
     path: str
     query: str
+    fragment: str = ""
 
     def pairs(self) -> list[tuple[str, str]]:
         """The query as pairs of name and value. A plus sign is not a space here."""
@@ -57,7 +58,7 @@ def split_address(text: str) -> Address | None:
         return None
     if parts.scheme not in ("http", "https") or "." not in host:
         return None
-    return Address(host, unquote(parts.path), parts.query)
+    return Address(host, unquote(parts.path), parts.query, parts.fragment)
 
 
 def site_address(text: str, *hosts: str) -> Address | None:
@@ -71,6 +72,12 @@ def site_address(text: str, *hosts: str) -> Address | None:
 def is_bare_code(text: str, alphabet: str) -> bool:
     """Whether all characters of a text are in the alphabet, as in a code without address."""
     return 0 < len(text) <= MAX_ADDRESS and all(character in alphabet for character in text)
+
+
+def is_no_word(text: str) -> bool:
+    """Whether a code cannot be a typed word: it mixes capitals or digits with small letters."""
+    digits = any(character.isdigit() for character in text)
+    return any(c.isalpha() for c in text) and (digits or not (text.islower() or text.isupper()))
 
 
 def clip(text: str, limit: int = 60) -> str:

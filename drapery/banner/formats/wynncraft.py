@@ -17,6 +17,7 @@ EXAMPLE = (
     '{"base": "BLACK", "tier": 2, "structure": "tier2",'
     ' "layers": [{"colour": "RED", "pattern": "DIAGONAL_RIGHT"}]}'
 )
+SOURCE = "https://docs.wynncraft.com/"
 
 
 def recognises(text: str) -> bool:

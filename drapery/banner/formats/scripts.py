@@ -1,0 +1,74 @@
+"""Calls in the scripts of mods: finds the end of an argument, and reads an item with its tag."""
+
+import re
+from collections.abc import Iterator
+
+from drapery.banner.design import Banner
+from drapery.banner.formats.commands import read_command
+from drapery.banner.formats.snbt import parse_snbt
+from drapery.banner.formats.tree import banner_from_tag, bare, is_banner_id, is_shield_id
+from drapery.errors import DesignError
+
+_TOKEN = re.compile(r""""(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|[()\[\]{},]""", re.DOTALL)
+_OPEN, _CLOSE = "([{", ")]}"
+
+
+def arguments(text: str, start: int) -> list[str] | None:
+    """The arguments of a call, whose bracket opens before `start`; None if it is not closed."""
+    found: list[str] = []
+    depth, begin = 0, start
+    for match in _TOKEN.finditer(text, start):
+        token = match[0]
+        if token in _OPEN:
+            depth += 1
+        elif depth == 0 and token in (",", ")"):
+            found.append(text[begin : match.start()].strip())
+            begin = match.end()
+            if token == ")":
+                return found
+        elif token in _CLOSE:
+            depth -= 1
+    return None
+
+
+def literal(argument: str) -> str | None:
+    """The text in an argument's quotes, with its escapes resolved; None for another argument."""
+    if len(argument) < 2 or argument[0] not in "'\"`" or argument[-1] != argument[0]:
+        return None
+    return re.sub(r"\\(.)", r"\1", argument[1:-1], flags=re.DOTALL)
+
+
+def banner_of(identifier: str, tag: str | None, at: str) -> Banner | None:
+    """The banner of an item's name and its tag in SNBT, or None for other items.
+
+    Raises DesignError that begins with the place `at`.
+    """
+    name = bare(identifier)
+    if not (is_banner_id(name) or is_shield_id(name)):
+        return None
+    try:
+        if tag is None or tag.startswith("["):
+            return read_command(identifier + (tag or ""))[0].banner
+        return banner_from_tag(name, parse_snbt(tag))
+    except DesignError as error:
+        raise DesignError(f"{at}: {error}") from None
+
+
+def line_of(text: str, place: int) -> str:
+    """A place in a script as messages name it."""
+    return f"line {text.count(chr(10), 0, place) + 1}"
+
+
+def calls(
+    text: str, pattern: "re.Pattern[str]"
+) -> Iterator[tuple["re.Match[str]", list[str], str]]:
+    """The calls whose names a pattern matches up to the bracket: match, arguments and place.
+
+    Raises DesignError for a call that is not closed.
+    """
+    for match in pattern.finditer(text):
+        at = line_of(text, match.start())
+        found = arguments(text, match.end())
+        if found is None:
+            raise DesignError(f"{at}: the call {match[0].strip()!r} is not closed; add ')'")
+        yield match, found, at

@@ -1,0 +1,52 @@
+"""A text with one design on each line, in any form of text."""
+
+import re
+from collections.abc import Callable
+
+from drapery.banner.formats.found import FoundBanner
+from drapery.banner.names import shown
+from drapery.errors import DesignError
+
+MAX_LINES = 20_000
+"""Most designs of one text, one per line."""
+
+_BULLET = re.compile(r"\s*(?:[-*•]|[0-9]{1,4}[.)])\s+")
+_COMMENTS = ("#", "//", "--")
+
+
+def find_in_lines(
+    text: str, read: Callable[[str], list[FoundBanner]], errors: list[DesignError]
+) -> list[FoundBanner]:
+    """The banners of all lines, or an empty list if the text is not a list of designs.
+
+    Empty lines and comments are skipped, and bullets removed. It is a list if its only line that is
+    left can be read, or if at least two can and no more lines cannot; the errors of these are
+    added to `errors`.
+    """
+    lines = [(n, line.strip()) for n, line in enumerate(text.split("\n"), 1) if _is_design(line)]
+    if "\n" not in text.strip() or not lines:
+        return []
+    if len(lines) > MAX_LINES:
+        raise DesignError(f"the text has {len(lines)} lines, over {MAX_LINES}: split it")
+    found: list[FoundBanner] = []
+    faults: list[DesignError] = []
+    good = 0
+    for number, line in lines:
+        try:
+            read_line = read(_BULLET.sub("", line, count=1) or line)
+        except DesignError as error:
+            faults.append(DesignError(f"line {number} {shown(line, 30)}: {error}"))
+            if len(faults) > 20 + 2 * good:
+                return []
+        else:
+            good += 1
+            found += [FoundBanner(f.banner, f"line {number} {f.where}".rstrip()) for f in read_line]
+    if good < min(2, len(lines)) or len(faults) > good:
+        return []
+    errors += faults
+    return found
+
+
+def _is_design(line: str) -> bool:
+    line = line.strip()
+    return bool(line) and not line.startswith(_COMMENTS)

@@ -1,0 +1,272 @@
+"""The forms of plugins, mods and editors, and what surrounds a copied text."""
+
+import pytest
+
+from drapery.banner.design import Banner, Layer
+from drapery.banner.formats import FORMS, parse_banner, parse_banners, recognise, write_banner
+from drapery.errors import DesignError
+
+CREEPER = Banner.parse("white creeper:lime border:black")
+ACME = Banner("white", (Layer("acme:anvil", "red"),))
+
+STACK = """saved:
+  one:
+    ==: org.bukkit.inventory.ItemStack
+    v: 2586
+    type: WHITE_BANNER
+    meta:
+      ==: ItemMeta
+      meta-type: BANNER
+      display-name: '{"text":"One"}'
+      patterns:
+      - ==: Pattern
+        color: LIME
+        pattern: cre
+      - ==: Pattern
+        color: BLACK
+        pattern: bo
+  two:
+    ==: org.bukkit.inventory.ItemStack
+    type: STONE
+"""
+NEW_STACK = """==: org.bukkit.inventory.ItemStack
+DataVersion: 4325
+id: minecraft:white_banner
+count: 1
+components:
+  minecraft:banner_patterns: '[{color:"lime",pattern:"creeper"},{color:"black",pattern:"border"}]'
+  minecraft:custom_name: '"One"'
+schema_version: 1
+"""
+OLD_STACK = """item:
+  ==: org.bukkit.inventory.ItemStack
+  type: BANNER
+  damage: 15
+  meta:
+    ==: ItemMeta
+    meta-type: BANNER
+    base-color: WHITE
+    patterns:
+    - {color: LIME, pattern: cre}
+    - {color: BLACK, pattern: bo}
+"""
+TAG = '{BlockEntityTag:{Patterns:[{Pattern:"cre",Color:5},{Pattern:"bo",Color:15}]}}'
+
+SAME = {
+    "bukkit": [
+        STACK,
+        NEW_STACK,
+        OLD_STACK,
+        "a:\n  ==: org.bukkit.inventory.ItemStack\n  id: minecraft:white_banner\n  components: '{\""
+        'minecraft:banner_patterns":[{"pattern":"creeper","color":"lime"},{"pattern":"border",'
+        '"color":"black"}]}\'\n',
+    ],
+    "bentobox": [
+        "WHITE_BANNER:1:CREEPER:LIME:BORDER:BLACK",
+        "meta:\n  banner: WHITE_BANNER:1:CREEPER:LIME:BORDER:BLACK\n",
+    ],
+    "deluxemenus": [
+        "items:\n  flag:\n    material: WHITE_BANNER\n    slot: 3\n    banner_meta:\n"
+        "    - 'LIME;CREEPER'\n    - 'black;border'\n",
+    ],
+    "commandpanels": [
+        "item:\n  '3':\n    material: white_banner\n    banner:\n    - LIME,CREEPER\n"
+        "    - BLACK,BORDER\n",
+    ],
+    "mythicmobs": [
+        "Flag:\n  Id: white_banner\n  BannerLayers:\n  - LIME CREEPER\n  - BLACK BORDER\n",
+        "Flag:\n  Id: banner\n  Options:\n    Color: WHITE\n  BannerLayers:\n  - LIME CREEPER\n"
+        "  - BLACK BORDER\n",
+    ],
+    "crazycrates": [
+        'Prizes:\n  "6":\n    DisplayItem: white_banner\n    DisplayPatterns:\n'
+        "    - creeper:lime\n    - border:black\n",
+        "Items:\n  '1':\n    material: white_banner\n    settings:\n      patterns:\n"
+        "        creeper: lime\n        border: black\n",
+    ],
+    "essentialsx": [
+        "white_banner 1 basecolor:16383998 cre,8439583 bo,1908001",
+        "kits:\n  flag:\n  - white_banner 1 name:&4Flag cre,8439583 bo,1908001\n",
+        "- banner:15 1 basecolor:16777215 CREEPER:8375321 BORDER:1644825",
+        "/give Steve white_banner 1 basecolor:WHITE cre,8439583 bo,1908001",
+    ],
+    "denizen": [
+        "white_banner[patterns=LIME/CREEPER|BLACK/BORDER]",
+        "- give i@white_banner[display=Flag;patterns=li@LIME/CREEPER|BLACK/BORDER|]",
+        "    equipment: air|air|air|white_banner[patterns=<list[lime/creeper|black/border]>]",
+    ],
+    "skript": [
+        "set {_b} to a white banner\n"
+        "add a creeper banner pattern colored lime to banner patterns of {_b}\n"
+        "add bordure banner pattern coloured black to {_b}'s banner patterns\n",
+        "command /flag:\n  trigger:\n    set {_b} to white banner\n    add (creeper charged banner"
+        " pattern colored lime), (border banner pattern colored black) to banner patterns of {_b}",
+    ],
+    "crafttweaker": [
+        f"<item:minecraft:white_banner>.withTag({TAG})",
+        'craftingTable.addShapeless("x", <item:minecraft:white_banner>.withTag(\n  {BlockEntityTag:'
+        ' {Patterns: [{Pattern: "cre" as string, Color: 5 as int}, {Pattern: "bo", Color: 15}],'
+        ' id: "minecraft:banner"}}), [<item:minecraft:red_banner>]);',
+        "<minecraft:banner:15>.withTag({BlockEntityTag: {Patterns: [{Color: 10, Pattern: "
+        '"cre"}, {Color: 0, Pattern: "bo"}]}})',
+    ],
+    "kubejs": [
+        f"Item.of('minecraft:white_banner', '{TAG}')",
+        f"e.shaped(Item.of('minecraft:white_banner', 2, '{TAG}'), ['A'], {{A: 'minecraft:dirt'}})",
+        f"Item.of('minecraft:white_banner').withNBT({TAG})",
+        'Item.of(\'white_banner[banner_patterns=[{pattern:"creeper",color:"lime"},'
+        '{pattern:"border",color:"black"}]]\')',
+        f"Item.of('white_banner', '{TAG[:-1]},display:{{Name:\\'{{\"text\":\"x\"}}\\'}}}}')",
+    ],
+    "loom-assistant": [
+        '{"description":"x","author":"y","banner_color":"white","layers":[{"pattern":'
+        '"minecraft:creeper","color":"lime"},{"pattern":"minecraft:border","color":"black"}]}',
+    ],
+    "gamergeeks": [
+        "https://www.gamergeeks.net/apps/minecraft/banner-maker#mcb=a0cre5bo15",
+        "gamergeeks.nz/apps/minecraft/banner-maker#mcb=a0cre5bo15",
+        "a0cre5bo15",
+    ],
+    "optifine": [
+        "http://optifine.net/showBanner?format=pakkac&valign=m",
+        "https://optifine.net/banners&&pakkac",
+    ],
+}
+
+
+@pytest.mark.parametrize(("form", "text"), [(f, t) for f, texts in SAME.items() for t in texts])
+def test_every_form_of_a_program_is_recognised_and_read(form: str, text: str):
+    assert recognise(text).name == form
+    assert parse_banner(text) == CREEPER
+
+
+@pytest.mark.parametrize("form", ["bukkit", "kubejs", "loom-assistant"])
+def test_patterns_of_data_packs_are_written_where_the_program_reads_them(form: str):
+    assert parse_banner(write_banner(ACME, form)) == ACME
+
+
+def test_bukkit_is_written_for_old_servers_where_that_holds_the_banner():
+    assert "meta-type: BANNER" in write_banner(CREEPER, "bukkit")
+    assert "schema_version: 1" in write_banner(Banner.parse("white flow:red"), "bukkit")
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        (STACK.replace("pattern: bo", "pattern: zz"), ["one.meta.patterns[1].pattern", "'zz'"]),
+        (STACK.replace("LIME", "LIMEY"), ["one.meta.patterns[0].color", "'LIMEY'", "'lime'"]),
+        (
+            STACK.replace("WHITE_BANNER", "STONE").replace("BANNER", "X"),
+            ["no banner", "type: RED_BANNER"],
+        ),
+        ("meta-type: BANNER\npatterns: []\n", ["meta-type", "type: RED_BANNER"]),
+        ("banner_meta:\n- LIME;CREEPER\n", ["banner_meta", "the item is missing", "material"]),
+        ("material: RED_BANNER\nbanner_meta:\n- LIME\n", ["banner_meta[0]", "RED;CREEPER"]),
+        ("material: STONE\nbanner_meta:\n- RED;BASE\n", ["material", "'STONE'", "WHITE_BANNER"]),
+        ("RED_BANNER:1:CREEPER", ["'CREEPER' has no dye", "PATTERN:DYE"]),
+        ("PINKY_BANNER:1:CREEPER:RED", ["'PINKY_BANNER'", "RED_BANNER"]),
+        ("white_banner 1 basecolor:5", ["'5'", "RED"]),
+        ("red_banner[patterns=LIME]", ["'LIME'", "LIME/CREEPER"]),
+        ("red_banner[patterns=<[layers]>|LIME/CREEPER]", ["filled in by the script"]),
+        (
+            "add creeper banner pattern colored lime to banner patterns of {_b}",
+            ["{_b}", "the base is missing", "set {_b} to white banner"],
+        ),
+        ("Item.of('minecraft:white_banner', '{BlockEntityTag:5}')", ["line 1", "5"]),
+        ("Item.of('minecraft:white_banner', '{Blo", ["line 1", "is not closed"]),
+        ("<item:minecraft:white_banner>.withTag({a:})", ["line 1", "minecraft:white_banner"]),
+        ('{"banner_color":"whit","layers":[]}', ["banner_color", "did you mean 'white'"]),
+        ("https://www.gamergeeks.net/apps/minecraft/banners/letters", ["no #mcb="]),
+        ("https://www.gamergeeks.net/apps/minecraft/banner-maker#mcb=a15zz3", ["'zz'"]),
+        ("https://optifine.net/home", ["no ?format="]),
+    ],
+)
+def test_a_fault_names_its_place_and_what_to_write(text: str, parts: list[str]):
+    with pytest.raises(DesignError) as caught:
+        parse_banners(text)
+    message = str(caught.value)
+    assert [part for part in parts if part not in message] == [], message
+    assert len(message.splitlines()) == 1
+
+
+def test_optifine_shows_eight_layers_without_mojang():
+    nine = Banner("red", (Layer("cross", "lime"),) * 9)
+    with pytest.raises(DesignError, match="at most 8 layers"):
+        write_banner(nine, "optifine")
+    with pytest.raises(DesignError, match="mojang"):
+        write_banner(Banner.parse("red mojang:lime"), "optifine")
+    give = '/give @p red_banner[banner_patterns=[{pattern:"cross",color:"lime"}]]'
+    assert "showBanner?format=bakj&" in write_banner(parse_banner(give), "optifine")
+
+
+def test_all_items_of_a_file_are_found_with_their_places():
+    text = "a:\n  material: RED_BANNER\n  banner_meta: [LIME;CROSS]\nb:\n- material: BLUE_BANNER\n"
+    assert [one.where for one in parse_banners(text)] == ["a", "b[0]"]
+    script = "- give red_banner[patterns=LIME/CROSS]\n- give blue_banner[patterns=RED/CROSS]\n"
+    assert [one.where for one in parse_banners(script)] == [
+        "line 1 red_banner",
+        "line 2 blue_banner",
+    ]
+
+
+WRAPPED = [
+    "`{}`",
+    "```mcfunction\n{}\n```",
+    "“{}”",
+    "„{}“",
+    "«{}»",
+    "{},8",
+    "{}:256",
+    "\u200b{}\u00a0",
+]
+
+
+@pytest.mark.parametrize("wrapping", WRAPPED)
+@pytest.mark.parametrize(
+    "form", ["give-legacy", "text", "planet-minecraft", "needcoolshoes", "gamergeeks", "item"]
+)
+def test_what_surrounds_a_copied_text_is_removed(form: str, wrapping: str):
+    text = write_banner(CREEPER, form)
+    assert parse_banner(wrapping.format(text)) == CREEPER
+
+
+@pytest.mark.parametrize("text", ["<{}>", "[mine]({})", '[mine]({} "title")', "![mine](<{}>)"])
+def test_links_are_unwrapped(text: str):
+    assert parse_banner(text.format(write_banner(CREEPER, "planet-minecraft"))) == CREEPER
+
+
+def test_typographic_and_escaped_quotes_of_a_command_are_quotes():
+    give = write_banner(CREEPER, "give")
+    left_right = give.replace('"', "“", 1).replace('"', "”")
+    for text in (give.replace('"', '\\"'), left_right, give.replace('"', "’"), f'"{give}"'):
+        assert parse_banner(text) == CREEPER
+
+
+@pytest.mark.parametrize(
+    ("text", "form"),
+    [
+        ("2c729cmcf28", "planet-minecraft"),
+        ("b1f", "planet-minecraft"),
+        ("ealleNhEehppai", "needcoolshoes"),
+        ("paalpwpEac", "needcoolshoes"),
+        ("color_id_0=4&shape_id_1=28&color_id_1=15", "minecraft-tools"),
+        ("?color_id_0=4", "minecraft-tools"),
+        ("a15bs0", "gamergeeks"),
+        ("beige", "text"),
+        ("cafe", "text"),
+        ("Beige", "text"),
+        ("lime", "text"),
+        ("123", "text"),
+    ],
+)
+def test_the_code_of_an_editor_is_known_without_its_address(text: str, form: str):
+    assert recognise(text).name == form
+
+
+def test_a_command_over_several_lines_is_one():
+    give = write_banner(CREEPER, "give").replace("[", "[\n  ").replace("{", "\n  {")
+    assert parse_banner(give) == CREEPER
+
+
+def test_all_forms_have_a_writer():
+    assert [name for name, form in FORMS.items() if form.write is None] == []
