@@ -1,6 +1,9 @@
 """Designs as people type them: English words, other languages' names, lists of lines."""
 
+from pathlib import Path
+
 import pytest
+from conftest import Run
 
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
@@ -105,6 +108,37 @@ def test_a_broken_line_of_a_list_is_named():
 def test_a_tooltip_is_one_banner_not_a_list():
     assert len(parse_banners("White Banner\nLime Creeper Charge\nBlack Bordure")) == 1
     assert len(parse_banners("white\ncreeper:lime\nborder:black")) == 1
+
+
+def test_many_banners_name_the_ways_to_choose_one(drapery: Run, tmp_path: Path):
+    (tmp_path / "a.txt").write_text("red\n", "utf-8")
+    (tmp_path / "b.yml").write_text("material: BLUE_BANNER\nbanner_meta: [LIME;CROSS]\n", "utf-8")
+    code, _, err = drapery("render", str(tmp_path), "-o", str(tmp_path / "x.png"))
+    assert code == 2 and "--number 1 to 2" in err and "drapery show --list" in err
+    code, out, _ = drapery("show", "--list", str(tmp_path))
+    assert (code, out) == (0, "1\ta.txt\tred\n2\tb.yml\tblue cross:lime\n")
+
+
+@pytest.mark.parametrize(
+    ("source", "part"),
+    [
+        ("designs", "unknown dye 'designs'; the sixteen are"),
+        ("designs", "no file or folder has that name"),
+        ("designs/", "designs/: there is no such file or folder"),
+        ("mine/designs", "mine/designs: there is no such file or folder"),
+    ],
+)
+def test_a_folder_that_is_not_there_is_called_so(source: str, part: str):
+    with pytest.raises(DesignError) as caught:
+        read_design(source)
+    assert part in str(caught.value)
+
+
+def test_a_folder_is_read_by_its_bare_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    Path("designs").mkdir()
+    Path("designs/one.txt").write_text("red creeper:white border:black\n", "utf-8")
+    assert read_design("designs") == read_design("designs/") == RED_CREEPER
 
 
 def test_nothing_is_read_from_an_empty_text():

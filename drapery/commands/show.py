@@ -21,6 +21,9 @@ def run(
         Path | None,
         typer.Option("-o", "--out", metavar="FILE", help="The file to write, as .nbt, .schem, ..."),
     ] = None,
+    show_list: Annotated[
+        bool, typer.Option("--list", help="List all banners, one on each line, with their numbers.")
+    ] = False,
     form: o.FromOption = None,
     number: o.NumberOption = None,
 ) -> None:
@@ -28,6 +31,10 @@ def run(
     from drapery.banner import choose_banner, read_designs, write_banner
 
     found = read_designs(design, form=form)
+    if show_list:
+        for count, one in enumerate(found, 1):
+            print(f"{count}\t{one.where}\t{write_banner(one.banner, 'text')}")
+        return
     if out is not None:
         _write(choose_banner(found, number), out, written)
         return

@@ -30,10 +30,13 @@ _MOST_NAMED = 20
 _FILE_NAME = re.compile(r"[^\s:{}\[\]\"'?&=]+\.[A-Za-z][A-Za-z0-9]{1,5}")
 """One word with a suffix: a file name, since no text of a banner looks like that."""
 
+_PATH = re.compile(r"(?:\.{0,2}/)?[\w.-]{1,200}(?:/[\w.-]{1,200}){0,20}/?")
+"""One word that may be the name of a file or a folder."""
+
 _SUFFIXES = tuple(
     f".{suffix}"
     for suffix in (
-        *("json", "txt", "snbt", "mcfunction"),
+        *("json", "txt", "snbt", "mcfunction", "yml", "yaml", "sk", "dsc", "zs", "js"),
         *("nbt", "dat", "schem", "schematic", "litematic", "mcstructure", "mca"),
     )
 )
@@ -66,7 +69,7 @@ def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBa
         return parse_banners(_decoded(_read_stdin(), "-"), form=form)
     path = _as_path(source)
     if path is None:
-        return parse_banners(str(source), form=form)
+        return _read_text(str(source), form)
     errors: list[DesignError] = []
     try:
         if path.is_dir() and not _is_world(path):
@@ -83,6 +86,21 @@ def _read_stdin() -> bytes:
         return sys.stdin.buffer.read(4 * MAX_TEXT + 1)
     except (AttributeError, OSError):  # Python has no sys.stdin where the descriptor is closed
         raise DesignError("-: standard input cannot be read; give the design or a file") from None
+
+
+def _read_text(text: str, form: str | None) -> list[FoundBanner]:
+    """The banners of a text; the error of a single word says that no file has that name."""
+    errors: list[DesignError] = []
+    try:
+        found = parse_all(text, form, errors)
+    except DesignError as error:
+        if "/" in text and _PATH.fullmatch(text):
+            raise DesignError(f"{text}: there is no such file or folder; check the path") from None
+        if _PATH.fullmatch(text):
+            raise DesignError(f"{error} (and no file or folder has that name)") from None
+        raise
+    warn_of(errors)
+    return found
 
 
 def _as_path(source: str | Path) -> Path | None:
