@@ -41,7 +41,6 @@ LACKS = {
     "minecraft-tools": {"base"} | NO_CODE,
     "gamergeeks": NO_CODE,
     "optifine": {"mojang"},
-    "crafttweaker": NO_CODE,
     "essentialsx": NO_CODE,
 }
 NO_SHIELDS = {
@@ -52,7 +51,7 @@ NO_SHIELDS = {
 NO_DATA_PACKS = {
     *(NO_SHIELDS - {"setblock", "block-entity", "loom-assistant"}),
     *("give-legacy", "minecraft-tools"),
-    *("crafttweaker", "deluxemenus", "denizen", "essentialsx", "mythicmobs"),
+    *("deluxemenus", "denizen", "essentialsx", "mythicmobs"),
 }
 MOST_LAYERS = {"optifine": 8}
 

@@ -93,12 +93,18 @@ SAME = {
     "denizen": [
         "white_banner[patterns=LIME/CREEPER|BLACK/BORDER]",
         "- give i@white_banner[display=Flag;patterns=li@LIME/CREEPER|BLACK/BORDER|]",
+        "- define flag <item[white_banner].with[patterns=LIME/CREEPER|BLACK/BORDER]>",
+        "flag:\n  type: item\n  material: white_banner\n  mechanisms:\n    hides: ALL\n"
+        "    patterns: lime/CREEPER|black/BORDER\n",
         "    equipment: air|air|air|white_banner[patterns=<list[lime/creeper|black/border]>]",
     ],
     "skript": [
         "set {_b} to a white banner\n"
         "add a creeper banner pattern colored lime to banner patterns of {_b}\n"
         "add bordure banner pattern coloured black to {_b}'s banner patterns\n",
+        "set {_b} to white banner\nset {_p} to a creeper banner pattern colored lime\n"
+        "add {_p} to banner patterns of {_b}\n"
+        "set the 2nd banner pattern of {_b} to a border banner pattern colored black",
         "command /flag:\n  trigger:\n    set {_b} to white banner\n    add (creeper charged banner"
         " pattern colored lime), (border banner pattern colored black) to banner patterns of {_b}",
     ],
@@ -107,11 +113,15 @@ SAME = {
         'craftingTable.addShapeless("x", <item:minecraft:white_banner>.withTag(\n  {BlockEntityTag:'
         ' {Patterns: [{Pattern: "cre" as string, Color: 5 as int}, {Pattern: "bo", Color: 15}],'
         ' id: "minecraft:banner"}}), [<item:minecraft:red_banner>]);',
+        "<item:minecraft:white_banner>.withJsonComponent(<componenttype:minecraft:banner_patterns>"
+        ', [\n  {color: "lime", pattern: "minecraft:creeper"},\n'
+        '  {color: "black", pattern: "minecraft:border"}\n])',
         "<minecraft:banner:15>.withTag({BlockEntityTag: {Patterns: [{Color: 10, Pattern: "
         '"cre"}, {Color: 0, Pattern: "bo"}]}})',
     ],
     "kubejs": [
         f"Item.of('minecraft:white_banner', '{TAG}')",
+        f"Item.of('minecraft:shield', '{{Damage:0}}'); Item.of('white_banner', '{TAG}')",
         f"e.shaped(Item.of('minecraft:white_banner', 2, '{TAG}'), ['A'], {{A: 'minecraft:dirt'}})",
         f"Item.of('minecraft:white_banner').withNBT({TAG})",
         'Item.of(\'white_banner[banner_patterns=[{pattern:"creeper",color:"lime"},'
@@ -140,7 +150,7 @@ def test_every_form_of_a_program_is_recognised_and_read(form: str, text: str):
     assert parse_banner(text) == CREEPER
 
 
-@pytest.mark.parametrize("form", ["bukkit", "kubejs", "loom-assistant"])
+@pytest.mark.parametrize("form", ["bukkit", "crafttweaker", "kubejs", "loom-assistant"])
 def test_patterns_of_data_packs_are_written_where_the_program_reads_them(form: str):
     assert parse_banner(write_banner(ACME, form)) == ACME
 

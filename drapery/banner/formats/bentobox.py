@@ -8,6 +8,7 @@ import re
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.formats.found import FoundBanner
+from drapery.banner.formats.scripts import line_of
 from drapery.banner.formats.tree import check_count
 from drapery.banner.formats.yaml_items import kind_and_base, material
 from drapery.banner.names import bukkit_pattern, dye_name, pattern_id, shown
@@ -34,7 +35,7 @@ def read(text: str) -> list[FoundBanner]:
 
 
 def _read_one(text: str, match: "re.Match[str]") -> FoundBanner:
-    at = f"line {text.count(chr(10), 0, match.start()) + 1} {match[1]}"
+    at = f"{line_of(text, match.start())} {match[1]}"
     item = kind_and_base(match[1], at)
     if item is None or item[1] is None:
         raise DesignError(f"{at}: {shown(match[1])} names no dye: write it as RED_BANNER")

@@ -1,12 +1,15 @@
 """An item of Denizen's scripts: `red_banner[patterns=LIME/CREEPER|BLACK/BORDER]`.
 
-Properties are parted by semicolons; a shield has `base_color`. Every such item of a script is read.
+Properties are parted by semicolons; a shield has `base_color`. An item script has the lines
+`material: red_banner` and `patterns: LIME/CREEPER`. Every such item of a script is read.
 """
 
 import re
+from collections.abc import Iterator
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.formats.found import FoundBanner
+from drapery.banner.formats.scripts import line_of
 from drapery.banner.formats.tree import base_of, check_count
 from drapery.banner.names import bukkit_pattern, dye_name, pattern_id, shown
 from drapery.errors import DesignError
@@ -16,15 +19,17 @@ TITLE = "item of the plugin Denizen"
 EXAMPLE = "red_banner[patterns=LIME/CREEPER|BLACK/BORDER]"
 SOURCE = "https://meta.denizenscript.com/Docs/Mechanisms/ItemTag.patterns"
 _ITEM = re.compile(
-    r"(?:i@)?\b((?:minecraft:)?[a-z_]{0,30}banner|shield)\[((?:[^\[\]\n]|<[^\n>]{0,200}>){0,4000})\]",
+    r"(?:i@)?\b((?:minecraft:)?[a-z_]{0,30}banner|shield)(?:\]\s?\.\s?with)?\[((?:[^\[\]\n]|<[^\n>]{0,200}>){0,4000})\]",
     re.IGNORECASE,
 )
 _PATTERNS = re.compile(r"\bpatterns=")
+_LINE = re.compile(r"^[ \t]*(material|patterns): *(\S[^\n]*)$", re.MULTILINE)
+_LIST = re.compile(r"^[ \t]*patterns: *(?:li@)?\w+/\w+", re.MULTILINE)
 
 
 def recognises(text: str) -> bool:
-    """Whether the text has an item with the property `patterns`."""
-    return _PATTERNS.search(text) is not None and any(
+    """Whether the text has an item with the property `patterns`, or a script of an item."""
+    return _LIST.search(text) is not None or any(
         _PATTERNS.search(match[2]) for match in _ITEM.finditer(text)
     )
 
@@ -32,25 +37,43 @@ def recognises(text: str) -> bool:
 def read(text: str) -> list[FoundBanner]:
     """All banners of the text. Raises DesignError with the place."""
     found = [_item(text, match) for match in _ITEM.finditer(text) if _PATTERNS.search(match[2])]
+    found += _item_scripts(text)
     if not found:
         raise DesignError(f"no banner with patterns in the script: write it as {EXAMPLE}")
     return found
 
 
+def _item_scripts(text: str) -> Iterator[FoundBanner]:
+    """The banners of item scripts, whose material is the line before their patterns."""
+    material: re.Match[str] | None = None
+    for match in _LINE.finditer(text):
+        if match[1] == "material":
+            material = match
+        elif match[1] == "patterns" and _LIST.match(match[0]):
+            at = line_of(text, match.start(1))
+            if material is None:
+                raise DesignError(f"{at}: the item is missing: write 'material: red_banner' above")
+            name = material[2].strip()
+            yield FoundBanner(_banner(name, {"patterns": match[2]}, f"{at} {name}"), f"{at} {name}")
+
+
 def _item(text: str, match: "re.Match[str]") -> FoundBanner:
-    at = f"line {text.count(chr(10), 0, match.start()) + 1} {match[1]}"
+    at = f"{line_of(text, match.start())} {match[1]}"
     properties = dict(part.strip().partition("=")[::2] for part in match[2].split(";"))
+    return FoundBanner(_banner(match[1], properties, at), at)
+
+
+def _banner(item: str, properties: dict[str, str], at: str) -> Banner:
     if "patterns" not in properties:
         raise DesignError(f"{at}: 'patterns' is not a property by itself; write {EXAMPLE}")
     entries = [part for part in _bare(properties["patterns"]).split("|") if part]
     check_count(len(entries), at)
     layers = tuple(_layer(entry, f"{at} layer {n}") for n, entry in enumerate(entries, 1))
-    shield = match[1].lower() == "shield"
-    base = base_of(match[1]) or properties.get("base_color")
+    shield = item.lower() == "shield"
+    base = base_of(item) or properties.get("base_color")
     if base is None and not shield:
         raise DesignError(f"{at}: the item names no dye: write it as red_banner")
-    dye = dye_name(base or "white", at)
-    return FoundBanner(Banner(dye, layers, "shield" if shield else "banner"), at)
+    return Banner(dye_name(base or "white", at), layers, "shield" if shield else "banner")
 
 
 def _bare(value: str) -> str:

@@ -10,11 +10,15 @@ from drapery.banner.formats.tree import banner_from_tag, bare, is_banner_id, is_
 from drapery.errors import DesignError
 
 _TOKEN = re.compile(r""""(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|[()\[\]{},]""", re.DOTALL)
+_DESIGN = re.compile("BlockEntityTag|Patterns|banner_patterns|base_color")
 _OPEN, _CLOSE = "([{", ")]}"
 
 
-def arguments(text: str, start: int) -> list[str] | None:
-    """The arguments of a call, whose bracket opens before `start`; None if it is not closed."""
+def arguments(text: str, start: int) -> tuple[list[str], int] | None:
+    """The arguments of a call, whose bracket opens before `start`, and where it ends.
+
+    None if the call is not closed.
+    """
     found: list[str] = []
     depth, begin = 0, start
     for match in _TOKEN.finditer(text, start):
@@ -25,7 +29,7 @@ def arguments(text: str, start: int) -> list[str] | None:
             found.append(text[begin : match.start()].strip())
             begin = match.end()
             if token == ")":
-                return found
+                return found, begin
         elif token in _CLOSE:
             depth -= 1
     return None
@@ -41,10 +45,11 @@ def literal(argument: str) -> str | None:
 def banner_of(identifier: str, tag: str | None, at: str) -> Banner | None:
     """The banner of an item's name and its tag in SNBT, or None for other items.
 
-    Raises DesignError that begins with the place `at`.
+    A shield without a design counts as another item. Raises DesignError that begins with the
+    place `at`.
     """
     name = bare(identifier)
-    if not (is_banner_id(name) or is_shield_id(name)):
+    if not (is_banner_id(name) or (is_shield_id(name) and _DESIGN.search(tag or ""))):
         return None
     try:
         if tag is None or tag.startswith("["):
@@ -55,7 +60,7 @@ def banner_of(identifier: str, tag: str | None, at: str) -> Banner | None:
 
 
 def line_of(text: str, place: int) -> str:
-    """A place in a script as messages name it."""
+    """A place in a script as messages name it: `line 3`."""
     return f"line {text.count(chr(10), 0, place) + 1}"
 
 
@@ -71,4 +76,4 @@ def calls(
         found = arguments(text, match.end())
         if found is None:
             raise DesignError(f"{at}: the call {match[0].strip()!r} is not closed; add ')'")
-        yield match, found, at
+        yield match, found[0], at

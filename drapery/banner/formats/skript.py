@@ -67,12 +67,14 @@ _ALSO = {
     "horizontal half mirror": "half_horizontal_bottom",
 }
 _LAYER = re.compile(
-    r"\b(?:an? )?([\w ]{1,40}?) banner pattern colou?red ((?:light |dark )?\w{1,20})", re.IGNORECASE
+    r"\b(?:an? )?([\w ]{1,40}?)\"? banner pattern colou?red ((?:light |dark )?\w{1,20})",
+    re.IGNORECASE,
 )
 _BASE = re.compile(r"\b((?:light |dark )?\w{1,20}) banners?\b(?! patterns?\b)", re.IGNORECASE)
 _SET = re.compile(
     r"^\s*set \{[^{}\n]{1,60}\} to (?:an? )?[\w ]{1,40} banner\s*$", re.IGNORECASE | re.M
 )
+_ONE = re.compile(r"\s*set \{[^{}\n]{1,60}\} to ", re.IGNORECASE)
 _OF = re.compile(r"(\{[^{}\n]{1,60}\})")
 
 
@@ -88,12 +90,18 @@ def read(text: str) -> list[FoundBanner]:
     bases: dict[str, str] = {}
     layers: dict[str, list[Layer]] = {}
     lines: dict[str, int] = {}
+    kept: dict[str, list[Layer]] = {}
     for number, line in enumerate(text.split("\n"), 1):
         names = _OF.findall(line)
         matches = list(_LAYER.finditer(line))
         of = names[-1] if matches and names else names[0] if names else ""
-        for match in matches:
-            layers.setdefault(of, []).append(_layer(match, f"line {number}"))
+        read = [_layer(match, f"line {number}") for match in matches]
+        if read and _ONE.match(line):
+            kept[of] = read
+        elif "patterns of" in line and names and names[0] in kept:
+            layers.setdefault(names[-1], []).extend(kept[names[0]])
+        elif read:
+            layers.setdefault(of, []).extend(read)
         dye = None if matches else _base(line)
         if dye is not None:
             bases[of], lines[of] = dye, number
@@ -121,9 +129,7 @@ def _banner(
 
 
 def _layer(match: "re.Match[str]", at: str) -> Layer:
-    words = re.sub(r"^(?:add|set|an?|to|the|and|[0-9]\w*) ", "", match[1].lower().strip())
-    while (shorter := re.sub(r"^(?:.*\bto )?(?:an?|the|and) ", "", words)) != words:
-        words = shorter
+    words = re.sub(r"^(?:.*\bto |add )?(?:(?:an?|the|and|new) )*", "", match[1].lower().strip())
     pattern = _NAMES.get(words) or _ALSO.get(words) or pattern_id(words, at)
     dye = match[2] if is_dye(match[2]) else match[2].split(" ")[0]
     return Layer(pattern, dye_name(dye, at))
