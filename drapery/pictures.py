@@ -82,7 +82,7 @@ def save_model(
 ) -> None:
     """Write a banner as a 3-D file: .glb (waves), or one pose as .obj, .ply, .bbmodel, .geo.json.
 
-    banner, settings, options: see `draw`.
+    banner, settings, options: see `draw`; the ground is not written.
     seconds: length of the loop [s]; 0 for one pose. fps: its frames per second.
     Raises DesignError if `banner` is not a Banner, OptionError, PackError or OutputError.
     """
@@ -91,6 +91,7 @@ def save_model(
     from drapery.scenes.stager import still
 
     design, chosen = _checked(banner, settings, options)
+    chosen = replace(chosen, ground="none")
     moves = check_model_target(path) == ".glb" and seconds != 0
     packs = open_packs(chosen.packs, format=chosen.format)
     if moves:

@@ -8,6 +8,7 @@ manifests, files of cases and the studio's fields are made from the table.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -34,7 +35,7 @@ SolverName = Literal["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"]
 Pins = Literal["none", "top", "corners", "three-corners", "four-corners"]
 ViewName = Literal["front", "back", "iso", "gui", "hero"]
 Samples = Literal[1, 4, 16]
-Lighting = Literal["game", "flat"]
+Lighting = Literal["game", "flat", "studio"]
 
 MAX_SIDE = 8192
 """The widest and tallest picture [pixels]."""
@@ -79,9 +80,10 @@ class Options(TypedDict, total=False):
     pbr: bool
     thickness: float
     background: str
-    samples: Samples
+    ground: str | None
+    samples: Samples | None
     pixel: int
-    light: Lighting
+    light: Lighting | None
     block_light: int
     sky_light: int
     daylight: float
@@ -297,11 +299,19 @@ class Settings:
         "Colour behind the picture: transparent or #rrggbb",
         audience="anyone",
     )
-    samples: Samples = _option(
-        1,
+    ground: str | None = _option(
+        None,
+        str,
+        "Block below a standing banner, or wall behind one: none, grass, stone or another block",
+        default_text="grass or stone_bricks in the hero view, else none",
+        metavar="BLOCK",
+    )
+    samples: Samples | None = _option(
+        None,
         int,
         "Samples of each pixel; 1 gives the hard edges of pixel art",
         choices=get_args(Samples),
+        default_text="4 in the hero view, else 1",
     )
     pixel: int = _option(
         1,
@@ -310,11 +320,12 @@ class Settings:
         bounds=(1, MAX_PIXEL),
         unit="pixels",
     )
-    light: Lighting = _option(
-        "game",
+    light: Lighting | None = _option(
+        None,
         str,
-        "The game's two lights, or the flat colours of the textures",
+        "The game's two lights, the flat colours of the textures, or lights that cast shadows",
         choices=get_args(Lighting),
+        default_text="studio in the hero view, else game",
     )
     block_light: int = _option(
         0,
@@ -351,11 +362,23 @@ class Settings:
             object.__setattr__(self, name, option.check(getattr(self, name)))
         background_colour(self.background)
         self._check_turn()
+        self._check_ground()
         if self.pbr and self.layers == "flat":
             raise OptionError("pbr needs the maps of each layer; use layers stacked")
         if any(side % self.pixel for side in self.size):
             size = OPTIONS["size"].to_text(self.size)
             raise OptionError(f"size {size} is not a multiple of pixel {self.pixel}; use one")
+
+    def _check_ground(self) -> None:
+        if self.ground is None:
+            return
+        if not re.fullmatch(r"([a-z0-9_.-]+:)?[a-z0-9_./-]{1,100}", self.ground):
+            raise OptionError(
+                f"ground {shown(self.ground)} is not a block; use none, grass, stone or the name"
+                " of a block's texture"
+            )
+        if self.placement == "item" and self.ground != "none":
+            raise OptionError(f"ground {self.ground} is not for an item in its slot; leave it out")
 
     def _check_turn(self) -> None:
         if self.facing is not None and self.placement != "wall":
@@ -367,6 +390,28 @@ class Settings:
             raise OptionError(
                 f"rotation {self.rotation} applies only to standing banners; {remedy}"
             )
+
+    @property
+    def is_hero(self) -> bool:
+        """Whether the picture shows its subject in the hero view, which has defaults of its own."""
+        return self.view == "hero" and self.placement != "item"
+
+    @property
+    def lighting(self) -> Lighting:
+        """The light, by the view unless it is given."""
+        return self.light or ("studio" if self.is_hero else "game")
+
+    @property
+    def sample_count(self) -> Samples:
+        """Samples of each pixel, by the view unless they are given; enlarged pixels have one."""
+        return self.samples or (4 if self.is_hero and self.pixel == 1 else 1)
+
+    @property
+    def ground_block(self) -> str | None:
+        """The block of the ground or wall, by the view unless it is given; None is none."""
+        if self.ground is None and self.is_hero:
+            return "stone_bricks" if self.placement == "wall" else "grass"
+        return None if self.ground == "none" else self.ground
 
     @property
     def drawn_size(self) -> tuple[int, int]:

@@ -18,12 +18,15 @@ class Light:
     brightness = min(1, ambient + diffuse * sum over lights of max(0, L . n))
     directions: towards each light; need not be unit vectors.
     tint: the light's colour, a factor for each of red, green and blue.
+    shadows: whether the first direction casts shadows, and less of the other light reaches folds
+        and corners; drawn by our own rasteriser.
     """
 
     directions: tuple[Vector, ...]
     ambient: float
     diffuse: float
     tint: Vector = (1.0, 1.0, 1.0)
+    shadows: bool = False
 
     def unit_directions(self) -> NDArray[np.float64]:
         """Towards each light, shape [L, 3]."""
@@ -42,6 +45,9 @@ class Light:
 
 GAME_LIGHT = Light(((0.2, 1.0, -0.7), (-0.2, 1.0, 0.7)), 0.4, 0.6)
 """The two lights of the game's world."""
+
+STUDIO_LIGHT = Light(((-0.55, 0.85, 0.75), (0.8, 0.35, 0.6)), 0.42, 0.42, shadows=True)
+"""One light from the upper left, which casts shadows, and a second one from the right."""
 
 GLIMMER = 0.04
 """The least factor, used where no light falls."""

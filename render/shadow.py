@@ -55,6 +55,13 @@ def contact_shadow(
     )
 
 
+def shadow_corners(points: Array, floor: float) -> Array:
+    """The corners of what `contact_shadow` darkens at most under points [m], shape [4, 3]."""
+    edge = BLURS / RESOLUTION
+    low, high = points.min(axis=0) - edge, points.max(axis=0) + edge
+    return np.array([(x, floor, z) for x in (low[0], high[0]) for z in (low[2], high[2])])
+
+
 def _covered(
     models: Sequence[Model],
     floor: float,

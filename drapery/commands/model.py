@@ -18,7 +18,7 @@ OutOption = Annotated[
 ]
 FLAT = (
     *("size", "layers", "pbr", "background", "samples", "pixel", "backend"),
-    *("light", "block_light", "sky_light", "daylight", "shadow"),
+    *("light", "block_light", "sky_light", "daylight", "shadow", "ground"),
 )
 """Options of pictures that a model does not use."""
 

@@ -32,14 +32,14 @@ from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
-from drapery.render.light import UNLIT, lit_at
+from drapery.render.light import STUDIO_LIGHT, UNLIT, lit_at
 from drapery.render.scene import Model, Scene
-from drapery.render.shadow import contact_shadow
+from drapery.render.shadow import contact_shadow, shadow_corners
 from drapery.render.vectors import unit
 from drapery.render.views import find_view, frame_view, turntable
 from drapery.settings import Settings, background_colour
 from drapery.style.block import turn
-from drapery.style.body import Body, Panel
+from drapery.style.body import Body, Panel, Part
 from drapery.style.extrusion import Shell, make_shell, thicken
 from drapery.style.kinds import body_of
 from drapery.style.uv_mapping import UVMapping
@@ -48,6 +48,8 @@ STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""
 SETTLING = 8.0
 """The cloth of a loop moves at least this long before it is recorded [s]."""
+SHOWN_GROUND = 0.4
+"""How much of the block below a banner is surely in the picture [m]."""
 WIND_AXIS = (0.35, 0.0, 1.0)
 """Where the wind blows to unless a direction is given: to the front and a little to the right."""
 MAX_CACHED = 16 << 20
@@ -104,6 +106,7 @@ class Stager:
         self.wind = wind_of(settings)
         self.steps = 0
         self.parts = [self._turned(part.mesh) for part in body.parts]
+        self.ground = [self._grounded(part) for part in body.ground]
         if cloths is None:
             moves = settings.pose == "cloth"
             cloths = [cloth_at_rest(cloth_spec(p, settings)) for p in body.panels if moves]
@@ -148,8 +151,20 @@ class Stager:
         """The body's own camera, or one that frames points [m], each [..., 3], in the view."""
         if self.body.camera is not None:
             return self.body.camera
+        return frame_view(self.settings.view, self.framed(points), aspect)
+
+    def framed(self, points: Sequence[Array]) -> Array:
+        """Points of the body [m] with those of the block below and of the shadow, shape [N, 3].
+
+        The block counts down to SHOWN_GROUND. A wall does not: it fills the picture.
+        """
         every = np.concatenate([part.reshape(-1, 3) for part in points])
-        return frame_view(self.settings.view, every, aspect)
+        below = self.ground if self.settings.placement == "standing" else []
+        lowest = np.array([-np.inf, -SHOWN_GROUND, -np.inf])
+        more = [every, *(np.maximum(model.mesh.positions, lowest) for model in below)]
+        if self.settings.shadow:
+            more.append(shadow_corners(every, min(0.0, float(every[:, 1].min()))))
+        return np.concatenate(more)
 
     def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
         """The meshes with the materials of a time [s]; body: another one, which gives them."""
@@ -164,20 +179,26 @@ class Stager:
         if settings.shadow:
             under = shadow or contact_shadow(models, floor_under([m.mesh for m in models]))
             models = [under, *models]
-        light = UNLIT if settings.light == "flat" else self.body.light
+        lights = {"flat": UNLIT, "studio": STUDIO_LIGHT, "game": self.body.light}
+        light = lights[settings.lighting]
         return Scene(
-            tuple(models),
+            (*self.ground, *models),
             camera,
             settings.drawn_size,
             lit_at(light, settings.block_light, settings.sky_light, settings.daylight),
             background_colour(settings.background),
-            settings.samples,
+            settings.sample_count,
         )
 
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
         shell = _grid_shell(self.settings.grid, panel.uv_mapping)
         thickness = self.settings.thickness * panel.texel
         return self._turned(thicken(shell, sheet + panel.origin, thickness))
+
+    def _grounded(self, part: Part) -> Model:
+        """A part of the ground: a wall turns with its banner, the block below does not."""
+        mesh = self._turned(part.mesh) if self.settings.placement == "wall" else part.mesh
+        return Model(mesh, (part.material_at(0.0),))
 
     def _turned(self, mesh: Mesh) -> Mesh:
         return turn(mesh, self.settings.turned) if self.settings.turned else mesh
@@ -250,7 +271,8 @@ def _scenes(
     cameras = [stager.camera([points], aspect)] * len(moments)
     moves = any(settings.pose == "cloth" or panel.sway for panel in body.panels)
     if len(moments) > 1 and not moves and body.camera is None:
-        cameras = turntable(find_view(settings.view), points, aspect, len(moments))
+        view = find_view(settings.view)
+        cameras = turntable(view, stager.framed([points]), aspect, len(moments))
     for moment, time, camera in zip(moments, times, cameras, strict=True):
         models = stager.models(moment, time)
         shadow = contact_shadow(models, floor) if settings.shadow else None

@@ -53,6 +53,7 @@ class Body:
 
     period: of its animated textures [s]; 0 if they are still.
     light: the light on it. camera: its own; None if a named view frames it.
+    ground: the block below it or the wall behind it.
     """
 
     parts: tuple[Part, ...] = ()
@@ -60,3 +61,4 @@ class Body:
     period: float = 0.0
     light: Light = GAME_LIGHT
     camera: Camera | None = None
+    ground: tuple[Part, ...] = ()

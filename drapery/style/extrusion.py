@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 from drapery.mesh import Array, Mesh, Triangles, vertex_normals
 from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
 
+THINNEST = 2e-4
+"""The least distance between the two sheets [m]: from each side the nearer one must be seen."""
+
 
 def boundary_edges(triangles: Triangles) -> NDArray[np.int32]:
     """The edges of only one triangle, shape [E, 2], in the direction of that triangle.
@@ -58,9 +61,9 @@ class Shell:
         """The shells around thin sheets: each vertex moves half the thickness along its normal.
 
         positions, normals: [m] and unit, shape [..., N, 3].
-        thickness: distance between the two sheets [m].
+        thickness: distance between the two sheets [m]; at least THINNEST is drawn.
         """
-        half = positions.dtype.type(thickness / 2.0)
+        half = positions.dtype.type(max(thickness, THINNEST) / 2.0)
         front, back = positions + half * normals, positions - half * normals
         start, end = self.rim[:, 0], self.rim[:, 1]
         corners = [front[..., start, :], front[..., end, :], back[..., start, :], back[..., end, :]]

@@ -10,7 +10,12 @@ from drapery.render.light import Light
 
 Vector = tuple[float, float, float]
 
-SLOT_LIGHT = Light(((-0.275, 0.212, 1.187), (-0.266, 1.202, 0.119)), 0.4, 0.6)
+FULL_LIGHT = 252 / 255
+"""The game's lightmap at full light, as its 8 bits hold it."""
+
+SLOT_LIGHT = Light(
+    ((-0.275, 0.212, 1.187), (-0.266, 1.202, 0.119)), 0.4, 0.6, (FULL_LIGHT, FULL_LIGHT, FULL_LIGHT)
+)
 """One light from the front and one from above: the inventory's light of flat items."""
 
 

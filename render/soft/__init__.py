@@ -5,7 +5,8 @@ sort triangles into tiles, draw the tiles. Every step is divided among threads i
 not change its result.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -14,17 +15,34 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.mesh import Mesh, Triangles
-from drapery.render.camera import Matrix, clip_matrix
+from drapery.render.camera import Camera, Matrix, clip_matrix
 from drapery.render.drawlist import Float32, Topology, make_topology
 from drapery.render.flatten import composite_layers
 from drapery.render.frame import Frame
+from drapery.render.light import Light
 from drapery.render.materials import BLEND, MaterialTables
 from drapery.render.relief import bake_normal_maps
 from drapery.render.scene import Scene
 from drapery.render.soft.bins import RECORD, TILE, sort_into_tiles
 from drapery.render.soft.clipping import Corners, clip
 from drapery.render.soft.projection import BROKEN, NEAREST, VERTEX, project
-from drapery.render.soft.tiles import FULL_LIGHT, draw_tiles
+from drapery.render.soft.shadows import (
+    NO_RECEIVERS,
+    NO_SHADOWS,
+    ShadowMap,
+    casts_shadow,
+    light_camera,
+    map_side,
+    map_spread,
+    openness_of,
+    split_light,
+)
+from drapery.render.soft.tiles import (
+    FULL_LIGHT,
+    depth_tiles,
+    draw_tiles,
+    find_shaded,
+)
 from drapery.render.workers import run_parts, worker_count
 
 MAX_SIZE = 16384
@@ -32,6 +50,9 @@ MAX_SIZE = 16384
 
 MAX_RECORDS = 1 << 22
 """The most triangles in tiles at one time, 160 MiB; with more the picture is drawn in parts."""
+
+CLIPPED = 7
+"""Numbers of a clipped corner before its receiver: clip coordinates, brightness and UVs."""
 
 FEW = 4096
 """The least number of vertices or triangles in one part of the work."""
@@ -47,12 +68,14 @@ class Raster:
     vertices: shape [V] of VERTEX.
     flags: see `drapery.render.soft.projection`, shape [V], uint8.
     triangles, triangle_material: as in `Topology`.
+    receivers: where the vertices lie on the shadow map; see `draw_tiles`.
     """
 
     vertices: NDArray[np.void]
     flags: NDArray[np.uint8]
     triangles: Triangles
     triangle_material: NDArray[np.int32]
+    receivers: Float32 = field(default_factory=lambda: NO_RECEIVERS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,14 +98,71 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
     constant = make_topology(scene.models)
     matrix = clip_matrix(scene.camera, scene.size)
     raster, union = _project(scene, constant, matrix, grid, workers)
+    tables = _tables(composite_layers(constant.material_tables))
+    shadows = NO_SHADOWS
+    if scene.light.shadows and len(raster.vertices):
+        raster, shadows = _shadowed(scene, constant, raster, tables, workers)
     if union:
         raster = _clipped(scene, raster, matrix, grid)
     raster = _blends_last(raster, constant.material_tables.material_alpha)
     picture = np.full((scene.size[1], scene.size[0]), _background(scene), np.uint32)
-    _draw(
-        scene, _tables(composite_layers(constant.material_tables)), raster, grid, workers, picture
-    )
+    _draw(scene, tables, raster, shadows, grid, workers, picture)
     return Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
+
+
+def _shadowed(
+    scene: Scene, constant: Topology, raster: Raster, tables: KernelTables, workers: int
+) -> tuple[Raster, ShadowMap]:
+    """The raster with its vertices lit for shadows, and the map of the light that casts them."""
+    positions, normals = (
+        np.concatenate([_vectors(getattr(model.mesh, name)) for model in scene.models])
+        for name in ("positions", "normals")
+    )
+    casting = casts_shadow(constant)
+    camera = light_camera(scene.light, positions)
+    width = float(camera.height or 0.0)
+    side = map_side(scene.size, width)
+    spread, lift = map_spread(side, width)
+    seen = _project_points(positions, scene.light, camera, side, workers)
+    lifted = positions + np.float32(lift) * normals
+    receivers = _project_points(lifted, scene.light, camera, side, workers)
+    openness = openness_of(positions, normals, raster.triangles, casting)
+    raster.vertices["shade"], dark = split_light(scene.light, normals, openness)
+    # From the middle of the first sample to its corner, so that whole numbers are its index.
+    places = [receivers[axis] / np.float32(256) + np.float32(0.5) for axis in ("x", "y")]
+    shaded = np.stack([*places, receivers["depth"], dark], axis=-1, dtype=np.float32)
+    casters = Raster(
+        seen, raster.flags, raster.triangles[casting], raster.triangle_material[casting]
+    )
+    depths = np.zeros(side * side, np.int32)
+    _draw_depths(casters, tables, side, workers, depths)
+    return replace(raster, receivers=shaded), ShadowMap(depths, side, spread)
+
+
+def _project_points(
+    positions: Float32, light: Light, camera: Camera, side: int, workers: int
+) -> NDArray[np.void]:
+    """Vertices as a camera sees them in a square picture of this side."""
+    vertices, flags = np.empty(len(positions), VERTEX), np.empty(len(positions), np.uint8)
+    uvs = np.zeros((len(positions), 2), np.float32)
+    size, matrix = (side, side), clip_matrix(camera, (side, side))
+    _project_part(positions, positions, light, matrix, size, (uvs, vertices, flags), workers)
+    return vertices
+
+
+def _draw_depths(
+    raster: Raster, tables: KernelTables, side: int, workers: int, depths: NDArray[np.int32]
+) -> None:
+    """Fill a shadow map; see `depth_tiles`."""
+    tiles = side // TILE
+
+    def draw(first: int, starts: NDArray[np.int64], records: NDArray[np.int32]) -> None:
+        mesh = raster.vertices, raster.triangles, raster.triangle_material
+        given = (tiles, first, starts, records, mesh, _kernel_tables(tables), depths)
+        parts = PARTS * workers if workers > 1 else 1
+        run_parts(lambda part: depth_tiles(part, parts, *given), parts, workers)
+
+    _over_tiles(raster, tables, (tiles, tiles), workers, draw)
 
 
 def _tables(tables: MaterialTables) -> KernelTables:
@@ -138,11 +218,27 @@ def _project(
 def _project_model(
     mesh: Mesh, scene: Scene, matrix: Matrix, grid: int, arrays: tuple[Any, ...], workers: int
 ) -> int:
-    uvs, vertices, flags = arrays
     positions, normals = _vectors(mesh.positions), _vectors(mesh.normals)
+    size = scene.size[0] * grid, scene.size[1] * grid
+    return _project_part(positions, normals, scene.light, matrix, size, arrays, workers)
+
+
+def _project_part(
+    positions: Float32,
+    normals: Float32,
+    light: Light,
+    matrix: Matrix,
+    size: tuple[int, int],
+    arrays: tuple[Any, ...],
+    workers: int,
+) -> int:
+    """Project vertices into a picture of this size [samples]; the union of their flags.
+
+    arrays: texture coordinates, then the results; see `project`.
+    """
+    uvs, vertices, flags = arrays
     share = _shares(len(positions), workers)
-    width, height = (side * grid for side in scene.size)
-    lights, light = scene.light.unit_directions(), scene.light
+    lights = light.unit_directions()
 
     def run(part: int) -> int:
         union: int = project(
@@ -152,8 +248,8 @@ def _project_model(
             normals,
             uvs,
             matrix,
-            width,
-            height,
+            size[0],
+            size[1],
             lights,
             float(light.ambient),
             float(light.diffuse),
@@ -184,7 +280,8 @@ def _clipped(scene: Scene, raster: Raster, matrix: Matrix, grid: int) -> Raster:
     used = raster.triangles[cut]
     size = scene.size[0] * grid, scene.size[1] * grid
     clipped = clip(_clip_corners(scene, raster, matrix, used), cut, *size)
-    new = _on_picture(clipped.corners.reshape(-1, clipped.corners.shape[-1]), *size)
+    corners = clipped.corners.reshape(-1, clipped.corners.shape[-1])
+    new = _on_picture(corners[:, :CLIPPED], *size)
     numbers = len(raster.vertices) + np.arange(len(new), dtype=np.int32).reshape(-1, 3)
     source = np.concatenate([whole, clipped.source])
     order = np.argsort(source, kind="stable")
@@ -193,15 +290,20 @@ def _clipped(scene: Scene, raster: Raster, matrix: Matrix, grid: int) -> Raster:
         raster.flags,
         np.concatenate([raster.triangles[whole], numbers])[order],
         raster.triangle_material[source][order],
+        np.concatenate([raster.receivers, corners[:, CLIPPED:].astype(np.float32)])
+        if len(raster.receivers)
+        else NO_RECEIVERS,
     )
 
 
 def _clip_corners(scene: Scene, raster: Raster, matrix: Matrix, used: Triangles) -> Corners:
-    """Clip coordinates, brightness and UVs of triangles' corners, shape [K, 3, 7]."""
+    """Clip coordinates, brightness, UVs and receivers of corners, shape [K, 3, 7 or 11]."""
     positions = np.concatenate([_vectors(model.mesh.positions) for model in scene.models])[used]
     coordinates = sum(positions[..., k, None] * matrix[:, k] for k in range(3)) + matrix[:, 3]
     vertices = raster.vertices[used]
     attributes = [vertices[name][..., None] for name in ("shade", "u", "v")]
+    if len(raster.receivers):
+        attributes.append(raster.receivers[used])
     return np.concatenate([coordinates, *attributes], axis=-1)
 
 
@@ -238,33 +340,65 @@ def _draw(
     scene: Scene,
     tables: KernelTables,
     raster: Raster,
+    shadows: ShadowMap,
     grid: int,
     workers: int,
     picture: NDArray[np.uint32],
 ) -> None:
     constant = (
         (raster.vertices, raster.triangles, raster.triangle_material),
-        (tables.materials, tables.layers, tables.atlas.reshape(-1), tables.atlas.shape[1]),
+        _kernel_tables(tables),
         np.rint(np.array(scene.light.tint) * FULL_LIGHT).astype(np.int64),
+        raster.receivers,
+        _kernel_shadows(raster, shadows),
         _background(scene),
         grid,
         scene.size,
         picture.reshape(-1),
     )
     tiles_x, tiles_y = (-(-side * grid // TILE) for side in scene.size)
-    parts = PARTS * workers if workers > 1 else 1
-    ranges = [(0, tiles_x * tiles_y)]
+
+    def draw(first: int, starts: NDArray[np.int64], records: NDArray[np.int32]) -> None:
+        parts = PARTS * workers if workers > 1 else 1
+        given = (tiles_x, first, starts, records, *constant)
+        run_parts(partial(_draw_part, parts, given), parts, workers)
+
+    _over_tiles(raster, tables, (tiles_x, tiles_y), workers, draw)
+
+
+def _kernel_shadows(raster: Raster, shadows: ShadowMap) -> tuple[Any, ...]:
+    shaded = np.zeros(len(raster.triangles) if len(raster.receivers) else 0, np.bool_)
+    maps = shadows.depths, shadows.side, shadows.spread
+    if len(shaded):
+        find_shaded(raster.vertices, raster.triangles, raster.receivers, *maps, shaded)
+    return shaded, maps
+
+
+def _kernel_tables(tables: KernelTables) -> tuple[Any, ...]:
+    return tables.materials, tables.layers, tables.atlas.reshape(-1), tables.atlas.shape[1]
+
+
+def _over_tiles(
+    raster: Raster,
+    tables: KernelTables,
+    tiles: tuple[int, int],
+    workers: int,
+    draw: Callable[[int, NDArray[np.int64], NDArray[np.int32]], None],
+) -> None:
+    """Sort triangles into tiles across and down, and draw them in as many ranges as fit in memory.
+
+    draw: takes the first tile of a range and its lists; see `_tile_lists`.
+    """
+    across, down = tiles
+    ranges = [(0, across * down)]
     while ranges:
         first, end = ranges.pop()
-        starts, records = _tile_lists(
-            raster, tables.materials, (tiles_x, tiles_y, first, end), workers
-        )
+        starts, records = _tile_lists(raster, tables.materials, (across, down, first, end), workers)
         if records is None:
             middle = (first + end) // 2
             ranges += [(middle, end), (first, middle)]
-            continue
-        given = (tiles_x, first, starts, records, *constant)
-        run_parts(partial(_draw_part, parts, given), parts, workers)
+        else:
+            draw(first, starts, records)
 
 
 def _draw_part(parts: int, given: tuple[Any, ...], part: int) -> None:

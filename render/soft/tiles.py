@@ -20,7 +20,8 @@ from drapery.jit import entry_point, kernel
 from drapery.render.soft.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
 from drapery.render.soft.projection import NEAREST
 
-KEY_SCALE = 1 << 31
+KEY_BITS = 31
+KEY_SCALE = 1 << KEY_BITS
 """Units of a key in one unit of depth; the lowest ID_BITS bits hold the triangle's number."""
 
 LANES = 8
@@ -35,6 +36,14 @@ OPAQUE_BITS = 0xFF000000
 CHANNELS = 0x00FF00FF
 HALVES = 0x00010001
 """Two channels of a colour, eight bits apart, and one unit of each."""
+
+FLAT_AREA = 1e-3
+LARGE = 4096.0
+"""Triangles of a smaller area, and in larger rectangles, are not tested as a whole [samples^2]."""
+
+TAPS = 4
+TAPS_MIDDLE = 1.5
+"""Places of the shadow map along one side of the square that is compared, and their middle."""
 
 LIGHT_BITS = 24
 FULL_LIGHT = 1 << LIGHT_BITS
@@ -223,6 +232,72 @@ def _uv_at(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
 
 
 @kernel
+def _sunlit(place: Any, column: Any, line: Any, grid: Any, shadows: Any) -> Any:
+    """The share 0..1 of places around a place of the shadow map that the light reaches.
+
+    column, line: which of the pixel's samples it is, 0..grid - 1. There are TAPS x TAPS places for
+    each pixel, and each of its samples compares its own share of them.
+    """
+    (x, y, depth), (depths, side, spread) = place, shadows
+    lit = 0
+    for j in range(line, TAPS, grid):
+        down = min(max(np.int64(y + (j - TAPS_MIDDLE) * spread), 0), side - 1)
+        for i in range(column, TAPS, grid):
+            across = min(max(np.int64(x + (i - TAPS_MIDDLE) * spread), 0), side - 1)
+            lit += depths[np.uint64(down * side + across)] <= depth
+    return np.float64(lit * (grid * grid)) / (TAPS * TAPS)
+
+
+@kernel
+def _cast(
+    t: Any,
+    x: Any,
+    y: Any,
+    count: Any,
+    weights: Any,
+    triangles: Any,
+    receivers: Any,
+    shadows: Any,
+    grid: Any,
+    light: Any,
+    scratch: Any,
+) -> Any:
+    """Darken the light of a run of `count` samples of triangle t from x, y on, where it lies in
+    shadow.
+
+    weights: as `_weights` gives them. scratch: place, depth and darkness of each sample.
+    """
+    _, side, _ = shadows
+    across, down, deep, dark = scratch
+    wa, wb, wc, da, db, dc = weights
+    a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+    w0, dw = wa + wb + wc, da + db + dc
+    x0 = wa * receivers[a, 0] + wb * receivers[b, 0] + wc * receivers[c, 0]
+    dx = da * receivers[a, 0] + db * receivers[b, 0] + dc * receivers[c, 0]
+    y0 = wa * receivers[a, 1] + wb * receivers[b, 1] + wc * receivers[c, 1]
+    dy = da * receivers[a, 1] + db * receivers[b, 1] + dc * receivers[c, 1]
+    z0 = wa * receivers[a, 2] + wb * receivers[b, 2] + wc * receivers[c, 2]
+    dz = da * receivers[a, 2] + db * receivers[b, 2] + dc * receivers[c, 2]
+    s0 = (wa * receivers[a, 3] + wb * receivers[b, 3] + wc * receivers[c, 3]) * FULL_LIGHT
+    ds = (da * receivers[a, 3] + db * receivers[b, 3] + dc * receivers[c, 3]) * FULL_LIGHT
+    highest = np.float64(side - 1)
+    for k in range(((count - 1) // LANES + 1) * LANES):
+        at = np.float64(k)
+        w = 1.0 / (w0 + at * dw)
+        column = min(max((x0 + at * dx) * w, 0.0), highest)
+        line = min(max((y0 + at * dy) * w, 0.0), highest)
+        across[np.uint64(k)], down[np.uint64(k)] = column, line
+        deep[np.uint64(k)] = np.int32((z0 + at * dz) * w)
+        dark[np.uint64(k)] = np.int32((s0 + at * ds) * w)
+    for k in range(count):
+        more = light[np.uint64(k)] - dark[np.uint64(k)]
+        if more > 0:
+            place = across[np.uint64(k)], down[np.uint64(k)], deep[np.uint64(k)]
+            share = _sunlit(place, (x + k) % grid, y % grid, grid, shadows)
+            light[np.uint64(k)] = dark[np.uint64(k)] + np.int32(more * share)
+
+
+@kernel
 def _shade_tile(
     layer: Any,
     bounds: Any,
@@ -233,6 +308,9 @@ def _shade_tile(
     triangle_material: Any,
     tables: Any,
     tint: Any,
+    receivers: Any,
+    shadows: Any,
+    grid: Any,
     keys: Any,
     colours: Any,
     scratch: Any,
@@ -240,12 +318,13 @@ def _shade_tile(
     """Colour the visible samples of the tile at x0, y0, one run of the same triangle after another.
 
     layer: start of the keys; 0 for solid triangles, LAYER for one that blends.
-    scratch: u, v, light, place in the atlas and colour of each sample of a run.
+    receivers, shadows: see `draw_tiles`. grid: samples along a pixel's side.
+    scratch: u, v, light, place in the atlas and colour of each sample of a run, then `_cast`'s.
     The layers are composited first and lit once at the end. Each step is a separate loop over whole
     groups of samples, so that it can be vectorised.
     """
     materials, layers, atlas, wide = tables
-    u, v, light, place, shown = scratch
+    (u, v, light, place, shown), dusk = scratch
     left, right, top, bottom = bounds
     for row in range(top, bottom + 1):
         start = layer + row * STRIDE
@@ -295,6 +374,21 @@ def _shade_tile(
                 i = np.int32(min(max(su * across, i_low), i_high))
                 j = np.int32(min(max(sv * down, j_low), j_high))
                 place[np.uint64(k)] = origin + j * wide + i
+            if len(receivers) and materials[material, 3] and shadows[0][t]:
+                weights = wa, wb, wc, da, db, dc
+                _cast(
+                    t,
+                    x0 + x,
+                    y0 + row,
+                    count,
+                    weights,
+                    triangles,
+                    receivers,
+                    shadows[1],
+                    grid,
+                    light,
+                    dusk,
+                )
             for k in range(count):
                 shown[np.uint64(k)] = atlas[np.uint64(place[np.uint64(k)])] | solid
 
@@ -391,6 +485,8 @@ def draw_tiles(
     mesh: Any,
     tables: Any,
     tint: Any,
+    receivers: Any,
+    shadows: Any,
     background: Any,
     grid: Any,
     size: Any,
@@ -405,6 +501,10 @@ def draw_tiles(
     tables: materials [L, 4]: first layer, count, alpha mode, lit; layers [C, 7]: x, y, width,
         height in the atlas, and tint; atlas [H * W], one uint32 a texel; W.
     tint: the light's colour, three factors in units of 1 / FULL_LIGHT, int64.
+    receivers: where the vertices lie on the shadow map: x, y [samples], depth, and the brightness
+        in shadow; shape [V, 4], float32, or empty for a light that casts no shadows.
+    shadows: which triangles may lie in shadow, shape [T]; and the map's depths, its side and the
+        distance of the places compared; see `ShadowMap`.
     background: one uint32, 0xAABBGGRR, as all colours here.
     grid: samples along a pixel's side.
     size: of the picture [pixels]; picture: shape [H * W], uint32, filled with the background.
@@ -419,6 +519,12 @@ def draw_tiles(
         np.empty(STRIDE, np.int32),
         np.empty(STRIDE, np.int32),
         np.zeros(STRIDE, np.uint32),
+    )
+    dusk = (
+        np.empty(STRIDE),
+        np.empty(STRIDE),
+        np.empty(STRIDE, np.int32),
+        np.empty(STRIDE, np.int32),
     )
     for tile in range(part, len(starts) - 1, parts):
         column, line = (first + tile) % tiles_x, (first + tile) // tiles_x
@@ -451,9 +557,106 @@ def draw_tiles(
                 triangle_material,
                 tables,
                 tint,
+                receivers,
+                shadows,
+                grid,
                 keys,
                 colours,
-                scratch,
+                (scratch, dusk),
             )
             entry = until
         _resolve(colours, px, py, width, height, across, grid, picture)
+
+
+@entry_point
+def depth_tiles(
+    part: Any,
+    parts: Any,
+    tiles_x: Any,
+    first: Any,
+    starts: Any,
+    records: Any,
+    mesh: Any,
+    tables: Any,
+    depths: Any,
+) -> Any:
+    """Write the greatest depth at each sample of every parts-th tile, beginning with `part`.
+
+    depths: shape [(TILE * tiles_x)^2], int32, filled with 0. All else: see `draw_tiles`.
+    """
+    vertices, triangles, triangle_material = mesh
+    keys = np.empty(2 * LAYER, np.int64)
+    across = tiles_x << TILE_BITS
+    for tile in range(part, len(starts) - 1, parts):
+        if starts[tile] == starts[tile + 1]:
+            continue
+        column, line = (first + tile) % tiles_x, (first + tile) // tiles_x
+        x0, y0 = column << TILE_BITS, line << TILE_BITS
+        keys[:LAYER] = 0
+        _cover_tile(
+            starts[tile],
+            starts[tile + 1],
+            x0,
+            y0,
+            records,
+            vertices,
+            triangles,
+            triangle_material,
+            tables,
+            keys,
+        )
+        for row in range(TILE):
+            for k in range(TILE):
+                depths[(y0 + row) * across + x0 + k] = keys[row * STRIDE + k] >> KEY_BITS
+
+
+@entry_point
+def find_shaded(
+    vertices: Any, triangles: Any, receivers: Any, depths: Any, side: Any, spread: Any, shaded: Any
+) -> Any:
+    """Find the triangles that may lie in shadow, as most are wholly lit or turned away.
+
+    depths, side, spread: see `ShadowMap`. shaded: the result, shape [T], bool. All else: see
+    `draw_tiles`.
+    """
+    radius = np.int64(np.ceil(TAPS_MIDDLE * spread)) + 1
+    for t in range(len(triangles)):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        more = max(
+            vertices[a].shade - receivers[a, 3],
+            vertices[b].shade - receivers[b, 3],
+            vertices[c].shade - receivers[c, 3],
+        )
+        shaded[t] = more > 0 and not _is_lit(a, b, c, receivers, depths, side, radius)
+
+
+@kernel
+def _is_lit(a: Any, b: Any, c: Any, receivers: Any, depths: Any, side: Any, radius: Any) -> Any:
+    """Whether nothing within the radius of a triangle on the shadow map is nearer than its plane
+    there."""
+    ax, ay, az = receivers[a, 0], receivers[a, 1], receivers[a, 2]
+    bx, by, bz = receivers[b, 0] - ax, receivers[b, 1] - ay, receivers[b, 2] - az
+    cx, cy, cz = receivers[c, 0] - ax, receivers[c, 1] - ay, receivers[c, 2] - az
+    left = np.int64(ax + min(bx, cx, np.float32(0))) - radius
+    right = np.int64(ax + max(bx, cx, np.float32(0))) + radius
+    top = np.int64(ay + min(by, cy, np.float32(0))) - radius
+    bottom = np.int64(ay + max(by, cy, np.float32(0))) + radius
+    area = np.float64(bx * cy - by * cx)
+    is_outside = left < 0 or top < 0 or right >= side or bottom >= side
+    if is_outside or abs(area) < FLAT_AREA or (right - left) * (bottom - top) > LARGE:
+        return False
+    along = (bz * cy - cz * by) / area
+    down = (cz * bx - bz * cx) / area
+    # The least depth of the plane at any place that compares itself with the sample.
+    slack = (radius + 1) * (abs(along) + abs(down))
+    lowest = az + min(bz, cz, np.float32(0))
+    first = az + (left + 0.5 - ax) * along + (top + 0.5 - ay) * down - slack
+    for row in range(bottom - top + 1):
+        start, at = first + row * down, np.uint64((top + row) * side + left)
+        is_near = False
+        for k in range(right - left + 1):
+            depth = max(start + k * along, lowest)
+            is_near |= depths[at + np.uint64(k)] > depth
+        if is_near:
+            return False
+    return True

@@ -107,6 +107,10 @@ class Packs:
         full = full_id(name)
         return self._textures.get(full, lambda: self._any_texture(full)).at(time)
 
+    def has_texture(self, name: str) -> bool:
+        """Whether a pack or our own art has a texture of this id. Raises PackError."""
+        return self._find([texture_file(full_id(name))]) is not None
+
     def elytra(self) -> Texels | None:
         """The sheet of wings and sometimes of a cape, shape [H, W, 4], or None if no pack has one.
 
@@ -256,9 +260,9 @@ class Packs:
         if found is None:
             self._missing[name] = None
             return Texture((checker(),))
-        if found.level > 0:
+        if is_sheet and found.level > 0:
             self._used.add(found.level)
-        elif len(self.packs) > 1:
+        elif is_sheet and len(self.packs) > 1:
             self._ours[name] = None
         place, layout = self._place(found), self._layout(found)
         if is_sheet:

@@ -70,6 +70,10 @@ def order_of(session: Session, choice: FileChoice) -> Order:
     return Order(banner, settings, choice.kind, choice.seconds, choice.fps, choice.scale)
 
 
+BY_VIEW = {"": "by the view"}
+BLOCKS = ("none", "grass", "stone", "stone_bricks", "oak_planks", "sand")
+"""Blocks of our own art that the page offers as ground."""
+
 Groups = list[tuple[Element, Callable[[], bool]]]
 
 
@@ -92,7 +96,7 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
             _number(session, fields, "Seconds in the wind", "time")
         with _only(groups, lambda: choice.kind in PICTURES):
             samples = {str(name): str(name) for name in OPTIONS["samples"].choices}
-            _pick(session, fields, "Samples a pixel", "samples", samples)
+            _pick(session, fields, "Samples a pixel", "samples", BY_VIEW | samples)
             _number(session, fields, "Enlarge pixels by", "pixel")
         _ground(session, choice, fields, groups)
 
@@ -153,8 +157,8 @@ def _pick(
     fields.choice(
         label,
         titles,
-        lambda: str(_value(session, name)),
-        lambda text: session.adjust(**{name: OPTIONS[name].parse(text)}),
+        lambda: "" if _value(session, name) is None else str(_value(session, name)),
+        lambda text: session.adjust(**{name: OPTIONS[name].parse(text) if text else None}),
     )
 
 
@@ -163,7 +167,7 @@ def _value(session: Session, name: str) -> Any:
 
 
 def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups) -> None:
-    """Background and shadow."""
+    """Background, ground, light and shadow."""
 
     def plain() -> bool:
         return session.settings.background == "transparent"
@@ -182,6 +186,9 @@ def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups
         fields.choice("Background", GROUNDS, lambda: "transparent" if plain() else "colour", choose)
         with _only(groups, lambda: not plain()):
             fields.colour("Background colour", colour, paint)
+        _pick(session, fields, "Ground", "ground", BY_VIEW | {name: name for name in BLOCKS})
+        lights = {str(name): str(name) for name in OPTIONS["light"].choices}
+        _pick(session, fields, "Light", "light", BY_VIEW | lights)
         fields.tick(
             "Shadow", lambda: session.settings.shadow, lambda on: session.adjust(shadow=bool(on))
         )

@@ -115,7 +115,7 @@ def _light(session: Session, controls: Controls) -> None:
     controls.number("block_light", "Torch light", 1)
     controls.switch(
         "Shaded",
-        lambda: session.settings.light == "game",
+        lambda: session.settings.lighting == "game",
         lambda on: session.adjust(light="game" if on else "flat"),
     )
 

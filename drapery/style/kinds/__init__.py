@@ -1,7 +1,7 @@
 """The kinds of things that are drawn, each a function from a design or texture to its body."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from drapery.banner.design import Banner
@@ -9,6 +9,7 @@ from drapery.banner.packs import Packs
 from drapery.errors import OptionError
 from drapery.settings import Placement, Settings
 from drapery.style.body import Body
+from drapery.style.ground import ground_of
 from drapery.style.kinds import banner, cape, elytra, shield
 
 
@@ -39,7 +40,13 @@ def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
 
     Raises OptionError for options that do not fit the kind, and PackError.
     """
-    return check_kind(design, settings).build(design, packs, settings)
+    kind = check_kind(design, settings)
+    body = kind.build(design, packs, settings)
+    block = settings.ground_block
+    # Only banners stand or hang on something unless asked for.
+    if block is None or (settings.ground is None and kind is not KINDS["banner"]):
+        return body
+    return replace(body, ground=ground_of(block, packs, settings.placement))
 
 
 def check_kind(design: Banner | None, settings: Settings) -> Kind:

@@ -1,0 +1,72 @@
+"""The block below a standing body and the wall behind a banner on it."""
+
+import numpy as np
+
+from drapery.banner.dyes import DYES
+from drapery.banner.packs import Packs
+from drapery.errors import OptionError
+from drapery.mesh import Array, Mesh
+from drapery.settings import Placement
+from drapery.style.block_world import FACES, Cell, blocks
+from drapery.style.body import Part
+
+PIECES = 8
+"""Squares along a side of a face near the body: its light is measured at their corners."""
+
+_BELOW: tuple[Cell, ...] = ((0, -1, 0),)
+_BEHIND: tuple[Cell, ...] = tuple((x, y, -1) for x in (-1, 0, 1) for y in (-2, -1, 0, 1))
+
+
+def ground_of(block: str, packs: Packs, placement: Placement) -> tuple[Part, ...]:
+    """One block below the space of a standing body, or a wall three wide and four high behind it.
+
+    block: the name of a texture under `block/`, of a dye for its wool, or `grass`.
+    Raises OptionError for a block without texture, and PackError.
+    """
+    top = FACES.get(block, (block,))[0]
+    if block not in DYES and not packs.has_texture(f"block/{top}"):
+        raise OptionError(
+            f"ground {block} has no texture block/{top} in the packs or in our own art; use none,"
+            " grass, stone or another block"
+        )
+    is_wall = placement == "wall"
+    models = blocks(dict.fromkeys(_BEHIND if is_wall else _BELOW, block), packs)
+    facing = np.array([0.0, 0.0, 1.0] if is_wall else [0.0, 1.0, 0.0])
+    return tuple(
+        Part(_refined(model.mesh, facing), lambda time, made=model.materials[0]: made)
+        for model in models
+    )
+
+
+def _refined(mesh: Mesh, facing: Array) -> Mesh:
+    """The mesh with its quads that face a direction cut into PIECES x PIECES.
+
+    mesh: quads of four vertices each: upper left, upper right, lower left, lower right.
+    """
+    corners, uvs = mesh.positions.reshape(-1, 4, 3), mesh.uvs.reshape(-1, 4, 2)
+    normals = mesh.normals.reshape(-1, 4, 3)
+    is_near = (normals[:, 0] == facing).all(axis=1)
+    if not is_near.any():
+        return mesh
+    other, near = ~is_near, is_near
+    count = int(near.sum())
+    u, v = (part.reshape(-1) for part in np.meshgrid(*[np.linspace(0, 1, PIECES + 1)] * 2))
+    shares = np.stack([(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v], axis=-1)
+    a = (np.arange(PIECES)[:, None] * (PIECES + 1) + np.arange(PIECES)).reshape(-1)
+    b, c, d = a + 1, a + PIECES + 1, a + PIECES + 2
+    cell = np.stack([a, c, b, b, c, d], axis=-1).reshape(-1, 3)
+    first = 4 * int(other.sum()) + len(u) * np.arange(count)
+    quads = np.array([[0, 2, 1], [1, 2, 3]]) + 4 * np.arange(int(other.sum()))[:, None, None]
+    triangles = [quads.reshape(-1, 3), (cell + first[:, None, None]).reshape(-1, 3)]
+    return Mesh(
+        np.concatenate([corners[other].reshape(-1, 3), _mixed(shares, corners[near])]),
+        np.concatenate([normals[other].reshape(-1, 3), np.tile(facing, (count * len(u), 1))]),
+        np.concatenate(triangles).astype(np.int32),
+        np.concatenate([uvs[other].reshape(-1, 2), _mixed(shares, uvs[near])]),
+    )
+
+
+def _mixed(shares: Array, corners: Array) -> Array:
+    """Weighted sums of corners [K, 4, C] for every one of the shares [S, 4], shape [K * S, C]."""
+    mixed: Array = np.einsum("sf,kfc->ksc", shares, corners)
+    return mixed.reshape(-1, corners.shape[-1])
