@@ -23,11 +23,12 @@ import subprocess
 import sys
 import threading
 import time
-import urllib.error
 import urllib.request
 from collections import Counter
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import partial
+from http.client import HTTPConnection, HTTPException
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -242,48 +243,90 @@ def _kill(run: subprocess.Popen[bytes], victim: str) -> str:
     return "worker"
 
 
-def soak(seconds: float, clients: int, port: int) -> None:
-    """Let clients request pictures, half of them cached, until the time is over."""
+def soak(seconds: float, clients: int, port: int, pause: float) -> None:
+    """Let clients request pictures until the time is over; kill a worker after every pause [s].
+
+    Half of the requests are for 20 pictures, whose bytes must be those that `draw` makes.
+    """
     command = [sys.executable, "-m", "drapery", "serve", "--port", str(port), "--rate", "0"]
     server = subprocess.Popen(command)
-    base = f"http://127.0.0.1:{port}"
-    _await_server(base)
-    answers: Counter[int] = Counter()
-    slowest: list[float] = []
+    _await_server(f"http://127.0.0.1:{port}")
     end = time.monotonic() + seconds
+    right = [_drawn_bytes(seed) for seed in range(20)]
+    seen = SoakAnswers()
     tasks = [
-        threading.Thread(target=_client, args=(base, n, end, answers, slowest))
-        for n in range(clients)
+        threading.Thread(target=_client, args=(port, n, end, right, seen)) for n in range(clients)
     ]
-    for task in tasks:
+    killer = threading.Thread(target=_kill_workers, args=(server.pid, end, pause, seen))
+    for task in (*tasks, killer):
         task.start()
     memory = _watch(server.pid, end)
-    for task in tasks:
+    for task in (*tasks, killer):
         task.join()
-    server.send_signal(signal.SIGINT)
+    start = time.monotonic()
+    server.send_signal(signal.SIGTERM)
     server.wait(20)
-    slowest.sort()
-    print(f"{clients} clients, {seconds:.0f} s: answers {dict(answers)}")
-    print(f"median {1000 * slowest[len(slowest) // 2]:.0f} ms, slowest {slowest[-1]:.2f} s")
+    took = sorted(seen.seconds)
+    print(f"{clients} clients, {seconds:.0f} s, {seen.kills} workers killed: {dict(seen.codes)}")
+    print(f"wrong pictures: {seen.wrong}; ended {time.monotonic() - start:.1f} s after SIGTERM")
+    print(f"median {1000 * took[len(took) // 2]:.0f} ms, slowest {took[-1]:.2f} s")
     print(f"memory of all processes, MiB, each fifth of the time: {memory}")
 
 
-def _client(base: str, number: int, end: float, answers: Counter[int], took: list[float]) -> None:
+@dataclass
+class SoakAnswers:
+    """What the clients got. codes: answers by status, -1 for none. seconds: of each request."""
+
+    codes: Counter[int] = field(default_factory=Counter)
+    seconds: list[float] = field(default_factory=list)
+    wrong: int = 0
+    kills: int = 0
+
+
+def _drawn_bytes(seed: int) -> bytes:
+    from drapery import Banner, draw
+
+    frame = draw(Banner.parse("red border:black"), size=(48, 64), grid=(3, 5), seed=seed)
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "x.png")
+        frame.save(path)
+        return path.read_bytes()
+
+
+def _client(port: int, number: int, end: float, right: list[bytes], seen: SoakAnswers) -> None:
     chance = random.Random(number)
+    source = f"127.0.{1 + number // 250}.{1 + number % 250}"  # a client of the limits is an address
     while time.monotonic() < end:
-        fresh = chance.random() < 0.5
-        seed = chance.randrange(1 << 31) if fresh else chance.randrange(20)
-        address = f"{base}/banner.png?design=red+border:black&size=48x64&grid=3x5&seed={seed}"
-        start = time.monotonic()
+        known = chance.random() < 0.5
+        seed = chance.randrange(len(right)) if known else chance.randrange(100, 1 << 31)
+        path = f"/banner.png?design=red+border:black&size=48x64&grid=3x5&seed={seed}"
+        start, code = time.monotonic(), -1
+        connection = HTTPConnection("127.0.0.1", port, timeout=60, source_address=(source, 0))
         try:
-            with urllib.request.urlopen(address, timeout=60) as got:
-                got.read()
-                answers[got.status] += 1
-        except urllib.error.HTTPError as error:
-            answers[error.code] += 1
-        except OSError:
-            answers[-1] += 1
-        took.append(time.monotonic() - start)
+            connection.request("GET", path)
+            answer = connection.getresponse()
+            code, data = answer.status, answer.read()
+            seen.wrong += code == 200 and known and data != right[seed]
+        except (OSError, HTTPException):
+            pass
+        finally:
+            connection.close()
+        seen.codes[code] += 1
+        seen.seconds.append(time.monotonic() - start)
+
+
+def _kill_workers(pid: int, end: float, pause: float, seen: SoakAnswers) -> None:
+    import psutil
+
+    chance = random.Random(0)
+    while pause and time.monotonic() + pause < end:
+        time.sleep(pause)
+        with suppress(psutil.Error):
+            family = psutil.Process(pid).children()
+            workers = [p for p in family if "spawn_main" in " ".join(p.cmdline())]
+            if workers:
+                chance.choice(workers).kill()
+                seen.kills += 1
 
 
 def _await_server(base: str) -> None:
@@ -411,6 +454,7 @@ def main() -> None:
     words.add_argument("--kills", type=int, default=20)
     words.add_argument("--seconds", type=float, default=300)
     words.add_argument("--clients", type=int, default=50)
+    words.add_argument("--kill-every", type=float, default=0, help="pause between kills [s]")
     words.add_argument("--machines", type=int, default=100)
     words.add_argument("--port", type=int, default=8799)
     asked = words.parse_args()
@@ -434,7 +478,7 @@ def _measure(asked: argparse.Namespace, folder: Path) -> None:
         path = catalogue_manifest(manifest, asked.size)
         kills(path, folder, asked.kills, "--workers", "2", "--cluster")
     elif asked.what == "soak":
-        soak(asked.seconds, asked.clients, asked.port)
+        soak(asked.seconds, asked.clients, asked.port, asked.kill_every)
     else:
         scale(measured(folder, 50), asked.jobs or 1_000_000, asked.machines)
 
