@@ -15,7 +15,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from drapery.banner.formats.nbt import MAX_DEPTH, MAX_TAGS, Numbers, is_nbt, read_nbt
+from drapery.banner.formats.files import find_in_bytes
+from drapery.banner.formats.nbt import MAX_DEPTH, MAX_MEMORY, Numbers, is_nbt, read_nbt
+from drapery.banner.formats.rows import Rows
 from drapery.errors import DesignError
 
 ORDERS = ["big", "little"]
@@ -41,8 +43,23 @@ def plain(tree):
     if isinstance(tree, np.ndarray):
         return plain(tree.tolist())
     if isinstance(tree, list):
-        return [plain(value) for value in tree]
+        return [
+            row
+            for value in tree
+            for row in (rows(value) if isinstance(value, Rows) else [plain(value)])
+        ]
     return tree if isinstance(tree, str) else float(tree) if tree % 1 else int(tree)
+
+
+def rows(found: Rows):
+    columns = {name: found.column(name).tolist() for name in found.fields}
+    return [
+        {
+            name: plain(column[n] if len(column[n]) != 1 else column[n][0])
+            for name, column in columns.items()
+        }
+        for n in range(len(found))
+    ]
 
 
 def integers(bits: int):
@@ -147,7 +164,18 @@ def list_of(kind: int, length: int, rest: bytes) -> bytes:
 
 BIG = 10**6
 HOSTILE = {
-    "a million empty compounds": (list_of(10, BIG, bytes(BIG)), "tags"),
+    "a million small compounds": (
+        list_of(10, BIG, b"\1\0\1a\1\0\1\0\1b\1\0" * (BIG // 2)),
+        "tags",
+    ),
+    "a million compounds in short rows": (
+        list_of(10, BIG, (b"\0" * 63 + b"\1\0\1a\1\0") * (BIG // 64)),
+        "tags",
+    ),
+    "a million compounds in rows": (
+        list_of(10, BIG, (b"\1\0\1a\1\0" * 64 + b"\x08\0\1b\0\0\0") * (BIG // 65)),
+        "longer than the rest|cut off",
+    ),
     "a million empty lists": (list_of(9, BIG, bytes(5 * BIG)), "tags"),
     "a million empty strings": (list_of(8, BIG, bytes(2 * BIG)), "tags"),
     "a million names": (
@@ -211,8 +239,83 @@ def test_arrays_around_the_size_of_a_piece_come_whole(size: int):
         assert read_nbt(wrap(body), "f") == {"a": b"\1" * size}
 
 
-def test_the_most_tags_that_are_allowed_are_read():
-    assert len(read_nbt(list_of(10, MAX_TAGS - 1, bytes(MAX_TAGS - 1)), "f")["a"]) == MAX_TAGS - 1
+def strings(memory: int) -> bytes:
+    """A list of empty strings that take this much memory by the reader's estimate."""
+    count = memory // (80 + "".__sizeof__())
+    return list_of(8, count, bytes(2 * count))
+
+
+def test_the_memory_of_a_file_ends_at_its_limit():
+    assert read_nbt(strings(MAX_MEMORY - 1000), "f")["a"][0] == ""
+    with pytest.raises(DesignError, match="over 64 MiB of memory by byte"):
+        read_nbt(strings(MAX_MEMORY + 1000), "f")
+
+
+def test_the_estimate_of_memory_is_cautious():
+    item = {"Slot": nbtlib.Byte(300 % 128), "id": nbtlib.String("minecraft:red_banner")}
+    box = nbtlib.Compound({"Items": nbtlib.List[nbtlib.Compound]([nbtlib.Compound(item)] * 27)})
+    data = encode(nbtlib.Compound({"boxes": nbtlib.List[nbtlib.Compound]([box] * 4000)}))
+    tracemalloc.start()
+    read_nbt(data, "f")
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < MAX_MEMORY
+
+
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("count", [1, 63, 64, 65, 5000])
+def test_compounds_of_numbers_stay_bytes_where_many_follow_each_other(order: str, count: int):
+    blocks = [
+        nbtlib.Compound(
+            {
+                "pos": nbtlib.List[nbtlib.Int]([n % 7, -n, 2]),
+                "state": nbtlib.Int(n % 300),
+                "light": nbtlib.Float(n / 2),
+                "one": nbtlib.List[nbtlib.Byte]([n % 9]),
+                "none": nbtlib.List[nbtlib.Int]([]),
+            }
+        )
+        for n in range(count)
+    ]
+    blocks.insert(count // 2, nbtlib.Compound({"id": nbtlib.String("minecraft:banner")}))
+    root = nbtlib.Compound({"blocks": nbtlib.List[nbtlib.Compound](blocks)})
+    found = read_nbt(encode(root, order), "f", order)
+    wanted = [
+        {key: value[0] if key == "one" else value for key, value in block.items()}
+        for block in plain(root)["blocks"]
+    ]
+    is_short = count // 2 < 64 and count - count // 2 < 64
+    assert any(isinstance(part, Rows) for part in found["blocks"]) != is_short
+    got = [
+        {
+            key: value[0] if key == "one" and isinstance(value, list) else value
+            for key, value in block.items()
+        }
+        for block in plain(found["blocks"])
+    ]
+    assert got == wanted
+
+
+def test_a_structure_of_a_million_blocks_is_read_soon_and_small():
+    """Incendium's largest has 816,000 blocks, in 30 MB."""
+    head = (
+        b"\x09\0\7palette\x0a\0\0\0\2\x08\0\4Name\0\x05stone\0"
+        b"\x08\0\4Name\0\x0ared_banner\0\x09\0\6blocks\x0a" + struct.pack(">i", BIG)
+    )
+    states = np.zeros(BIG, ">i4")
+    states[777_777] = 1
+    row = b"\3\0\5state" + bytes(4) + b"\x09\0\3pos\3\0\0\0\3" + bytes(12) + b"\0"
+    body = np.tile(np.frombuffer(row, np.uint8), (BIG, 1))
+    body[:, 8:12] = states.view(np.uint8).reshape(BIG, 4)
+    body[777_777, 23:35] = np.frombuffer(struct.pack(">iii", 4, 5, 6), np.uint8)
+    data = HEAD + head + body.tobytes() + b"\0"
+    start = time.process_time()
+    tracemalloc.start()
+    found = list(find_in_bytes(data, "f"))
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert [one.where for one in found] == ["f block 4,5,6"]
+    assert time.process_time() - start < 2 and peak < 60 * 2**20
 
 
 SOUND = encode(

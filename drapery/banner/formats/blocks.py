@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.nbt import Numbers
+from drapery.banner.formats.rows import Rows
 from drapery.banner.formats.tree import DataTree, banner_from_block_entity, base_of, is_banner_id
 from drapery.banner.names import shown
 from drapery.errors import DesignError
@@ -27,11 +28,15 @@ def raise_error(error: DesignError) -> None:
 def compounds(tree: dict[str, DataTree], where: str, *keys: str) -> list[dict[str, DataTree]]:
     """The list of compounds under the first of the keys that exists; empty if none exists.
 
+    Rows, which are compounds of nothing but numbers, are left out: no part of a file is one.
+
     Raises DesignError for a value of another kind.
     """
     for key in keys:
         if key in tree:
             items = tree[key]
+            if isinstance(items, list):
+                items = [item for item in items if not isinstance(item, Rows)]
             if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
                 raise DesignError(f"{where}: {key} is not a list of compounds; save the file again")
             return items

@@ -6,6 +6,7 @@ from functools import reduce
 from typing import TypeAlias
 
 from drapery.banner.design import Banner
+from drapery.banner.formats.rows import Rows
 from drapery.banner.formats.tree import (
     DataTree,
     banner_from_block_entity,
@@ -22,7 +23,7 @@ from drapery.errors import DesignError
 BlockOf = Callable[[dict[str, DataTree]], str | None]
 """The id of the block that a block entity belongs to, or None if it is unknown."""
 
-_Path: TypeAlias = tuple["_Path | None", str | int]
+Path: TypeAlias = tuple["Path | None", str | int]
 """A place in a tree: its parent's path and its key. Only the path of a banner becomes a text,
 since a hostile file can have many long paths."""
 
@@ -59,17 +60,17 @@ def find_banners(
     on_error: called with the error of one broken banner, after which the search continues;
         without it, the error is raised.
     """
-    open_nodes: list[Iterator[tuple[_Path, DataTree]]] = [iter([((None, where), tree)])]
+    open_nodes: list[Iterator[tuple[Path, DataTree]]] = [iter([((None, where), tree)])]
     while open_nodes:
         path, node = next(open_nodes[-1], (None, None))
         if path is None:
             open_nodes.pop()
             continue
-        read = _reader(node, block_of)
+        read = reader_of(node, block_of)
         if read is None:
-            open_nodes.append(_children(path, node))
+            open_nodes.append(children_of(path, node))
             continue
-        at = _spelt(path)
+        at = path_text(path)
         try:
             yield FoundBanner(read(node, at), at)
         except DesignError as error:
@@ -78,23 +79,26 @@ def find_banners(
             on_error(error)
 
 
-def _children(path: _Path, node: DataTree) -> Iterator[tuple[_Path, DataTree]]:
-    pairs = (
-        node.items()
-        if isinstance(node, dict)
-        else enumerate(node)
-        if isinstance(node, list)
-        else ()
-    )
+def children_of(path: Path, node: DataTree) -> Iterator[tuple[Path, DataTree]]:
+    """The compounds and lists in a compound or list, each with its path."""
+    pairs = node.items() if isinstance(node, dict) else _numbered(node)
     return (
         ((path, key), child) for key, child in pairs if isinstance(child, (dict, list)) and child
     )
 
 
-def _spelt(path: _Path) -> str:
+def _numbered(node: DataTree) -> Iterator[tuple[int, DataTree]]:
+    """The entries of a list with their numbers. Rows, which hold only numbers, count as many."""
+    number = 0
+    for child in node if isinstance(node, list) else ():
+        yield number, child
+        number += len(child) if isinstance(child, Rows) else 1
+
+
+def path_text(path: Path) -> str:
     """A path as a text. A very long one keeps its first and last steps."""
     keys: list[str | int] = []
-    step: _Path | None = path
+    step: Path | None = path
     while step is not None:
         step, key = step
         keys.append(key)
@@ -107,7 +111,7 @@ def _spelt(path: _Path) -> str:
     )
 
 
-def _reader(node: DataTree, block_of: BlockOf | None) -> Callable[[DataTree, str], Banner] | None:
+def reader_of(node: DataTree, block_of: BlockOf | None) -> Callable[[DataTree, str], Banner] | None:
     """The function that reads this node as a banner, or None if it is not a banner."""
     if not isinstance(node, dict):
         return None
@@ -135,8 +139,17 @@ def _is_item(node: dict[str, DataTree]) -> bool:
     if is_shield_id(identifier):
         return _is_patterned_shield(node)
     if not isinstance(identifier, str) or not is_banner_id(identifier):
-        return False
+        return _has_layers(node)
     return base_of(identifier) is not None or bool(_ITEM_KEYS.intersection(node))
+
+
+def _has_layers(node: dict[str, DataTree]) -> bool:
+    """Whether an item of an unknown id has a banner's layers; the reader then names that id."""
+    components, tag = node.get("components"), node.get("tag")
+    if isinstance(components, dict) and isinstance(get(components, "banner_patterns")[1], list):
+        return bool(get(components, "banner_patterns")[1])
+    entity = get(tag, "BlockEntityTag")[1] if isinstance(tag, dict) else None
+    return isinstance(entity, dict) and bool(get(entity, "Patterns", "patterns")[1])
 
 
 def _is_patterned_shield(node: dict[str, DataTree]) -> bool:

@@ -2,7 +2,8 @@
 
 A file's tree comes as plain Python: compounds are `dict`, lists `list`, numbers `int` and
 `float`, strings `str`. Byte arrays are `bytes`; int and long arrays and lists of numbers are
-`Numbers`, which are decoded when they are used, or `list` if they are short. nbtlib
+`Numbers`, which are decoded when they are used, or `list` if they are short. Compounds of nothing
+but numbers, as the blocks of a structure, are `Rows` where many follow each other in a list. nbtlib
 only writes: it reads zeros past the end of a file and recurses without a limit.
 """
 
@@ -15,14 +16,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner.formats.compression import inflate
+from drapery.banner.formats.rows import Rows
 from drapery.banner.formats.tree import DataTree
 from drapery.errors import DesignError
 
 MAX_DEPTH = 512
 """Most compounds and lists inside each other; the game has the same limit."""
 
-MAX_TAGS = 500_000
-"""Most tags in one file. An array is one tag, and schematics have their blocks in arrays."""
+MAX_MEMORY = 64 * 2**20
+"""Most memory of one file's tree, beside its bytes, by a cautious estimate [bytes]. Arrays and the
+blocks of structures and schematics stay bytes, so that only entities, items and names count."""
 
 MAX_NAMES = 4096
 """Most names that compounds share in memory; usual files have some hundreds."""
@@ -35,10 +38,13 @@ Reader: TypeAlias = Callable[[bytes, int], tuple[Any, int]]
 """Reads a payload at a place: its value, and the place after it."""
 Length: TypeAlias = Callable[[bytes, int], tuple[Any, ...]]
 
-_COST = [1] * 11 + [2, 2]
-"""Tags that a tag of each kind counts for: Numbers are as heavy as two."""
+_COST = (0, *(80,) * 6, 80, 80, 136, 176, 176, 176)
+"""Estimated memory of a tag of each kind with its entry, without a string's letters [bytes]."""
 
-_END, _COMPOUND, _LAST = 0, 10, 12
+_LEAST_ROWS = 64
+"""Fewer equal compounds in a row are read one by one."""
+
+_END, _STRING, _LIST, _COMPOUND, _LAST = 0, 8, 9, 10, 12
 _NUMBERS = {1: "i1", 2: "i2", 3: "i4", 4: "i8", 5: "f4", 6: "f8"}
 _STRUCT_LETTERS = {1: "b", 2: "h", 3: "i", 4: "q", 5: "f", 6: "d"}
 
@@ -74,12 +80,19 @@ class _BytesError(Exception):
     """A fault in the bytes; the caller adds the name of the file."""
 
 
-class _List(NamedTuple):
-    """A list of compounds or lists that are not all read yet."""
+@dataclass(slots=True)
+class _List:
+    """A list of compounds or lists that are not all read yet.
+
+    left: how many are not. single: how many of them are read one by one before the next search for
+    Rows. pause: how many that are at least; it grows where no Rows are found.
+    """
 
     items: list[DataTree]
     kind: int
-    length: int
+    left: int
+    single: int = 0
+    pause: int = 1
 
 
 Container: TypeAlias = dict[str, DataTree] | _List
@@ -87,18 +100,21 @@ Container: TypeAlias = dict[str, DataTree] | _List
 
 @dataclass
 class _Cursor:
-    """The state of reading: the place in the bytes, the tags still allowed, the names so far."""
+    """The state of reading: the place in the bytes, the memory still allowed, the names so far."""
 
     data: bytes
     at: int
     codec: Codec
-    tags_left: int = MAX_TAGS
+    memory_left: int = MAX_MEMORY
     names: dict[bytes, str] = field(default_factory=dict)
 
-    def spend(self, tags: int) -> None:
-        self.tags_left -= tags
-        if self.tags_left < 0:
-            raise _BytesError(f"over {MAX_TAGS} tags by byte {self.at}; save a smaller piece of it")
+    def spend(self, memory: int) -> None:
+        self.memory_left -= memory
+        if self.memory_left < 0:
+            raise _BytesError(
+                f"its tags take over {MAX_MEMORY >> 20} MiB of memory by byte {self.at};"
+                " save a smaller piece of it"
+            )
 
 
 def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, DataTree]:
@@ -108,7 +124,7 @@ def read_nbt(data: bytes, where: str, order: Order | None = None) -> dict[str, D
     header of eight bytes is skipped.
 
     Raises DesignError, naming the file and the byte, for files that are not NBT, end too early,
-    or exceed MAX_BYTES, MAX_DEPTH or MAX_TAGS.
+    or exceed MAX_BYTES, MAX_DEPTH or MAX_MEMORY.
     """
     data = inflate(data, where)
     start = 8 if _has_bedrock_header(data) else 0
@@ -186,7 +202,7 @@ def _fill_compound(cursor: _Cursor, node: dict[str, DataTree]) -> Container | No
     while kind := data[cursor.at]:
         start = cursor.at + 3
         stop = start + length_of(data, cursor.at + 1)[0]
-        name = names.get(data[start:stop]) or _new_name(names, data[start:stop])
+        name = names.get(data[start:stop]) or _new_name(cursor, data[start:stop])
         if kind > _LAST:
             raise _BytesError(
                 f"{kind} at byte {cursor.at} is not a kind of tag; save the file again"
@@ -194,7 +210,10 @@ def _fill_compound(cursor: _Cursor, node: dict[str, DataTree]) -> Container | No
         cursor.spend(_COST[kind])
         reader = readers[kind]
         if reader:
-            node[name], cursor.at = reader(data, stop)
+            value, cursor.at = reader(data, stop)
+            node[name] = value
+            if kind == _STRING:
+                cursor.spend(value.__sizeof__())
             continue
         cursor.at = stop
         node[name], child = _open(cursor, kind)
@@ -205,13 +224,81 @@ def _fill_compound(cursor: _Cursor, node: dict[str, DataTree]) -> Container | No
 
 
 def _fill_list(cursor: _Cursor, unfinished: _List) -> Container | None:
-    items, kind, length = unfinished
-    while len(items) < length:
+    items, kind = unfinished.items, unfinished.kind
+    while unfinished.left:
+        if kind == _COMPOUND and unfinished.single < 1 and unfinished.left >= _LEAST_ROWS:
+            rows = _rows(cursor, unfinished.left)
+            if rows:
+                items.append(rows)
+                unfinished.left -= len(rows)
+                unfinished.pause = 1
+                continue
+            unfinished.single, unfinished.pause = unfinished.pause, min(2 * unfinished.pause, 256)
+        if kind == _COMPOUND:
+            cursor.spend(_COST[kind])
+        unfinished.left -= 1
+        unfinished.single -= 1
         value, child = _open(cursor, kind)
         items.append(value)
         if child is not None:
             return child
     return None
+
+
+def _rows(cursor: _Cursor, most: int) -> Rows | None:
+    """The Rows that begin here, or None if there are fewer than _LEAST_ROWS."""
+    layout = _layout(cursor)
+    if layout is None:
+        return None
+    size, fields, varying = layout
+    data, start = cursor.data, cursor.at
+    fixed = np.ones(size, bool)
+    for first, stop in varying:
+        fixed[first:stop] = False
+    template = np.frombuffer(data, np.uint8, size, start)[fixed]
+    count, piece = 1, _LEAST_ROWS
+    most = min(most, (len(data) - start) // size)
+    while count < most:
+        piece = min(piece, most - count)
+        here = np.frombuffer(data, np.uint8, piece * size, start + count * size)
+        equal = (here.reshape(piece, size)[:, fixed] == template).all(axis=1)
+        run = piece if equal.all() else int(equal.argmin())
+        count += run
+        if run < piece:
+            break
+        piece = min(8 * piece, _MOST_ROWS)
+    if count < _LEAST_ROWS:
+        return None
+    cursor.at += count * size
+    cursor.spend(_COST[_COMPOUND] * (2 + len(fields)))
+    names = {_new_name(cursor, name): field for name, field in fields.items()}
+    return Rows(data, start, count, size, names)
+
+
+_MOST_ROWS = 2**16
+"""Most rows that are compared at once, which bounds the memory."""
+
+_Layout: TypeAlias = tuple[int, dict[bytes, tuple[int, str, int]], list[tuple[int, int]]]
+
+
+def _layout(cursor: _Cursor) -> _Layout | None:
+    """The size, the fields and the places of the numbers of a compound, if it has only numbers."""
+    data, codec, at = cursor.data, cursor.codec, cursor.at
+    fields: dict[bytes, tuple[int, str, int]] = {}
+    varying: list[tuple[int, int]] = []
+    while kind := data[at]:
+        stop = at + 3 + codec.short(data, at + 1)[0]
+        name, length = data[at + 3 : stop], 1
+        if kind == _LIST:
+            kind, length, stop = data[stop], codec.int_(data, stop + 1)[0], stop + 5
+        if kind not in _NUMBERS or not 0 <= length <= SHORT_LIST:
+            return None
+        dtype = codec.dtypes[kind]
+        at = stop + length * int(dtype[-1])
+        fields[name] = (stop - cursor.at, dtype, length)
+        varying.append((stop - cursor.at, at - cursor.at))
+    size = at + 1 - cursor.at
+    return (size, fields, varying) if cursor.at + size <= len(data) else None
 
 
 def _open(cursor: _Cursor, kind: int) -> tuple[DataTree, Container | None]:
@@ -240,7 +327,8 @@ def _list_head(cursor: _Cursor) -> tuple[int, int]:
         raise _BytesError(
             f"a list of {length} at byte {at} is longer than the rest; save or download it again"
         )
-    cursor.spend(1 if kind in _NUMBERS else length * _COST[kind])
+    if kind != _COMPOUND and kind not in _NUMBERS:
+        cursor.spend(length * _COST[kind])
     return kind, length
 
 
@@ -255,14 +343,17 @@ def _values(cursor: _Cursor, reader: Reader, length: int) -> list[DataTree]:
     items = []
     for _ in range(length):
         value, cursor.at = reader(cursor.data, cursor.at)
+        cursor.spend(value.__sizeof__())
         items.append(value)
     return items
 
 
-def _new_name(names: dict[bytes, str], raw: bytes) -> str:
+def _new_name(cursor: _Cursor, raw: bytes) -> str:
     name = _text(raw)
-    if len(names) < MAX_NAMES:
-        names[raw] = name
+    # Compounds of many names grow in steps, so that an entry may take twice its place.
+    cursor.spend(64 + name.__sizeof__())
+    if len(cursor.names) < MAX_NAMES:
+        cursor.names[raw] = name
     return name
 
 

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from drapery.banner.design import Banner
 from drapery.banner.formats.blocks import (
     OnError,
@@ -16,6 +18,7 @@ from drapery.banner.formats.blocks import (
     state_name,
 )
 from drapery.banner.formats.found import FoundBanner
+from drapery.banner.formats.rows import Rows
 from drapery.banner.formats.tree import DataTree, is_banner_id
 from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode, placeable
 
@@ -37,7 +40,11 @@ def find(
     """
     names = _palette(tree, where)
     bare_blocks: dict[Spot, str] = {}
-    for block in compounds(tree, where, "blocks"):
+    compounds(tree, where, "blocks")
+    for block in tree["blocks"]:
+        if isinstance(block, Rows):
+            bare_blocks |= _banners_of_rows(block, names, where)
+            continue
         state, entity = block.get("state"), block.get("nbt")
         name = names.get(state) if isinstance(state, int) else None
         if isinstance(entity, dict):
@@ -47,6 +54,16 @@ def find(
             bare_blocks[spot(block.get("pos"), where)] = name
     yield from plain_banners(bare_blocks, where)
     yield from banners_of_entities(compounds(tree, where, "entities"), where, on_error)
+
+
+def _banners_of_rows(rows: Rows, names: dict[int, str], where: str) -> dict[Spot, str]:
+    """The banners of blocks that have nothing but a state and a position."""
+    banners = [state for state, name in names.items() if is_banner_id(name)]
+    states, places = rows.column("state"), rows.column("pos")
+    if states.dtype.kind != "i" or not len(places):
+        return {}
+    hits = np.flatnonzero(np.isin(states[:, 0], banners))
+    return {spot(places[hit].tolist(), where): names[int(states[hit, 0])] for hit in hits}
 
 
 def _palette(tree: dict[str, DataTree], where: str) -> dict[int, str]:
