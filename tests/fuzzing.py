@@ -396,8 +396,31 @@ def text_samples() -> dict[str, list[str]]:
     return samples | {ANY_TEXT: [text for texts in samples.values() for text in texts]}
 
 
+_MORE_TEXTS = {
+    "function": [
+        "# comment\n$give @s red_banner[lore=[$(a)],banner_patterns=[{pattern:cross,color:red}]]\n"
+        'say it\'s a banner\ngive @s red_banner[\\\n  banner_patterns=[{pattern:"cross",\\\n'
+        'color:"red"}]]\nexecute @p ~ ~ ~ detect ~ ~ ~ stone 0 give @p shield 1 0 '
+        "{BlockEntityTag:{Base:15,Patterns:[{Pattern:cre,Color:10}]}}\nclear @s red_banner\n"
+        "data modify storage a:b c set value [{id:red_banner},[{id:'banner',Count:1}],5]\n"
+        "execute as @a[nbt=!{a:1}] run fill 1 2 3 4 5 6 red_banner replace blue_banner\n",
+    ],
+    "loot-table": [
+        '{"functions": [{"function": "set_components", "components": {"banner_patterns": '
+        '[{"pattern": "cross", "color": "red"}], "base_color": "red"}}], "pools": [{"entries": ['
+        '{"type": "item", "name": "shield"}, {"name": "banner", "functions": [{"function": '
+        '"set_banner_details", "type": 1}, {"function": "set_data", "data": 3}, {"function": '
+        '"sequence", "functions": [{"function": "reference", "name": "a:b"}]}]}]}]}',
+        '{"criteria": {"a": {"items": ["red_banner"], "nbt": "{BlockEntityTag:{Patterns:['
+        '{Pattern:cre,Color:5}]}}"}}, "icon": {"item": "red_banner", "nbt": "{}"}, "result": '
+        '"blue_banner", "rules": [{"output_state": {"Name": "red_banner"}, "output_nbt": "{}"}]}',
+    ],
+}
+"""Sound texts of forms that one written banner does not exhaust."""
+
+
 def _texts(form: str) -> list[str]:
-    texts = [FORMS[form].example]
+    texts = [FORMS[form].example, *_MORE_TEXTS.get(form, ())]
     for design in ("red", "white creeper:lime border:black", "shield blue acme:x:red flow:lime"):
         with suppress(DraperyError):
             texts.append(write_banner(parse_banner(design), form))

@@ -1,41 +1,78 @@
 """Commands of every Java version, and the item and block arguments that they hold.
 
-Only the parts of a command that define the banner are read: the word that names a banner or
-shield, the brackets and braces after it, and, up to 1.12, the numbers between them.
+A command is split into words as the game splits it, and only the words that define a banner are
+read: the item that it gives, the block that it places, the tags of what it summons or changes.
+What a command only tests or removes (`clear`, `execute if`, `fill … replace red_banner`) is not a
+banner, unless the command makes none and the tested one has layers.
 """
 
+import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYES
 from drapery.banner.formats.found import FoundBanner, find_banners
-from drapery.banner.formats.snbt import Brackets, Part, parse_command
+from drapery.banner.formats.leftovers import (
+    PARAMETER,
+    STATES,
+    check_literal,
+    looks_like_design,
+)
+from drapery.banner.formats.snbt import Brackets, Part, parse_command, parse_snbt
 from drapery.banner.formats.tree import (
     OLD_BANNERS,
     DataTree,
+    banner_from_block_entity,
     banner_from_components,
     banner_from_tag,
     bare,
     is_banner_id,
     is_shield_id,
+    under,
 )
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
-COMMANDS = frozenset(
-    {
-        *("give", "item", "replaceitem", "loot", "clear"),
-        *("setblock", "fill", "summon", "data", "entitydata", "execute"),
-    }
-)
+_ARGUMENTS = frozenset({"give", "item", "replaceitem", "setblock", "fill"})
+"""The commands whose argument is an item or a block that they make."""
+
+_TREES = frozenset({"summon", "data", "entitydata", "blockdata", "loot"})
+"""The commands whose compounds describe what they make."""
+
+_TESTS = frozenset({"clear", "clone", "testfor", "testforblock"})
+"""The commands that only look for banners, or remove them."""
+
+COMMANDS = _ARGUMENTS | _TREES | _TESTS | {"execute", "return"}
 """The commands that may hold a banner."""
+
+
+@dataclass(frozen=True)
+class Word:
+    """A word of a command. Spaces within brackets and quotes do not end it.
+
+    start: its place in the text.
+    """
+
+    text: str
+    start: int
+
+    @property
+    def name(self) -> str:
+        """The word up to its brackets, such as an item's id."""
+        return re.split(r"[\[{]", self.text, maxsplit=1)[0]
 
 
 def command_of(text: str) -> str | None:
     """The command that a text begins with, without slash and namespace, or None."""
-    word = text.lstrip()[:40].split(maxsplit=1)[:1]
-    name = word[0].removeprefix("/").removeprefix("minecraft:").lower() if word else ""
+    name = first_word(text)
     return name if name in COMMANDS else None
+
+
+def first_word(text: str) -> str:
+    """The first word of a text, as commands are named: without slash and namespace."""
+    word = text.lstrip()[:40].split(maxsplit=1)[:1]
+    return word[0].removeprefix("/").removeprefix("minecraft:").lower() if word else ""
 
 
 def read_command(text: str, *, line: int = 1) -> list[FoundBanner]:
@@ -48,42 +85,284 @@ def read_command(text: str, *, line: int = 1) -> list[FoundBanner]:
 
     Raises DesignError with the place, also if there is no banner.
     """
-    parts = _last_run(parse_command(text, line=line))
-    found = list(_found(parts))
+    found = banners_of_command(text, line=line)
     if not found:
-        raise DesignError(f"no banner in the command{_nearest(parts)}")
+        raise DesignError(_nothing(text))
     return found
 
 
-def _last_run(parts: list[Part]) -> list[Part]:
-    """The command after `execute … run`; the filters before may name other banners."""
-    runs = [place for place, part in enumerate(parts) if part == "run"]
-    return parts[runs[-1] + 1 :] or parts if runs else parts
+def banners_of_command(text: str, *, line: int = 1) -> list[FoundBanner]:
+    """As `read_command`, but the list is empty for a command that has nothing to do with designs.
+
+    Raises DesignError for a design that cannot be read.
+    """
+    words = _words(text)
+    made = list(_made(text, _innermost(words), line))
+    if made:
+        return made
+    tested = list(_tested(text, words, line))
+    if not tested and looks_like_design(text):
+        raise DesignError(_nothing(text))
+    return tested
 
 
-def _found(parts: list[Part]) -> Iterator[FoundBanner]:
-    """The item or block argument of a banner; otherwise the banners in compounds and components."""
-    for place, part in enumerate(parts):
-        if isinstance(part, str) and (is_banner_id(part) or is_shield_id(part)):
-            yield FoundBanner(_argument(str(part), parts[place + 1 :]), bare(part))
-            return
-    for place, part in enumerate(parts):
-        if isinstance(part, dict) and not _is_selector(parts, place):
-            yield from find_banners(dict(part))
+def banners_of_message(text: str, *, line: int = 1) -> list[FoundBanner]:
+    """The banners with layers in a message, as `tellraw` shows them: items, and commands to click.
+
+    Raises DesignError for a message that cannot be read.
+    """
+    words = [word for word in _words(text) if word.text[0] in "{[" and _may_hold(word)]
+    trees = [_tree(text, word, line) for word in words]
+    found = [one for tree in trees for one in _in_tree(tree, "tellraw", False)]
+    return [one for one in found if one.banner.layers]
 
 
-def _is_selector(parts: list[Part], place: int) -> bool:
-    before = parts[place - 1] if place else ""
-    return isinstance(parts[place], Brackets) and str(before).startswith("@")
+_MOST_TREES = 100
+"""Most words of a command with a banner in brackets. Each takes time with the text's length."""
+
+
+def _words(text: str) -> list[Word]:
+    """The words of a command. Raises DesignError for too many with a banner in brackets."""
+    words = split_words(text)
+    if sum(map(_may_hold, words)) > _MOST_TREES:
+        raise DesignError(
+            f"the command has over {_MOST_TREES} words with banners in brackets; split it"
+        )
+    return words
+
+
+_TOKEN = re.compile(r"""\s+|[\[{]|[\]}]|["']|[^\s\[\]{}"']+""")
+_STRINGS = {
+    '"': re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"', re.DOTALL),
+    "'": re.compile(r"'[^'\\]*(?:\\.[^'\\]*)*'", re.DOTALL),
+}
+
+
+def split_words(text: str) -> list[Word]:
+    """The words of a command. Where a bracket or quote is not closed, the rest is one word."""
+    words: list[Word] = []
+    at, start, depth = 0, -1, 0
+    while at < len(text):
+        token = _TOKEN.match(text, at)
+        assert token is not None
+        piece, end = token[0], token.end()
+        if depth == 0 and piece.isspace():
+            if start >= 0:
+                words.append(Word(text[start:at], start))
+            start = -1
+        else:
+            if piece in _STRINGS and (depth or start < 0):
+                string = _STRINGS[piece].match(text, at)
+                end = string.end() if string else len(text)
+            start = at if start < 0 else start
+            depth = max(0, depth + (piece in ("[", "{")) - (piece in ("]", "}")))
+        at = end
+    if start >= 0:
+        words.append(Word(text[start:], start))
+    return words
+
+
+def _innermost(words: list[Word]) -> list[Word]:
+    """The command that is run in the end, by `execute … run`, `return run` or the old `execute`.
+
+    The words are empty if nothing is run.
+    """
+    at = 0
+    while at < len(words) and first_word(words[at].text) in ("execute", "return"):
+        target = words[at + 1].text if at + 1 < len(words) else ""
+        if target.startswith("@"):
+            # Up to 1.12: execute @p ~ ~ ~ [detect ~ ~ ~ stone 0] give …
+            detects = words[at + 5 : at + 6]
+            at += 11 if detects and detects[0].text == "detect" else 5
+            continue
+        while at < len(words) and words[at].text != "run":
+            at += 1
+        at += 1
+    return words[at:]
+
+
+def _made(text: str, words: list[Word], line: int) -> Iterator[FoundBanner]:
+    """What a command makes: its item or block argument, otherwise the banners in its compounds."""
+    if not words:
+        return
+    name = first_word(words[0].text)
+    if name in _TESTS or (name not in COMMANDS and not _is_argument(words)):
+        return
+    rest = _defining(words, name)
+    if name not in _TREES:
+        for word in rest:
+            if _is_item(word):
+                parts = _parsed(text, word.start, rest[-1], line)
+                yield FoundBanner(_argument(word.name, parts[1:]), bare(word.name))
+                return
+            if PARAMETER.search(word.name) and word.name.endswith("_banner"):
+                check_literal(word.name, "item", "base dye")
+    for place, word in enumerate(rest):
+        is_tree = name in COMMANDS and word.text[0] in "{["
+        if name not in COMMANDS or (_may_hold(word) and (is_tree or name not in _TREES)):
+            old = _is_old(name, rest, place)
+            parts = [_tree(text, word, line)] if is_tree else _parsed(text, word.start, word, line)
+            for part in parts:
+                if not isinstance(part, str):
+                    yield from _in_tree(part, name, old)
+
+
+def _is_argument(words: list[Word]) -> bool:
+    """Whether these words are an item or block argument without a command."""
+    return _is_item(words[0]) or words[0].text[0] in "[{" or _may_hold(words[0])
+
+
+def _defining(words: list[Word], name: str) -> list[Word]:
+    """The words of a command that say what it makes."""
+    if name not in COMMANDS:
+        return words
+    texts = [word.text for word in words]
+    if name == "item" and "with" in texts:
+        return words[texts.index("with") + 1 :]
+    if name == "fill" and "replace" in texts:
+        cut = texts.index("replace")
+        if not texts[cut + 1 : cut + 2] or texts[cut + 1][0] != "{":
+            return words[1:cut]
+    if name == "data" and "value" in texts:
+        return words[texts.index("value") + 1 :]
+    return words[1:]
+
+
+def _tested(text: str, words: list[Word], line: int) -> Iterator[FoundBanner]:
+    """The banners with layers that a command tests or removes."""
+    for word in words:
+        if not _may_hold(word) or not looks_like_design(word.text):
+            continue
+        is_tree = word.text[0] in "{[" and word is not words[0]
+        parts = [_tree(text, word, line)] if is_tree else _parsed(text, word.start, word, line)
+        if _is_item(word):
+            found = [FoundBanner(_argument(word.name, parts[1:]), bare(word.name))]
+        else:
+            trees = [part for part in parts if not isinstance(part, str)]
+            found = [one for tree in trees for one in _in_tree(tree, "", False)]
+        yield from (one for one in found if one.banner.layers)
+
+
+def _parsed(text: str, start: int, last: Word, line: int) -> list[Part]:
+    """The parts from a place to the end of a word. Columns of errors are those of the text."""
+    return parse_command(_cut(text, start, last), line=line)
+
+
+def _tree(text: str, word: Word, line: int) -> DataTree:
+    """The compound or list that a word is."""
+    return parse_snbt(_cut(text, word.start, word), line=line)
+
+
+def _cut(text: str, start: int, last: Word) -> str:
+    """The text from a place to the end of a word, with blanks before it."""
+    rows, columns = text.count("\n", 0, start), start - text.rfind("\n", 0, start) - 1
+    return "\n" * rows + " " * columns + text[start : last.start + len(last.text)]
+
+
+def _is_item(word: Word) -> bool:
+    return is_banner_id(word.name) or is_shield_id(word.name)
+
+
+def _may_hold(word: Word) -> bool:
+    """Whether a word has brackets or braces in which a banner is named."""
+    low = word.text.lower()
+    return ("[" in low or "{" in low) and (
+        "banner" in low or "shield" in low or looks_like_design(low)
+    )
+
+
+def _in_tree(tree: DataTree, command: str, old: bool) -> Iterator[FoundBanner]:
+    """The banners of a compound, of a list, or of components."""
+    if isinstance(tree, Brackets):
+        tree = dict(tree)
+    if old or _has_old_items(tree):
+        _give_damage(tree)
+    is_block = command in ("data", "blockdata", "") and isinstance(tree, dict) and "id" not in tree
+    if is_block and "Base" in tree and tree.get("Patterns"):
+        yield FoundBanner(banner_from_block_entity(tree))
+    else:
+        _parse_tags(tree)
+        yield from find_banners(tree)
+        yield from _in_strings(tree)
+
+
+def _parse_tags(tree: DataTree) -> None:
+    """Parse the tags that messages hold as text, as in `{id:"red_banner",tag:"{…}"}`."""
+    for node in _compounds(tree):
+        tag = node.get("tag")
+        if isinstance(tag, str) and (is_banner_id(node.get("id")) or is_shield_id(node.get("id"))):
+            node["tag"] = parse_snbt(tag)
+
+
+def _in_strings(tree: DataTree) -> Iterator[FoundBanner]:
+    """The designs of commands within a tree: of command blocks and of messages to click on."""
+    for node in _compounds(tree):
+        for key, value in node.items():
+            if isinstance(value, str) and command_of(value) and looks_like_design(value):
+                for one in banners_of_command(value):
+                    yield FoundBanner(one.banner, f"{under('', key)} {one.where}")
+
+
+_OLD_ENTITIES_WORDS = """
+commandblock_minecart ender_crystal evocation_fangs evocation_illager eye_of_ender_signal
+fireworks_rocket illusion_illager snowman villager_golem vindication_illager xp_bottle xp_orb
+"""
+_OLD_ENTITIES = frozenset(_OLD_ENTITIES_WORDS.split())
+"""Ids of entities that 1.13 renamed. Up to 1.10 ids had capitals."""
+
+
+def _is_old(command: str, words: list[Word], place: int) -> bool:
+    """Whether a compound is of Java up to 1.12, where the numbers of dyes are inverted."""
+    if command in ("entitydata", "blockdata"):
+        return True
+    if command == "summon":
+        name = words[0].name.removeprefix("minecraft:")
+        return name != name.lower() or name in _OLD_ENTITIES
+    before = words[place - 1].text if place else ""
+    return words[place].text[0] == "{" and (before.isdecimal() or before in _MODES)
+
+
+def _has_old_items(tree: DataTree) -> bool:
+    """Whether a tree has items with a damage value or a key that versions up to 1.12 had."""
+    return any(
+        ("Damage" in node and "id" in node)
+        or "ench" in node
+        or isinstance(node.get("Equipment"), list)
+        for node in _compounds(tree)
+    )
+
+
+def _give_damage(tree: DataTree) -> None:
+    """Add the damage value that old items may leave out, by which the reader knows them."""
+    for node in _compounds(tree):
+        if is_shield_id(node.get("id")) and "tag" in node:
+            node.setdefault("Damage", 0)
+
+
+def _compounds(tree: DataTree) -> Iterator[dict[str, DataTree]]:
+    nodes = [tree]
+    while nodes:
+        node = nodes.pop()
+        if isinstance(node, dict):
+            yield node
+            nodes.extend(node.values())
+        elif isinstance(node, list):
+            nodes.extend(node)
 
 
 def _argument(identifier: str, rest: list[Part]) -> Banner:
     """The banner or shield of an argument, from its id and what follows in the command."""
     _check_rest(rest)
-    brackets = rest[0] if rest and isinstance(rest[0], Brackets) else None
+    brackets = next((part for part in rest if isinstance(part, Brackets)), None)
     tag = next((p for p in rest if isinstance(p, dict) and not isinstance(p, Brackets)), None)
-    if bare(identifier) in OLD_BANNERS:
-        return banner_from_tag(identifier, tag, data=_old_data(rest))
+    if tag is not None and brackets and not STATES.issuperset(brackets):
+        raise DesignError(
+            f"{bare(identifier)}: it has both [components] and a {{tag}}; write the layers in one"
+        )
+    is_old = bool(rest) and isinstance(rest[0], str)
+    if bare(identifier) in OLD_BANNERS or (is_shield_id(identifier) and is_old and tag is not None):
+        data = _old_data(rest)
+        return banner_from_tag(identifier, tag, data=0 if data is None and is_old else data)
     if tag is not None:
         return banner_from_tag(identifier, tag)
     components: DataTree = None if brackets is None else dict(brackets)
@@ -100,6 +379,7 @@ def _check_rest(rest: list[Part]) -> None:
             continue
         if part in _MODES:
             return
+        check_literal(part, "item", "count")
         raise DesignError(
             f"{_position(part)}unexpected {shown(part)} after the item: write layers in its"
             ' brackets, as in [banner_patterns=[{pattern:"creeper",color:"lime"}]]'
@@ -112,16 +392,38 @@ def _old_data(rest: list[Part]) -> int | None:
     return int(words[1]) if len(words) == 2 and words[1].isdecimal() and len(words[1]) < 4 else None
 
 
-def _nearest(parts: list[Part]) -> str:
+def _nothing(text: str) -> str:
+    """The error for a command without a banner that it makes."""
+    words = split_words(text)
+    inner = _innermost(words)
+    name = first_word(inner[0].text) if inner else ""
+    if name in _TESTS:
+        return f"{name} makes no banner; give the command that makes it, such as /give"
+    if near := _nearest(words):
+        return f"no banner in the command: {near}"
+    if looks_like_design(text) and not any(map(_is_item, words)):
+        return (
+            "no banner in the command: it has layers, but not the id that names the base dye; write"
+            " them as in minecraft:white_banner[banner_patterns=[…]]"
+        )
+    if first_word(text) in ("execute", "return", "fill", "item", "data"):
+        return "no banner in the command: it makes none; give the command that makes it"
+    return (
+        "no banner in the command: it needs an item such as"
+        " minecraft:white_banner[banner_patterns=[…]]"
+    )
+
+
+def _nearest(words: list[Word]) -> str:
     import difflib
 
     known = [f"{dye}_banner" for dye in DYES] + ["shield"]
-    for part in parts[:20]:
-        if isinstance(part, str) and len(part) < 60:
-            close = difflib.get_close_matches(bare(part), known, 1, 0.7)
+    for word in words[:20]:
+        if len(word.name) < 60 and not _is_item(word):
+            close = difflib.get_close_matches(bare(word.name), known, 1, 0.7)
             if close:
-                return f": {shown(part)} is not an item of the game; did you mean '{close[0]}'?"
-    return ": it needs an item such as minecraft:white_banner[banner_patterns=[…]]"
+                return f"{shown(word.name)} is not an item of the game; did you mean '{close[0]}'?"
+    return ""
 
 
 def _position(part: Part) -> str:

@@ -6,6 +6,7 @@ A shield has `"kind": "shield"` as well. Layers may have `colour` or `Color` for
 import json
 
 from drapery.banner.design import Banner
+from drapery.banner.formats.leftovers import check_keys
 from drapery.banner.formats.tree import DataTree, names, read_layers
 from drapery.banner.names import dye_name, shown
 from drapery.errors import DesignError
@@ -36,6 +37,8 @@ def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:
     if kind not in ("banner", "shield"):
         raise DesignError(f"kind: {shown(kind)} is neither 'banner' nor 'shield'")
     layers = read_layers(tree.get("layers"), "layers")
+    if not layers:
+        check_keys(tree, at, ("layers",))
     return Banner(dye_name(tree["base"], "base"), layers, kind=kind)
 
 

@@ -19,6 +19,7 @@ from drapery.banner.formats import (
     deluxemenus,
     denizen,
     essentialsx,
+    functions,
     gamergeeks,
     give,
     give_legacy,
@@ -27,6 +28,7 @@ from drapery.banner.formats import (
     item_replace,
     kubejs,
     loom_assistant,
+    loot,
     minecraft_tools,
     mythicmobs,
     needcoolshoes,
@@ -47,9 +49,6 @@ from drapery.banner.formats.snbt import MAX_TEXT
 from drapery.banner.formats.wrapping import unwrap, without_suffix
 from drapery.banner.names import shown
 from drapery.errors import DesignError
-
-MAX_COMMANDS = 20_000
-"""Most commands in one text, one per line."""
 
 _MOST_WARNINGS = 5
 
@@ -93,11 +92,13 @@ _TABLE = (
     _form(skript, skript.read),
     _form(bentobox, bentobox.read),
     _form(essentialsx, essentialsx.read),
+    _form(functions, functions.read),
     _form(give_old, commands.read_command),
     _form(setblock, commands.read_command),
     _form(summon, commands.read_command),
     _form(item_replace, commands.read_command),
     _form(block_entity, block_entity.read),
+    _form(loot, trees.read),
     _form(wynncraft, trees.read_wynncraft),
     _form(loom_assistant, trees.read),
     _form(own_json, trees.read),
@@ -149,10 +150,13 @@ def parse_all(text: str, form: str | None, errors: list[DesignError]) -> list[Fo
     text = text.removeprefix("\ufeff")
     if not text.strip():
         raise DesignError(f"the text is empty: give a banner, such as {shorthand.EXAMPLE!r}")
-    if form is not None:
-        return _named(form).read(text)
-    lines = _command_lines(text)
-    return _all_lines(lines, errors) if len(lines) > 1 else _any_form(unwrap(text), errors)
+    if form == functions.NAME or (form is None and _is_function(text)):
+        return some_of(functions.find(text, errors.append), errors, functions.NOTHING)
+    return _any_form(unwrap(text), errors) if form is None else _named(form).read(text)
+
+
+def _is_function(text: str) -> bool:
+    return functions.recognises(text) and recognise(text).name == functions.NAME
 
 
 def _any_form(text: str, errors: list[DesignError]) -> list[FoundBanner]:
@@ -242,36 +246,6 @@ def binary_forms() -> dict[str, BinaryForm]:
     from drapery.banner.formats.binary import BINARY_FORMS
 
     return BINARY_FORMS
-
-
-def _command_lines(text: str) -> list[tuple[int, str]]:
-    """The lines that are commands, with their numbers; empty for a text of one line."""
-    if "\n" not in text.strip():
-        return []
-    lines = enumerate(text.split("\n"), 1)
-    return [(number, line) for number, line in lines if commands.command_of(line)]
-
-
-def _all_lines(lines: list[tuple[int, str]], errors: list[DesignError]) -> list[FoundBanner]:
-    """The banners of all commands. Broken commands are skipped if others are correct."""
-    if len(lines) > MAX_COMMANDS:
-        raise DesignError(f"the text has {len(lines)} commands, over {MAX_COMMANDS}: split it")
-    found: list[FoundBanner] = []
-    for number, line in lines:
-        if "banner" not in line and "shield" not in line:
-            continue
-        try:
-            read = commands.read_command(line, line=number)
-            found += [FoundBanner(f.banner, f"line {number} {f.where}") for f in read]
-        except DesignError as error:
-            errors.append(DesignError(_with_line(str(error), number)))
-    return some_of(found, errors, "there is no banner in the commands: paste a /give command")
-
-
-def _with_line(message: str, number: int) -> str:
-    if message.startswith("line "):
-        return message
-    return f"line {number}{', ' if message.startswith('column ') else ': '}{message}"
 
 
 def some_of(found: list[FoundBanner], errors: list[DesignError], nothing: str) -> list[FoundBanner]:

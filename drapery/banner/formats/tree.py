@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 
 from drapery.banner.design import MAX_LAYERS, Banner, Layer
 from drapery.banner.dyes import DYES
+from drapery.banner.formats.leftovers import check_components, check_keys, check_literal
 from drapery.banner.names import dye_name, is_custom, pattern_id, shown
 from drapery.errors import DesignError
 
@@ -91,6 +92,7 @@ def read_layers(entries: DataTree, at: str, *, inverted: bool = False) -> tuple[
     """
     if entries is None:
         return ()
+    check_literal(entries, at, "list of layers")
     if not isinstance(entries, list):
         raise DesignError(f"{at}: {shown(entries)} is not a list of layers")
     check_count(len(entries), at)
@@ -106,11 +108,18 @@ def check_count(count: int, at: str) -> None:
 
 
 def _layer(entry: DataTree, at: str, inverted: bool) -> Layer:
+    check_literal(entry, at, "layer")
     if not isinstance(entry, dict):
         raise DesignError(f"{at}: {shown(entry)} is not a layer: write {{pattern:…, color:…}}")
     pattern = _present(entry, at, "pattern", "Pattern")
     colour = _present(entry, at, "color", "Color", "colour")
-    return Layer(_pattern(*pattern), dye_name(colour[0], colour[1], inverted=inverted))
+    check_literal(pattern[0], pattern[1], "pattern")
+    return Layer(_pattern(*pattern), _dye(colour[0], colour[1], inverted=inverted))
+
+
+def _dye(value: DataTree, at: str, *, inverted: bool = False) -> str:
+    check_literal(value, at, "dye")
+    return dye_name(value, at, inverted=inverted)
 
 
 def _present(entry: dict[str, DataTree], at: str, *keys: str) -> tuple[DataTree, str]:
@@ -140,15 +149,20 @@ def banner_from_item(item: DataTree, at: str = "") -> Banner:
         raise DesignError(f"{at or 'item'}: {shown(item)} is not an item: write {{id:…, …}}")
     _, identifier = get(item, "id", "Name")
     if not is_banner_id(identifier) and not is_shield_id(identifier):
+        check_literal(identifier, under(at, "id"), "base dye")
         raise DesignError(
             f"{under(at, 'id')}: {shown(identifier)} is neither a banner nor a shield;"
             " give an id such as 'minecraft:red_banner'"
         )
     key, components = get(item, "components")
     if components is not None:
-        return banner_from_components(identifier, components, under(at, key))
-    damage = item.get("Damage")
-    return banner_from_tag(identifier, item.get("tag"), under(at, "tag"), data=damage)
+        banner = banner_from_components(identifier, components, under(at, key))
+    else:
+        tag, damage = item.get("tag"), item.get("Damage")
+        banner = banner_from_tag(identifier, tag, under(at, "tag"), data=damage)
+    if not banner.layers:
+        check_keys(item, at, ("components", "tag"))
+    return banner
 
 
 def banner_from_components(item_id: str, components: DataTree, at: str = "") -> Banner:
@@ -156,9 +170,11 @@ def banner_from_components(item_id: str, components: DataTree, at: str = "") -> 
     components = _mapping(components, at)
     key, entries = get(components, "banner_patterns")
     layers = read_layers(entries, under(at, key))
+    if not layers:
+        check_components(components, at)
     if is_shield_id(item_id):
         key, base = get(components, "base_color")
-        return _shield(None if base is None else dye_name(base, under(at, key)), layers, at)
+        return _shield(None if base is None else _dye(base, under(at, key)), layers, at)
     return Banner(_known_base(item_id, at), layers)
 
 
@@ -173,6 +189,8 @@ def banner_from_tag(item_id: str, tag: DataTree, at: str = "", *, data: DataTree
         key, entity = "", tag
     inner = under(at, key) if key else at
     entity = _mapping(entity, inner)
+    if not get(entity, "patterns", "Patterns")[1]:
+        check_keys(tag, at, ("BlockEntityTag",))
     if is_shield_id(item_id):
         return _shield_from_tag(entity, inner, inverted=data is not None)
     if base_of(item_id) is None and "Base" not in entity:
@@ -183,8 +201,10 @@ def banner_from_tag(item_id: str, tag: DataTree, at: str = "", *, data: DataTree
 
 def _shield_from_tag(entity: dict[str, DataTree], at: str, *, inverted: bool) -> Banner:
     layers = read_layers(entity.get("Patterns"), under(at, "Patterns"), inverted=inverted)
+    if not layers:
+        check_keys(entity, at)
     base = entity.get("Base")
-    dye = None if base is None else dye_name(base, under(at, "Base"), inverted=inverted)
+    dye = None if base is None else _dye(base, under(at, "Base"), inverted=inverted)
     return _shield(dye, layers, at)
 
 
@@ -208,6 +228,8 @@ def banner_from_block_entity(entity: DataTree, at: str = "", *, block: str | Non
     if dye is None and entity.get("Type") == 1:
         return OMINOUS
     key, entries = get(entity, "patterns", "Patterns")
+    if not entries:
+        check_keys(entity, at)
     if dye is not None:
         return Banner(dye, read_layers(entries, under(at, key)))
     if "Base" not in entity:
@@ -215,12 +237,13 @@ def banner_from_block_entity(entity: DataTree, at: str = "", *, block: str | Non
             f"{at or 'block entity'}: the block's id, which names the base dye, is missing:"
             " write it first, as in minecraft:red_banner{…}"
         )
-    base = dye_name(entity["Base"], under(at, "Base"), inverted=True)
+    base = _dye(entity["Base"], under(at, "Base"), inverted=True)
     return Banner(base, read_layers(entries, under(at, key), inverted=True))
 
 
 def _known_base(item_id: str, at: str) -> str:
     dye = base_of(item_id)
+    check_literal(item_id, at or "item", "base dye")
     if dye is None:
         raise DesignError(
             f"{at or 'item'}: {shown(item_id)} does not name the base dye;"

@@ -1,15 +1,19 @@
 """Texts that are one tree, in JSON or SNBT: parsed once, then recognised by their keys."""
 
 import json
+import re
 from collections.abc import Iterator
 from contextlib import suppress
 
 from drapery.banner.design import Banner
-from drapery.banner.formats import loom_assistant, own_json, wynncraft
+from drapery.banner.formats import loom_assistant, loot, own_json, wynncraft
 from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.snbt import MAX_TEXT, parse_snbt
 from drapery.banner.formats.tree import DataTree, banner_from_block_entity, banner_from_tag, get
 from drapery.errors import DesignError
+
+_COMMENT = re.compile(r'("[^"\\\n]*(?:\\.[^"\\\n]*)*(?:"|\\?(?=\n|\Z)))|//[^\n]*')
+"""A comment, or a string as far as its line goes, so that each text is passed over once."""
 
 DATA_ANSWER = " has the following "
 """The words of `/data get` between the name and the tree."""
@@ -48,12 +52,17 @@ def read_text(text: str) -> DataTree:
     if start == 0 and len(text) <= MAX_TEXT:
         with suppress(ValueError, RecursionError):
             return json.loads(text)
+        if "//" in text:  # as in Bedrock's files
+            with suppress(ValueError, RecursionError):
+                return json.loads(_COMMENT.sub(lambda match: match[1] or "", text))
     # Spaces replace the words before the tree, so that columns are those of the text.
     return parse_snbt(" " * start + text[start:])
 
 
 def _found(tree: DataTree) -> Iterator[FoundBanner]:
-    if loom_assistant.matches(tree):
+    if loot.matches(tree):
+        yield from loot.find(tree)
+    elif loom_assistant.matches(tree):
         yield FoundBanner(loom_assistant.from_tree(tree))
     elif wynncraft.matches(tree):
         yield FoundBanner(wynncraft.from_tree(tree))

@@ -7,6 +7,7 @@ answer. `tier` and `structure` describe the guild's tower and are ignored.
 import json
 
 from drapery.banner.design import Banner, Layer
+from drapery.banner.formats.leftovers import check_keys
 from drapery.banner.formats.tree import DataTree, check_count, under
 from drapery.banner.names import bukkit_pattern, dye_name, pattern_id, shown
 from drapery.errors import DesignError
@@ -57,6 +58,8 @@ def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:
     if not isinstance(layers, list):
         raise DesignError(f"{under(at, 'layers')}: {shown(layers)} is not a list of layers")
     check_count(len(layers), under(at, "layers"))
+    if not layers:
+        check_keys(tree, at, ("layers",))
     read = tuple(_layer(x, under(under(at, "layers"), n)) for n, x in enumerate(layers))
     return Banner(dye_name(tree.get("base"), under(at, "base")), read)
 

@@ -1,0 +1,168 @@
+"""Function files (`.mcfunction`), and any text of several commands: one command on a line.
+
+Comments and commands that hold no items are skipped; a line that ends in a backslash goes on in the
+next one; a macro line begins with `$` and has parameters such as `$(dye)`.
+"""
+
+from collections.abc import Callable, Iterator
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import give
+from drapery.banner.formats.commands import (
+    COMMANDS,
+    banners_of_command,
+    banners_of_message,
+    first_word,
+)
+from drapery.banner.formats.found import FoundBanner
+from drapery.banner.formats.leftovers import PARAMETER, literal_macro, looks_like_design
+from drapery.banner.names import shown
+from drapery.errors import DesignError
+
+NAME = "function"
+TITLE = "function file, or several commands, one on a line"
+EXAMPLE = (
+    '$give @s minecraft:white_banner[banner_patterns=[{pattern:"creeper",color:"lime"}],'
+    'item_name="$(name)"]'
+)
+SOURCE = "https://minecraft.wiki/w/Function_(Java_Edition)"
+
+MAX_COMMANDS = 20_000
+"""Most commands with a banner in one text."""
+
+NOTHING = "there is no banner in the commands: paste a /give command"
+
+_OTHERS_WORDS = """
+advancement attribute ban ban-ip banlist bossbar camera camerashake clearspawnpoint clone damage
+datapack debug defaultgamemode deop dialog dialogue difficulty effect enchant event experience
+fillbiome fog forceload function gamemode gamerule help inputpermission jfr kick kill list
+locate me mobevent msg music op pardon particle perf place playanimation playsound publish
+random recipe reload ride rotate save-all save-off save-on say schedule scoreboard seed
+setidletimeout setworldspawn spawnpoint spectate spreadplayers stop stopsound stopwatch
+structure tag team teammsg teleport tell tellraw tick tickingarea time title titleraw tm
+toggledownfall tp transfer trigger version w waypoint weather whitelist worldborder xp
+"""
+_OTHERS = frozenset(_OTHERS_WORDS.split())
+"""The commands of both editions that hold no banner."""
+
+_SPOKEN = frozenset({"me", "msg", "say", "scoreboard", "team", "teammsg", "tell", "tm", "w"})
+"""The commands whose words may talk of banners."""
+
+_SHOWN = frozenset({"bossbar", "tellraw", "title"})
+"""The commands that show messages, in which an item or a command may hold a design."""
+
+
+def recognises(text: str) -> bool:
+    """Whether the text is a macro line, or several lines of which one may hold a banner."""
+    if text.lstrip().startswith("$"):
+        return first_word(text.lstrip()[1:]) in COMMANDS
+    if "\n" not in text.strip():
+        return False
+    known = holding = 0
+    for _, line in lines_of(text):
+        word = _command(line)
+        holding += word in COMMANDS
+        known += word in COMMANDS or word in _OTHERS or word.startswith("#")
+        if holding and known > 1:
+            return True
+    return holding > 0 and first_word(text) in COMMANDS and "\\\n" in text.replace("\r", "")
+
+
+def read(text: str) -> list[FoundBanner]:
+    """All banners of the commands. Raises DesignError for the first broken line, and for none."""
+    errors: list[DesignError] = []
+    found = find(text, errors.append)
+    if errors or not found:
+        raise errors[0] if errors else DesignError(NOTHING)
+    return found
+
+
+def find(text: str, on_error: Callable[[DesignError], None]) -> list[FoundBanner]:
+    """All banners of the commands, each with its line, which may be none.
+
+    on_error: called with the error of one broken line, after which the search continues.
+
+    Raises DesignError for over MAX_COMMANDS lines with a banner.
+    """
+    lines = [(number, line) for number, line in lines_of(text) if _may_hold(line)]
+    if len(lines) > MAX_COMMANDS:
+        raise DesignError(f"the text has {len(lines)} commands, over {MAX_COMMANDS}: split it")
+    found: list[FoundBanner] = []
+    for number, line in lines:
+        try:
+            read = _read_line(line, number)
+            found += [FoundBanner(one.banner, f"line {number} {one.where}") for one in read]
+        except DesignError as error:
+            on_error(DesignError(_with_line(str(error), number)))
+    return found
+
+
+def write(banner: Banner) -> str:
+    """A command that gives the banner or shield to the player who runs the function (1.20.5+)."""
+    return f"give @s {give.argument(banner)}"
+
+
+def lines_of(text: str) -> Iterator[tuple[int, str]]:
+    """The lines that are not empty, with their numbers. A line that goes on has several."""
+    pending, first = "", 0
+    for number, line in enumerate(text.split("\n"), 1):
+        line = _joined(pending, line) if pending else line
+        first = first if pending else number
+        ended = line.rstrip()
+        if ended.endswith("\\") and not ended.lstrip().startswith("#"):
+            pending = ended[:-1] or " "
+            continue
+        pending = ""
+        if ended:
+            yield first, line
+    if pending.strip():
+        yield first, pending + "\\"
+
+
+def _joined(start: str, line: str) -> str:
+    """A line and the next one. A line break stays between them, except within a word."""
+    if (start[-1:].isalnum() or start[-1:] in "_:") and line.strip()[:1].isalnum():
+        return start + line.lstrip()
+    return f"{start}\n{line}"
+
+
+def _may_hold(line: str) -> bool:
+    """Whether a line is a command with a banner, or another with what looks like a design."""
+    word, low = _command(line), line.lower()
+    if word in COMMANDS and ("banner" in low or "shield" in low):
+        return True
+    return not word.startswith("#") and word not in _SPOKEN and looks_like_design(low)
+
+
+def _command(line: str) -> str:
+    return first_word(line.lstrip().removeprefix("$"))
+
+
+def _read_line(line: str, number: int) -> list[FoundBanner]:
+    """The banners of one line. Raises DesignError for a design that cannot be read."""
+    if line.lstrip().startswith("$"):
+        return _read_macro(literal_macro(line), number)
+    if line.rstrip().endswith("\\"):
+        raise DesignError("the line ends with a backslash, but no line follows; remove it")
+    word = first_word(line)
+    if word in _SHOWN:
+        return banners_of_message(line, line=number)
+    if word not in COMMANDS:
+        raise DesignError(f"the command {shown(word)} holds a design; give a /give command")
+    return banners_of_command(line, line=number)
+
+
+def _read_macro(line: str, number: int) -> list[FoundBanner]:
+    try:
+        return _read_line(line, number)
+    except DesignError as error:
+        message = PARAMETER.sub(r"$(\1)", str(error))
+        if "macro" not in message and PARAMETER.search(line):
+            message += "; the line is a macro: write out its parameters"
+        raise DesignError(message) from None
+
+
+def _with_line(message: str, number: int) -> str:
+    if message.startswith("line "):
+        return message
+    return f"line {number}{', ' if message.startswith('column ') else ': '}{message}"

@@ -1,0 +1,110 @@
+"""What looks like a design but is not read: such an input is refused, and never a plain banner.
+
+A plain banner is a common result of a misspelt key, since the reader skips what it does not know.
+So wherever no layer was read, the keys beside the place of the layers are checked here.
+"""
+
+import re
+from collections.abc import Container, Mapping
+from difflib import get_close_matches
+from typing import Any
+
+from drapery.banner.names import shown
+from drapery.errors import DesignError
+
+_COMPONENTS_WORDS = """
+attribute_modifiers banner_patterns base_color bees block_entity_data block_state blocks_attacks
+break_sound bucket_entity_data bundle_contents can_break can_place_on charged_projectiles
+consumable container container_loot creative_slot_lock custom_data custom_model_data custom_name
+damage damage_resistant damage_type death_protection debug_stick_state dye dyed_color
+enchantable enchantment_glint_override enchantments entity_data equippable fire_resistant
+firework_explosion fireworks food glider hide_additional_tooltip hide_tooltip instrument
+intangible_projectile item_model item_name jukebox_playable kinetic_weapon lock
+lodestone_tracker lore map_color map_decorations map_id map_post_processing max_damage
+max_stack_size minimum_attack_charge note_block_sound ominous_bottle_amplifier piercing_weapon
+pot_decorations potion_contents potion_duration_scale profile provides_banner_patterns
+provides_trim_material rarity recipes repair_cost repairable stored_enchantments
+suspicious_stew_effects swing_animation tool tooltip_display tooltip_style trim unbreakable
+use_cooldown use_effects use_remainder weapon writable_book_content written_book_content
+"""
+COMPONENTS = frozenset(_COMPONENTS_WORDS.split())
+"""The components of the game's items, up to 26.1. https://minecraft.wiki/w/Data_component_format"""
+
+STATES = frozenset({"rotation", "facing", "waterlogged"})
+"""The properties of the game's banners as blocks."""
+
+_LAYERS = re.compile(
+    r"""(?<!provides_banner_)patterns\\*["']?\s*[=:~]+\s*(?:\[\s*(?:\d+:)?[{\[$"']|\$[(⟨])"""
+    r"""|pattern\\*["']?\s*[:=](?:(?!colou?r|pattern)[^{}\[\]]){1,80}colou?r\\*["']?\s*[:=]"""
+    r"""|colou?r\\*["']?\s*[:=](?:(?!colou?r|pattern)[^{}\[\]]){1,80}pattern\\*["']?\s*[:=]""",
+    re.IGNORECASE,
+)
+_KEY = re.compile("pattern|layer|design", re.IGNORECASE)
+
+PARAMETER = re.compile("\\$⟨(\\w{1,80})⟩")
+"""A macro's parameter, `$(dye)`, in the spelling that `literal_macro` gives it."""
+
+
+def looks_like_design(text: str) -> bool:
+    """Whether a text contains the layers of a banner, in the spelling of any version."""
+    return _LAYERS.search(text) is not None
+
+
+def literal_macro(line: str) -> str:
+    """A macro line as a command of the same length: each `$(dye)` becomes one word."""
+    return re.sub(r"\$\((\w{1,80})\)", "$⟨\\1⟩", line.replace("$", " ", 1))
+
+
+def check_literal(value: object, at: str, what: str) -> None:
+    """Raise DesignError for a value that is a macro's parameter, which has no value here."""
+    parameter = PARAMETER.search(value) if isinstance(value, str) else None
+    if parameter:
+        raise DesignError(
+            f"{at}: the {what} is the macro's parameter $({parameter[1]});"
+            f" write a {what} in its place"
+        )
+
+
+def check_components(components: Mapping[str, Any], at: str) -> None:
+    """Raise DesignError for a component without layers that the game does not know.
+
+    Components of other namespaces are the business of mods, unless they look like a design.
+    """
+    for key, value in components.items():
+        name = key.removeprefix("!").removeprefix("minecraft:")
+        check_literal(name, at or "components", "component")
+        if name in ("banner_patterns", "base_color") and value is None and key[0] != "!":
+            raise DesignError(f"{_under(at, key)}: the component has no value; write {key}=…")
+        if name in COMPONENTS or name in STATES or (":" in name and not _is_design(key, value)):
+            continue
+        close = get_close_matches(name[:40].lower(), ("banner_patterns", "base_color"), 1, 0.6)
+        hint = f"; did you mean '{close[0]}'?" if close else ""
+        raise DesignError(
+            f"{_under(at, key)}: not a component of the game{hint or ';'} write layers as"
+            ' [banner_patterns=[{pattern:"creeper",color:"lime"}]]'
+        )
+
+
+def check_keys(tree: Mapping[str, Any], at: str, read: Container[str] = ()) -> None:
+    """Raise DesignError for a key without layers that looks like those of a design.
+
+    read: keys that were read already.
+    """
+    for key, value in tree.items():
+        if key not in read and value and _is_design(key, value):
+            raise DesignError(
+                f"{_under(at, key)}: this design cannot be read here; write the layers of an item"
+                " as components:{banner_patterns:[…]}, and those of a block as patterns:[…]"
+            )
+
+
+def _is_design(key: str, value: object) -> bool:
+    if isinstance(value, str) and looks_like_design(value):
+        return True
+    name = key.rpartition(":")[2]
+    return bool(_KEY.search(name)) and name != "provides_banner_patterns"
+
+
+def _under(at: str, key: str) -> str:
+    key = key if len(key) <= 40 and key.isprintable() else shown(key)
+    return f"{at}.{key}" if at else key
