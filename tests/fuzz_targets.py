@@ -9,6 +9,7 @@ import sys
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 from unittest import mock
@@ -18,9 +19,10 @@ import fuzzing
 import numpy as np
 import pack_maker
 
-from drapery import cli
+from drapery import Banner, cli
+from drapery.banner.formats import FORMS, datapack, structure
 from drapery.batch.manifest import ManifestError, read_manifest
-from drapery.errors import OptionError
+from drapery.errors import DesignError, OptionError
 from drapery.packs import open_packs
 from drapery.testing.cases import read_cases
 
@@ -31,6 +33,13 @@ PACK = {
     pack_maker.CREEPER + ".mcmeta": b'{"animation": {"frametime": 2, "frames": [0]}}',
     pack_maker.NEW_BASE: pack_maker.png(pack_maker.noise(1)),
     pack_maker.SHIELD + "creeper.png": pack_maker.png(np.zeros((64, 64), np.uint8)),
+}
+DATA_PACK = {
+    "pack.mcmeta": b'{"pack": {"pack_format": 48, "description": ""}}',
+    "data/a/function/kit.mcfunction": b"say hi\n" + GIVE.encode() + b"\n",
+    "data/a/loot_table/b.json": FORMS["loot-table"].example.encode(),
+    "data/a/structure/hall.nbt": structure.write([Banner("red")]),
+    "data/a/thing.snbt": b"{Items:[{id:'minecraft:red_banner'}]}",
 }
 MANIFESTS = {
     "csv": "design,name,size,wind\nwhite creeper:lime,a,32x32,5\nred,b,,\n",
@@ -70,7 +79,12 @@ def targets() -> dict[str, Target]:
 
 def other_targets() -> dict[str, Target]:
     """Readers of other things than designs."""
-    found = {"pack": Target(_read_pack, [_zipped(PACK)], _mutate_pack)}
+    found = {
+        "pack": Target(_read_pack, [_zipped(PACK)], partial(_mutate_pack, PACK)),
+        "data pack": Target(
+            _read_data_pack, [_zipped(DATA_PACK)], partial(_mutate_pack, DATA_PACK)
+        ),
+    }
     for ending, text in MANIFESTS.items():
         found[f"manifest.{ending}"] = Target(_file_reader(ending, _jobs), [text], _mutate_text)
     for ending, text in CASES.items():
@@ -184,12 +198,22 @@ def _read_pack(data: bytes) -> Iterable[Any]:
     return [packs.sheet("creeper"), *packs.patterns()[:1]]
 
 
-def _mutate_pack(rng: random.Random, samples: Sequence[bytes]) -> bytes:
+def _read_data_pack(data: bytes) -> Iterable[Any]:
+    path = _folder() / "data.zip"
+    path.write_bytes(data)
+    errors: list[DesignError] = []
+    found = list(datapack.in_zip(path, errors.append))
+    if errors and not found:
+        raise errors[0]
+    return found
+
+
+def _mutate_pack(sound: dict[str, bytes], rng: random.Random, samples: Sequence[bytes]) -> bytes:
     if rng.random() < 0.3:
         return fuzzing.change_bytes(rng, rng.choice(samples), samples)
-    files = dict(PACK)
+    files = dict(sound)
     name = rng.choice(list(files))
-    files[name] = fuzzing.change_bytes(rng, files[name], list(PACK.values()))
+    files[name] = fuzzing.change_bytes(rng, files[name], list(sound.values()))
     return _zipped(files)
 
 

@@ -91,6 +91,16 @@ def test_a_world_has_a_largest_number_of_files(
         read_designs(tmp_path)
 
 
+def test_a_data_pack_has_a_largest_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("drapery.banner.formats.datapack.MAX_UNPACKED", 1 << 20)
+    (tmp_path / "data").mkdir()
+    (tmp_path / "pack.mcmeta").write_text("{}")
+    for number in range(3):
+        (tmp_path / "data" / f"{number}.json").write_text(" " * (1 << 19))
+    with pytest.raises(DesignError, match="over 1 MiB unpacked"):
+        read_designs(tmp_path)
+
+
 def test_a_json_file_of_a_pack_has_a_largest_size(tmp_path: Path) -> None:
     (tmp_path / "assets").mkdir()
     (tmp_path / "pack.mcmeta").write_text(" " * 2**20 + "{}", encoding="utf-8")

@@ -25,6 +25,7 @@ from drapery.banner.names import shown
 from drapery.errors import DesignError
 
 _HEAD = 8192
+_ZIP = b"PK\x03\x04"
 _MOST_NAMED = 20
 
 _FILE_NAME = re.compile(r"[^\s:{}\[\]\"'?&=]+\.[A-Za-z][A-Za-z0-9]{1,5}")
@@ -55,11 +56,11 @@ def read_design(
 
 
 def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBanner]:
-    """All banners of a text, a file, a folder of files, a world, or standard input ("-").
+    """All banners of a text, a file, a folder of files, a world, a data pack, or input ("-").
 
-    A folder that is not a world is read file by file, sorted by name, without its folders and
-    links; each banner's place begins with its file's name. One UserWarning names all that is not
-    read, with the reason.
+    A data pack may be a folder or a zip. A folder that is neither a world nor a pack is read file
+    by file, sorted by name, without its folders and links; each banner's place begins with its
+    file's name. One UserWarning names all that is not read, with the reason.
 
     form: one of FORMS or of `binary_forms()`, or None to recognise it.
     Raises DesignError as `parse_banners` does, for files that cannot be read, and for a folder
@@ -72,7 +73,7 @@ def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBa
         return _read_text(str(source), form)
     errors: list[DesignError] = []
     try:
-        if path.is_dir() and not _is_world(path):
+        if path.is_dir() and not _is_world(path) and not _is_pack(path):
             return _read_folder(path, form)
         found = _read_path(path, form, errors)
     except OSError as error:
@@ -137,6 +138,20 @@ def _is_world(path: Path) -> bool:
     return any(file.exists() for file in files) or (path / "region").is_dir()
 
 
+def _is_pack(path: Path) -> bool:
+    from drapery.banner.formats import datapack
+
+    return datapack.is_pack(path)
+
+
+def _read_pack(path: Path, errors: list[DesignError]) -> list[FoundBanner]:
+    """All banners of a data pack. It is imported here, since it loads numpy."""
+    from drapery.banner.formats import datapack
+
+    find = datapack.in_folder if path.is_dir() else datapack.in_zip
+    return some_of(list(find(path, errors.append)), errors, f"{path}: no banner in the pack")
+
+
 def _read_path(path: Path, form: str | None, errors: list[DesignError]) -> list[FoundBanner]:
     from drapery.banner.formats.files import is_binary
 
@@ -145,14 +160,18 @@ def _read_path(path: Path, form: str | None, errors: list[DesignError]) -> list[
             raise unknown_form(form)
         return _read_as(path, binary_forms()[form])
     if path.is_dir():
-        return _read_binary(path, errors)
+        return _read_binary(path, errors) if _is_world(path) else _read_pack(path, errors)
     with path.open("rb") as file:
         head = file.read(_HEAD)
+        if head.startswith(_ZIP):
+            return _read_pack(path, errors)
         binary = is_binary(head, path.stat().st_size) or path.suffix.lower() == ".mca"
         if binary and form is None:
             return _read_binary(path, errors)
         data = head + file.read(4 * MAX_TEXT + 1 - len(head))
     text = _decoded(data, str(path))
+    if form is None and path.suffix.lower() == ".mcfunction":
+        form = "function"
     try:
         return parse_all(text, form, errors)
     except DesignError as error:

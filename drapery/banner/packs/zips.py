@@ -70,8 +70,11 @@ def _zip_faults() -> tuple[type[Exception], ...]:
     return BadZipFile, LargeZipFile, OSError, *wrong
 
 
-def open_zip(path: Path) -> ZipSource:
-    """The pack in a zip or jar, also under one top folder. Raises PackError, OSError."""
+def open_zip(path: Path, roots: tuple[str, ...] = ROOTS) -> ZipSource:
+    """The pack in a zip or jar, also under one top folder. Raises PackError, OSError.
+
+    roots: the files and folders of which a pack has at least one at its top.
+    """
     _check_directory(path)
     from zipfile import ZipFile
 
@@ -82,13 +85,13 @@ def open_zip(path: Path) -> ZipSource:
             f"pack {path} is a damaged zip ({reason(error)}): download it again"
         ) from None
     try:
-        return _indexed(archive, str(path))
+        return _indexed(archive, str(path), roots)
     except PackError:
         archive.close()
         raise
 
 
-def _indexed(archive: "ZipFile", label: str) -> ZipSource:
+def _indexed(archive: "ZipFile", label: str, roots: tuple[str, ...]) -> ZipSource:
     # Nameless entries occur in damaged zips, and is_dir fails on them before Python 3.12.
     infos = [info for info in archive.infolist() if info.filename and not info.is_dir()]
     if len(infos) > MAX_FILES:
@@ -100,7 +103,7 @@ def _indexed(archive: "ZipFile", label: str) -> ZipSource:
             raise PackError(
                 f"pack {label}: the name {name[:80]!r} leads out of the pack: do not use this pack"
             )
-    root = _root_in_zip([name for name, _ in named], label)
+    root = _root_in_zip([name for name, _ in named], label, roots)
     entries: dict[str, ZipInfo] = {}
     duplicates = set()
     for name, info in named:
@@ -112,15 +115,15 @@ def _indexed(archive: "ZipFile", label: str) -> ZipSource:
     return ZipSource(archive, entries, frozenset(duplicates), label)
 
 
-def _root_in_zip(names: list[str], label: str) -> str:
+def _root_in_zip(names: list[str], label: str, roots: tuple[str, ...]) -> str:
     """The prefix of the pack's root: none, or the one top folder of a repacked download."""
     tops = {name.split("/", 1)[0] for name in names}
-    if tops & set(ROOTS):
+    if tops & set(roots):
         return ""
     inside = {
         parts[0]
         for parts in (name.split("/", 2) for name in names)
-        if len(parts) > 1 and parts[1] in ROOTS and parts[0] not in IGNORED_NAMES
+        if len(parts) > 1 and parts[1] in roots and parts[0] not in IGNORED_NAMES
     }
     if len(inside) == 1:
         return f"{inside.pop()}/"
