@@ -80,6 +80,19 @@ def test_shields_since_1_13_count_their_dyes_from_white(text: str) -> None:
         (f'{{id:"Banner",Base:1,Pattern:[{LAYER}]}}', ["Pattern"]),
         ('{"base":"red","patterns":[{"pattern":"creeper","color":"lime"}]}', ["patterns"]),
         ('{"base":"red","tier":1,"layer":[{"pattern":"CREEPER","colour":"LIME"}]}', ["layer"]),
+        (f"/give @p red_banner{{BlockEntityTags:{{Patterns:[{LAYER}]}}}}", ["BlockEntityTags"]),
+        (f"/give @p red_banner[custom_data={{a:[{LAYER}]}}]", ["custom_data"]),
+        (f"/give @p red_banner[block_entity_data={{id:banner,a:[{LAYER}]}}]", ["block_entity"]),
+        (f'{{id:"red_banner",component:{{banner_patterns:[{LAYER}]}}}}', ["component"]),
+        (f'{{id:"red_banner",Tag:{{BlockEntityTag:{{Patterns:[{LAYER}]}}}}}}', ["Tag"]),
+        (
+            f"red_banner[banner_patterns=[{LAYER}],minecraft:banner_patterns=[{LAYER}]]",
+            ["banner_patterns", "twice"],
+        ),
+        (
+            f"item modify entity @s weapon {{function:set_banner_pattern,patterns:[{LAYER}]}}",
+            ["no"],
+        ),
         (f"/give @p stick[banner_patterns=[{LAYER}]]", ["no banner", "base dye"]),
         (f"/data merge block ~ ~ ~ {{patterns:[{LAYER}]}}", ["no banner", "base dye"]),
         ("/clear @p red_banner", ["clear makes no banner", "/give"]),
@@ -107,6 +120,18 @@ def test_what_is_not_understood_is_named(text: str, parts: list[str]) -> None:
         ("/fill 1 2 3 4 5 6 red_banner replace blue_banner", "red"),
         ("/fill 1 2 3 4 5 6 standing_banner 8 replace {Base:1}", "red"),
         (f"/give @p red_banner 1 [banner_patterns=[{LAYER}]]", "red creeper:lime"),
+        (
+            f"/summon falling_block ~ ~ ~ {{BlockState:{{Name:red_banner}},TileEntityData:"
+            f"{{patterns:[{LAYER}]}}}}",
+            "red creeper:lime",
+        ),
+        ("/summon block_display ~ ~ ~ {block_state:{Name:'minecraft:red_banner'}}", "red"),
+        (
+            f"/loot give @s loot {{pools:[{{entries:[{{type:item,name:red_banner,functions:"
+            f"[{{function:set_banner_pattern,patterns:[{LAYER}]}}]}}]}}]}}",
+            "red creeper:lime",
+        ),
+        (f"red_banner[container=[{{item:{{id:a,b:[{LAYER}]}}}}]]", "red"),
         (f"/clear @p red_banner[banner_patterns=[{LAYER}]]", "red creeper:lime"),
         (f"execute if items entity @s * red_banner[banner_patterns=[{LAYER}]]", "red creeper:lime"),
         ('/execute as @a[nbt=!{a:"red_banner"}] run give @s blue_banner', "blue"),

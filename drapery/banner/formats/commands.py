@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYES
+from drapery.banner.formats import loot
 from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.leftovers import (
     PARAMETER,
@@ -278,12 +279,15 @@ def _in_tree(tree: DataTree, command: str, old: bool) -> Iterator[FoundBanner]:
     if old or _has_old_items(tree):
         _give_damage(tree)
     is_block = command in ("data", "blockdata", "") and isinstance(tree, dict) and "id" not in tree
-    if is_block and "Base" in tree and tree.get("Patterns"):
+    if loot.matches(tree):
+        yield from loot.find(tree)
+    elif is_block and "Base" in tree and tree.get("Patterns"):
         yield FoundBanner(banner_from_block_entity(tree))
     else:
         _parse_tags(tree)
         yield from find_banners(tree)
         yield from _in_strings(tree)
+        yield from _in_states(tree)
 
 
 def _parse_tags(tree: DataTree) -> None:
@@ -292,6 +296,17 @@ def _parse_tags(tree: DataTree) -> None:
         tag = node.get("tag")
         if isinstance(tag, str) and (is_banner_id(node.get("id")) or is_shield_id(node.get("id"))):
             node["tag"] = parse_snbt(tag)
+
+
+def _in_states(tree: DataTree) -> Iterator[FoundBanner]:
+    """The banners that fall as blocks or are shown as blocks."""
+    for node in _compounds(tree):
+        for key in ("BlockState", "block_state", "Block"):
+            state = node.get(key)
+            name = state.get("Name") if isinstance(state, dict) else state
+            if is_banner_id(name):
+                entity = node.get("TileEntityData")
+                yield FoundBanner(banner_from_block_entity(entity, key, block=name), key)
 
 
 def _in_strings(tree: DataTree) -> Iterator[FoundBanner]:

@@ -30,6 +30,11 @@ use_cooldown use_effects use_remainder weapon writable_book_content written_book
 COMPONENTS = frozenset(_COMPONENTS_WORDS.split())
 """The components of the game's items, up to 26.1. https://minecraft.wiki/w/Data_component_format"""
 
+_HOLDING = frozenset(
+    {"bundle_contents", "charged_projectiles", "container", "trim", "use_remainder"}
+)
+"""Components that hold other items, whose designs are their own, or patterns of another sort."""
+
 STATES = frozenset({"rotation", "facing", "waterlogged"})
 """The properties of the game's banners as blocks."""
 
@@ -75,7 +80,8 @@ def check_components(components: Mapping[str, Any], at: str) -> None:
         check_literal(name, at or "components", "component")
         if name in ("banner_patterns", "base_color") and value is None and key[0] != "!":
             raise DesignError(f"{_under(at, key)}: the component has no value; write {key}=…")
-        if name in COMPONENTS or name in STATES or (":" in name and not _is_design(key, value)):
+        known = name in COMPONENTS or name in STATES or ":" in name
+        if known and (name in _HOLDING or not _is_design(key, value)):
             continue
         close = get_close_matches(name[:40].lower(), ("banner_patterns", "base_color"), 1, 0.6)
         hint = f"; did you mean '{close[0]}'?" if close else ""
@@ -91,7 +97,7 @@ def check_keys(tree: Mapping[str, Any], at: str, read: Container[str] = ()) -> N
     read: keys that were read already.
     """
     for key, value in tree.items():
-        if key not in read and value and _is_design(key, value):
+        if key not in read and _is_design(key, value):
             raise DesignError(
                 f"{_under(at, key)}: this design cannot be read here; write the layers of an item"
                 " as components:{banner_patterns:[…]}, and those of a block as patterns:[…]"
@@ -99,10 +105,27 @@ def check_keys(tree: Mapping[str, Any], at: str, read: Container[str] = ()) -> N
 
 
 def _is_design(key: str, value: object) -> bool:
-    if isinstance(value, str) and looks_like_design(value):
-        return True
     name = key.rpartition(":")[2]
-    return bool(_KEY.search(name)) and name != "provides_banner_patterns"
+    if not value or name == "provides_banner_patterns":
+        return False
+    return bool(_KEY.search(name)) or _holds_layers(value)
+
+
+def _holds_layers(value: object) -> bool:
+    """Whether a tree has a compound with a pattern and a colour, or a text with such."""
+    nodes = [value]
+    while nodes:
+        node = nodes.pop()
+        if isinstance(node, str) and looks_like_design(node):
+            return True
+        if isinstance(node, dict):
+            keys = {str(key).lower() for key in node}
+            if "pattern" in keys and not keys.isdisjoint(("color", "colour")):
+                return True
+            nodes.extend(node.values())
+        elif isinstance(node, list):
+            nodes.extend(node)
+    return False
 
 
 def _under(at: str, key: str) -> str:

@@ -168,7 +168,7 @@ def _build() -> Any:
             return dict(c[0]) if c else {}
 
         def brackets(self, c: list[Any]) -> Brackets:
-            return Brackets(c[0] if c else ())
+            return _brackets(c[0] if c else [])
 
         def list(self, c: Any) -> DataTree:
             return c[0] if c else []
@@ -179,6 +179,13 @@ def _build() -> Any:
             return c[1] if len(c) > 1 else []
 
     return Build()
+
+
+def _brackets(entries: list[tuple[str, DataTree]]) -> Brackets:
+    names = [name.removeprefix("minecraft:") for name, _ in entries]
+    if names.count("banner_patterns") > 1:
+        raise DesignError("banner_patterns: the component is given twice; write it once")
+    return Brackets(entries)
 
 
 def _joined(children: list[Any]) -> list[Any]:
