@@ -403,8 +403,8 @@ class Settings:
 
     @property
     def sample_count(self) -> Samples:
-        """Samples of each pixel, by the view unless they are given; enlarged pixels have one."""
-        return self.samples or (4 if self.is_hero and self.pixel == 1 else 1)
+        """Samples of each pixel, by the view unless they are given."""
+        return self.samples or (4 if self.is_hero else 1)
 
     @property
     def ground_block(self) -> str | None:

@@ -26,12 +26,17 @@ BLURS = 2
 
 
 def contact_shadow(
-    models: Sequence[Model], floor: float, reach: float = 1.0, strength: float = 0.5
+    models: Sequence[Model],
+    floor: float,
+    reach: float = 1.0,
+    strength: float = 0.5,
+    within: tuple[float, float, float, float] | None = None,
 ) -> Model:
     """A dark quad on the ground under models; draw it after other models that lie on the ground.
 
     floor: height of the ground [m]. reach: models cast a shadow up to this height above it [m].
     strength: darkness of the shadow under a model that fills all of the reach, 0..1.
+    within: the extent of the ground, lowest x and z, then highest [m]; None is endless ground.
     Raises OptionError if no model has finite positions.
     """
     parts = [model.mesh.positions.reshape(-1, 3) for model in models]
@@ -47,6 +52,8 @@ def contact_shadow(
     alpha = np.mean(shares, axis=0)
     for _ in range(BLURS):
         alpha = _blurred(alpha)
+    if within is not None:
+        alpha *= _inside(middle, size, scale, within)
     texels = np.zeros((*alpha.shape, 4), np.uint8)
     texels[..., 3] = np.rint(alpha * strength * 255)
     return Model(
@@ -83,6 +90,20 @@ def _covered(
     picture = draw_scene(Scene(tuple(models), below, (int(size[0]), int(size[1]))))
     # Seen from below with +z at the top, +x is to the right; rows of the texture run along +z.
     return (picture.pixels[::-1, :, 3] > 0).astype(np.float64)
+
+
+def _inside(
+    middle: Array, size: NDArray[np.intp], scale: float, within: tuple[float, float, float, float]
+) -> NDArray[np.bool_]:
+    """Which texels have their middle on the ground, shape [H, W]."""
+    across, along = (
+        middle[axis] + (np.arange(size[axis]) + 0.5 - size[axis] / 2) / scale for axis in (0, 1)
+    )
+    left, near, right, far = within
+    inside: NDArray[np.bool_] = ((along > near) & (along < far))[:, None] & (
+        (across > left) & (across < right)
+    )
+    return inside
 
 
 def _blurred(alpha: Array) -> Array:

@@ -25,7 +25,6 @@ def test_the_hero_view_has_its_own_light_samples_and_ground() -> None:
     assert (hero.lighting, hero.sample_count, hero.ground_block) == ("studio", 4, "grass")
     assert (front.lighting, front.sample_count, front.ground_block) == ("game", 1, None)
     assert Settings(view="hero", placement="wall").ground_block == "stone_bricks"
-    assert Settings(view="hero", pixel=2).sample_count == 1
     item = Settings(view="hero", placement="item")
     assert (item.lighting, item.sample_count, item.ground_block) == ("game", 1, None)
     plain_hero = Settings(view="hero", light="game", samples=1, ground="none")
@@ -65,8 +64,7 @@ def test_ground_wears_the_textures_of_packs(tmp_path: Path) -> None:
     texture = "assets/minecraft/textures/block/clay.png"
     pack = folder_pack(tmp_path, {texture: plain(9, 90, 9, 255, side=16)})
     with pytest.warns(UserWarning, match="no texture comes from"):
-        draw(HALVES, packs=pack, size=SMALL)
-    pixels = draw(HALVES, packs=pack, ground="clay", light="flat", size=SMALL).pixels
+        pixels = draw(HALVES, packs=pack, ground="clay", light="flat", size=SMALL).pixels
     assert (pixels == (9, 90, 9, 255)).all(axis=2).any()
 
 
@@ -112,3 +110,17 @@ def test_a_bare_sheet_shows_each_side_to_its_viewer(name: str, pose: str) -> Non
         middle = (slice(20, 80), slice(30, 66))
         differs = (np.abs(bare[middle] - thick[middle]) > 40).any(axis=2)
         assert differs.mean() < 0.05, view
+
+
+def test_the_contact_shadow_ends_with_the_block() -> None:
+    settings = Settings(view="hero", shadow=True, size=SMALL)
+    scene = still(HALVES, open_packs(), settings)
+    below = [model for model in scene.models if model.materials[0].alpha == "blend"]
+    (shadow,) = below
+    height, width = shadow.materials[0].layers[0].texels.shape[:2]
+    places = shadow.mesh.positions[:, [0, 2]]
+    rows, columns = np.nonzero(shadow.materials[0].layers[0].texels[..., 3])
+    low, span = places.min(axis=0), np.ptp(places, axis=0)
+    x = low[0] + (columns + 0.5) / width * span[0]
+    z = low[1] + (rows + 0.5) / height * span[1]
+    assert x.min() > 0 and x.max() < 1 and z.min() > 0 and z.max() < 1

@@ -173,11 +173,16 @@ class Stager:
         getters += [panel.material_at for panel in shown.panels]
         return [Model(mesh, (at(time),)) for mesh, at in zip(meshes, getters, strict=True)]
 
+    def contact(self, models: Sequence[Model], floor: float) -> Model:
+        """The contact shadow of models on a floor [m], or on the block below them."""
+        has_block = self.ground and self.settings.placement == "standing"
+        return contact_shadow(models, floor, within=(0, 0, 1, 1) if has_block else None)
+
     def scene(self, models: Sequence[Model], camera: Camera, shadow: Model | None = None) -> Scene:
         """The models in the body's light. shadow: that of the settings, made here unless given."""
         settings = self.settings
         if settings.shadow:
-            under = shadow or contact_shadow(models, floor_under([m.mesh for m in models]))
+            under = shadow or self.contact(models, floor_under([m.mesh for m in models]))
             models = [under, *models]
         lights = {"flat": UNLIT, "studio": STUDIO_LIGHT, "game": self.body.light}
         light = lights[settings.lighting]
@@ -275,7 +280,7 @@ def _scenes(
         cameras = turntable(view, stager.framed([points]), aspect, len(moments))
     for moment, time, camera in zip(moments, times, cameras, strict=True):
         models = stager.models(moment, time)
-        shadow = contact_shadow(models, floor) if settings.shadow else None
+        shadow = stager.contact(models, floor) if settings.shadow else None
         yield stager.scene(models, camera, shadow)
 
 

@@ -15,7 +15,7 @@ from drapery import Banner
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.packs import Packs
-from drapery.render import Camera, Model, contact_shadow
+from drapery.render import Camera, Model
 from drapery.scenes import STEP, Stager, cloth_spec, floor_under
 from drapery.settings import Settings
 from drapery.studio.live_cloth import LiveCloth, new_live_cloth
@@ -238,7 +238,7 @@ class Live:
         steps = self._stager.steps
         if self._shadow is None or abs(steps - self._shadow[0]) >= SHADOW_STEPS:
             floor = floor_under([model.mesh for model in models])
-            self._shadow = steps, contact_shadow(models, floor)
+            self._shadow = steps, self._stager.contact(models, floor)
         return self._shadow[1]
 
     def _nearest(self, number: int, cloth: LiveCloth, ray: Ray) -> tuple[float, int | None]:

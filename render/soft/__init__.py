@@ -32,6 +32,7 @@ from drapery.render.soft.shadows import (
     ShadowMap,
     casts_shadow,
     light_camera,
+    lit_vertices,
     map_side,
     map_spread,
     openness_of,
@@ -118,15 +119,17 @@ def _shadowed(
         np.concatenate([_vectors(getattr(model.mesh, name)) for model in scene.models])
         for name in ("positions", "normals")
     )
-    casting = casts_shadow(constant)
-    camera = light_camera(scene.light, positions)
+    casting, lit = casts_shadow(constant), lit_vertices(constant)
+    if not lit.any():
+        return raster, NO_SHADOWS
+    camera = light_camera(scene.light, positions[lit])
     width = float(camera.height or 0.0)
     side = map_side(scene.size, width)
     spread, lift = map_spread(side, width)
     seen = _project_points(positions, scene.light, camera, side, workers)
     lifted = positions + np.float32(lift) * normals
     receivers = _project_points(lifted, scene.light, camera, side, workers)
-    openness = openness_of(positions, normals, raster.triangles, casting)
+    openness = openness_of(positions, normals, lit, raster.triangles[casting])
     raster.vertices["shade"], dark = split_light(scene.light, normals, openness)
     # From the middle of the first sample to its corner, so that whole numbers are its index.
     places = [receivers[axis] / np.float32(256) + np.float32(0.5) for axis in ("x", "y")]

@@ -22,6 +22,7 @@ def occlude(
     side: Any,
     directions: Any,
     coarse: Any,
+    skipped: Any,
     openness: Any,
 ) -> Any:
     """Measure from each direction which vertices other surfaces cover.
@@ -35,11 +36,11 @@ def occlude(
     centre: of the maps [m]. cell: width of a sample of the maps [m]. side: their samples.
     directions: unit axes right, up and towards the direction, [K, 3, 3].
     coarse: vertices of triangles with a side longer than this [m] stay free.
+    skipped: vertices that stay free, which may be anywhere, [V], bool; it is changed.
     openness: the result, [V], float32, 1 where nothing covers the vertex.
     """
     count = len(positions)
-    is_coarse = np.zeros(count, np.bool_)
-    points = _points_on(positions, triangles, centre, cell, side, coarse, is_coarse)
+    points = _points_on(positions, triangles, centre, cell, side, coarse, skipped)
     lifted = np.empty((3, count))
     for v in range(count):
         for axis in range(3):
@@ -70,7 +71,7 @@ def occlude(
             above[v] = (x * dx + y * dy + z * dz) * inverse + 1.0
         for v in range(count):
             facing = normals[v, 0] * dx + normals[v, 1] * dy + normals[v, 2] * dz
-            if facing < LEAST_FACING or is_coarse[v]:
+            if facing < LEAST_FACING or skipped[v]:
                 continue
             i, j = np.int64(across[v]), np.int64(down[v])
             p, q, at = across[v] - i, down[v] - j, np.uint64(j * side + i)
@@ -100,11 +101,11 @@ def _points_on(
     cell: Any,
     side: Any,
     coarse: Any,
-    is_coarse: Any,
+    skipped: Any,
 ) -> Any:
     """Points at most about a cell apart on all triangles, from the centre, shape [3, P].
 
-    is_coarse: set for the vertices of triangles with a side longer than `coarse`.
+    skipped: set for the vertices of triangles with a side longer than `coarse`.
     """
     pieces = np.empty(len(triangles), np.int64)
     total = 0
@@ -121,7 +122,7 @@ def _points_on(
         total += pieces[t] * (pieces[t] + 1) // 2
         if longest > coarse:
             for corner in range(3):
-                is_coarse[triangles[t, corner]] = True
+                skipped[triangles[t, corner]] = True
     points = np.empty((3, total))
     at = 0
     for t in range(len(triangles)):

@@ -69,6 +69,15 @@ def casts_shadow(constant: Topology) -> NDArray[np.bool_]:
     return casting[constant.triangle_material]
 
 
+def lit_vertices(constant: Topology) -> NDArray[np.bool_]:
+    """Which vertices belong to triangles that light falls on, shape [V]."""
+    lit = np.zeros(len(constant.uvs), np.bool_)
+    lit[constant.triangles[constant.material_tables.material_lit[constant.triangle_material]]] = (
+        True
+    )
+    return lit
+
+
 def map_side(size: tuple[int, int], width: float) -> int:
     """Samples along a side of the map, a power of two.
 
@@ -93,7 +102,7 @@ def map_spread(side: int, width: float) -> tuple[float, float]:
 
 
 def light_camera(light: Light, positions: Float32) -> Camera:
-    """A parallel view of all vertices, shape [V, 3], from the light's first direction."""
+    """A parallel view of all these points, shape [V, 3], from the light's first direction."""
     towards = light.unit_directions()[0]
     up = np.array([0.0, 1.0, 0.0] if abs(towards[1]) < 0.99 else [0.0, 0.0, 1.0])
     right = unit(np.cross(up, towards))
@@ -132,23 +141,26 @@ def split_light(light: Light, normals: Float32, openness: Float32) -> tuple[Floa
 
 
 def openness_of(
-    positions: Float32, normals: Float32, triangles: Triangles, casting: NDArray[np.bool_]
+    positions: Float32, normals: Float32, lit: NDArray[np.bool_], casters: Triangles
 ) -> Float32:
-    """How much of the sky each vertex sees, 0..1, shape [V]; see `occlude`."""
-    low, high = positions.min(axis=0), positions.max(axis=0)
-    centre = (low + high) / 2
+    """How much of the sky each vertex sees, 0..1, shape [V]; see `occlude`.
+
+    lit: the vertices to be measured, which hold those of the casters, shape [V].
+    """
+    low, high = positions[lit].min(axis=0), positions[lit].max(axis=0)
     reach = float(np.sqrt(((high - low) ** 2).sum())) / 2
-    cell = 2 * reach / (OCCLUSION_MAP - 4)
+    cell = max(2 * reach / (OCCLUSION_MAP - 4), 1e-6)
     open_sky = np.ones(len(positions), np.float32)
     occlude(
         positions,
         normals,
-        np.ascontiguousarray(triangles[casting]),
-        centre.astype(np.float64),
+        casters,
+        ((low + high) / 2).astype(np.float64),
         cell,
         OCCLUSION_MAP,
         _directions(OCCLUDERS),
         COARSE,
+        ~lit,
         open_sky,
     )
     return open_sky
