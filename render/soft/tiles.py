@@ -38,7 +38,7 @@ HALVES = 0x00010001
 """Two channels of a colour, eight bits apart, and one unit of each."""
 
 FLAT_AREA = 1e-3
-LARGE = 4096.0
+LARGE = 131072.0
 """Triangles of a smaller area, and in larger rectangles, are not tested as a whole [samples^2]."""
 
 TAPS = 4
@@ -619,7 +619,7 @@ def find_shaded(
     depths, side, spread: see `ShadowMap`. shaded: the result, shape [T], bool. All else: see
     `draw_tiles`.
     """
-    radius = np.int64(np.ceil(TAPS_MIDDLE * spread)) + 1
+    reach = TAPS_MIDDLE * spread
     for t in range(len(triangles)):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         more = max(
@@ -627,13 +627,16 @@ def find_shaded(
             vertices[b].shade - receivers[b, 3],
             vertices[c].shade - receivers[c, 3],
         )
-        shaded[t] = more > 0 and not _is_lit(a, b, c, receivers, depths, side, radius)
+        shaded[t] = more > 0 and not _is_lit(a, b, c, receivers, depths, side, reach)
 
 
 @kernel
-def _is_lit(a: Any, b: Any, c: Any, receivers: Any, depths: Any, side: Any, radius: Any) -> Any:
-    """Whether nothing within the radius of a triangle on the shadow map is nearer than its plane
-    there."""
+def _is_lit(a: Any, b: Any, c: Any, receivers: Any, depths: Any, side: Any, reach: Any) -> Any:
+    """Whether nothing within reach of a triangle on the shadow map is nearer than its plane there.
+
+    reach: of the places that a sample compares, across and down.
+    """
+    radius = np.int64(np.ceil(reach))
     ax, ay, az = receivers[a, 0], receivers[a, 1], receivers[a, 2]
     bx, by, bz = receivers[b, 0] - ax, receivers[b, 1] - ay, receivers[b, 2] - az
     cx, cy, cz = receivers[c, 0] - ax, receivers[c, 1] - ay, receivers[c, 2] - az
@@ -648,7 +651,7 @@ def _is_lit(a: Any, b: Any, c: Any, receivers: Any, depths: Any, side: Any, radi
     along = (bz * cy - cz * by) / area
     down = (cz * bx - bz * cx) / area
     # The least depth of the plane at any place that compares itself with the sample.
-    slack = (radius + 1) * (abs(along) + abs(down))
+    slack = (reach + 0.5) * (abs(along) + abs(down))
     lowest = az + min(bz, cz, np.float32(0))
     first = az + (left + 0.5 - ax) * along + (top + 0.5 - ay) * down - slack
     for row in range(bottom - top + 1):
