@@ -213,7 +213,7 @@ class Settings:
         None,
         None,
         "a Fabric, the material of the cloth",
-        takes=_has("density", "stretch", "bend"),
+        takes=_has("density", "stretch", "bending"),
         audience="python",
     )
     forces: Sequence[Force] = _option(

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.cloth.bending import Bending
     from drapery.cloth.builders import grid, max_stretch, strip
     from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
     from drapery.cloth.colliders import (
@@ -44,7 +45,7 @@ if TYPE_CHECKING:
         swinging,
     )
     from drapery.cloth.collisions import Collisions
-    from drapery.cloth.fabric import Fabric
+    from drapery.cloth.fabric import FABRICS, Fabric
     from drapery.cloth.forces import Drag, Force, ForceField, Gravity
     from drapery.cloth.meshes import disc, from_mesh, from_triangles
     from drapery.cloth.pins import PinPath, Pins, PosePath, carried
@@ -64,10 +65,12 @@ if TYPE_CHECKING:
     from drapery.cloth.world import Detail, World, WorldView
 
 __all__ = [
+    "FABRICS",
     "FLEXION",
     "SHEAR",
     "SOLVERS",
     "STRUCTURAL",
+    "Bending",
     "Box",
     "Capsule",
     "Cloth",
@@ -127,6 +130,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
+        "cloth.bending": ("Bending",),
         "cloth.builders": ("grid", "max_stretch", "strip"),
         "cloth.cloth": ("Cloth", "FLEXION", "SHEAR", "STRUCTURAL"),
         "cloth.colliders": (
@@ -150,7 +154,7 @@ __getattr__, __dir__ = lazy_names(
             "swinging",
         ),
         "cloth.collisions": ("Collisions",),
-        "cloth.fabric": ("Fabric",),
+        "cloth.fabric": ("FABRICS", "Fabric"),
         "cloth.forces": ("Drag", "Force", "ForceField", "Gravity"),
         "cloth.meshes": ("disc", "from_mesh", "from_triangles"),
         "cloth.pins": ("PinPath", "Pins", "PosePath", "carried"),

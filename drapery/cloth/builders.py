@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.bending import grid_bending, strip_bending
 from drapery.cloth.checks import check_count, check_number, shown
 from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
 from drapery.cloth.fabric import Fabric
@@ -57,6 +58,7 @@ def grid(
         uvs=uvs,
         grid_shape=(rows, columns),
         drag=fabric.drag,
+        bending=grid_bending(rows, columns, (width, height), fabric.bending, fabric.damping),
     )
 
 
@@ -97,6 +99,7 @@ def strip(
         triangles=np.zeros((0, 3), np.int32),
         uvs=np.stack([along, np.full(count, 0.5)], axis=1),
         drag=fabric.drag,
+        bending=strip_bending(count, length, width, fabric.bending, fabric.damping),
     )
 
 

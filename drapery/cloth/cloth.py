@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.bending import NO_BENDING, Bending
 from drapery.cloth.checks import check_number
 from drapery.cloth.fabric import MAX_DRAG
 from drapery.errors import OptionError
@@ -36,6 +37,7 @@ class Cloth:
     grid_shape: (rows, columns) where the particles are a regular grid, rows from the top,
         particle index = row * columns + column; None for any other topology.
     drag: rate at which still air slows the cloth [1/s]; see `Fabric`.
+    bending: the stencils that resist bending; none by default.
 
     Raises OptionError for arrays of wrong shape and values out of range.
     """
@@ -50,12 +52,13 @@ class Cloth:
     uvs: Array
     grid_shape: tuple[int, int] | None = None
     drag: float = 0.0
+    bending: Bending = NO_BENDING
 
     def __post_init__(self) -> None:
         _check_particles(self)
         _check_springs(self)
-        for name in ("triangles", "spring_pairs"):
-            numbers = getattr(self, name)
+        groups = {"triangles": self.triangles, "spring_pairs": self.spring_pairs}
+        for name, numbers in {**groups, "bending particles": self.bending.particles}.items():
             if numbers.size and not (numbers.min() >= 0 and numbers.max() < len(self.inv_mass)):
                 last = len(self.inv_mass) - 1
                 raise OptionError(f"cloth {name} name particles outside 0 to {last}")

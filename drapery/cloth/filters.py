@@ -81,22 +81,31 @@ def cloth_filter(cloth: Cloth, dt: float) -> Filter | BandFilter:
     return Filter(W.ravel(), np.array([[0, len(W), 0, 1, 0]]), np.zeros((len(W), 0)))
 
 
-def hessian(cloth: Cloth) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
-    """Rows, columns and values [N/m] of H; entries at the same place add up."""
+def hessian(cloth: Cloth, dt: float) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
+    """Rows, columns and values [N/m] of H; entries at the same place add up.
+
+    The damping of bending acts on the velocity, so it multiplies the stiffness by 1 + damping / dt.
+    """
     a, b = cloth.spring_pairs.T.astype(np.int64)
-    k = cloth.spring_stiffness
+    k, bending = cloth.spring_stiffness, cloth.bending
+    w, i = bending.weights, bending.particles.astype(np.int64)
+    stiffness = -bending.stiffness[:, None, None] * _damped(cloth, dt)
     return (
-        np.concatenate([a, b, a, b]),
-        np.concatenate([b, a, a, b]),
-        np.concatenate([k, k, -k, -k]),
+        np.concatenate([a, b, a, b, np.repeat(i, 4, axis=1).ravel()]),
+        np.concatenate([b, a, a, b, np.tile(i, 4).ravel()]),
+        np.concatenate([k, k, -k, -k, (stiffness * w[:, :, None] * w[:, None]).ravel()]),
     )
+
+
+def _damped(cloth: Cloth, dt: float) -> float:
+    return 1 + cloth.bending.damping / dt
 
 
 def dense_filter(cloth: Cloth, dt: float) -> Array:
     """W [N, N], for any cloth."""
     count = len(cloth.inv_mass)
     H = np.zeros((count, count))
-    rows, columns, values = hessian(cloth)
+    rows, columns, values = hessian(cloth, dt)
     np.add.at(H, (rows, columns), values)
     return inverse(np.eye(count) - dt**2 * cloth.inv_mass[:, None] * H)
 
@@ -109,7 +118,7 @@ def band_filter(cloth: Cloth, dt: float) -> BandFilter:
     free = np.flatnonzero(cloth.inv_mass > 0)
     number = np.full(len(cloth.inv_mass), -1)
     number[free] = np.arange(len(free))
-    rows, columns, values = hessian(cloth)
+    rows, columns, values = hessian(cloth, dt)
     inside = (number[rows] >= 0) & (number[columns] >= 0)
     rows, columns, values = number[rows[inside]], number[columns[inside]], values[inside]
     graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(free),) * 2).tocsr()
@@ -154,8 +163,9 @@ def separable_filter(cloth: Cloth, dt: float) -> Filter:
     Springs that would cross an edge of the grid are mirrored there. Then the eigenvectors of H are
     products of the eigenvectors of two 1-D Laplacians: cosines, or sines for columns below a pinned
     row. With 1-D eigenvalues r and c, structural springs have the eigenvalues r + c, shear springs
-    rc + 2r + 2c and flexion springs r² + 4r + c² + 4c. So each row is transformed into waves, each
-    wave is filtered along its column, and the rows are transformed back.
+    rc + 2r + 2c, flexion springs r² + 4r + c² + 4c, and bending stencils -r², -c² and -rc. So each
+    row is transformed into waves, each wave is filtered along its column, and the rows are
+    transformed back.
     """
     assert cloth.grid_shape is not None
     rows, columns = cloth.grid_shape
@@ -173,6 +183,8 @@ def _spectrum(cloth: Cloth, rows: Array, columns: Array, dt: float) -> Array:
     r, c = rows[:, None], columns[None]
     k = [_stiffness(cloth, kind) for kind in range(3)]
     H = k[0] * (r + c) + k[1] * (r * c + 2 * r + 2 * c) + k[2] * (r * r + 4 * r + c * c + 4 * c)
+    across, down, twist = _bending(cloth, dt)
+    H = H - (across * c * c + down * r * r + twist * r * c)
     spectrum: Array = 1 / (1 - dt**2 * cloth.inv_mass.max() * H)
     return spectrum
 
@@ -195,11 +207,13 @@ def sheet_filter(cloth: Cloth, dt: float, width: int) -> SheetFilter:
     square = L @ L  # whole numbers, exact in any order
     k = [_stiffness(cloth, kind) for kind in range(3)]
     a = dt**2 * cloth.inv_mass.max()
-    linear, constant = k[0] + k[1] * (c + 2) + 4 * k[2], (k[0] + 2 * k[1]) * c + k[2] * (c + 4) * c
+    across, down, twist = _bending(cloth, dt)
+    linear = k[0] + k[1] * (c + 2) + 4 * k[2] - twist * c
+    constant = (k[0] + 2 * k[1]) * c + k[2] * (c + 4) * c - across * c * c
     bands = [
         (offset == 0) * (1 - a * constant)
         - a * np.diagonal(L, -offset)[:, None] * linear
-        - a * np.diagonal(square, -offset)[:, None] * k[2]
+        - a * np.diagonal(square, -offset)[:, None] * (k[2] - down)
         for offset in range(3)
     ]
     near, far, inverse_diagonal = _pentadiagonal(*bands)
@@ -282,10 +296,27 @@ def is_regular(cloth: Cloth) -> bool:
     """Whether the free particles of a grid have one mass, and springs of a kind one stiffness."""
     free = cloth.inv_mass[cloth.inv_mass > 0]
     kinds = [cloth.spring_stiffness[cloth.spring_kind == kind] for kind in range(3)]
-    uniform = [free, *kinds]
+    uniform = [free, *kinds, *_bending_groups(cloth)]
     return cloth.grid_shape is not None and all(
         values.size == 0 or np.ptp(values) <= 1e-12 * values.max() for values in uniform
     )
+
+
+def _bending_groups(cloth: Cloth) -> list[Array]:
+    """Stiffness of the stencils along rows, down columns and across cells of a grid [N/m]."""
+    bending = cloth.bending
+    step = bending.particles[:, 1] - bending.particles[:, 0]
+    cells = bending.weights[:, 3] != 0
+    columns = cloth.grid_shape[1] if cloth.grid_shape else 0
+    chosen = [~cells & (step == 1), ~cells & (step == columns), cells]
+    return [bending.stiffness[group] for group in chosen]
+
+
+def _bending(cloth: Cloth, dt: float) -> tuple[float, float, float]:
+    """The same as three numbers, damping included."""
+    across, down, twist = (float(k.max(initial=0.0)) for k in _bending_groups(cloth))
+    factor = _damped(cloth, dt)
+    return factor * across, factor * down, factor * twist
 
 
 def _stiffness(cloth: Cloth, kind: int) -> float:

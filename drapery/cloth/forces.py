@@ -13,6 +13,7 @@ import numpy as np
 from drapery.cloth.checks import check_number, shown, vector3
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.fabric import MAX_DRAG
+from drapery.cloth.ripples import with_waves
 from drapery.cloth.state import State
 from drapery.cloth.wind import Gusts, Wind, lower_winds
 from drapery.errors import OptionError
@@ -90,7 +91,8 @@ def lower_forces(forces: Sequence[Force], cloth: Cloth, count: int) -> Loads:
             raise OptionError(
                 f"force {shown(force)} has no method acceleration(cloth, state); add one"
             )
-    return Loads(gravity, drag, lower_winds(winds, count), tuple(custom))
+    gusts = with_waves(lower_winds(winds, count), winds, cloth)
+    return Loads(gravity, drag, gusts, tuple(custom))
 
 
 def custom_accelerations(loads: Loads, cloth: Cloth, state: State) -> Array:

@@ -64,6 +64,49 @@ def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) 
 
 
 @kernel
+def bend(out: Any, x: Any, z: Any, stencils: Any, scale: Any, own: Any, other: Any) -> None:
+    """out_i -= scale · part_i · ((1 + own - rest / |d|) d + other · d'), d = Σ w x, d' = Σ w z.
+
+    stencils: see `bending.Stencils`. out may be the same array as x.
+    """
+    F = x.dtype.type
+    tiny, whole = fill(F(1e-30)), fill(F(1) + own)
+    for s in range(stencils.rest.size):
+        a, b = 3 * np.intp(stencils.particles[s, 0]), 3 * np.intp(stencils.particles[s, 1])
+        c, d = 3 * np.intp(stencils.particles[s, 2]), 3 * np.intp(stencils.particles[s, 3])
+        rows, w, part = (a, b, c, d), stencils.weights[s], stencils.parts[s]
+        rest = stencils.rest[s]
+        for lane in range(0, x.shape[1], lane_count(x)):
+            dx, dy, dz = weighted(x, rows, w, lane)
+            factor = whole
+            if rest > 0:
+                factor = whole - rest / (sqrt(dx * dx + dy * dy + dz * dz) + tiny)
+            dx, dy, dz = factor * dx, factor * dy, factor * dz
+            if other != 0:
+                ex, ey, ez = weighted(z, rows, w, lane)
+                dx, dy, dz = dx + other * ex, dy + other * ey, dz + other * ez
+            add(out, a, lane, -scale * part[0], dx, dy, dz)
+            add(out, b, lane, -scale * part[1], dx, dy, dz)
+            add(out, c, lane, -scale * part[2], dx, dy, dz)
+            if part[3] != 0:
+                add(out, d, lane, -scale * part[3], dx, dy, dz)
+
+
+@kernel
+def weighted(x: Any, rows: Any, w: Any, lane: Any) -> Any:
+    """The sum of four particles by weights; rows: the first rows of their coordinates."""
+    a, b, c, d = rows
+    dx = w[0] * load(x, a, lane) + w[1] * load(x, b, lane) + w[2] * load(x, c, lane)
+    dy = w[0] * load(x, a + 1, lane) + w[1] * load(x, b + 1, lane) + w[2] * load(x, c + 1, lane)
+    dz = w[0] * load(x, a + 2, lane) + w[1] * load(x, b + 2, lane) + w[2] * load(x, c + 2, lane)
+    if w[3] != 0:
+        dx = dx + w[3] * load(x, d, lane)
+        dy = dy + w[3] * load(x, d + 1, lane)
+        dz = dz + w[3] * load(x, d + 2, lane)
+    return dx, dy, dz
+
+
+@kernel
 def direction(x: Any, i: Any, j: Any, lane: Any) -> Any:
     """The vector from particle i to particle j; i and j are the first rows of their coordinates."""
     return (
@@ -181,7 +224,8 @@ def blow(
 ) -> None:
     """Velocity of one wind at the control particles, lanes from `start` on, into wind [3C, L].
 
-    work: [18, L] of the same type.
+    The rows after it become the sine and the cosine of each wave's phase. work: [18, L] of the same
+    type.
     """
     F = x.dtype.type
     numbers, seed = gusts.numbers[number], gusts.seeds[number]
@@ -194,6 +238,10 @@ def blow(
         cells -= numbers[15] * np.floor(cells / numbers[15])
         first[lane] = -np.floor(cells)
         drift[lane] = cells - np.floor(cells)
+        for wave in range(gusts.rates.shape[1]):
+            phase = now * gusts.rates[number, wave] + gusts.turns[number, wave]
+            wind[3 * controls.size + 2 * wave, lane] = sine_of_turns(phase)
+            wind[3 * controls.size + 2 * wave + 1, lane] = sine_of_turns(phase + 0.25)
     # Noise is 0 where all three coordinates are whole numbers: avoid that at the origin.
     middle, scale = F(0.5), F(numbers[13])
     along, across, up = F(numbers[12] * ALONG), F(numbers[12] * ACROSS), F(numbers[12] * UP)
@@ -221,12 +269,15 @@ def blow(
 
 @kernel
 def add_wind_velocities(
-    g: Any, x: Any, v: Any, faces: Any, wind: Any, pressure: Any, inv_mass: Any, dt: Any
+    g: Any, x: Any, v: Any, body: Any, wind: Any, gusts: Any, number: Any, dt: Any
 ) -> None:
     """g += dt/m · F of one wind, whose velocity at the control particles is `wind` [3C, L].
 
-    v may be the same array as g.
+    Waves blow along the normal of each face; their phases are in the rows of `wind` after the
+    controls. v may be the same array as g.
     """
+    faces, inv_mass, pressure = body.faces, body.inv_mass, gusts.numbers[number, 16]
+    sines, cosines, first = gusts.sines[number], gusts.cosines[number], 3 * body.controls.size
     tiny = x.dtype.type(1e-30)
     for i in range(inv_mass.size):
         if inv_mass[i] == 0:
@@ -250,6 +301,11 @@ def add_wind_velocities(
                 along = nx if axis == 0 else ny if axis == 1 else nz
                 head_on = head_on + along * (flow - load(v, 3 * i + axis, lane))
             area = sqrt(nx * nx + ny * ny + nz * nz) + tiny
+            for wave in range(sines.shape[0]):
+                row = first + 2 * wave
+                blown = sines[wave, i] * load(wind, row, lane)
+                blown = blown + cosines[wave, i] * load(wind, row + 1, lane)
+                head_on = head_on + area * blown
             add(g, 3 * i, lane, push * head_on / area, nx, ny, nz)
 
 

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.bending import triangle_bending
 from drapery.cloth.builders import (
     DEFAULT,
     MAX_PARTICLES,
@@ -68,6 +69,7 @@ def from_triangles(
         triangles=faces.astype(np.int32),
         uvs=flat_uvs(rest) if uvs is None else np.array(uvs, float),
         drag=fabric.drag,
+        bending=triangle_bending(rest, faces, fabric.bending, fabric.damping),
     )
 
 

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.bending import Bending
 from drapery.cloth.cloth import Cloth
 from drapery.errors import OptionError
 
@@ -28,8 +29,8 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
 
     A merged particle has the mean rest position, the sum of the masses and the UVs of the first of
     its particles; it is pinned if any of them is. Springs keep their lengths; of two springs that
-    join the same particles only the first stays. All cloths must have the same drag. Raises
-    OptionError.
+    join the same particles only the first stays. A seam does not resist bending. All cloths must
+    have the same drag, and those with bending the same damping. Raises OptionError.
     """
     if not cloths:
         raise OptionError("nothing to sew: give at least one cloth")
@@ -55,6 +56,7 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
         spring_length=np.concatenate([cloth.spring_length for cloth in cloths])[kept],
         spring_stiffness=np.concatenate([cloth.spring_stiffness for cloth in cloths])[kept],
         spring_kind=np.concatenate([cloth.spring_kind for cloth in cloths])[kept],
+        bending=_sewn_bending(cloths, starts, number),
         triangles=_sewn_triangles(cloths, starts, number),
         uvs=np.concatenate([cloth.uvs for cloth in cloths])[first],
         drag=drags[0],
@@ -117,6 +119,25 @@ def _sewn_springs(
     kept = np.sort(first)
     kept = kept[pairs[kept, 0] != pairs[kept, 1]]
     return pairs[kept].astype(np.int32), kept
+
+
+def _sewn_bending(
+    cloths: Sequence[Cloth], starts: NDArray[np.int64], number: NDArray[np.int64]
+) -> Bending:
+    stiff = [cloth.bending for cloth in cloths if len(cloth.bending.stiffness)]
+    times = sorted({bending.damping for bending in stiff})
+    if len(times) > 1:
+        raise OptionError(
+            f"sewn cloths have damping of {times[0]:g} and {times[-1]:g} s; give all the same"
+        )
+    particles = [number[c.bending.particles + s] for c, s in zip(cloths, starts, strict=False)]
+    return Bending(
+        np.concatenate(particles).astype(np.int32),
+        np.concatenate([cloth.bending.weights for cloth in cloths]),
+        np.concatenate([cloth.bending.stiffness for cloth in cloths]),
+        np.concatenate([cloth.bending.rest for cloth in cloths]),
+        times[0] if times else 0.0,
+    )
 
 
 def _sewn_triangles(

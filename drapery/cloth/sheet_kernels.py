@@ -115,6 +115,49 @@ def solve_batches(x: Any, batches: Any, begin: Any, end: Any, form: Any, work: A
 
 
 @kernel
+def bend(
+    out: Any,
+    x: Any,
+    z: Any,
+    bending: Any,
+    sheet: Any,
+    scale: Any,
+    own: Any,
+    other: Any,
+    work: Any,
+) -> None:
+    """out -= scale / m · Σ w k ((1 + own) d + other · d'), d = Σ w x, d' = Σ w z.
+
+    All stencils of a group see the same positions; see `sheets.SheetBending` and, for work,
+    `move_both`. out may be the same array as x.
+    """
+    lead, whole = work.shape[1] // 2, x.dtype.type(1) + own
+    for group in range(bending.shifts.shape[0]):
+        w, shifts = bending.weights[group], bending.shifts[group]
+        for axis in range(3):
+            for n in range(0, sheet.size, lane_count(x)):
+                d = whole * weighted(x, axis, n, shifts, w, 1)
+                if other != 0:
+                    d = d + other * weighted(z, axis, n, shifts, w, 1)
+                store(work, axis, lead + n, load(bending.stiffness, group, n) * d)
+            for n in range(0, sheet.size, lane_count(x)):
+                total = scale * weighted(work, axis, lead + n, shifts, w, -1)
+                change = load(bending.inv_mass, 0, n) * total
+                store(out, axis, n, load(out, axis, n) - change)
+
+
+@kernel
+def weighted(x: Any, axis: Any, n: Any, shifts: Any, w: Any, sign: Any) -> Any:
+    """The sum by weights of the lanes at the shifts from n, to the left if the sign is -1."""
+    total = w[0] * load(x, axis, n + sign * shifts[0])
+    total = total + w[1] * load(x, axis, n + sign * shifts[1])
+    total = total + w[2] * load(x, axis, n + sign * shifts[2])
+    if w[3] != 0:
+        total = total + w[3] * load(x, axis, n + sign * shifts[3])
+    return total
+
+
+@kernel
 def place(y: Any, sheet: Any, targets: Any, turn: Any, cloth: Any) -> None:
     """Move pins along their path, or leave them in place; then fill the planes of anchors."""
     for p in range(sheet.pins.size):
@@ -137,14 +180,14 @@ def place(y: Any, sheet: Any, targets: Any, turn: Any, cloth: Any) -> None:
 
 
 @kernel
-def wind_scratch(sheet: Any, dtype: Any) -> Any:
+def wind_scratch(sheet: Any, gusts: Any, dtype: Any) -> Any:
     """Arrays for `add_wind`."""
     samples = sheet.controls.size
     return (
         np.empty((3, samples), dtype),
-        np.empty((3, samples), dtype),
+        np.empty((3 + 2 * gusts.rates.shape[1], samples), dtype),
         np.empty((18, samples), dtype),
-        np.zeros((6, sheet.width + 64), dtype),
+        np.zeros((7, sheet.width + 64), dtype),
     )
 
 
@@ -159,7 +202,16 @@ def own_gusts(gusts: Any, cloth: Any, samples: Any) -> Any:
             phases[number, lane] = gusts.phases[number, cloth]
             for axis in range(3):
                 origins[number, axis, lane] = gusts.origins[number, axis, cloth]
-    return Gusts(gusts.numbers, gusts.seeds, phases, origins)
+    return Gusts(
+        gusts.numbers,
+        gusts.seeds,
+        phases,
+        origins,
+        gusts.rates,
+        gusts.turns,
+        gusts.sines,
+        gusts.cosines,
+    )
 
 
 @kernel
@@ -168,7 +220,7 @@ def add_wind(
 ) -> None:
     """g += dt/m · F of one wind; see `kernels.add_wind_velocities`. v may be the same array as g.
 
-    scratch: at, wind and work of the samples, and work [6, width and two registers].
+    scratch: at, wind and work of the samples, and work [7, width and two registers].
     """
     at, wind, samples_work, work = scratch
     for sample in range(sheet.controls.size):
@@ -178,6 +230,7 @@ def add_wind(
     pressure = y.dtype.type(dt * gusts.numbers[number, 16])
     for row in range(sheet.rows):
         relative_wind(work, v, wind, sheet, row)
+        blow_waves(work, wind, gusts.sines[number], gusts.cosines[number], sheet, row)
         press(g, y, work, sheet, row, pressure)
 
 
@@ -197,8 +250,19 @@ def relative_wind(work: Any, v: Any, wind: Any, sheet: Any, row: Any) -> None:
 
 
 @kernel
+def blow_waves(work: Any, wind: Any, sines: Any, cosines: Any, sheet: Any, row: Any) -> None:
+    """The sum of the waves along a row [m/s], into work[6]; their phases follow wind[0:3]."""
+    for lane in range(0, sheet.width, lane_count(work)):
+        total, at = fill(work.dtype.type(0)), row * sheet.columns + lane
+        for wave in range(sines.shape[0]):
+            total = total + wind[3 + 2 * wave, 0] * load(sines, wave, at)
+            total = total + wind[4 + 2 * wave, 0] * load(cosines, wave, at)
+        store(work, 6, lane, total)
+
+
+@kernel
 def press(g: Any, y: Any, work: Any, sheet: Any, row: Any, pressure: Any) -> None:
-    """g += pressure / m (u · n) n / |n| along a row with u in work[0:3].
+    """g += pressure / m (u · n / |n| + w) n along a row with u in work[0:3] and w in work[6].
 
     n: vector areas, a quarter of (right - left) x (above - below).
     """
@@ -219,6 +283,7 @@ def press(g: Any, y: Any, work: Any, sheet: Any, row: Any, pressure: Any) -> Non
         nx, ny, nz = py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx
         head_on = nx * load(work, 0, lane) + ny * load(work, 1, lane) + nz * load(work, 2, lane)
         area = sqrt(nx * nx + ny * ny + nz * nz) + tiny
+        head_on = head_on + area * load(work, 6, lane)
         push = pressure * load(sheet.inv_mass, row, lane) * head_on / area
         kernels.add(g, 0, line + lane, push, nx, ny, nz)
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.attachments import attachment_groups
+from drapery.cloth.bending import Bending
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces
 from drapery.mesh import Array
@@ -75,6 +76,21 @@ class ConstraintBatches(NamedTuple):
     values: Array
 
 
+class SheetBending(NamedTuple):
+    """Bending stencils in groups of equal shape; one of group g starts at each lane.
+
+    shifts: from the first particle's lane to those of all four, [G, 4]. weights: [G, 4].
+    stiffness: of each lane's stencil [N/m], 0 where there is none, [G, lanes]. inv_mass: [1/kg],
+    [1, lanes]. damping: [s], [1].
+    """
+
+    shifts: NDArray[np.int64]
+    weights: Array
+    stiffness: Array
+    inv_mass: Array
+    damping: Array
+
+
 class Pairs(NamedTuple):
     """Pairs of particles [K, 2] with their lengths [m] and parts, [K] each."""
 
@@ -99,6 +115,8 @@ class ConstraintBatch(NamedTuple):
 def is_sheet(cloth: Cloth) -> bool:
     """Whether a cloth is faster as a plane of lanes."""
     if cloth.grid_shape is None or cloth.grid_shape[1] < MIN_COLUMNS:
+        return False
+    if cloth.bending.rest.any() or (np.diff(cloth.bending.particles[:, :3], axis=1) <= 0).any():
         return False
     return hangs(cloth) or int((cloth.inv_mass == 0).sum()) <= MAX_PINS
 
@@ -182,6 +200,22 @@ def limits(sheet: SheetLayout, cloth: Cloth, limit: float, sweeps: int) -> Const
         held = group is groups[0] or group is groups[-1]
         batches += anchored(sheet, group) if held else in_turn(sheet, group, RELAXATION)
     return constraint_batches(batches)
+
+
+def sheet_bending(sheet: SheetLayout, bending: Bending) -> SheetBending:
+    """The stencils of a grid that is flat at rest."""
+    row, column = np.divmod(bending.particles.astype(np.int64), sheet.columns)
+    lanes = row * sheet.width + column
+    kinds = np.concatenate([lanes - lanes[:, :1], bending.weights], axis=1)
+    groups, number = np.unique(kinds, axis=0, return_inverse=True)
+    values = np.zeros((len(groups), _whole(sheet.size) + LANES))
+    values[number.ravel(), lanes[:, 0]] = bending.stiffness
+    masses = np.zeros((sheet.rows, sheet.width))
+    masses[:, : sheet.columns] = sheet.inv_mass[:, : sheet.columns]
+    inv_mass = np.zeros((1, _whole(sheet.size) + LANES))
+    inv_mass[0, : sheet.size] = masses.ravel()
+    shifts, weights = groups[:, :4].astype(np.int64), groups[:, 4:].copy()
+    return SheetBending(shifts, weights, values, inv_mass, np.array([bending.damping]))
 
 
 def together(sheet: SheetLayout, pairs: Pairs) -> Iterator[ConstraintBatch]:

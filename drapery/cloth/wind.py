@@ -1,5 +1,7 @@
 """Wind: a steady flow, a sine, and gusts of gradient noise that travel with the flow.
 
+`drapery.cloth.ripples` adds what runs along the cloth.
+
 Ken Perlin, "An image synthesizer" (SIGGRAPH 1985), for the noise and its use; "Improving noise"
 (SIGGRAPH 2002) for the quintic fade. Moving frozen turbulence with the mean flow is Taylor's
 hypothesis (Proc. R. Soc. A 164, 1938).
@@ -40,6 +42,11 @@ class Wind:
     period: time [s] after which the wind repeats exactly, 0.001 to 1e9; the period of the swell and
         the speed of the gusts are rounded to fit. None: it does not repeat for hours.
     pressure: force per area and speed [N s/m³], 0 to 1e6.
+    ripples: rms of the waves that eddies drive along the cloth, over the mean speed, 0 to 1000.
+    ripple_size: middle length of these waves [m], 0.001 to 1e6; four or five times the width of the
+        pole or bar that sheds the eddies.
+    vortices: amplitude of the vortices that leave the two sides of the cloth alternately, over the
+        mean speed, 0 to 1000.
     phases: time offset of each cloth of a batch [s], shape [B] or one number.
     origins: position of each cloth in the wind [m], shape [B, 3] or [3].
     Raises OptionError.
@@ -53,6 +60,9 @@ class Wind:
     seed: int = 0
     period: float | None = None
     pressure: float = 0.25
+    ripples: float = 0.0
+    ripple_size: float = 0.5
+    vortices: float = 0.0
     phases: Array | float = 0.0
     origins: Array | tuple[float, float, float] = (0.0, 0.0, 0.0)
 
@@ -63,6 +73,9 @@ class Wind:
         check_number("wind sine", self.sine, 0, 1e3)
         check_number("wind sine_period", self.sine_period, 1e-3, 1e9, "s")
         check_number("wind pressure", self.pressure, 0, 1e6, "N s/m³")
+        check_number("wind ripples", self.ripples, 0, 1e3)
+        check_number("wind ripple_size", self.ripple_size, 1e-3, 1e6, "m")
+        check_number("wind vortices", self.vortices, 0, 1e3)
         check_count("wind seed", self.seed, -(2**63), 2**64 - 1)
         if self.period is not None:
             check_number("wind period", self.period, 1e-3, 1e9, "s")
@@ -80,16 +93,23 @@ def _check_finite(name: str, values: object) -> None:
 
 
 class Gusts(NamedTuple):
-    """W winds on B cloths, as the kernels read them; see `_numbers` for the columns."""
+    """W winds on B cloths, as the kernels read them; see `_numbers` for the columns.
+
+    rates, turns: of K waves, [W, K]. sines, cosines: [W, K, N + padding]; see `ripples.Waves`.
+    """
 
     numbers: Array
     seeds: NDArray[np.uint32]
     phases: Array
     origins: Array
+    rates: Array
+    turns: Array
+    sines: Array
+    cosines: Array
 
 
 def lower_winds(winds: Sequence[Wind], count: int) -> Gusts:
-    """All winds on `count` cloths as arrays: [W, 17], [W], [W, B] and [W, 3, B].
+    """All winds on `count` cloths as arrays, without waves: [W, 17], [W], [W, B] and [W, 3, B].
 
     Raises OptionError.
     """
@@ -103,7 +123,8 @@ def lower_winds(winds: Sequence[Wind], count: int) -> Gusts:
             raise OptionError(f"wind phases and origins must fit {count} cloths") from None
     numbers = np.array([_numbers(wind) for wind in winds]).reshape(len(winds), 17)
     seeds = np.array([wind.seed & 0xFFFFFFFF for wind in winds], np.uint32)
-    return Gusts(numbers, seeds, phases, origins)
+    none = np.zeros((len(winds), 0))
+    return Gusts(numbers, seeds, phases, origins, none, none, none[..., None], none[..., None])
 
 
 def _numbers(wind: Wind) -> list[float]:

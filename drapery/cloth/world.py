@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.cloth.bending import grid_rigidity
 from drapery.cloth.builders import grid
 from drapery.cloth.checks import check_count, check_number, shown
 from drapery.cloth.cloth import Cloth
@@ -280,15 +281,19 @@ def coarsen(cloth: Cloth) -> Cloth | None:
     width, height = np.ptp(cloth.rest_positions[:, 0]), np.ptp(cloth.rest_positions[:, 1])
     mass = len(free) / cloth.inv_mass[free].mean() if free.any() else 1.0
     by_kind = [cloth.spring_stiffness[cloth.spring_kind == kind] for kind in range(3)]
-    stretch, shear, bend = (float(k.mean()) if k.size else 0.0 for k in by_kind)
+    stretch, shear, flexion = (float(k.mean()) if k.size else 0.0 for k in by_kind)
     pinned = np.flatnonzero(thin(cloth.inv_mass[None, :, None], cloth)[0, :, 0] == 0)
+    size = float(width), float(height)
+    rigidity = grid_rigidity(cloth.bending, cloth.grid_shape, size)
+    density = float(mass / (width * height))
     coarse = grid(
         columns // 2 + 1,
         rows // 2 + 1,
-        float(width),
-        float(height),
+        *size,
         pins=pinned,
-        fabric=Fabric(float(mass / (width * height)), stretch, shear, bend, cloth.drag),
+        fabric=Fabric(
+            density, stretch, shear, flexion, cloth.drag, rigidity, cloth.bending.damping
+        ),
     )
     return replace(coarse, rest_positions=rest)
 

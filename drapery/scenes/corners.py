@@ -31,7 +31,7 @@ from drapery.style.tailoring import checked, garment
 SIDE, HEIGHT = 2.0, 2.4
 """Side of the cloth, and height of its pins [m]."""
 CORNER_VIEW = View(azimuth=32, elevation=20, fov=28)
-CANVAS = Fabric(stretch=20.0, shear=6.0, bend=1.0)
+CANVAS = Fabric(stretch=20.0, shear=6.0, flexion=1.0)
 """Stiffness of structural, shear and flexion springs [N/m]."""
 DRAG = 0.8
 """Drag of the air [1/s]."""

@@ -31,7 +31,7 @@ GROWN = 2.2
 """The flag is this many times as large as a banner; the banner's top edge is at the pole."""
 TOWER, POLE = 5, 6.0
 """Height of the tower [blocks] and of the pole on it [m]."""
-BUNTING = Fabric(stretch=10.0, shear=4.0, bend=0.6)
+BUNTING = Fabric(stretch=10.0, shear=4.0, flexion=0.6)
 """Stiffness of the flag's springs [N/m], high enough that its free end does not crumple."""
 FRICTION = 1.8
 """Friction of the air along the flag [1/s]; the wind itself presses only on faces."""

@@ -43,7 +43,7 @@ HEIGHT = 1.9
 """From where the cloths fall [m]."""
 BEETLE_AT, FOX_AT = np.array([-1.0, 0.0, 0.4]), np.array([1.05, 0.0, 0.5])
 GROUND = Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])), friction=0.6)
-SOFT = Fabric(stretch=8.0, shear=2.0, bend=0.15)
+SOFT = Fabric(stretch=8.0, shear=2.0, flexion=0.15)
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ SIDE, SLACK = 2.6, 0.9
 LOW = 0.7
 """Height of the sail's lower edge above the deck [m]."""
 STERN = View(azimuth=38, elevation=14, fov=30)
-CANVAS = Fabric(stretch=20.0, shear=6.0, bend=1.0)
+CANVAS = Fabric(stretch=20.0, shear=6.0, flexion=1.0)
 HALF = SIDE * SLACK / 2
 HEAD, FOOT = LOW + 2 * HALF + 0.03, LOW - 0.03
 """Heights of the yards [m]."""

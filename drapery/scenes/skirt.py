@@ -114,7 +114,7 @@ def skirt_cloth(parameters: SkirtParameters) -> Cloth:
         places.reshape(-1, 3),
         triangles,
         pins=list(range(panels)),
-        fabric=Fabric(stretch=8.0, shear=2.0, bend=0.6),
+        fabric=Fabric(stretch=8.0, shear=2.0, flexion=0.6),
     )
 
 

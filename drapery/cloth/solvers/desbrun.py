@@ -32,10 +32,12 @@ from drapery.cloth.filters import (
 from drapery.cloth.sheets import (
     ConstraintBatches,
     Pairs,
+    SheetBending,
     SheetLayout,
     constraint_batches,
     is_sheet,
     limits,
+    sheet_bending,
     sheet_of,
     together,
 )
@@ -65,6 +67,7 @@ class DesbrunPlan(NamedTuple):
 class DesbrunSheetPlan(NamedTuple):
     sheet: SheetLayout
     springs: ConstraintBatches
+    bending: SheetBending
     attachments: ConstraintBatches
     filter: SheetFilter
 
@@ -117,6 +120,7 @@ def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> DesbrunShe
     return DesbrunSheetPlan(
         sheet,
         constraint_batches(list(together(sheet, springs))),
+        sheet_bending(sheet, cloth.bending),
         limits(sheet, cloth, limit, sweeps),
         sheet_filter(cloth, dt, sheet.width),
     )
@@ -132,7 +136,8 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     both = simd.empty_lanes(2 * rows, width, batch.x).reshape((2, rows, width))
     old = simd.empty_lanes(rows, width, batch.x)
     g, mean = both[1], simd.empty_lanes(3, width, batch.x)
-    wind = simd.empty_lanes(3 * body.controls.size, width, batch.x)
+    winds = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
+    wind = simd.empty_lanes(winds, width, batch.x)
     work = simd.empty_lanes(18, width, batch.x)
     for block in range(first, last, width):
         # The last block overlaps the one before, so all blocks have the same width.
@@ -144,12 +149,12 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.frame_velocity(mean, u, body.pins)
             kernels.subtract_frame(both[0], u, mean)
             kernels.add_spring_velocities(both[0], y, body.springs, body.inv_mass, dt)
+            kernels.bend(both[0], y, u, body.stencils, dt, dtype.type(0), body.damping[0])
             kernels.filter_velocities(both, plan.filter, body.pins)
             kernels.restore_angular_momentum(g, y, u, plan.spin, work)
             for number in range(batch.gusts.seeds.size):
                 kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
-                pressure = batch.gusts.numbers[number, 16]
-                kernels.add_wind_velocities(g, y, u, body.faces, wind, pressure, body.inv_mass, dt)
+                kernels.add_wind_velocities(g, y, u, body, wind, batch.gusts, number, dt)
             kernels.add_uniform(g, mean, body.inv_mass, batch.numbers, batch.push, start)
             kernels.move(y, g, old, dt)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
@@ -167,7 +172,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     y, u = simd.empty_lanes(3, width, batch.x), simd.empty_lanes(3, sheet.plane, batch.x)
     g, old = simd.empty_lanes(3, sheet.plane, batch.x), simd.empty_lanes(3, sheet.plane, batch.x)
     work, mean = simd.empty_lanes(3, 2 * sheet.plane, batch.x), np.empty(3, dtype)
-    scratch = sheet_kernels.wind_scratch(sheet, dtype)
+    scratch = sheet_kernels.wind_scratch(sheet, batch.gusts, dtype)
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
@@ -176,6 +181,9 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             time = batch.numbers[2] + step * batch.numbers[0]
             sheet_kernels.subtract_mean(g, u, mean, sheet)
             sheet_kernels.add_spring_velocities(g, y, plan.springs, work)
+            sheet_kernels.bend(
+                g, y, u, plan.bending, sheet, dt, dtype.type(0), plan.bending.damping[0], work
+            )
             sheet_kernels.filter_sheet(g, old, plan.filter, sheet)
             for number in range(gusts.seeds.size):
                 sheet_kernels.add_wind(g, y, u, sheet, gusts, number, time, dt, scratch)

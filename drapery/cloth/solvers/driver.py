@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels, lanes, simd
+from drapery.cloth.bending import Stencils, fastest_bending, force_stencils
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces, wind_faces
@@ -27,6 +28,8 @@ MAX_SUBSTEPS = MAX_SWEEPS = MAX_THREADS = 1000
 MAX_SWING = 0.3
 """Phase [radians] of the fastest spring's oscillation in a substep. Symplectic methods are stable
 up to 2; the limit on stretch, with one or two sweeps a substep, needs smaller substeps."""
+MAX_DECAY = 0.5
+"""Part of a velocity that damping removes in a substep; up to 2 is stable."""
 
 
 class Springs(NamedTuple):
@@ -38,9 +41,15 @@ class Springs(NamedTuple):
 
 
 class ClothBody(NamedTuple):
-    """What every method needs of a cloth. controls: particles at which wind is sampled, [C]."""
+    """What every method needs of a cloth.
+
+    stencils: of bending, as accelerations. damping: of bending [s]. controls: particles at which
+    wind is sampled, [C].
+    """
 
     springs: Springs
+    stencils: Stencils
+    damping: Array
     faces: Faces
     controls: NDArray[np.int32]
     inv_mass: Array
@@ -100,7 +109,15 @@ def cast_all(plan: Any, dtype: Any) -> Any:
 def body_of(cloth: Cloth) -> ClothBody:
     faces, controls = wind_faces(cloth)
     springs = Springs(cloth.spring_pairs, cloth.spring_length, cloth.spring_stiffness)
-    return ClothBody(springs, faces, controls, cloth.inv_mass, np.flatnonzero(cloth.inv_mass == 0))
+    return ClothBody(
+        springs,
+        force_stencils(cloth.bending, cloth.inv_mass),
+        np.array([cloth.bending.damping]),
+        faces,
+        controls,
+        cloth.inv_mass,
+        np.flatnonzero(cloth.inv_mass == 0),
+    )
 
 
 class KernelSolver:
@@ -191,6 +208,8 @@ def batch_of(
         loads.gusts._replace(
             phases=lanes.padded(loads.gusts.phases, x.shape[1]),
             origins=lanes.padded(loads.gusts.origins.astype(dtype), x.shape[1]),
+            sines=loads.gusts.sines.astype(dtype),
+            cosines=loads.gusts.cosines.astype(dtype),
         ),
         np.array([h, loads.drag, state.time, *loads.gravity]),
         lanes.pin_targets(pins, state, h, steps * solver_state.substeps, count),
@@ -204,13 +223,16 @@ def explicit_substeps(cloth: Cloth, dt: float) -> int:
     """Substeps of at most `MAX_SWING` radians of the fastest oscillation.
 
     Gershgorin's circles bound the squares of the frequencies: 2/m times a particle's stiffness.
+    The damping of bending may remove at most `MAX_DECAY` of a velocity in a substep.
     Raises OptionError if more than `MAX_SUBSTEPS` are needed.
     """
     stiffness = np.zeros(len(cloth.inv_mass))
     for end in range(2):
         np.add.at(stiffness, cloth.spring_pairs[:, end], cloth.spring_stiffness)
-    fastest = float(np.sqrt((2 * stiffness * cloth.inv_mass).max(initial=0.0)))
-    substeps = max(1, int(np.ceil(dt * fastest / MAX_SWING)))
+    bending = fastest_bending(cloth.bending, cloth.inv_mass)
+    fastest = float(np.sqrt((2 * stiffness * cloth.inv_mass).max(initial=0.0) + bending))
+    decay = dt * cloth.bending.damping * bending / MAX_DECAY
+    substeps = max(1, int(np.ceil(max(dt * fastest / MAX_SWING, decay))))
     if substeps > MAX_SUBSTEPS:
         raise OptionError(
             f"stiffness {cloth.spring_stiffness.max():g} N/m needs {substeps} substeps of an "
@@ -258,8 +280,8 @@ def check_limit(limit: float) -> None:
 
 @entry_point
 def blow_all(wind: Any, y: Any, body: Any, batch: Any, start: Any, time: Any, work: Any) -> None:
-    """All winds W at the control particles C, into wind [3CW, L]."""
-    rows = 3 * body.controls.size
+    """All winds W at the control particles C, and the phases of K waves, into [W (3C + 2K), L]."""
+    rows = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
     for number in range(batch.gusts.seeds.size):
         out = wind[number * rows : (number + 1) * rows]
         kernels.blow(out, y, body.controls, batch.gusts, number, start, time, work)
@@ -270,11 +292,10 @@ def add_loads(
     g: Any, y: Any, u: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any, work: Any
 ) -> None:
     """g += h · acceleration by winds, gravity, pushes and drag, at places y and velocities u."""
-    rows = 3 * body.controls.size
+    rows = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
     for number in range(batch.gusts.seeds.size):
         here = wind[number * rows : (number + 1) * rows]
-        pressure = batch.gusts.numbers[number, 16]
-        kernels.add_wind_velocities(g, y, u, body.faces, here, pressure, body.inv_mass, h)
+        kernels.add_wind_velocities(g, y, u, body, here, batch.gusts, number, h)
     fall(g, body.inv_mass, batch.numbers, batch.push, h, start)
 
 
@@ -301,6 +322,7 @@ def kick(
     """u += h · acceleration by springs and loads; g is overwritten."""
     kernels.load_lanes(g, u, 0)
     kernels.add_spring_velocities(g, y, body.springs, body.inv_mass, h)
+    kernels.bend(g, y, u, body.stencils, h, g.dtype.type(0), body.damping[0])
     add_loads(g, y, u, body, batch, wind, h, start, work)
     kernels.load_lanes(u, g, 0)
 
@@ -311,7 +333,8 @@ def load_block(batch: Any, body: Any, start: Any, last: Any) -> Any:
     rows, width = batch.x.shape[0], min(batch.width, last - start)
     y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
     g, old = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
-    wind = simd.empty_lanes(3 * body.controls.size * batch.gusts.seeds.size, width, batch.x)
+    winds = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
+    wind = simd.empty_lanes(winds * batch.gusts.seeds.size, width, batch.x)
     kernels.load_lanes(y, batch.x, start)
     kernels.load_lanes(u, batch.v, start)
     return y, u, g, old, wind, simd.empty_lanes(18, width, batch.x)

@@ -20,6 +20,7 @@ import numpy as np
 
 from drapery.cloth import kernels, simd
 from drapery.cloth.attachments import Attachments, stretch_limits
+from drapery.cloth.bending import Stencils, force_stencils
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.kernels import direction
@@ -44,12 +45,25 @@ MAX_ITERATIONS = 10_000
 
 
 class ImplicitPlan(NamedTuple):
-    """mass: [kg], [N]; 0 where a particle is pinned. damping: [s]."""
+    """bends: stencils of bending as forces. mass: [kg], [N]; 0 where a particle is pinned.
+    damping: of springs [s]."""
 
     body: ClothBody
+    bends: Stencils
     attachments: Attachments
     mass: Array
     damping: Array
+
+
+class Matrix(NamedTuple):
+    """The matrix of a step: masses, each spring's `linearise`d part, and h (h + damping) times the
+    stiffness of bending, which is taken as flat."""
+
+    mass: Any
+    blocks: Any
+    springs: Any
+    bends: Any
+    factor: Any
 
 
 @dataclass(frozen=True)
@@ -89,7 +103,8 @@ class SolverImplicit(KernelSolver):
         free = cloth.inv_mass > 0
         mass = np.where(free, 1 / np.where(free, cloth.inv_mass, 1), 0.0)
         attachments = stretch_limits(cloth, self.limit, self.sweeps)
-        plan = ImplicitPlan(body_of(cloth), attachments, mass, np.array([self.damping]))
+        bends = force_stencils(cloth.bending, np.ones(len(mass)))
+        plan = ImplicitPlan(body_of(cloth), bends, attachments, mass, np.array([self.damping]))
         return SolverState(plan, dt, self.substeps, _advance, (self.iterations, self.tolerance))
 
     def warn_unsolved(self, residual: float) -> None:
@@ -142,8 +157,9 @@ def pull_together(x: Any, i: Any, j: Any, lane: Any, fx: Any, fy: Any, fz: Any) 
 
 
 @kernel
-def diagonal(out: Any, mass: Any, blocks: Any, springs: Any) -> None:
+def diagonal(out: Any, matrix: Any) -> None:
     """Inverses of the matrix's diagonal, the preconditioner; 0 where a particle is pinned."""
+    mass, blocks, springs, bends = matrix.mass, matrix.blocks, matrix.springs, matrix.bends
     none, one = out.dtype.type(0), out.dtype.type(1)
     for row in range(out.shape[0]):
         for lane in range(out.shape[1]):
@@ -155,6 +171,13 @@ def diagonal(out: Any, mass: Any, blocks: Any, springs: Any) -> None:
                 for lane in range(out.shape[1]):
                     n = blocks[5 * s + axis, lane]
                     out[row, lane] += blocks[5 * s + 3, lane] + blocks[5 * s + 4, lane] * n * n
+    for s in range(bends.rest.size):
+        for corner in range(4):
+            part = matrix.factor * bends.weights[s, corner] * bends.parts[s, corner]
+            for axis in range(3):
+                row = 3 * bends.particles[s, corner] + axis
+                for lane in range(out.shape[1]):
+                    out[row, lane] += part
     for row in range(out.shape[0]):
         if mass[row // 3] == 0:
             for lane in range(out.shape[1]):
@@ -165,8 +188,9 @@ def diagonal(out: Any, mass: Any, blocks: Any, springs: Any) -> None:
 
 
 @kernel
-def multiply(out: Any, p: Any, mass: Any, blocks: Any, springs: Any) -> None:
+def multiply(out: Any, p: Any, matrix: Any) -> None:
     """out = A p, without pinned rows."""
+    mass, blocks, springs = matrix.mass, matrix.blocks, matrix.springs
     for row in range(p.shape[0]):
         for lane in range(p.shape[1]):
             out[row, lane] = mass[row // 3] * p[row, lane]
@@ -180,7 +204,23 @@ def multiply(out: Any, p: Any, mass: Any, blocks: Any, springs: Any) -> None:
             part = along * (nx * px + ny * py + nz * pz)
             fx, fy, fz = across * px + part * nx, across * py + part * ny, across * pz + part * nz
             pull_together(out, i, j, lane, -fx, -fy, -fz)
+    add_bending(out, p, matrix)
     clear_pins(out, mass)
+
+
+@kernel
+def add_bending(out: Any, p: Any, matrix: Any) -> None:
+    """out += the bending part of A p."""
+    bends = matrix.bends
+    for s in range(bends.rest.size):
+        a, b = 3 * np.intp(bends.particles[s, 0]), 3 * np.intp(bends.particles[s, 1])
+        c, d = 3 * np.intp(bends.particles[s, 2]), 3 * np.intp(bends.particles[s, 3])
+        for lane in range(0, p.shape[1], lane_count(p)):
+            px, py, pz = kernels.weighted(p, (a, b, c, d), bends.weights[s], lane)
+            kernels.add(out, a, lane, matrix.factor * bends.parts[s, 0], px, py, pz)
+            kernels.add(out, b, lane, matrix.factor * bends.parts[s, 1], px, py, pz)
+            kernels.add(out, c, lane, matrix.factor * bends.parts[s, 2], px, py, pz)
+            kernels.add(out, d, lane, matrix.factor * bends.parts[s, 3], px, py, pz)
 
 
 @kernel
@@ -207,9 +247,7 @@ def dots(out: Any, p: Any, weight: Any, q: Any) -> None:
 def solve(
     dv: Any,
     r: Any,
-    mass: Any,
-    blocks: Any,
-    springs: Any,
+    matrix: Any,
     iterations: Any,
     tolerance: Any,
     residuals: Any,
@@ -229,10 +267,10 @@ def solve(
     for row in range(dv.shape[0]):
         for lane in range(lanes):
             ones[row, lane] = F(1)
-    diagonal(inverse, mass, blocks, springs)
-    clear_pins(r, mass)
+    diagonal(inverse, matrix)
+    clear_pins(r, matrix.mass)
     dots(goal, r, inverse, r)
-    multiply(q, dv, mass, blocks, springs)
+    multiply(q, dv, matrix)
     for row in range(dv.shape[0]):
         for lane in range(lanes):
             r[row, lane] -= q[row, lane]
@@ -246,7 +284,7 @@ def solve(
             going = going or rho[lane] > goal[lane]
         if not going:
             return
-        multiply(q, c, mass, blocks, springs)
+        multiply(q, c, matrix)
         dots(old, c, ones, q)
         for lane in range(lanes):
             moves = rho[lane] > goal[lane] and old[lane] > 0.0
@@ -314,7 +352,7 @@ def _advance(
     """Steps of lanes first..last, a block at a time."""
     dtype, body = batch.x.dtype, plan.body
     h, damping = dtype.type(batch.numbers[0]), plan.damping[0]
-    rows, springs = batch.x.shape[0], plan.body.springs
+    rows, springs, bends = batch.x.shape[0], plan.body.springs, plan.bends
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
         lanes = y.shape[1]
@@ -332,8 +370,10 @@ def _advance(
                 for lane in range(lanes):
                     b[row, lane] = plan.mass[row // 3] * (g[row, lane] - u[row, lane])
             linearise(blocks, b, y, u, springs, damping, h)
+            kernels.bend(b, y, u, bends, h, dtype.type(0), h + body.damping[0])
             lead_pins(dv, y, u, body.pins, batch.targets, step, start, h)
-            solve(dv, b, plan.mass, blocks, springs, iterations, tolerance, residuals, scratch)
+            matrix = Matrix(plan.mass, blocks, springs, bends, h * (h + body.damping[0]))
+            solve(dv, b, matrix, iterations, tolerance, residuals, scratch)
             if body.pins.size == 0:
                 keep_momentum(dv, b, plan.mass)
             for row in range(rows):

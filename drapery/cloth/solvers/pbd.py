@@ -6,9 +6,10 @@ cloth keeps its size: small substeps (Macklin et al. 2019, "Small steps in physi
 constraints in order from the pins outwards, and attachments of every length (see `attachments`).
 
 The order is 1. It is stable for any step. Stiffness is not in N/m: it depends on the number of
-passes, and the stiffness of the springs is not used. Choose it for fast cloth that hardly stretches
-and for pixel-art capes. It differs from xpbd, whose compliance does not depend on dt, and from
-verlet, although it is often called that: here no forces act between particles.
+passes, and the stiffness of the springs is not used. Bending is in physical units, as in xpbd.
+Choose it for fast cloth that hardly stretches and for pixel-art capes. It differs from xpbd, whose
+compliance does not depend on dt, and from verlet, although it is often called that: here no forces
+act between particles.
 """
 
 from dataclasses import dataclass
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments, stretch_limits
+from drapery.cloth.bending import BendingStep, bending_step
 from drapery.cloth.checks import check_choice, check_count, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.kernels import add, direction
@@ -61,6 +63,7 @@ class PBDConstraints(NamedTuple):
 class PBDPlan(NamedTuple):
     body: ClothBody
     constraints: PBDConstraints
+    bending_step: BendingStep
     attachments: Attachments
     springs: Attachments
     keep: Array
@@ -138,11 +141,13 @@ class SolverPBD(KernelSolver):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
+        h = dt / self.substeps
         keep = np.array([1 / (1 + self.damping * dt / self.substeps)])
         attachments = stretch_limits(cloth, self.limit, min(self.sweeps, 1))
         plan = PBDPlan(
             body_of(cloth),
             self._constraints(cloth),
+            bending_step(cloth.bending, cloth.inv_mass, h),
             attachments,
             stretched(cloth, self.limit),
             keep,
@@ -281,6 +286,8 @@ def _advance(
                 blow_all(wind, y, body, batch, start, time, work)
             kernels.load_lanes(g, u, 0)
             damp(g, plan.keep[0])
+            bend_time, damping = plan.bending_step.time[0], plan.bending_step.damping[0]
+            kernels.bend(g, y, u, body.stencils, bend_time, dtype.type(0), damping)
             add_loads(g, y, u, body, batch, wind, h, start, work)
             kernels.move(y, g, old, h)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)

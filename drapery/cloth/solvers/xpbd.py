@@ -14,7 +14,9 @@ iteration a substep its multiplier starts from 0 (2016, eq. 18): Δλ = -C / (w_
 Soft springs are solved in only t of the n substeps of a step, with α / (h dt / t) instead of
 α / h². This is multiple time stepping (Tuckerman, Berne, Martyna 1992): the short steps are used
 for the stiff springs. Gravity acts in every substep, wind and other loads once a step. Long-range
-attachments (`drapery.cloth.attachments`) correct errors over many springs at once.
+attachments (`drapery.cloth.attachments`) correct errors over many springs at once. Bending
+(`drapery.cloth.bending`) is soft, so it acts as a force in as many substeps as it needs: as a
+compliant constraint with one iteration it would be too soft where stencils overlap.
 """
 
 from dataclasses import dataclass
@@ -26,21 +28,25 @@ from numpy.typing import NDArray
 
 from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.attachments import Attachments, long_range_attachments
+from drapery.cloth.bending import BendingStep, bending_step, fastest_bending
 from drapery.cloth.checks import check_flag, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.kernels import add, direction
 from drapery.cloth.order import across_then_outwards, pin_distances
+from drapery.cloth.sheet_kernels import bend
 from drapery.cloth.sheets import (
     ConstraintBatch,
     ConstraintBatches,
     Pairs,
+    SheetBending,
     SheetLayout,
     anchored,
     constraint_batches,
     in_turn,
     is_sheet,
     limits,
+    sheet_bending,
     sheet_of,
 )
 from drapery.cloth.simd import fill, lane_count, load, maximum, store
@@ -89,6 +95,8 @@ class XPBDConstraints(NamedTuple):
 class XPBDPlan(NamedTuple):
     body: ClothBody
     constraints: XPBDConstraints
+    every: int
+    bending_step: BendingStep
     attachments: Attachments
 
 
@@ -98,6 +106,9 @@ class XPBDSheetPlan(NamedTuple):
     sheet: SheetLayout
     constraints: ConstraintBatches
     begin: NDArray[np.int64]
+    bending: SheetBending
+    every: int
+    bending_step: BendingStep
     attachments: ConstraintBatches
     limits: ConstraintBatches
 
@@ -132,15 +143,15 @@ class SolverXPBD(KernelSolver):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
-        substeps = self.substeps or enough_substeps(cloth)
+        substeps = self.substeps or max(enough_substeps(cloth), bending_substeps(cloth, dt))
         constraints = solved_springs(cloth, self._compliances(cloth), dt, substeps)
         attachments = self._attachments(cloth)
+        turns = bending_turns(cloth, dt, substeps)
         if is_sheet(cloth):
-            fine = sheet_plan(cloth, constraints, attachments)
+            fine = sheet_plan(cloth, constraints, attachments, turns)
             return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
-        return SolverState(
-            XPBDPlan(body_of(cloth), constraints, attachments), dt, substeps, _advance
-        )
+        plan = XPBDPlan(body_of(cloth), constraints, *turns, attachments)
+        return SolverState(plan, dt, substeps, _advance)
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -173,6 +184,12 @@ def enough_substeps(cloth: Cloth) -> int:
     max_distance = distances[np.isfinite(distances)].max(initial=0.0)
     springs = max_distance / cloth.spring_length[cloth.spring_kind == STRUCTURAL].mean()
     return max(4, min(MAX_SUBSTEPS, int(np.ceil(springs / 2.1))))
+
+
+def bending_substeps(cloth: Cloth, dt: float) -> int:
+    """Substeps of at most one radian of the fastest oscillation of bending."""
+    swing = dt * np.sqrt(fastest_bending(cloth.bending, cloth.inv_mass))
+    return int(min(MAX_SUBSTEPS, np.ceil(swing)))
 
 
 def solved_springs(cloth: Cloth, compliance: Array, dt: float, substeps: int) -> XPBDConstraints:
@@ -208,6 +225,13 @@ def turns_a_step(compliance: Array, w: Array, dt: float, substeps: int) -> NDArr
     return np.clip(np.ceil(swing), 1, substeps).astype(np.int64)
 
 
+def bending_turns(cloth: Cloth, dt: float, substeps: int) -> tuple[int, BendingStep]:
+    """Bending acts before the first of every so many substeps, by this step."""
+    every = max(1, substeps // max(1, bending_substeps(cloth, dt)))
+    time = dt / -(-substeps // every)
+    return every, bending_step(cloth.bending, cloth.inv_mass, time)
+
+
 def _first_turns(cloth: Cloth, soft: NDArray[np.bool_], substeps: int) -> NDArray[np.int64]:
     """The substep in which each soft spring is solved first, [S], evenly spread over the substeps.
 
@@ -223,7 +247,10 @@ def _first_turns(cloth: Cloth, soft: NDArray[np.bool_], substeps: int) -> NDArra
 
 
 def sheet_plan(
-    cloth: Cloth, constraints: XPBDConstraints, attachments: Attachments
+    cloth: Cloth,
+    constraints: XPBDConstraints,
+    attachments: Attachments,
+    turns: tuple[int, BendingStep],
 ) -> XPBDSheetPlan:
     """The plan of a fine grid, which is laid out as a plane of lanes."""
     sheet = sheet_of(cloth, *wind_faces(cloth))
@@ -244,6 +271,8 @@ def sheet_plan(
         sheet,
         constraint_batches(batches),
         np.array(begin),
+        sheet_bending(sheet, cloth.bending),
+        *turns,
         held,
         limits(sheet, cloth, LIMIT, SWEEPS * is_fine(cloth)),
     )
@@ -322,10 +351,16 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     body, dtype = plan.body, batch.x.dtype
     h = dtype.type(batch.numbers[0])
     dt = dtype.type(batch.numbers[0] * substeps)
+    none, bend_time, damping = (
+        dtype.type(0),
+        plan.bending_step.time[0],
+        plan.bending_step.damping[0],
+    )
     rows, width = batch.x.shape[0], min(batch.width, last - first)
     y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
     old = simd.empty_lanes(rows, width, batch.x)
-    wind = simd.empty_lanes(3 * body.controls.size, width, batch.x)
+    winds = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
+    wind = simd.empty_lanes(winds, width, batch.x)
     work = simd.empty_lanes(18, width, batch.x)
     for block in range(first, last, width):
         # The last block overlaps the one before, so all blocks have the same width.
@@ -336,10 +371,15 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(batch.gusts.seeds.size):
                 kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
-                pressure = batch.gusts.numbers[number, 16]
-                kernels.add_wind_velocities(u, y, u, body.faces, wind, pressure, body.inv_mass, dt)
+                kernels.add_wind_velocities(u, y, u, body, wind, batch.gusts, number, dt)
             add_pushes(u, body.inv_mass, batch.numbers, batch.push, dt, start)
             for substep in range(substeps):
+                if substep == 0:
+                    kernels.bend(u, y, u, body.stencils, bend_time, none, damping)
+                elif substep % plan.every == 0:
+                    # The motion of a substep is y - old.
+                    rate = damping / h
+                    kernels.bend(old, y, old, body.stencils, -h * bend_time, rate, -rate)
                 drift(y, old, u, body.inv_mass, batch.numbers, substep)
                 y, old = old, y
                 turn = step * substeps + substep
@@ -358,11 +398,16 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     sheet, dtype = plan.sheet, batch.x.dtype
     h = dtype.type(batch.numbers[0])
     dt = dtype.type(batch.numbers[0] * substeps)
+    none, bend_time, damping = (
+        dtype.type(0),
+        plan.bending_step.time[0],
+        plan.bending_step.damping[0],
+    )
     y = simd.empty_lanes(3, sheet.plane * (1 + sheet.anchors.size), batch.x)
     u, old = simd.empty_lanes(3, sheet.plane, batch.x), simd.empty_lanes(3, sheet.plane, batch.x)
     work, scratch = (
         simd.empty_lanes(3, 2 * sheet.plane, batch.x),
-        sheet_kernels.wind_scratch(sheet, dtype),
+        sheet_kernels.wind_scratch(sheet, batch.gusts, dtype),
     )
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
@@ -375,6 +420,12 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             sheet_kernels.add_push(u, sheet, batch.push, dt, cloth)
             sheet_kernels.slow_down(u, sheet, batch.numbers, dt)
             for substep in range(substeps):
+                if substep == 0:
+                    bend(u, y, u, plan.bending, sheet, bend_time, none, damping, work)
+                elif substep % plan.every == 0:
+                    # The motion of a substep is y - old.
+                    rate, back = damping / h, -h * bend_time
+                    bend(old, y, old, plan.bending, sheet, back, rate, -rate, work)
                 sheet_kernels.drift(y, old, u, sheet, batch.numbers, substep)
                 sheet_kernels.place(y, sheet, batch.targets, step * substeps + substep, cloth)
                 begin, end = plan.begin[substep], plan.begin[substep + 1]

@@ -1,0 +1,147 @@
+"""Ripples of a wind: pressure waves that run along a cloth, and vortices shed at its sides.
+
+Eddies that a pole, a bar or an edge sheds are carried along the cloth by the flow and press on it
+as they pass. The pressure under them is a sum of waves of several lengths, each carried at about
+0.6 of the speed of the flow: Corcos, "The structure of the turbulent pressure field in
+boundary-layer flows" (J. Fluid Mech. 18, 1964). They run in the direction of the wind along the
+cloth; a wind that meets the cloth head-on is turned by it towards the free edge. A plate also sheds
+vortices alternately at its two sides with f b / U = 0.145: Fage, Johansen, "On the flow of air
+behind an inclined flat plate of infinite span" (Proc. R. Soc. A 116, 1927).
+
+A wave at a particle is sin(2π (f t + turn - s)), so it is stored as two parts a particle, and a
+step needs only the sine and the cosine of its phase. All frequencies are multiples of 1 / period
+for a wind that repeats.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from drapery.cloth.cloth import Cloth
+from drapery.cloth.exact import sine_of_turns
+from drapery.cloth.wind import Gusts, Wind
+from drapery.mesh import Array, face_normals
+
+WAVES = 16
+"""Waves of a wind, without the vortices."""
+OCTAVES = 2.0
+"""Their lengths are spread over so many octaves around the size of the ripples."""
+CARRIED = 0.45, 0.75
+"""Speeds of waves over that of the wind: Corcos's range."""
+SPREAD = 0.2
+"""Waves run up to this part of a turn to either side of the flow."""
+STROUHAL = 0.145
+"""Frequency of the vortices behind a flat plate times its width over the speed."""
+PADDING = 64
+"""Numbers after those of the last particle, so that kernels may read whole registers."""
+
+
+class Waves(NamedTuple):
+    """K waves on N particles: sin(2π (rates t + turns)) sines + cos(…) cosines [m/s].
+
+    rates: [1/s], [K]. turns: [K]. sines, cosines: [m/s], [K, N + PADDING].
+    """
+
+    rates: Array
+    turns: Array
+    sines: Array
+    cosines: Array
+
+
+@lru_cache(maxsize=16)
+def waves_of(wind: Wind, cloth: Cloth) -> Waves:
+    """The waves of a wind on a cloth in its rest shape; none if it has no ripples or vortices."""
+    velocity = np.asarray(wind.velocity, float)
+    speed = float(np.sqrt((velocity * velocity).sum()))
+    along, across = _places(velocity, cloth)
+    waves = [_no_waves(len(along))]
+    if wind.ripples and speed:
+        waves.append(_ripples(wind, speed, along, across))
+    if wind.vortices and speed and np.ptp(across) > 0:
+        waves.append(_vortices(wind, speed, along, across))
+    rates, turns, sines, cosines = (np.concatenate(parts) for parts in zip(*waves, strict=True))
+    if wind.period is not None:
+        rates = np.maximum(1, np.round(rates * wind.period)) / wind.period
+    padding = ((0, 0), (0, PADDING))
+    return Waves(rates, turns, np.pad(sines, padding), np.pad(cosines, padding))
+
+
+def with_waves(gusts: Gusts, winds: Sequence[Wind], cloth: Cloth) -> Gusts:
+    """The winds with their waves on a cloth; those with fewer are filled with waves of 0 m/s."""
+    if not any(wind.ripples or wind.vortices for wind in winds):
+        return gusts
+    waves = [waves_of(wind, cloth) for wind in winds]
+    most = max(len(wave.rates) for wave in waves)
+    fill = [most - len(wave.rates) for wave in waves]
+    return gusts._replace(
+        rates=np.stack([np.pad(w.rates, (0, more)) for w, more in zip(waves, fill, strict=True)]),
+        turns=np.stack([np.pad(w.turns, (0, more)) for w, more in zip(waves, fill, strict=True)]),
+        sines=np.stack(
+            [np.pad(w.sines, ((0, more), (0, 0))) for w, more in zip(waves, fill, strict=True)]
+        ),
+        cosines=np.stack(
+            [np.pad(w.cosines, ((0, more), (0, 0))) for w, more in zip(waves, fill, strict=True)]
+        ),
+    )
+
+
+def _no_waves(particles: int) -> Waves:
+    return Waves(np.zeros(0), np.zeros(0), *np.zeros((2, 0, particles)))
+
+
+def _ripples(wind: Wind, speed: float, along: Array, across: Array) -> Waves:
+    jitter, angle, pace, turns = _random(wind.seed, 4, WAVES)
+    octaves = OCTAVES * ((np.arange(WAVES) + jitter) / WAVES - 0.5)
+    lengths = wind.ripple_size * 2.0**octaves
+    heading = SPREAD * (2 * angle - 1)
+    forward, sideways = sine_of_turns(heading + 0.25), sine_of_turns(heading)
+    rates = speed * (CARRIED[0] + (CARRIED[1] - CARRIED[0]) * pace) * forward / lengths
+    places = (forward[:, None] * along + sideways[:, None] * across) / lengths[:, None]
+    # Longer waves are stronger, as the cube root of their length (Kolmogorov 1941).
+    strength = np.cbrt(lengths)
+    strength *= wind.ripples * speed * np.sqrt(2 / (strength * strength).sum())
+    return _at_places(rates, turns, places, np.repeat(strength[:, None], len(along), axis=1))
+
+
+def _vortices(wind: Wind, speed: float, along: Array, across: Array) -> Waves:
+    width = float(np.ptp(across))
+    rate = STROUHAL * speed / width
+    side = (2 * across - across.min() - across.max()) / width
+    place = along * rate / (speed * sum(CARRIED) / 2)
+    turns = _random(wind.seed, 5, 1)[4]
+    strength = wind.vortices * speed * side
+    return _at_places(np.array([rate]), turns, place[None], strength[None])
+
+
+def _at_places(rates: Array, turns: Array, places: Array, strength: Array) -> Waves:
+    sines, cosines = strength * sine_of_turns(0.25 - places), strength * sine_of_turns(-places)
+    return Waves(rates, turns, sines, cosines)
+
+
+def _places(velocity: Array, cloth: Cloth) -> tuple[Array, Array]:
+    """How far each particle lies along the flow over the cloth, and across it [m], [N] each."""
+    rest = cloth.rest_positions - cloth.rest_positions.mean(axis=0)
+    normal = _unit(face_normals(rest, cloth.triangles).sum(axis=0), np.array([0.0, 0.0, 1.0]))
+    pinned = cloth.inv_mass == 0
+    down = np.array([0.0, -1.0, 0.0])
+    if pinned.any() and not pinned.all():
+        down = rest[~pinned].mean(axis=0) - rest[pinned].mean(axis=0)
+    down = _unit(down - (down * normal).sum() * normal, np.array([0.0, -1.0, 0.0]))
+    head_on = float((velocity * normal).sum())
+    along = _unit(velocity - head_on * normal + abs(head_on) * down, down)
+    across = np.cross(normal, along)
+    return (rest * along).sum(axis=1), (rest * across).sum(axis=1)
+
+
+def _unit(vector: Array, otherwise: Array) -> Array:
+    length = np.sqrt((vector * vector).sum())
+    chosen: Array = vector / length if length > 1e-9 else otherwise
+    return chosen
+
+
+def _random(seed: int, rows: int, count: int) -> Array:
+    """Numbers from 0 to 1 that are the same on every machine, [rows, count]."""
+    raw = np.random.PCG64(seed & 0xFFFFFFFFFFFFFFFF).random_raw(rows * count)
+    return (raw >> np.uint64(11)).reshape(rows, count) * 2.0**-53
