@@ -31,6 +31,7 @@ Pose = Literal["cloth", "vanilla"]
 Placement = Literal["standing", "wall", "item"]
 Facing = Literal["south", "west", "north", "east"]
 LayerMode = Literal["stacked", "flat"]
+FabricName = Literal["wool", "cotton", "linen", "silk", "canvas", "leather", "felt"]
 SolverName = Literal["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"]
 Pins = Literal["none", "top", "corners", "three-corners", "four-corners"]
 ViewName = Literal["front", "back", "iso", "gui", "hero"]
@@ -68,7 +69,7 @@ class Options(TypedDict, total=False):
     size: tuple[int, int]
     grid: tuple[int, int]
     solver: SolverName | Solver
-    fabric: Fabric | None
+    fabric: FabricName | Fabric | None
     forces: Sequence[Force]
     pins: Pins | None
     wind: float | Wind
@@ -209,12 +210,14 @@ class Settings:
         choices=get_args(SolverName),
         takes=_has("init", "step"),
     )
-    fabric: Fabric | None = _option(
+    fabric: FabricName | Fabric | None = _option(
         None,
-        None,
-        "a Fabric, the material of the cloth",
+        str,
+        "Material of the cloth",
+        choices=get_args(FabricName),
         takes=_has("density", "stretch", "bending"),
-        audience="python",
+        default_text="a light cloth of springs",
+        audience="anyone",
     )
     forces: Sequence[Force] = _option(
         (),

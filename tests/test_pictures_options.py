@@ -11,7 +11,7 @@ from PIL import Image
 
 from drapery import Banner, DraperyError, OptionError, draw
 from drapery.banner.packs import open_packs
-from drapery.cloth import Drag, Fabric, SolverXPBD, Wind
+from drapery.cloth import FABRICS, Drag, Fabric, SolverXPBD, Wind
 from drapery.mesh import Array
 from drapery.render.backends import backend
 from drapery.render.frame import Pixels
@@ -149,10 +149,11 @@ def test_what_cannot_be_is_refused(wrong: dict[str, object]) -> None:
         ("solver", "xpbd", SolverXPBD()),
         ("wind", 4.0, Wind(flow(4.0, None))),
         ("fabric", None, Fabric()),
+        ("fabric", "silk", FABRICS["silk"]),
         ("packs", (), open_packs(())),
         ("packs", (), [open_packs(())]),
     ],
-    ids=["view", "backend", "solver", "wind", "fabric", "packs", "a list of packs"],
+    ids=["view", "backend", "solver", "wind", "no fabric", "fabric", "packs", "a list of packs"],
 )
 def test_an_object_draws_as_its_name_does(name: str, by_name: object, by_object: object) -> None:
     assert np.array_equal(pixels(**{name: by_name}), pixels(**{name: by_object}))

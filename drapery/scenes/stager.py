@@ -17,6 +17,7 @@ import numpy as np
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.cloth import (
+    FABRICS,
     Cloth,
     Fabric,
     Force,
@@ -61,18 +62,19 @@ class ClothSpec:
     """How the cloth of a panel is made. Equal specs make equal cloths.
 
     shape: particles across and down. size: width and height [m]. pins: which particles are pinned.
-    solver: its name, or a Solver. fabric: a Fabric; None is the default of `grid`.
+    solver: its name, or a Solver. fabric: its name, or a Fabric; None is the default of `grid`.
     """
 
     shape: tuple[int, int]
     size: tuple[float, float]
     pins: PinName
     solver: str | Solver
-    fabric: Fabric | None = None
+    fabric: str | Fabric | None = None
 
     def make_cloth(self) -> Cloth:
         """The cloth at rest. Raises OptionError."""
-        return grid(*self.shape, *self.size, pins=self.pins, fabric=self.fabric or Fabric())
+        fabric = FABRICS[self.fabric] if isinstance(self.fabric, str) else self.fabric
+        return grid(*self.shape, *self.size, pins=self.pins, fabric=fabric or Fabric())
 
     def make_solver(self) -> Solver:
         """The solver. Raises OptionError for a name that is not known."""
@@ -355,7 +357,7 @@ def _record(spec: ClothSpec, forces: Sequence[Force], at: Moments) -> tuple[Stat
 def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, ...]:
     """The same, from a cache if the settings hold only names and numbers."""
     size = at.count * math.prod(spec.shape) * 3 * np.dtype(float).itemsize
-    named = isinstance(spec.solver, str) and spec.fabric is None
+    named = isinstance(spec.solver, str) and not isinstance(spec.fabric, Fabric)
     if named and not isinstance(settings.wind, Wind) and not settings.forces and size <= MAX_CACHED:
         wind = (settings.wind, settings.direction, settings.gusts, settings.seed)
         return _cached(spec, wind, at)
