@@ -1,0 +1,55 @@
+"""What a user waits for: `python -m benchmarks.commands [--against PYTHON] [--runs 5]`.
+
+Whole commands are timed, with the start of Python: one picture, and 80 frames of 512 x 512 as a
+GIF. With `--against`, the same commands of another environment's interpreter run in turn with
+these, so both meet the same load of the machine. The ratio is that of the least times.
+"""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+
+from rich.console import Console
+from rich.table import Table
+
+DESIGN = "white creeper:lime border:black"
+COMMANDS = {
+    "render": ("render", DESIGN, "-o", "banner.png"),
+    "animate": ("animate", DESIGN, "-o", "banner.gif", "--seconds", "4", "--fps", "20"),
+}
+
+
+def seconds(python: str, command: Sequence[str]) -> float:
+    """How long a command takes with an interpreter [s], wall clock."""
+    with tempfile.TemporaryDirectory() as folder:
+        begin = time.perf_counter()
+        subprocess.run(
+            [python, "-m", "drapery", *command], cwd=folder, check=True, capture_output=True
+        )
+        return time.perf_counter() - begin
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--against", metavar="PYTHON", help="another interpreter, timed in turn")
+    parser.add_argument("--runs", type=int, default=5)
+    given = parser.parse_args()
+    pythons = [sys.executable, *([given.against] if given.against else [])]
+    table = Table("command", *("this" if p == sys.executable else p for p in pythons), "ratio")
+    for name, command in COMMANDS.items():
+        times: dict[str, list[float]] = {python: [] for python in pythons}
+        for run in range(given.runs + 1):
+            for python in pythons:
+                taken = seconds(python, command)
+                if run:  # the first run compiles
+                    times[python].append(taken)
+        least = [min(times[python]) for python in pythons]
+        table.add_row(name, *(f"{t:.2f} s" for t in least), f"{least[0] / least[-1]:.2f}")
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    main()
