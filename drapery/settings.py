@@ -36,6 +36,7 @@ SolverName = Literal["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"]
 Pins = Literal["none", "top", "corners", "three-corners", "four-corners"]
 ViewName = Literal["front", "back", "iso", "gui", "hero"]
 Samples = Literal[1, 4, 16]
+Contact = Literal["none", "world", "all"]
 Lighting = Literal["game", "flat", "studio"]
 
 MAX_SIDE = 8192
@@ -72,6 +73,7 @@ class Options(TypedDict, total=False):
     fabric: FabricName | Fabric | None
     forces: Sequence[Force]
     pins: Pins | None
+    contact: Contact
     wind: float | Wind
     direction: float | None
     gusts: float
@@ -233,6 +235,13 @@ class Settings:
         "Where the cloth is held",
         choices=get_args(Pins),
         default_text="as its kind hangs",
+        audience="anyone",
+    )
+    contact: Contact = _option(
+        "all",
+        str,
+        "What the cloth cannot pass through: the world around it, or all, which is also itself",
+        choices=get_args(Contact),
         audience="anyone",
     )
     wind: float | Wind = _option(

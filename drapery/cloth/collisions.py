@@ -6,11 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.cloth.attachments import stretch_limits
+from drapery.cloth.box_contact import BoxContact, boxes_of
 from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders.collider import Collider
-from drapery.cloth.colliders.collision_world import CollisionWorld
+from drapery.cloth.colliders.collision_world import THINNEST, CollisionWorld
+from drapery.cloth.colliders.pose import still
 from drapery.cloth.colliders.sampling import sample_points
+from drapery.cloth.colliders.shapes import Box, Plane
 from drapery.cloth.contact import self_contact
 from drapery.cloth.solvers.driver import check_limit
 from drapery.errors import OptionError
@@ -66,3 +69,17 @@ def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
         collisions.rounds,
         collisions.threads,
     )
+
+
+def boxes_met(cloth: Cloth, collisions: Collisions) -> BoxContact | None:
+    """The colliders of a cloth as boxes, which solvers meet inside their steps; None where one is
+    neither a Box nor a Plane, moves or bounces, or where the cloth meets itself."""
+    colliders = collisions.colliders
+    simple = all(
+        isinstance(c.shape, Box | Plane) and c.path is still and not c.restitution
+        for c in colliders
+    )
+    if not colliders or not simple or collisions.apart is not None:
+        return None
+    radius = max(collisions.thickness / 2, THINNEST)
+    return boxes_of(cloth.inv_mass, cloth.triangles, cloth.rest_positions, colliders, radius)

@@ -12,10 +12,12 @@ from drapery.cloth.forces import Force, Gravity, lower_forces
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import Solver, check_state, check_step
 from drapery.cloth.solvers.desbrun import SolverDesbrun
+from drapery.cloth.solvers.driver import KernelSolver
 from drapery.cloth.state import State, rest_state
 from drapery.errors import OptionError
 
 if TYPE_CHECKING:
+    from drapery.cloth.box_contact import BoxContact
     from drapery.cloth.collisions import Collisions
 
 
@@ -24,7 +26,8 @@ class MovingCloth:
     """Cloths of one topology at one moment; `simulate` for forces that change between steps.
 
     dt: one step [s]. solver_state: what the solver remembers between steps.
-    resolve: the collision stage after each step; None where the cloths meet nothing.
+    boxes: what the cloths meet inside the solver's steps. resolve: the collision stage after each
+    step, for other shapes and solvers. Both are None where the cloths meet nothing.
     """
 
     cloth: Cloth
@@ -33,6 +36,7 @@ class MovingCloth:
     state: State
     solver_state: Any
     resolve: Callable[[State, State], State] | None = None
+    boxes: BoxContact | None = None
 
     @staticmethod
     def begin(
@@ -50,13 +54,15 @@ class MovingCloth:
         _check_types(cloth, solver)
         state = rest_state(cloth, count) if start is None else start
         check_state(cloth, state)
-        resolve = None
+        resolve, boxes = None, None
         if collisions is not None:
             # Imported here: a cloth that meets nothing starts without the colliders' kernels.
-            from drapery.cloth.collisions import collision_world
+            from drapery.cloth.collisions import boxes_met, collision_world
 
-            resolve = collision_world(cloth, collisions).resolve
-        return MovingCloth(cloth, solver, dt, state, solver.init(cloth, dt), resolve)
+            boxes = boxes_met(cloth, collisions) if isinstance(solver, KernelSolver) else None
+            if boxes is None:
+                resolve = collision_world(cloth, collisions).resolve
+        return MovingCloth(cloth, solver, dt, state, solver.init(cloth, dt), resolve, boxes)
 
     def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
         """The cloths some time steps later. Raises OptionError where they are torn to infinity."""
@@ -64,10 +70,11 @@ class MovingCloth:
         state, solver_state = self.state, self.solver_state
         # One call makes all steps, unless the collision stage follows each.
         calls, each = (1, steps) if self.resolve is None else (steps, 1)
+        meets: dict[str, Any] = {} if self.boxes is None else {"boxes": self.boxes}
         for _ in range(calls):
             before = state
             state, solver_state = self.solver.step(
-                self.cloth, before, solver_state, forces, self.dt, steps=each, pins=pins
+                self.cloth, before, solver_state, forces, self.dt, steps=each, pins=pins, **meets
             )
             state = state if self.resolve is None else self.resolve(before, state)
         return replace(self, state=state, solver_state=solver_state)

@@ -18,7 +18,10 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.cloth import (
     FABRICS,
+    Box,
     Cloth,
+    Collider,
+    Collisions,
     Fabric,
     Force,
     Gravity,
@@ -40,7 +43,7 @@ from drapery.render.vectors import unit
 from drapery.render.views import find_view, frame_view, turntable
 from drapery.settings import Settings, background_colour
 from drapery.style.block import turn
-from drapery.style.body import Body, Panel, Part
+from drapery.style.body import Body, Panel, Part, Solid
 from drapery.style.extrusion import Shell, make_shell, thicken
 from drapery.style.kinds import body_of
 from drapery.style.uv_mapping import UVMapping
@@ -53,6 +56,10 @@ SHOWN_GROUND = 0.4
 """How much of the block below a banner is surely in the picture [m]."""
 WIND_AXIS = (0.35, 0.0, 1.0)
 """Where the wind blows to unless a direction is given: to the front and a little to the right."""
+ENDLESS = 1e3
+"""A solid without an end is a box up to this coordinate [m]."""
+THINNEST = 0.1
+"""Thinner cloth keeps the distance of this thickness from solids [texels]."""
 MAX_CACHED = 16 << 20
 """A recorded motion is cached up to this size [bytes]."""
 
@@ -63,6 +70,7 @@ class ClothSpec:
 
     shape: particles across and down. size: width and height [m]. pins: which particles are pinned.
     solver: its name, or a Solver. fabric: its name, or a Fabric; None is the default of `grid`.
+    solids: what it cannot enter, in its own frame. thickness: of the cloth [m].
     """
 
     shape: tuple[int, int]
@@ -70,6 +78,8 @@ class ClothSpec:
     pins: PinName
     solver: str | Solver
     fabric: str | Fabric | None = None
+    solids: tuple[Solid, ...] = ()
+    thickness: float = 0.0
 
     def make_cloth(self) -> Cloth:
         """The cloth at rest. Raises OptionError."""
@@ -80,16 +90,38 @@ class ClothSpec:
         """The solver. Raises OptionError for a name that is not known."""
         return solver(self.solver) if isinstance(self.solver, str) else self.solver
 
+    def make_collisions(self) -> Collisions | None:
+        """What the cloth meets; None if that is nothing."""
+        if not self.solids:
+            return None
+        boxes = []
+        for solid in self.solids:
+            low, high = (np.clip(corner, -ENDLESS, ENDLESS) for corner in (solid.low, solid.high))
+            boxes.append(Collider(Box((low + high) / 2, high - low)))
+        return Collisions(boxes, self.thickness)
+
 
 def cloth_at_rest(spec: ClothSpec) -> MovingCloth:
     """The cloth at rest at time 0. Raises OptionError."""
-    return MovingCloth.begin(spec.make_cloth(), spec.make_solver(), STEP)
+    collisions = spec.make_collisions()
+    return MovingCloth.begin(spec.make_cloth(), spec.make_solver(), STEP, collisions=collisions)
 
 
-def cloth_spec(panel: Panel, settings: Settings) -> ClothSpec:
-    """How the settings make a panel's cloth."""
+def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -> ClothSpec:
+    """How the settings make a panel's cloth. solids: of its body, see `Body`."""
     pins = settings.pins or panel.pins
-    return ClothSpec(settings.grid, panel.size, pins, settings.solver, settings.fabric)
+    met = solids if settings.contact != "none" else ()
+    x, y, z = map(float, panel.origin)
+    moved = tuple(Solid(_less(solid.low, x, y, z), _less(solid.high, x, y, z)) for solid in met)
+    thickness = max(settings.thickness, THINNEST) * panel.texel
+    made = settings.grid, panel.size, pins, settings.solver, settings.fabric
+    return ClothSpec(*made, moved, thickness)
+
+
+def _less(corner: tuple[float, float, float], *origin: float) -> tuple[float, float, float]:
+    """A corner relative to an origin [m]."""
+    x, y, z = (a - b for a, b in zip(corner, origin, strict=True))
+    return x, y, z
 
 
 class Stager:
@@ -111,7 +143,7 @@ class Stager:
         self.ground = [self._grounded(part) for part in body.ground]
         if cloths is None:
             moves = settings.pose == "cloth"
-            cloths = [cloth_at_rest(cloth_spec(p, settings)) for p in body.panels if moves]
+            cloths = [cloth_at_rest(spec) for spec in _specs(body, settings) if moves]
         self.cloths = list(cloths)
 
     @property
@@ -296,7 +328,7 @@ def _phase(panel: Panel, time: float) -> float:
 
 
 def _specs(body: Body, settings: Settings) -> list[ClothSpec]:
-    return [cloth_spec(panel, settings) for panel in body.panels]
+    return [cloth_spec(panel, settings, body.solids) for panel in body.panels]
 
 
 @lru_cache(maxsize=16)
@@ -350,7 +382,8 @@ class Moments:
 def _record(spec: ClothSpec, forces: Sequence[Force], at: Moments) -> tuple[State, ...]:
     """The cloth at each of the moments."""
     cloth, method = spec.make_cloth(), spec.make_solver()
-    states = simulate(cloth, method, forces, at.dt, every=at.every)
+    met = spec.make_collisions()
+    states = simulate(cloth, method, forces, at.dt, every=at.every, collisions=met)
     return tuple(islice(states, at.first, at.first + at.count))
 
 

@@ -214,7 +214,7 @@ class Live:
         old = dict(enumerate(self._cloths))
         cloths = []
         for number, panel in enumerate(body.panels):
-            spec, cloth = cloth_spec(panel, settings), old.get(number)
+            spec, cloth = cloth_spec(panel, settings, body.solids), old.get(number)
             if cloth is None or cloth.spec != spec:
                 self._disturbed |= self._stager.steps > 0
                 cloth = new_live_cloth(spec) if cloth is None else cloth.remade(spec)

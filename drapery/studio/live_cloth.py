@@ -121,7 +121,8 @@ class LiveCloth(MovingCloth):
 
     def _with_cloth(self, cloth: Cloth, grab: Grab | None) -> Self:
         solver_state = self.solver.init(cloth, STEP)
-        return replace(self, cloth=cloth, solver_state=solver_state, grab=grab)
+        boxes = self.boxes and self.boxes._replace(inv_mass=cloth.inv_mass)
+        return replace(self, cloth=cloth, solver_state=solver_state, boxes=boxes, grab=grab)
 
     def _path(self) -> PinPath | None:
         """The path of the held particles during a time step; None if all are at their targets."""

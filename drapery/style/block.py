@@ -10,6 +10,7 @@ import numpy as np
 
 from drapery.mesh import Array, Mesh
 from drapery.style.board import moved, stiff_board, tilted
+from drapery.style.body import Solid, half_space
 from drapery.style.boxes import ModelBox, box_mesh, join, upright
 from drapery.style.uv_mapping import box_mapping
 
@@ -77,6 +78,17 @@ def flag_origin(placement: Placement) -> Array:
 def wood(placement: Placement) -> Mesh:
     """Pole and bar, textured by `banner_base`."""
     return upright(join([box_mesh(box) for box in _WOOD[placement]]), SCALE, _ORIGIN)
+
+
+def solids(placement: Placement) -> tuple[Solid, ...]:
+    """What a flag cannot enter: pole, bar, wall and ground.
+
+    A flag on a wall hangs below its own block, over the wall and the ground of the block below.
+    """
+    wood = [Solid(*box.bounds(SCALE, _ORIGIN)) for box in _WOOD[placement]]
+    if placement == "standing":
+        return *wood, half_space(1, 0.0)
+    return *wood, half_space(2, 0.0), half_space(1, -1.0)
 
 
 def stiff_flag(placement: Placement, phase: float, thickness: float = 1.0) -> Mesh:

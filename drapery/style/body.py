@@ -1,5 +1,6 @@
 """What is drawn, before it moves: stiff parts, panels of cloth, and their materials."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
@@ -20,6 +21,21 @@ class Part:
 
     mesh: Mesh
     material_at: MaterialAt
+
+
+@dataclass(frozen=True)
+class Solid:
+    """An upright box that cloth cannot enter: low and high corner [m], infinite where it has no
+    end, such as that of the ground."""
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+
+
+def half_space(axis: int, end: float) -> Solid:
+    """Everything below a coordinate [m]: the ground for axis 1, a wall for axis 2."""
+    x, y, z = (end if axis == each else math.inf for each in range(3))
+    return Solid((-math.inf, -math.inf, -math.inf), (x, y, z))
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +67,7 @@ class Panel:
 class Body:
     """One thing that is drawn: stiff parts and panels of cloth.
 
+    solids: what its cloth cannot enter.
     period: of its animated textures [s]; 0 if they are still.
     light: the light on it. camera: its own; None if a named view frames it.
     ground: the block below it or the wall behind it.
@@ -62,3 +79,4 @@ class Body:
     light: Light = GAME_LIGHT
     camera: Camera | None = None
     ground: tuple[Part, ...] = ()
+    solids: tuple[Solid, ...] = ()

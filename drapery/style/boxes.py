@@ -25,6 +25,17 @@ class ModelBox:
     offset: tuple[float, float]
     grown: float = 0.0
 
+    def bounds(
+        self, scale: float, origin: tuple[float, float, float]
+    ) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Its low and high corner after `upright` [m]."""
+        first = np.array(self.corner, np.float64) - self.grown
+        last = first + np.array(self.size, np.float64) + 2 * self.grown
+        corners = np.array([first, last]) * np.array([scale, -scale, -scale]) + np.array(origin)
+        x0, y0, z0 = map(float, corners.min(axis=0))
+        x1, y1, z1 = map(float, corners.max(axis=0))
+        return (x0, y0, z0), (x1, y1, z1)
+
 
 def box_mesh(box: ModelBox, sheet: tuple[float, float] = (64, 64)) -> Mesh:
     """The six faces of a box, each with its own four corners and normal, in model units.

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth import kernels, lanes, simd
 from drapery.cloth.bending import Stencils, fastest_bending, force_stencils
+from drapery.cloth.box_contact import NO_CONTACT, BoxContact
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.faces import Faces, wind_faces
@@ -61,6 +62,7 @@ class Batch(NamedTuple):
 
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
     targets: positions of the pins after each substep. push: accelerations by user-defined forces.
+    contact: the boxes that the cloths meet. often: see `SolverState`. count: of cloths, B.
     width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
         0 where every solve reached the tolerance, [B].
@@ -76,6 +78,9 @@ class Batch(NamedTuple):
     push: Array
     width: int
     residuals: Array
+    contact: BoxContact
+    often: bool
+    count: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +89,8 @@ class SolverState:
 
     kernel: called with first, last, plan, batch, steps, substeps and the options; it steps whole
     registers of cloths, or one cloth at a time.
+    often: whether contacts are resolved in every substep, not once a step. Free cloth lies still
+    only so.
     """
 
     plan: Any
@@ -92,6 +99,7 @@ class SolverState:
     kernel: Callable[..., None]
     options: tuple[Any, ...] = ()
     alone: bool = False
+    often: bool = False
     by_type: dict[Any, Any] = field(default_factory=dict)
 
     def of(self, dtype: Any) -> Any:
@@ -135,8 +143,9 @@ class KernelSolver:
         *,
         steps: int = 1,
         pins: PinPath | None = None,
+        boxes: BoxContact | None = None,
     ) -> tuple[State, SolverState]:
-        """See `base.Solver`."""
+        """See `base.Solver`. boxes: what the cloths meet at the end of each step."""
         check_step(dt, steps)
         check_state(cloth, state)
         if dt != solver_state.dt:
@@ -148,7 +157,9 @@ class KernelSolver:
         threads = lanes.thread_count(self.threads)
         worst = 0.0
         for _ in range(steps // at_once):
-            state, residual = _advance(cloth, state, solver_state, loads, at_once, pins, threads)
+            state, residual = _advance(
+                cloth, state, solver_state, loads, at_once, pins, threads, boxes
+            )
             worst = max(worst, residual)
         if worst > 0:
             self.warn_unsolved(worst)
@@ -166,9 +177,10 @@ def _advance(
     steps: int,
     pins: PinPath | None,
     threads: int,
+    boxes: BoxContact | None,
 ) -> tuple[State, float]:
     plan = solver_state.of(state.positions.dtype)
-    batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads)
+    batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads, boxes)
 
     def work(first: int, last: int) -> None:
         solver_state.kernel(
@@ -195,6 +207,7 @@ def batch_of(
     steps: int,
     pins: PinPath | None,
     threads: int,
+    boxes: BoxContact | None,
 ) -> Batch:
     dtype = state.positions.dtype
     x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
@@ -216,6 +229,9 @@ def batch_of(
         lanes.to_lanes(custom_accelerations(loads, cloth, state)),
         lanes.block_width(len(cloth.inv_mass), x, threads),
         np.zeros(x.shape[1]),
+        NO_CONTACT if boxes is None else boxes,
+        solver_state.often,
+        len(state.positions),
     )
 
 

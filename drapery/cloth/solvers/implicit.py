@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels, simd
+from drapery.cloth import contact_kernels, kernels, simd
 from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.bending import Stencils, force_stencils
 from drapery.cloth.checks import check_count, check_number
@@ -355,6 +355,7 @@ def _advance(
     rows, springs, bends = batch.x.shape[0], plan.body.springs, plan.bends
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
+        contact = contact_kernels.begin_lanes(y, batch, start)
         lanes = y.shape[1]
         residuals = batch.residuals[start : start + lanes]
         b, dv = simd.empty_lanes(rows, lanes, batch.x), simd.empty_lanes(rows, lanes, batch.x)
@@ -383,4 +384,6 @@ def _advance(
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
+            if (step + 1) % substeps == 0:
+                contact_kernels.meet_lanes(y, u, contact, batch, h * substeps)
         store_block(batch, y, u, start)

@@ -12,7 +12,7 @@ the same correction but integrates implicitly, and from verlet, which corrects i
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from drapery.cloth import kernels
+from drapery.cloth import contact_kernels, kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import FLEXION, Cloth
 from drapery.cloth.solvers.base import check_step
@@ -82,6 +82,7 @@ def _advance(
     h = dtype.type(batch.numbers[0])
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
+        contact = contact_kernels.begin_lanes(y, batch, start)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -92,4 +93,6 @@ def _advance(
             for _ in range(sweeps):
                 kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
+            if (step + 1) % substeps == 0:
+                contact_kernels.meet_lanes(y, u, contact, batch, h * substeps)
         store_block(batch, y, u, start)

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels
+from drapery.cloth import contact_kernels, kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.checks import check_number
 from drapery.cloth.cloth import STRUCTURAL, Cloth
@@ -119,6 +119,7 @@ def _advance(
     h, half = dtype.type(batch.numbers[0]), dtype.type(batch.numbers[0] / 2)
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
+        contact = contact_kernels.begin_lanes(y, batch, start)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -130,4 +131,6 @@ def _advance(
                 shorten_together(y, plan.attachments, g)
             kernels.set_velocities(u, y, old, h)
             kick(u, y, g, body, batch, wind, half, start, work)
+            if (step + 1) % substeps == 0:
+                contact_kernels.meet_lanes(y, u, contact, batch, h * substeps)
         store_block(batch, y, u, start)

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import kernels, sheet_kernels, simd
+from drapery.cloth import contact_kernels, kernels, sheet_kernels, simd
 from drapery.cloth.attachments import Attachments, long_range_attachments
 from drapery.cloth.bending import BendingStep, bending_step, fastest_bending
 from drapery.cloth.checks import check_flag, check_number, check_three
@@ -147,11 +147,12 @@ class SolverXPBD(KernelSolver):
         constraints = solved_springs(cloth, self._compliances(cloth), dt, substeps)
         attachments = self._attachments(cloth)
         turns = bending_turns(cloth, dt, substeps)
+        often = bool((cloth.inv_mass > 0).all())
         if is_sheet(cloth):
             fine = sheet_plan(cloth, constraints, attachments, turns)
-            return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
+            return SolverState(fine, dt, substeps, _advance_sheet, alone=True, often=often)
         plan = XPBDPlan(body_of(cloth), constraints, *turns, attachments)
-        return SolverState(plan, dt, substeps, _advance)
+        return SolverState(plan, dt, substeps, _advance, often=often)
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -367,6 +368,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
+        contact = contact_kernels.begin_lanes(y, batch, start)
         for step in range(steps):
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(batch.gusts.seeds.size):
@@ -387,7 +389,11 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
                 solve(y, plan.constraints, substep)
                 if (substeps - substep) % INTERVAL == 1:
                     apply_attachments(y, plan.attachments)
+                if batch.often:
+                    contact_kernels.meet_lanes(y, u, contact, batch, h)
             kernels.set_velocities(u, y, old, h)
+            if not batch.often:
+                contact_kernels.meet_lanes(y, u, contact, batch, dt)
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -412,6 +418,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
+        contact = contact_kernels.begin_plane(y, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
         for step in range(steps):
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
@@ -437,6 +444,8 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                     sheet_kernels.solve_batches(
                         y, plan.attachments, 0, last, sheet_kernels.LIMIT, work
                     )
+                if batch.often:
+                    contact_kernels.meet_plane(y, u, contact, batch, h, sheet)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
@@ -445,5 +454,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                     y, plan.limits, 0, last_limit, sheet_kernels.LIMIT, work
                 )
                 sheet_kernels.add_velocities(u, y, old, dt, sheet)
+            if not batch.often:
+                contact_kernels.meet_plane(y, u, contact, batch, dt, sheet)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

@@ -60,6 +60,7 @@ def _cloth(session: Session, controls: Controls) -> None:
         lambda text: session.adjust(grid=option.parse(text)),
     )
     controls.choice("pins", "Held at")
+    controls.choice("contact", "Contact")
     controls.number("thickness", "Thickness", 0.25)
 
 

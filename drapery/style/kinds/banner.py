@@ -11,6 +11,7 @@ from drapery.style.block import (
     SWAY_PERIOD,
     Placement,
     flag_origin,
+    solids,
     stiff_flag,
     wood,
 )
@@ -40,7 +41,8 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
         flag_material_at(banner, packs, settings),
     )
     frame = Part(wood(placement), wood_material_at(packs, settings))
-    return Body((frame,), (flag,), textures_period(banner, packs, "banner"))
+    period = textures_period(banner, packs, "banner")
+    return Body((frame,), (flag,), period, solids=solids(placement))
 
 
 def _item(banner: Banner, packs: Packs, settings: Settings) -> Body:

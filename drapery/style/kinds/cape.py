@@ -8,11 +8,13 @@ from drapery.mesh import Mesh
 from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
 from drapery.style.board import moved, stiff_board, tilted
-from drapery.style.body import Body, Panel
-from drapery.style.figure import CAPE_SIZE, TEXEL, cape_mapping
+from drapery.style.body import Body, Panel, Solid, half_space
+from drapery.style.figure import CAPE_SIZE, PARTS, TEXEL, cape_mapping
 from drapery.style.kinds.player import SHEET, SHOULDERS, back_texture
 
 CAPE_MAPPING = cape_mapping(SHEET)
+BACK = 2.6
+"""Distance of the cape from the middle of its wearer [texels]; half the body is 2 deep."""
 LEAN = 6.0
 """Angle between the game's stiff cape and the back of a player who stands still [degrees]."""
 
@@ -30,7 +32,14 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
         None,
         lambda time: material,
     )
-    return Body((), (cape,))
+    return Body((), (cape,), solids=_wearer())
+
+
+def _wearer() -> tuple[Solid, ...]:
+    """The player behind the cape, who looks away from the viewer, and the ground."""
+    x, _, z = SHOULDERS
+    origin = (x, 0.0, z - BACK * TEXEL)
+    return *(Solid(*part.box.bounds(TEXEL, origin)) for part in PARTS.values()), half_space(1, 0.0)
 
 
 def _stiff(thickness: float) -> Mesh:

@@ -1,0 +1,125 @@
+"""Contact inside the steps of the solvers: no part of a cloth passes into a box or a plane."""
+
+from typing import Any, get_args
+
+import numpy as np
+import pytest
+
+from drapery.cloth import (
+    Box,
+    Collider,
+    Collisions,
+    Gravity,
+    MovingCloth,
+    Plane,
+    SolverDesbrun,
+    SolverXPBD,
+    State,
+    Wind,
+    grid,
+    rest_state,
+)
+from drapery.cloth.colliders import straight
+from drapery.cloth.colliders.check import sample_distances
+from drapery.cloth.solvers.registry import solver
+from drapery.mesh import Array
+from drapery.settings import SolverName
+
+UNIT = 1 / 24
+"""A texel of a banner [m]."""
+POLE = Collider(Box(np.array([0, -23, -1.5]) * UNIT, np.array([2, 42, 2]) * UNIT))
+BAR = Collider(Box(np.array([0, -1, -1.5]) * UNIT, np.array([20, 2, 2]) * UNIT))
+FLOOR = Collider(Plane(np.array([0, -1.0, 0]), np.array([0, 1.0, 0])))
+MET = Collisions((POLE, BAR, FLOOR), thickness=UNIT)
+
+
+def flag(shape: tuple[int, int]) -> Any:
+    return grid(*shape, 20 * UNIT, 40 * UNIT)
+
+
+def depth(positions: Array, shape: Collider, cloth: Any) -> float:
+    """How deep the particles, and points along all edges of the faces, are in a shape [m]."""
+    corners = positions.astype(float)[cloth.triangles]
+    parts = np.linspace(0, 1, 33)[:, None, None, None]
+    edges = corners + parts * (np.roll(corners, 1, axis=1) - corners)
+    return -float(sample_distances(shape.packed, edges.reshape(-1, 3)).min())
+
+
+@pytest.mark.parametrize("name", get_args(SolverName))
+def test_a_banner_stays_out_of_its_pole_and_bar_with_every_solver(name: str) -> None:
+    cloth = flag((5, 9))
+    wind = Wind((1.0, 0.0, -8.0), gusts=0.5)
+    moving = MovingCloth.begin(cloth, solver(name), collisions=MET)
+    for _ in range(90):
+        moving = moving.advance((Gravity(), wind))
+        positions = moving.state.positions[0]
+        assert max(depth(positions, shape, cloth) for shape in (POLE, BAR)) < 1e-4
+    assert positions[:, 2].min() < -3 * UNIT  # its sides reach behind the pole
+    assert positions[:, 1].min() > -1.0
+
+
+def test_many_steps_in_one_call_are_the_same_as_one_each() -> None:
+    wind = Wind((0.0, 0.0, -6.0))
+    for cloth in (flag((5, 9)), flag((17, 9))):
+        once = MovingCloth.begin(cloth, collisions=MET).advance((Gravity(), wind), 40)
+        each = MovingCloth.begin(cloth, collisions=MET)
+        for _ in range(40):
+            each = each.advance((Gravity(), wind))
+        # The time of the wind is rounded once in the one, and at every step in the other.
+        assert np.allclose(once.state.positions, each.state.positions, atol=1e-5)
+
+
+def test_a_batch_in_contact_equals_its_cloths_alone_on_any_threads() -> None:
+    cloth = flag((5, 9))
+    origins = np.array([[0.0, 0, 0], [3, 0, 0], [0, 0, 5]])
+    wind = Wind((0.0, 0.0, -6.0), origins=origins)
+    runs = [
+        MovingCloth.begin(cloth, SolverDesbrun(threads=threads), count=3, collisions=MET)
+        for threads in (1, 2)
+    ]
+    one, two = (run.advance((Gravity(), wind), 40).state.positions for run in runs)
+    assert np.array_equal(one, two)
+    for number, origin in enumerate(origins):
+        alone = MovingCloth.begin(cloth, collisions=MET)
+        alone = alone.advance((Gravity(), Wind((0.0, 0.0, -6.0), origins=origin[None])), 40)
+        assert np.array_equal(alone.state.positions[0], one[number])
+
+
+def test_a_falling_cloth_comes_to_rest_on_a_box_and_friction_holds_it() -> None:
+    table = Collider(Box(np.array([0, -0.5, 0]), np.array([0.3, 1.0, 0.3])), friction=0.8)
+    cloth = grid(13, 13, 0.8, 0.8, pins="none")
+    start = rest_state(cloth, dtype=np.float64)
+    lying = start.positions[..., [0, 2, 1]] * (1, 1, -1)
+    lying = lying - lying.mean(axis=1, keepdims=True) + (0.05, 0.15, 0)
+    moving = MovingCloth.begin(
+        cloth,
+        SolverXPBD(),
+        start=State(lying, start.velocities),
+        collisions=Collisions((table, FLOOR), thickness=0.01),
+    )
+    moving = moving.advance((Gravity(),), 240)
+    before = moving.state.positions[0].copy()
+    assert depth(before, table, cloth) < 1e-4
+    moving = moving.advance((Gravity(),), 60)
+    middle = np.linalg.norm(before[:, [0, 2]], axis=1) < 0.1
+    assert np.abs(moving.state.positions[0] - before)[middle].max() < 0.01
+
+
+def test_a_fast_box_takes_the_cloth_with_it() -> None:
+    cloth = flag((5, 9))
+    start = Box(np.array([0.0, -1.2, -0.5]), np.array([0.5, 0.2, 0.2]))
+    moving = MovingCloth.begin(
+        cloth, collisions=Collisions((Collider(start, straight((0, 0, 4.0))),), thickness=UNIT)
+    )
+    for _ in range(20):
+        moving = moving.advance((Gravity(),))
+    middle = moving.state.positions[0, 4 * 5 + 2]
+    assert middle[2] > 0.3
+
+
+def test_thin_and_deep_cloth_passes_no_wall_at_any_speed() -> None:
+    wall = Collider(Plane(np.array([0, 0, -0.1]), np.array([0, 0, 1.0])))
+    cloth = flag((5, 9))
+    moving = MovingCloth.begin(cloth, collisions=Collisions((wall,), thickness=1e-3))
+    moving = moving.advance((Gravity(), Wind((0, 0, -40.0))), 60)
+    assert depth(moving.state.positions[0], wall, cloth) < 1e-6
