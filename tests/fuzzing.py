@@ -393,7 +393,8 @@ def text_readers() -> dict[str, Callable[[str], Iterable[Any]]]:
 def text_samples() -> dict[str, list[str]]:
     """Sound texts of every form of text."""
     samples = {name: _texts(name) for name in FORMS}
-    return samples | {ANY_TEXT: [text for texts in samples.values() for text in texts]}
+    lines = "# ours\n- white creeper:lime\n- red cross:5\n"
+    return samples | {ANY_TEXT: [lines, *(text for texts in samples.values() for text in texts)]}
 
 
 _MORE_TEXTS = {
@@ -424,4 +425,14 @@ def _texts(form: str) -> list[str]:
     for design in ("red", "white creeper:lime border:black", "shield blue acme:x:red flow:lime"):
         with suppress(DraperyError):
             texts.append(write_banner(parse_banner(design), form))
-    return texts
+    return texts + (_TYPED if form == "text" else [])
+
+
+_TYPED = [
+    "red banner with white skull and black border",
+    "white creeper lime border black",
+    "Rotes Banner\nWeißer Creeper\nSchwarzer Bord",
+    "rot creeper:weiß bord:schwarz",
+    "红色旗帜\n白色苦力怕盾徽",
+]
+"""What the form `text` reads beside its own shorthand."""

@@ -8,7 +8,7 @@ import re
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.formats.found import FoundBanner
-from drapery.banner.formats.scripts import line_of
+from drapery.banner.formats.scripts import places
 from drapery.banner.formats.tree import check_count
 from drapery.banner.formats.yaml_items import kind_and_base, material
 from drapery.banner.names import bukkit_pattern, dye_name, pattern_id, shown
@@ -28,14 +28,15 @@ def recognises(text: str) -> bool:
 
 def read(text: str) -> list[FoundBanner]:
     """All banners of the text. Raises DesignError with the place."""
-    found = [_read_one(text, match) for match in _ITEM.finditer(text)]
+    place_of = places(text)
+    found = [_read_one(match, place_of(match.start())) for match in _ITEM.finditer(text)]
     if not found:
         raise DesignError(f"no banner in the text: write it as {EXAMPLE}")
     return found
 
 
-def _read_one(text: str, match: "re.Match[str]") -> FoundBanner:
-    at = f"{line_of(text, match.start())} {match[1]}"
+def _read_one(match: "re.Match[str]", line: str) -> FoundBanner:
+    at = f"{line} {match[1]}"
     item = kind_and_base(match[1], at)
     if item is None or item[1] is None:
         raise DesignError(f"{at}: {shown(match[1])} names no dye: write it as RED_BANNER")

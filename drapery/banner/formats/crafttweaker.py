@@ -13,7 +13,7 @@ from drapery.banner.design import Banner
 from drapery.banner.formats import give_legacy
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.item import item_object
-from drapery.banner.formats.scripts import arguments, banner_of, line_of
+from drapery.banner.formats.scripts import arguments, banner_of, places
 from drapery.banner.formats.snbt import parse_snbt
 from drapery.banner.formats.tree import DataTree, banner_from_components, banner_from_tag, under
 from drapery.errors import DesignError
@@ -41,9 +41,9 @@ def recognises(text: str) -> bool:
 
 def read(text: str) -> list[FoundBanner]:
     """All banners of the script. Raises DesignError with the place."""
-    found = []
+    found, place_of = [], places(text)
     for match in _ITEM.finditer(text):
-        at = f"{line_of(text, match.start())} {match[1]}"
+        at = f"{place_of(match.start())} {match[1]}"
         banner = _item(match, list(_calls(text, match.end(), at)), at)
         if banner is not None:
             found.append(FoundBanner(banner, at))

@@ -5,11 +5,11 @@ Properties are parted by semicolons; a shield has `base_color`. An item script h
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.formats.found import FoundBanner
-from drapery.banner.formats.scripts import line_of
+from drapery.banner.formats.scripts import places
 from drapery.banner.formats.tree import base_of, check_count
 from drapery.banner.names import bukkit_pattern, dye_name, pattern_id, shown
 from drapery.errors import DesignError
@@ -19,7 +19,7 @@ TITLE = "item of the plugin Denizen"
 EXAMPLE = "red_banner[patterns=LIME/CREEPER|BLACK/BORDER]"
 SOURCE = "https://meta.denizenscript.com/Docs/Mechanisms/ItemTag.patterns"
 _ITEM = re.compile(
-    r"(?:i@)?\b((?:minecraft:)?[a-z_]{0,30}banner|shield)(?:\]\s?\.\s?with)?\[((?:[^\[\]\n]|<[^\n>]{0,200}>){0,4000})\]",
+    r"(?:i@)?\b((?:minecraft:)?[a-z_]{0,30}banner|shield)(?:\]\s?\.\s?with)?\[((?:[^\[\]\n<]|<[^\n<>]{0,200}>){0,4000})\]",
     re.IGNORECASE,
 )
 _PATTERNS = re.compile(r"\bpatterns=")
@@ -36,29 +36,31 @@ def recognises(text: str) -> bool:
 
 def read(text: str) -> list[FoundBanner]:
     """All banners of the text. Raises DesignError with the place."""
-    found = [_item(text, match) for match in _ITEM.finditer(text) if _PATTERNS.search(match[2])]
-    found += _item_scripts(text)
+    place_of = places(text)
+    matches = (match for match in _ITEM.finditer(text) if _PATTERNS.search(match[2]))
+    found = [_item(match, place_of(match.start())) for match in matches]
+    found += _item_scripts(text, place_of)
     if not found:
         raise DesignError(f"no banner with patterns in the script: write it as {EXAMPLE}")
     return found
 
 
-def _item_scripts(text: str) -> Iterator[FoundBanner]:
+def _item_scripts(text: str, place_of: Callable[[int], str]) -> Iterator[FoundBanner]:
     """The banners of item scripts, whose material is the line before their patterns."""
     material: re.Match[str] | None = None
     for match in _LINE.finditer(text):
         if match[1] == "material":
             material = match
         elif match[1] == "patterns" and _LIST.match(match[0]):
-            at = line_of(text, match.start(1))
+            at = place_of(match.start(1))
             if material is None:
                 raise DesignError(f"{at}: the item is missing: write 'material: red_banner' above")
             name = material[2].strip()
             yield FoundBanner(_banner(name, {"patterns": match[2]}, f"{at} {name}"), f"{at} {name}")
 
 
-def _item(text: str, match: "re.Match[str]") -> FoundBanner:
-    at = f"{line_of(text, match.start())} {match[1]}"
+def _item(match: "re.Match[str]", line: str) -> FoundBanner:
+    at = f"{line} {match[1]}"
     properties = dict(part.strip().partition("=")[::2] for part in match[2].split(";"))
     return FoundBanner(_banner(match[1], properties, at), at)
 

@@ -1,13 +1,17 @@
 """Calls in the scripts of mods: finds the end of an argument, and reads an item with its tag."""
 
 import re
-from collections.abc import Iterator
+from bisect import bisect_left
+from collections.abc import Callable, Iterator
 
 from drapery.banner.design import Banner
 from drapery.banner.formats.commands import read_command
 from drapery.banner.formats.snbt import parse_snbt
 from drapery.banner.formats.tree import banner_from_tag, bare, is_banner_id, is_shield_id
 from drapery.errors import DesignError
+
+MAX_DEPTH = 64
+"""Most brackets inside each other in the arguments of a call."""
 
 _TOKEN = re.compile(r""""(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|[()\[\]{},]""", re.DOTALL)
 _DESIGN = re.compile("BlockEntityTag|Patterns|banner_patterns|base_color")
@@ -17,7 +21,7 @@ _OPEN, _CLOSE = "([{", ")]}"
 def arguments(text: str, start: int) -> tuple[list[str], int] | None:
     """The arguments of a call, whose bracket opens before `start`, and where it ends.
 
-    None if the call is not closed.
+    None if the call is not closed. Raises DesignError for brackets that nest too deeply.
     """
     found: list[str] = []
     depth, begin = 0, start
@@ -25,6 +29,8 @@ def arguments(text: str, start: int) -> tuple[list[str], int] | None:
         token = match[0]
         if token in _OPEN:
             depth += 1
+            if depth > MAX_DEPTH:
+                raise DesignError(f"{places(text)(begin)}: brackets nest over {MAX_DEPTH} deep")
         elif depth == 0 and token in (",", ")"):
             found.append(text[begin : match.start()].strip())
             begin = match.end()
@@ -59,9 +65,10 @@ def banner_of(identifier: str, tag: str | None, at: str) -> Banner | None:
         raise DesignError(f"{at}: {error}") from None
 
 
-def line_of(text: str, place: int) -> str:
-    """A place in a script as messages name it: `line 3`."""
-    return f"line {text.count(chr(10), 0, place) + 1}"
+def places(text: str) -> Callable[[int], str]:
+    """A function that names a place in a text as messages do: `line 3`."""
+    ends = [match.start() for match in re.finditer("\n", text)]
+    return lambda place: f"line {bisect_left(ends, place) + 1}"
 
 
 def calls(
@@ -71,8 +78,9 @@ def calls(
 
     Raises DesignError for a call that is not closed.
     """
+    place_of = places(text)
     for match in pattern.finditer(text):
-        at = line_of(text, match.start())
+        at = place_of(match.start())
         found = arguments(text, match.end())
         if found is None:
             raise DesignError(f"{at}: the call {match[0].strip()!r} is not closed; add ')'")
