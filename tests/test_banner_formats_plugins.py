@@ -199,6 +199,21 @@ def test_a_fault_names_its_place_and_what_to_write(text: str, parts: list[str]):
     assert len(message.splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("flag:\n  item: RED_BANNER\n  slot: 3\n", ["YAML of a plugin", "DeluxeMenus"]),
+        ("meta.addPattern(new Pattern(DyeColor.RED, PatternType.CROSS));", ["program code"]),
+        ("<!DOCTYPE html>\n<p>banner</p>", ["a web page", "/give"]),
+        ("H4sIAAAAAAAA" * 9, ["base64", "/data get entity @s SelectedItem"]),
+    ],
+)
+def test_a_text_of_no_form_is_told_what_it_resembles(text: str, parts: list[str]):
+    with pytest.raises(DesignError) as caught:
+        parse_banners(text)
+    assert [part for part in parts if part not in str(caught.value)] == [], str(caught.value)
+
+
 def test_optifine_shows_eight_layers_without_mojang():
     nine = Banner("red", (Layer("cross", "lime"),) * 9)
     with pytest.raises(DesignError, match="at most 8 layers"):

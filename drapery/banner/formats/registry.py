@@ -45,6 +45,7 @@ from drapery.banner.formats import (
 )
 from drapery.banner.formats.form import BinaryForm, Form, single
 from drapery.banner.formats.found import FoundBanner
+from drapery.banner.formats.resemblance import advice
 from drapery.banner.formats.snbt import MAX_TEXT
 from drapery.banner.formats.wrapping import unwrap, without_suffix
 from drapery.banner.names import shown
@@ -169,7 +170,15 @@ def _any_form(text: str, errors: list[DesignError]) -> list[FoundBanner]:
         found = _without_suffix(text)
         if any(one.banner.layers for one in found):
             return found
-        raise error from None
+        told = advice(text) if _is_typed(text) else None
+        raise (DesignError(f"the text is {told}") if told else error) from None
+
+
+def _is_typed(text: str) -> bool:
+    """Whether no form recognises a text, except the one of texts that are typed by hand."""
+    with suppress(DesignError):
+        return recognise(text).name == shorthand.NAME
+    return True
 
 
 def _without_suffix(text: str) -> list[FoundBanner]:
