@@ -41,11 +41,12 @@ LACKS = {
     "minecraft-tools": {"base"} | NO_CODE,
     "gamergeeks": NO_CODE,
     "optifine": {"mojang"},
+    "bannotation": {"base"} | NO_CODE,
     "essentialsx": NO_CODE,
 }
 NO_SHIELDS = {
     *("give-1.12", "setblock", "block-entity", "bedrock", "wynncraft"),
-    *("planet-minecraft", "needcoolshoes", "gamergeeks", "optifine"),
+    *("planet-minecraft", "needcoolshoes", "gamergeeks", "optifine", "bannotation"),
     *("bentobox", "commandpanels", "crazycrates", "skript", "loom-assistant"),
 }
 NO_DATA_PACKS = {
@@ -91,7 +92,7 @@ def test_the_docs_are_generated_from_the_registry():
 
 @pytest.mark.parametrize("form", [*FORMS.values(), *binary_forms().values()], ids=lambda f: f.name)
 def test_every_form_names_its_source(form: Form | BinaryForm):
-    assert form.source.startswith(("https://", "our own"))
+    assert form.source.startswith(("https://", "our own", "the notes"))
 
 
 CREEPER = shorthand("white creeper:lime border:black")

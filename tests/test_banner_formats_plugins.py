@@ -137,6 +137,7 @@ SAME = {
         "gamergeeks.nz/apps/minecraft/banner-maker#mcb=a0cre5bo15",
         "a0cre5bo15",
     ],
+    "bannotation": ["Wh. Li-Cr. Bk-F.", "Wh. Li-Cr. Bk-F", "Wh.Li-Cr.\nBk-F."],
     "optifine": [
         "http://optifine.net/showBanner?format=pakkac&valign=m",
         "https://optifine.net/banners&&pakkac",
@@ -212,6 +213,17 @@ def test_a_text_of_no_form_is_told_what_it_resembles(text: str, parts: list[str]
     with pytest.raises(DesignError) as caught:
         parse_banners(text)
     assert [part for part in parts if part not in str(caught.value)] == [], str(caught.value)
+
+
+def test_bannotation_joins_patterns_of_a_dye_and_gradients_of_a_base():
+    gradient = parse_banner("Gn+Li-Gx. Bk-Tmb+Tmt+Sch.")
+    assert gradient == Banner.parse(
+        "green gradient_up:lime triangles_bottom:black triangles_top:black stripe_middle:black"
+    )
+    with pytest.raises(DesignError, match="'Zz' is not a dye; the sixteen are Wh, Lg"):
+        parse_banner("Wh. Zz-Cr.")
+    with pytest.raises(DesignError, match="'Qq' is not a pattern"):
+        parse_banner("Wh. Bk-Qq.")
 
 
 def test_optifine_shows_eight_layers_without_mojang():

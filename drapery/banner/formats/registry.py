@@ -8,6 +8,7 @@ from types import ModuleType
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import (
+    bannotation,
     bedrock,
     bentobox,
     block_entity,
@@ -82,6 +83,7 @@ _TABLE = (
     _site(minecraft_tools),
     _site(gamergeeks),
     _site(optifine),
+    _form(bannotation, single(bannotation.parse)),
     _form(kubejs, kubejs.read),
     _form(crafttweaker, crafttweaker.read),
     _form(denizen, denizen.read),
