@@ -34,7 +34,15 @@ _ALSO = {
     "thing": "mojang",
 }
 
-_DYE_ALSO = {"silver": "light_gray", "grey": "gray", "light_grey": "light_gray"}
+_DYE_ALSO = {
+    "silver": "light_gray",
+    "grey": "gray",
+    "light_grey": "light_gray",
+    "dark_gray": "gray",
+    "dark_grey": "gray",
+    "dark_green": "green",
+    "light_green": "lime",
+}
 
 _PATH_LETTERS = frozenset("abcdefghijklmnopqrstuvwxyz0123456789_-./")
 _LONGEST = 256

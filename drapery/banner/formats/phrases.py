@@ -1,6 +1,7 @@
 """A banner in plain English: `red banner with white skull`, `white creeper lime border black`.
 
-The base is the dye before `banner`, `shield`, `field` or `background`, or else the first dye. Then
+The base is the dye before `banner`, `shield`, `field` or `background`, or after `on`, or else the
+first dye. Then
 each pattern has its dye before it, or each has it after it.
 """
 
@@ -19,7 +20,7 @@ _BASES = frozenset({"banner", "shield", "field", "background", "flag", "cloth"})
 _JOINS = frozenset({"with", "on", "and"})
 _FILLERS = frozenset(
     {
-        *("a", "an", "the", "and", "with", "on", "of", "in", "over", "then", "has", "having"),
+        *("a", "an", "the", "and", "with", "of", "in", "then", "has", "having"),
         *("plain", "coloured", "colored", "charge", "pattern", "it", "its", "at", "to", "by"),
     }
 )
@@ -54,7 +55,7 @@ _ALSO = {
 
 
 class _Word(NamedTuple):
-    """What some words of the text mean: a `dye`, a `pattern` or a `base`, and its name."""
+    """What some words of the text mean: a `dye`, a `pattern`, a `base` or `on`, and its name."""
 
     kind: str
     name: str
@@ -103,6 +104,8 @@ def _word(text: str) -> _Word | None:
     name = plain(text)
     if name in _FILLERS:
         return None
+    if name in ("on", "over"):
+        return _Word("on", name, text)
     if name in _BASES:
         return _Word("base", name, text)
     if is_dye(text):
@@ -117,13 +120,19 @@ def _base(words: list[_Word]) -> tuple[str, list[_Word], str]:
     """The base dye, the words of the layers, and whether it is a shield."""
     marks = [number for number, word in enumerate(words) if word.kind == "base"]
     kind = "shield" if any(words[mark].name == "shield" for mark in marks) else "banner"
-    place = next((mark - 1 for mark in marks if mark and words[mark - 1].kind == "dye"), 0)
+    before = (mark - 1 for mark in marks if mark and words[mark - 1].kind == "dye")
+    after = (n + 1 for n, (word, dye) in enumerate(pairwise(words)) if _is_ground(word, dye))
+    place = next(before, next(after, 0))
     if not words or words[place].kind != "dye":
         raise DesignError(
             "the base is missing: write the banner's dye, as in 'red banner with white skull'"
         )
-    rest = [word for n, word in enumerate(words) if n != place and n not in marks]
+    rest = [word for n, word in enumerate(words) if n != place and word.kind in ("dye", "pattern")]
     return words[place].name, rest, kind
+
+
+def _is_ground(word: _Word, dye: _Word) -> bool:
+    return word.kind == "on" and dye.kind == "dye"
 
 
 def _layers(words: list[_Word]) -> tuple[Layer, ...]:
