@@ -19,7 +19,7 @@ class Light:
     directions: towards each light; need not be unit vectors.
     tint: the light's colour, a factor for each of red, green and blue.
     shadows: whether the first direction casts shadows, and less of the other light reaches folds
-        and corners; drawn by our own rasteriser.
+        and corners. Our own rasteriser draws them, on and by lit materials without normal maps.
     """
 
     directions: tuple[Vector, ...]

@@ -6,7 +6,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -105,7 +105,7 @@ def _model(order: Order, path: Path, on_progress: Progress) -> None:
     on_progress(0, total)
     check_model_target(path)
     packs = open_packs(settings.packs, format=settings.format)
-    scenes = loop(order.banner, packs, settings, total, order.fps)
+    scenes = loop(order.banner, packs, replace(settings, ground="none"), total, order.fps)
     save_model(_counted(scenes, total, on_progress), path, fps=order.fps)
 
 

@@ -6,9 +6,10 @@ from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
+from drapery.render.scene import Material
 from drapery.settings import Placement
 from drapery.style.block_world import FACES, Cell, blocks
-from drapery.style.body import Part
+from drapery.style.body import MaterialAt, Part
 
 PIECES = 8
 """Squares along a side of a face near the body: its light is measured at their corners."""
@@ -33,9 +34,12 @@ def ground_of(block: str, packs: Packs, placement: Placement) -> tuple[Part, ...
     models = blocks(dict.fromkeys(_BEHIND if is_wall else _BELOW, block), packs)
     facing = np.array([0.0, 0.0, 1.0] if is_wall else [0.0, 1.0, 0.0])
     return tuple(
-        Part(_refined(model.mesh, facing), lambda time, made=model.materials[0]: made)
-        for model in models
+        Part(_refined(model.mesh, facing), _always(model.materials[0])) for model in models
     )
+
+
+def _always(material: Material) -> MaterialAt:
+    return lambda time: material
 
 
 def _refined(mesh: Mesh, facing: Array) -> Mesh:

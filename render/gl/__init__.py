@@ -7,6 +7,7 @@ only positions and light.
 
 import atexit
 import os
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -59,6 +60,12 @@ def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
     into one texture first. It is slower, and colours differ by up to 2/255.
     Raises OptionError for a scene that cannot be drawn, BackendError without OpenGL.
     """
+    if scene.light.shadows:
+        warnings.warn(
+            "backend pyrender draws no cast shadows; use backend soft, or light game",
+            UserWarning,
+            stacklevel=2,
+        )
     drawing = draw_list(scene.models)
     with _current() as context:
         _check(context, scene, drawing)

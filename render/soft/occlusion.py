@@ -77,9 +77,9 @@ def occlude(
             p, q, at = across[v] - i, down[v] - j, np.uint64(j * side + i)
             upper = (1 - p) * _covered(heights[at], inverse, above[v])
             upper += p * _covered(heights[at + np.uint64(1)], inverse, above[v])
-            at += np.uint64(side)
-            lower = (1 - p) * _covered(heights[at], inverse, above[v])
-            lower += p * _covered(heights[at + np.uint64(1)], inverse, above[v])
+            under = at + np.uint64(side)
+            lower = (1 - p) * _covered(heights[under], inverse, above[v])
+            lower += p * _covered(heights[under + np.uint64(1)], inverse, above[v])
             weight[v] += facing
             shown[v] += facing * (1.0 - (1 - q) * upper - q * lower)
     for v in range(count):
