@@ -1,19 +1,14 @@
-"""What shadows, samples and ground cost: `python -m benchmarks.light [--before PYTHON] [--runs N]`.
+"""What shadows, samples and ground cost: `python -m benchmarks.light [--runs N]`.
 
-Frames are drawn by our own rasteriser on one thread, in the time of the processor. `--before` names
-the Python of an environment with an earlier commit; commands are then run by it and by this one in
-turns, so that other work on the machine meets both, and the medians are compared.
+Frames are drawn by our own rasteriser on one thread; the times are those of the processor.
+`python -m benchmarks.commands` measures whole commands.
 """
 
 import argparse
 import statistics
-import subprocess
-import sys
-import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 from drapery.banner import read_design
 from drapery.packs import open_packs
@@ -24,10 +19,6 @@ from drapery.scenes.stager import still
 from drapery.settings import Settings
 
 DESIGN = "white creeper:lime border:black"
-COMMANDS = {
-    "render": ("render", DESIGN, "-o", "banner.png"),
-    "animate": ("animate", DESIGN, "-o", "banner.gif", "--seconds", "4", "--fps", "20"),
-}
 
 
 def milliseconds(work: Callable[[], object], runs: int) -> tuple[float, float]:
@@ -58,31 +49,11 @@ def frames(runs: int) -> None:
         print(f"  {name:24} {least:7.2f} {median:7.2f}")
 
 
-def commands(before: str, runs: int) -> None:
-    """Print how long commands take here and in the environment of another Python."""
-    for name, words in COMMANDS.items():
-        times: dict[str, list[float]] = {before: [], sys.executable: []}
-        with tempfile.TemporaryDirectory() as folder:
-            for run in range(runs + 1):
-                for python, spent in times.items():
-                    start = time.perf_counter()
-                    command = [python, "-m", "drapery", *words]
-                    subprocess.run(command, cwd=Path(folder), check=True, capture_output=True)
-                    if run:
-                        spent.append(time.perf_counter() - start)
-        old, new = (statistics.median(spent) for spent in times.values())
-        print(f"  {name:10} before {old:6.2f} s, now {new:6.2f} s: {new / old:.2f} x")
-
-
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--before", help="the Python of an environment with an earlier commit")
     parser.add_argument("--runs", type=int, default=15)
-    given = parser.parse_args()
-    frames(given.runs)
-    if given.before:
-        commands(given.before, given.runs)
+    frames(parser.parse_args().runs)
 
 
 if __name__ == "__main__":
