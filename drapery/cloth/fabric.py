@@ -76,7 +76,7 @@ BOUNDS = {
 
 FABRICS: Mapping[str, Fabric] = MappingProxyType(
     {
-        "wool": Fabric(0.4, 40, 20, 0, 0.3, bending=1e-4, damping=0.05, friction=0.4),
+        "wool": Fabric(0.5, 40, 20, 0, 0.24, bending=2e-4, damping=0.05, friction=0.4),
         "cotton": Fabric(0.187, 40, 15, 0, 0.6, bending=2.3e-5, damping=0.05, friction=0.3),
         "linen": Fabric(0.22, 60, 20, 0, 0.5, bending=6e-5, damping=0.05, friction=0.3),
         "silk": Fabric(0.08, 30, 10, 0, 1.5, bending=6e-6, damping=0.02, friction=0.2),
