@@ -7,10 +7,33 @@ import pytest
 
 from assets.drawing.canvas import HANDLE, PLATE
 from assets.drawing.charges import CHARGES
-from assets.drawing.shapes import SHAPES
+from assets.drawing.shapes import BANNER_FACE, SHAPES, SHIELD_FACE
 from assets.drawing.shield import FIELD, base_sheet, field_face, plain_sheet, shield_sheet
 from assets.drawing.shield_charges import SHIELD_CHARGES
 from drapery.banner.patterns import PATTERN_NAMES
+
+EXTENTS = {
+    "square_top_left": 35,
+    "stripe_top": 80,
+    "stripe_left": 80,
+    "stripe_center": 80,
+    "stripe_middle": 40,
+    "stripe_downright": 56,
+    "small_stripes": 100,
+    "cross": 40,
+    "straight_cross": 56,
+    "triangle_top": 68,
+    "triangles_top": 32,
+    "diagonal_right": 110,
+    "circle": 32,
+    "rhombus": 60,
+    "half_vertical": 100,
+    "border": 56,
+    "curly_border": 92,
+    "bricks": 97,
+    "creeper": 20,
+}
+"""Texels of the field that a pattern covers, wholly or in part."""
 
 
 def test_the_field_is_the_plate_within_its_rim():
@@ -36,17 +59,17 @@ def test_no_two_patterns_have_the_same_face():
 
 @pytest.mark.parametrize("pattern", sorted(SHAPES))
 def test_a_shape_covers_as_much_of_the_shield_as_of_the_banner(pattern):
-    # A texel is a tenth of the shield's width: four pales cannot keep to three twentieths.
-    banner = SHAPES[pattern](20, 40).mean() / 255
-    shield = SHAPES[pattern](10, 20).mean() / 255
-    assert abs(banner - shield) < (0.21 if pattern == "small_stripes" else 0.12)
+    # On the shield the game draws these two with limbs and joints of a single texel.
+    tolerance = 0.21 if pattern in ("bricks", "cross") else 0.1
+    banner = SHAPES[pattern](BANNER_FACE).mean() / 255
+    shield = SHAPES[pattern](SHIELD_FACE).mean() / 255
+    assert abs(banner - shield) < tolerance
 
 
-@pytest.mark.parametrize("width, height", [(20, 40), (10, 20)])
+@pytest.mark.parametrize("kind", [BANNER_FACE, SHIELD_FACE], ids=["banner", "shield"])
 @pytest.mark.parametrize(
     "pattern",
     [
-        "small_stripes",
         "cross",
         "straight_cross",
         "circle",
@@ -58,11 +81,22 @@ def test_a_shape_covers_as_much_of_the_shield_as_of_the_banner(pattern):
         "stripe_center",
     ],
 )
-def test_symmetric_shapes_are_symmetric_at_both_sizes(pattern, width, height):
-    face = SHAPES[pattern](width, height)
+def test_symmetric_shapes_are_symmetric_at_both_sizes(pattern, kind):
+    face = SHAPES[pattern](kind)
     np.testing.assert_array_equal(face, face[:, ::-1])
     if not pattern.startswith("triangle"):
         np.testing.assert_array_equal(face, face[::-1])
+
+
+def test_small_stripes_are_four_on_the_banner_and_five_on_the_shield():
+    for kind, stripes in ((BANNER_FACE, 4), (SHIELD_FACE, 5)):
+        row = SHAPES["small_stripes"](kind)[0] > 0
+        assert np.count_nonzero(np.diff(row, prepend=False) & row) == stripes
+
+
+@pytest.mark.parametrize("pattern, texels", EXTENTS.items())
+def test_shapes_are_as_large_as_in_the_game(pattern, texels):
+    assert np.count_nonzero(field_face(pattern)[..., 3]) == texels
 
 
 @pytest.mark.parametrize("draw", [base_sheet, plain_sheet])

@@ -5,8 +5,8 @@ import numpy as np
 from assets.drawing.bitmaps import charge
 from assets.drawing.canvas import FLAG, Grey, Texels, blank, grey_texels, wrap
 from assets.drawing.charges import CHARGES
-from assets.drawing.shading import cloth, seam, times
-from assets.drawing.shapes import SHAPES
+from assets.drawing.shading import cloth, times
+from assets.drawing.shapes import BANNER_FACE, SHAPES
 from assets.drawing.wood import paint_bar, paint_pole
 
 UNDYED = 235
@@ -17,8 +17,8 @@ def figure(pattern: str) -> tuple[Grey, Grey]:
     """Coverage and own shade of a pattern on the flag's face, shape [40, 20] each."""
     if pattern in CHARGES:
         return charge(CHARGES[pattern], FLAG.width, FLAG.height)
-    coverage = SHAPES[pattern](FLAG.width, FLAG.height)
-    return coverage, seam(coverage)
+    coverage = SHAPES[pattern](BANNER_FACE)
+    return coverage, np.full_like(coverage, 255)
 
 
 def pattern_face(pattern: str) -> Texels:

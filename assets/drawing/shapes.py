@@ -1,11 +1,12 @@
-"""The geometric patterns as coverage over a face of any size.
+"""The geometric patterns as coverage over the flag's face or the shield's field.
 
-A texel is tested at its centre. Coordinates are doubled, so centres are odd integers: the face
-spans 0 to 2 * width and 0 to 2 * height, y down, and every test is exact. On faces of even width
-that are twice as tall as wide no centre is on a diagonal, so halves meet without gap or overlap.
+Extents are the game's, in texels, soft edge included. Most shapes are given by their depth: how
+many texels of the shape lie from here to its edge, this one included. A depth of 1 is the edge,
+which lets a quarter of the cloth below through, and 0 or less is open.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,164 +15,287 @@ from assets.drawing.canvas import Grey
 
 Mask = NDArray[np.bool_]
 Axis = NDArray[np.int64]
-Shape = Callable[[int, int], Grey]
-"""Coverage 0 to 255, shape [height, width], of a face of the given width and height."""
+
+SOFT = 191
+"""Coverage of a soft edge."""
+
+HALF = 128
+"""Coverage of the soft edge that a half has beyond the middle of the face."""
 
 
-def axes(width: int, height: int) -> tuple[Axis, Axis]:
-    """Doubled coordinates of the texel centres: x [1, width], y [height, 1]."""
-    return 2 * np.arange(width)[None, :] + 1, 2 * np.arange(height)[:, None] + 1
+@dataclass(frozen=True)
+class Scallop:
+    """The open field of the curly border: a rectangle and round bites, all lengths in texels.
+
+    The rectangle lies `inset` from each side. The bites along the sides have their middles on its
+    edge, `spacing` apart, the ones at the top and bottom `crown` from the end of the face. `bite`
+    and `arch` are their diameters squared.
+    """
+
+    inset: int
+    spacing: int
+    bite: int
+    crown: int
+    arch: int
 
 
-def cover(mask: Mask, width: int, height: int) -> Grey:
-    """Full coverage where `mask` holds, none elsewhere."""
-    return np.where(np.broadcast_to(mask, (height, width)), 255, 0).astype(np.uint8)
+@dataclass(frozen=True)
+class Face:
+    """A face and the extents of its patterns, in texels."""
+
+    width: int
+    height: int
+    ends: int
+    """Rows of the stripes at the top and the bottom."""
+    sides: int
+    """Columns of the stripes at the left and the right."""
+    middle: int
+    """Width of the stripes in the middle."""
+    corner: tuple[int, int]
+    """Width and height of the squares."""
+    limb: int
+    """Width of the straight cross's limbs."""
+    frame: int
+    """Depth of the border."""
+    bend: int
+    """Columns of a diagonal stripe on each side of its middle one."""
+    saltire: int
+    """Columns of a diagonal cross's limb on each side of its middle one."""
+    pales: tuple[int, int, int]
+    """First column, width and period of the small stripes."""
+    tooth: int
+    """Half the width of each triangle in a row."""
+    brick: tuple[int, int]
+    """Length and height of a brick; joints are one texel."""
+    brick_start: int
+    """Row and column where the first course begins."""
+    scallop: Scallop
+    fine: bool
+    """Whether shapes thinner than four texels, and halves, have soft edges too."""
+
+    @property
+    def columns(self) -> Axis:
+        """The number of each column, shape [1, width]."""
+        return np.arange(self.width)[None, :]
+
+    @property
+    def rows(self) -> Axis:
+        """The number of each row, shape [height, 1]."""
+        return np.arange(self.height)[:, None]
+
+    @property
+    def across(self) -> Axis:
+        """Columns from the middle two, which are 0, shape [1, width]."""
+        return self.width // 2 - 1 - np.minimum(self.columns, self.columns[:, ::-1])
+
+    @property
+    def along(self) -> Axis:
+        """Rows from the middle two, which are 0, shape [height, 1]."""
+        return self.height // 2 - 1 - np.minimum(self.rows, self.rows[::-1])
 
 
-def base(width: int, height: int) -> Grey:
-    return np.full((height, width), 255, np.uint8)
+BANNER_FACE = Face(
+    width=20,
+    height=40,
+    ends=14,
+    sides=7,
+    middle=6,
+    corner=(10, 14),
+    limb=4,
+    frame=3,
+    bend=3,
+    saltire=2,
+    pales=(1, 3, 5),
+    tooth=3,
+    brick=(5, 3),
+    brick_start=0,
+    scallop=Scallop(inset=5, spacing=10, bite=55, crown=6, arch=86),
+    fine=True,
+)
+SHIELD_FACE = Face(
+    width=10,
+    height=20,
+    ends=8,
+    sides=4,
+    middle=4,
+    corner=(5, 7),
+    limb=2,
+    frame=1,
+    bend=1,
+    saltire=0,
+    pales=(1, 1, 2),
+    tooth=1,
+    brick=(3, 2),
+    brick_start=1,
+    scallop=Scallop(inset=3, spacing=6, bite=14, crown=3, arch=24),
+    fine=False,
+)
+
+Shape = Callable[[Face], Grey]
+"""Coverage 0 to 255 of a face, shape [height, width]."""
 
 
-def stripe_top(width: int, height: int) -> Grey:
-    _, y = axes(width, height)
-    return cover(3 * y < 2 * height, width, height)
+def _coverage(depth: Axis, face: Face, soft: bool = True) -> Grey:
+    """Coverage from depths; without `soft` the edge is as full as the rest."""
+    alpha = np.select([depth > 1, depth == 1], [255, SOFT if soft else 255], 0)
+    return np.broadcast_to(alpha, (face.height, face.width)).astype(np.uint8)
 
 
-def stripe_left(width: int, height: int) -> Grey:
-    x, _ = axes(width, height)
-    return cover(10 * x < 6 * width, width, height)
+def _edged(mask: Mask, face: Face, soft: bool = True) -> Grey:
+    """Coverage from a mask, whose edge is where a neighbour above, below or beside is open."""
+    padded = np.pad(mask, 1, mode="edge")
+    inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
+    return _coverage(mask.astype(np.int64) + (mask & inner), face, soft)
 
 
-def stripe_center(width: int, height: int) -> Grey:
-    x, _ = axes(width, height)
-    return cover(5 * abs(x - width) < width, width, height)
+def base(face: Face) -> Grey:
+    return np.full((face.height, face.width), 255, np.uint8)
 
 
-def stripe_middle(width: int, height: int) -> Grey:
-    """A band as high as the pale is wide, so that the two make an even cross."""
-    _, y = axes(width, height)
-    return cover(5 * abs(y - height) < width, width, height)
+def stripe_top(face: Face) -> Grey:
+    return _coverage(face.ends - face.rows, face)
 
 
-def straight_cross(width: int, height: int) -> Grey:
-    return stripe_center(width, height) | stripe_middle(width, height)
+def stripe_left(face: Face) -> Grey:
+    return _coverage(face.sides - face.columns, face)
 
 
-def half_vertical(width: int, height: int) -> Grey:
-    x, _ = axes(width, height)
-    return cover(x < width, width, height)
+def stripe_center(face: Face) -> Grey:
+    return _coverage(face.middle // 2 - face.across, face)
 
 
-def half_horizontal(width: int, height: int) -> Grey:
-    _, y = axes(width, height)
-    return cover(y < height, width, height)
+def stripe_middle(face: Face) -> Grey:
+    return _coverage(face.middle // 2 - face.along, face)
 
 
-def square_top_left(width: int, height: int) -> Grey:
-    return half_vertical(width, height) & stripe_top(width, height)
+def straight_cross(face: Face) -> Grey:
+    """Two stripes across each other, narrower than the stripes alone."""
+    limbs = [_coverage(face.limb // 2 - off, face, face.fine) for off in (face.across, face.along)]
+    return np.maximum(*limbs)
 
 
-def small_stripes(width: int, height: int) -> Grey:
-    """Four pales: the texels that lie wholly in the middle three fifths of their quarter."""
-    x, _ = axes(width, height)
-    # In twentieths of a texel a quarter is 5 * width long and a texel reaches 10 to each side.
-    across = 10 * x % (5 * width)
-    return cover((width <= across - 10) & (across + 10 <= 4 * width), width, height)
+def _half(number: Axis, face: Face) -> Grey:
+    """The texels numbered below the middle, and half of the next."""
+    middle = number.size // 2
+    alpha = np.select([number < middle, number == middle], [255, HALF if face.fine else 0], 0)
+    return np.broadcast_to(alpha, (face.height, face.width)).astype(np.uint8)
 
 
-def _beside_diagonal(width: int, height: int) -> Axis:
-    """Distance of a centre to the right of the descending diagonal, in 1/(2 height) texels."""
-    x, y = axes(width, height)
-    return x * height - y * width
+def half_vertical(face: Face) -> Grey:
+    return _half(face.columns, face)
 
 
-def stripe_downright(width: int, height: int) -> Grey:
-    reach = 2 * width * height // 5
-    return cover(abs(_beside_diagonal(width, height)) < reach, width, height)
+def half_horizontal(face: Face) -> Grey:
+    return _half(face.rows, face)
 
 
-def cross(width: int, height: int) -> Grey:
-    """Both diagonals, narrower than the bends."""
-    reach = width * height // 4
-    bend = cover(abs(_beside_diagonal(width, height)) < reach, width, height)
-    return bend | bend[:, ::-1]
+def square_top_left(face: Face) -> Grey:
+    width, height = face.corner
+    return _coverage(np.minimum(width - face.columns, height - face.rows), face)
 
 
-def diagonal_right(width: int, height: int) -> Grey:
-    return cover(_beside_diagonal(width, height) > 0, width, height)
+def small_stripes(face: Face) -> Grey:
+    """Upright stripes with even gaps."""
+    first, width, period = face.pales
+    within = (face.columns - first) % period
+    depth = np.where(face.columns < first, 0, np.minimum(within + 1, width - within))
+    return _coverage(depth, face, face.fine)
 
 
-def triangle_bottom(width: int, height: int) -> Grey:
-    """A chevron from the lower corners to the middle of the face."""
-    x, y = axes(width, height)
-    return cover(abs(x - width) * height < (y - height) * width, width, height)
+def _beside_diagonal(face: Face) -> Axis:
+    """Columns to the right of the diagonal that descends two rows for each column."""
+    return face.columns - face.rows // 2
 
 
-def triangles_bottom(width: int, height: int) -> Grey:
-    """Three teeth, twice as tall as they are wide at each side of the tip."""
-    x, y = axes(width, height)
-    tooth = 2 * (3 * width // 10)
-    from_middle = abs(x - width)
-    from_tip = np.minimum(from_middle, abs(from_middle - tooth))
-    return cover(2 * height - y < tooth + 4 - 2 * from_tip, width, height)
+def stripe_downright(face: Face) -> Grey:
+    return _coverage(face.bend + 1 - abs(_beside_diagonal(face)), face, face.fine)
 
 
-def circle(width: int, height: int) -> Grey:
-    """A roundel over half the width, its radius rounded up to whole texels."""
-    x, y = axes(width, height)
-    diameter = 2 * ((width + 3) // 4)
-    return cover((x - width) ** 2 + (y - height) ** 2 < diameter**2, width, height)
+def cross(face: Face) -> Grey:
+    """Both diagonals, narrower than the diagonal stripes."""
+    limb = _coverage(face.saltire + 1 - abs(_beside_diagonal(face)), face, face.fine)
+    return np.maximum(limb, limb[:, ::-1])
 
 
-def rhombus(width: int, height: int) -> Grey:
-    """A lozenge twice as tall as wide over two thirds of the width."""
-    x, y = axes(width, height)
-    return cover(2 * abs(x - width) + abs(y - height) < 4 * width // 3, width, height)
+def diagonal_right(face: Face) -> Grey:
+    return _coverage(_beside_diagonal(face) + 1, face)
 
 
-def border(width: int, height: int) -> Grey:
-    """A frame three twentieths of the width deep."""
-    x, y = axes(width, height)
-    inwards = np.minimum(np.minimum(x, 2 * width - x), np.minimum(y, 2 * height - y))
-    return cover(10 * inwards <= 3 * width, width, height)
+def _slope(away: Axis, face: Face, reach: int) -> Grey:
+    """A wedge two rows high for each column: `reach` columns to each side where `away` is 0."""
+    depth = reach + 1 - face.across - (away + 1) // 2
+    return _coverage(np.where(away < 2 * reach, depth, 0), face)
 
 
-def _scallop(length: int, depths: tuple[int, ...]) -> Axis:
-    """Depth of a toothed frame along a side of `length` texels, whose teeth are all `depths`."""
-    return np.resize(np.array(depths), length)
+def triangle_top(face: Face) -> Grey:
+    """A triangle from the upper corners to the middle of the face."""
+    return _slope(face.rows, face, face.width // 2)
 
 
-def curly_border(width: int, height: int) -> Grey:
-    """A frame with rounded teeth of five texels on its inner edge."""
-    depths = (2, 4, 5, 4, 2) if width >= 20 else (1, 2, 2, 2, 1)
-    x, y = np.arange(width)[None, :], np.arange(height)[:, None]
-    beside = np.minimum(x, width - 1 - x) < _scallop(height, depths)[:, None]
-    above = np.minimum(y, height - 1 - y) < _scallop(width, depths)[None, :]
-    return cover(beside | above, width, height)
+def rhombus(face: Face) -> Grey:
+    """A rhombus twice as tall as wide, over three fifths of the width and of the height."""
+    return _slope(face.along, face, 3 * face.width // 10)
 
 
-def bricks(width: int, height: int) -> Grey:
-    """Courses of bricks three texels high and one texel of joint, each moved by half a brick."""
-    x, y = np.arange(width)[None, :], np.arange(height)[:, None]
-    course = y // 4
-    along = x + np.where(course % 2 == 0, 1, 4)
-    return cover((y % 4 < 3) & (along % 6 != 0), width, height)
+def triangles_top(face: Face) -> Grey:
+    """Three triangles in a row, the middle one in the middle, with a full row above."""
+    half = face.tooth
+    within = (face.columns - face.width // 2 + half) % (2 * half + 1)
+    across = np.maximum(half - 1 - within, within - half)
+    return _coverage(np.where(face.rows == 0, 2, half + 1 - face.rows // 2 - across), face)
 
 
-def gradient(width: int, height: int) -> Grey:
-    """Full at the top, gone at the bottom, even steps between."""
-    _, y = axes(width, height)
-    left = 2 * height - y
-    alpha = (255 * left + height) // (2 * height)
-    return np.broadcast_to(alpha, (height, width)).astype(np.uint8)
+def _distance(face: Face, x: int, y: int) -> Axis:
+    """Twice the distance of each texel's middle from the point (x, y), squared."""
+    return (2 * face.columns + 1 - 2 * x) ** 2 + (2 * face.rows + 1 - 2 * y) ** 2
+
+
+def circle(face: Face) -> Grey:
+    """A disc over three fifths of the width."""
+    distance = _distance(face, face.width // 2, face.height // 2)
+    return _edged(10 * distance < 3 * face.width**2 + 80, face)
+
+
+def border(face: Face) -> Grey:
+    inwards = np.minimum(face.across[:, :1] - face.across, face.along[:1] - face.along)
+    return _coverage(face.frame - inwards, face, face.fine)
+
+
+def curly_border(face: Face) -> Grey:
+    """A frame whose inner edge is made of arches."""
+    cut, middle = face.scallop, face.height // 2
+    open_field = (face.across < face.width // 2 - cut.inset) & (face.along < middle - cut.inset)
+    for step in (-cut.spacing, 0, cut.spacing):
+        for x in (cut.inset, face.width - cut.inset):
+            open_field |= _distance(face, x, middle + step) < cut.bite
+    for y in (cut.crown, face.height - cut.crown):
+        open_field |= _distance(face, face.width // 2, y) < cut.arch
+    return _edged(~open_field, face, face.fine)
+
+
+def bricks(face: Face) -> Grey:
+    """Courses of bricks, each moved by half a brick, soft along their right and lower edges."""
+    length, height = face.brick
+    down = (face.rows - face.brick_start) % (height + 1)
+    course = (face.rows - face.brick_start) // (height + 1)
+    shift = course % 2 * ((length + 1) // 2)
+    along = (face.columns - face.brick_start + shift) % (length + 1)
+    return _coverage(np.minimum(length - along, height - down), face)
+
+
+def gradient(face: Face) -> Grey:
+    """Full in the first row, gone in the last, even steps between."""
+    last = face.height - 1
+    alpha = (255 * (last - face.rows) + last // 2) // last
+    return np.broadcast_to(alpha, (face.height, face.width)).astype(np.uint8)
 
 
 def _upside_down(shape: Shape) -> Shape:
-    return lambda width, height: shape(width, height)[::-1]
+    return lambda face: shape(face)[::-1]
 
 
 def _mirrored(shape: Shape) -> Shape:
-    return lambda width, height: shape(width, height)[:, ::-1]
+    return lambda face: shape(face)[:, ::-1]
 
 
 SHAPES: dict[str, Shape] = {
@@ -191,10 +315,10 @@ SHAPES: dict[str, Shape] = {
     "small_stripes": small_stripes,
     "cross": cross,
     "straight_cross": straight_cross,
-    "triangle_bottom": triangle_bottom,
-    "triangle_top": _upside_down(triangle_bottom),
-    "triangles_bottom": triangles_bottom,
-    "triangles_top": _upside_down(triangles_bottom),
+    "triangle_bottom": _upside_down(triangle_top),
+    "triangle_top": triangle_top,
+    "triangles_bottom": _upside_down(triangles_top),
+    "triangles_top": triangles_top,
     "diagonal_left": _mirrored(diagonal_right),
     "diagonal_up_right": _upside_down(diagonal_right),
     "diagonal_up_left": _upside_down(_mirrored(diagonal_right)),

@@ -20,7 +20,7 @@ from assets.drawing.canvas import (
 )
 from assets.drawing.noise import Field, speckle
 from assets.drawing.shading import times
-from assets.drawing.shapes import SHAPES
+from assets.drawing.shapes import SHAPES, SHIELD_FACE
 from assets.drawing.shield_charges import SHIELD_CHARGES
 from assets.drawing.tile import Palette, paint
 from assets.drawing.timber import SPRUCE
@@ -49,7 +49,7 @@ def field_figure(pattern: str) -> tuple[Grey, Grey]:
     """Coverage and own shade of a pattern on the field, shape [20, 10] each."""
     if pattern in SHIELD_CHARGES:
         return charge(SHIELD_CHARGES[pattern], FIELD.width, FIELD.height)
-    coverage = SHAPES[pattern](FIELD.width, FIELD.height)
+    coverage = SHAPES[pattern](SHIELD_FACE)
     return coverage, np.full_like(coverage, 255)
 
 
@@ -98,15 +98,38 @@ def _paint_plate(sheet: Texels, field: Texels) -> None:
     put(sheet, behind, _raw_boards(FIELD.width, FIELD.height, 141))
 
 
+GRIP: Palette = ((78, 50, 34), (108, 72, 48), (136, 94, 64), (162, 116, 82))
+"""Leather around the part of the handle that a hand holds."""
+
+HOLLOW = (33, 25, 19, 255)
+"""The shadow between the handle and the plate."""
+
+
+def _bracket(handle: TextureBox) -> Texels:
+    """The handle from its side: two wooden arms, and a wrapped grip in the first two columns."""
+    face = paint(1 + grain(handle.height, handle.depth, 151).T, SPRUCE)
+    face[1:-1, 2:] = HOLLOW
+    face[1:-1, :2] = _wrapped(2, handle.height - 2)
+    return face
+
+
+def _wrapped(width: int, height: int) -> Texels:
+    """Turns of a leather strap, each row darker towards its right end."""
+    turns = 2 + np.arange(height)[:, None] % 2 - np.arange(width)[None, :]
+    return paint(turns, GRIP)
+
+
 def _paint_handle(sheet: Texels, handle: TextureBox = HANDLE) -> None:
-    """A grip of wood, darker where it meets the plate."""
-    around = handle.sides
-    tones = grain(around.width, around.height, 151)
-    tones[0] += 1
-    tones[-1] -= 1
-    put(sheet, around, paint(tones, SPRUCE))
+    """A grip of wood and leather on two arms, which stand on the back of the plate."""
+    side, front, back = _bracket(handle), handle.front, handle.back
+    put(sheet, handle.left, side)
+    put(sheet, handle.right, side[:, ::-1])
+    put(sheet, front, paint(grain(front.width, front.height, 153), SPRUCE))
+    put(sheet, back, paint(1 + grain(back.width, back.height, 152), SPRUCE))
+    inner = TexelRect(back.x, back.y + 1, back.width, back.height - 2)
+    put(sheet, inner, _wrapped(inner.width, inner.height))
     for cap in (handle.top, handle.bottom):
-        put(sheet, cap, paint(grain(cap.width, cap.height, 152), SPRUCE))
+        put(sheet, cap, paint(1 + grain(cap.width, cap.height, 152), SPRUCE))
 
 
 def base_sheet() -> Texels:
