@@ -24,7 +24,8 @@ def test_every_public_name_is_there_documented_and_seen_by_type_checkers(package
         if isinstance(node, ast.ImportFrom)
         for alias in node.names
     }
-    assert imported == module._MODULE_OF
+    for name, source in imported.items():
+        assert getattr(module, name) is getattr(import_module(str(source)), name)
     assert dir(module) == sorted(imported) == sorted(module.__all__)
     for name in module.__all__:
         value = getattr(module, name)

@@ -13,6 +13,7 @@ of equilateral triangles bent to a cylinder of curvature κ has the energy ½ B 
 damping is that of Kelvin and Voigt: the moment is B (κ + τ dκ/dt).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -199,7 +200,7 @@ def _cells(index: NDArray[np.int32]) -> NDArray[np.int32]:
 
 
 def _of_groups(
-    groups: list[tuple[tuple[float, ...], float, NDArray[np.int32]]], damping: float
+    groups: Sequence[tuple[tuple[float, ...], float, NDArray[np.int32]]], damping: float
 ) -> Bending:
     counts = [len(particles) for _, _, particles in groups]
     return Bending(

@@ -297,7 +297,8 @@ def may_touch(contact: BoxContact, frame: Array, i: int, j: int) -> bool:
     """Whether an edge may come within the radius, contacts of the radius included."""
     along = subtract(end_of(frame, j), end_of(frame, i))
     total = frame[i, DISTANCE] + frame[j, DISTANCE] - 3.0 * contact.radius
-    return total < 0.0 or total * total < dot(along, along)
+    near: bool = total < 0.0 or total * total < dot(along, along)
+    return near
 
 
 @kernel

@@ -44,7 +44,7 @@ def contact_work(cloths: Any, contact: Any) -> Any:
 @kernel
 def begin_lanes(y: Any, batch: Any, start: Any) -> Any:
     """The arrays for a block of lanes y [3N, L], with its places before the first step."""
-    work = contact_work(max(0, min(y.shape[1], batch.count - start)), batch.contact)
+    work = contact_work(max(0, min(y.shape[1], batch.cloths - start)), batch.contact)
     for cloth in range(work.starts.shape[0]):
         for i in range(work.starts.shape[1]):
             for axis in range(3):

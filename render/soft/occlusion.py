@@ -73,8 +73,8 @@ def occlude(
             facing = normals[v, 0] * dx + normals[v, 1] * dy + normals[v, 2] * dz
             if facing < LEAST_FACING or skipped[v]:
                 continue
-            i, j = np.int64(across[v]), np.int64(down[v])
-            p, q, at = across[v] - i, down[v] - j, np.uint64(j * side + i)
+            left, top = np.int64(across[v]), np.int64(down[v])
+            p, q, at = across[v] - left, down[v] - top, np.uint64(top * side + left)
             upper = (1 - p) * _covered(heights[at], inverse, above[v])
             upper += p * _covered(heights[at + np.uint64(1)], inverse, above[v])
             under = at + np.uint64(side)

@@ -62,7 +62,7 @@ class Batch(NamedTuple):
 
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
     targets: positions of the pins after each substep. push: accelerations by user-defined forces.
-    contact: the boxes that the cloths meet. often: see `SolverState`. count: of cloths, B.
+    contact: the boxes that the cloths meet. often: see `SolverState`. cloths: their number, B.
     width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
         0 where every solve reached the tolerance, [B].
@@ -80,7 +80,7 @@ class Batch(NamedTuple):
     residuals: Array
     contact: BoxContact
     often: bool
-    count: int
+    cloths: int
 
 
 @dataclass(frozen=True, eq=False)
