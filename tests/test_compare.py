@@ -163,8 +163,10 @@ def test_hidden_layers_are_found_and_visible_ones_are_not() -> None:
     assert simplify(hidden, packs) == Banner.parse("white base:red cross:black")
     visible = Banner.parse("white gradient:red cross:black")
     assert simplify(visible, packs) == visible
-    twice = Banner.parse("white cross:black cross:black")
+    twice = Banner.parse("white base:black base:black")
     assert len(simplify(twice, packs).layers) == 1
+    darker_edges = Banner.parse("white cross:black cross:black")
+    assert simplify(darker_edges, packs) == darker_edges
 
 
 @pytest.mark.parametrize("target", ["out.bmp", "none/out.png"])
