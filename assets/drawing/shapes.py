@@ -253,7 +253,7 @@ def _distance(face: Face, x: int, y: int) -> Axis:
 def circle(face: Face) -> Grey:
     """A disc over three fifths of the width."""
     distance = _distance(face, face.width // 2, face.height // 2)
-    return _edged(10 * distance < 3 * face.width**2 + 80, face)
+    return _edged(10 * distance < 3 * face.width**2 + 80, face, face.fine)
 
 
 def border(face: Face) -> Grey:
