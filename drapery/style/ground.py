@@ -11,15 +11,15 @@ from drapery.settings import Placement
 from drapery.style.block_world import FACES, Cell, blocks
 from drapery.style.body import MaterialAt, Part
 
-PIECES = 8
+PIECES: dict[Placement, int] = {"standing": 8, "wall": 4}
 """Squares along a side of a face near the body: its light is measured at their corners."""
 
 _BELOW: tuple[Cell, ...] = ((0, -1, 0),)
-_BEHIND: tuple[Cell, ...] = tuple((x, y, -1) for x in (-1, 0, 1) for y in (-2, -1, 0, 1))
+_BEHIND: tuple[Cell, ...] = tuple((x, y, -1) for x in range(-3, 4) for y in range(-3, 3))
 
 
 def ground_of(block: str, packs: Packs, placement: Placement) -> tuple[Part, ...]:
-    """One block below the space of a standing body, or a wall three wide and four high behind it.
+    """One block below the space of a standing body, or a wall seven wide and six high behind it.
 
     block: the name of a texture under `block/`, of a dye for its wool, or `grass`.
     Raises OptionError for a block without texture, and PackError.
@@ -32,9 +32,10 @@ def ground_of(block: str, packs: Packs, placement: Placement) -> tuple[Part, ...
         )
     is_wall = placement == "wall"
     models = blocks(dict.fromkeys(_BEHIND if is_wall else _BELOW, block), packs)
+    pieces = PIECES[placement]
     facing = np.array([0.0, 0.0, 1.0] if is_wall else [0.0, 1.0, 0.0])
     return tuple(
-        Part(_refined(model.mesh, facing), _always(model.materials[0])) for model in models
+        Part(_refined(model.mesh, facing, pieces), _always(model.materials[0])) for model in models
     )
 
 
@@ -42,8 +43,8 @@ def _always(material: Material) -> MaterialAt:
     return lambda time: material
 
 
-def _refined(mesh: Mesh, facing: Array) -> Mesh:
-    """The mesh with its quads that face a direction cut into PIECES x PIECES.
+def _refined(mesh: Mesh, facing: Array, pieces: int) -> Mesh:
+    """The mesh with its quads that face a direction cut into pieces x pieces.
 
     mesh: quads of four vertices each: upper left, upper right, lower left, lower right.
     """
@@ -54,10 +55,10 @@ def _refined(mesh: Mesh, facing: Array) -> Mesh:
         return mesh
     other, near = ~is_near, is_near
     count = int(near.sum())
-    u, v = (part.reshape(-1) for part in np.meshgrid(*[np.linspace(0, 1, PIECES + 1)] * 2))
+    u, v = (part.reshape(-1) for part in np.meshgrid(*[np.linspace(0, 1, pieces + 1)] * 2))
     shares = np.stack([(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v], axis=-1)
-    a = (np.arange(PIECES)[:, None] * (PIECES + 1) + np.arange(PIECES)).reshape(-1)
-    b, c, d = a + 1, a + PIECES + 1, a + PIECES + 2
+    a = (np.arange(pieces)[:, None] * (pieces + 1) + np.arange(pieces)).reshape(-1)
+    b, c, d = a + 1, a + pieces + 1, a + pieces + 2
     cell = np.stack([a, c, b, b, c, d], axis=-1).reshape(-1, 3)
     first = 4 * int(other.sum()) + len(u) * np.arange(count)
     quads = np.array([[0, 2, 1], [1, 2, 3]]) + 4 * np.arange(int(other.sum()))[:, None, None]
