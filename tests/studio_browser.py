@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 import pytest
 
-from drapery import draw
+from drapery import Banner, draw
 
 T = TypeVar("T")
 
@@ -75,7 +75,7 @@ class Studio:
 @pytest.fixture(scope="session")
 def compiled_kernels() -> None:
     """Fill the kernel cache, so that no deadline of a page's test includes a compiler's time."""
-    draw("red creeper:lime", samples=2, shadow=True, wind=4.0)
+    draw(Banner.parse("red creeper:lime"), view="hero", shadow=True, wind=4.0)
 
 
 @pytest.fixture(scope="session")
