@@ -10,6 +10,7 @@ from pack_maker import folder_pack, plain
 from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import open_packs
 from drapery.errors import BackendError, OptionError
+from drapery.packs import MemoryPack
 from drapery.pictures import draw
 from drapery.render import backend
 from drapery.render.light import GAME_LIGHT, STUDIO_LIGHT
@@ -124,3 +125,11 @@ def test_the_contact_shadow_ends_with_the_block() -> None:
     x = low[0] + (columns + 0.5) / width * span[0]
     z = low[1] + (rows + 0.5) / height * span[1]
     assert x.min() > 0 and x.max() < 1 and z.min() > 0 and z.max() < 1
+
+
+def test_an_item_has_the_brightness_of_the_games_lightmap() -> None:
+    white = np.full((64, 64, 4), 255, np.uint8)
+    pack = MemoryPack(patterns={"base": white})
+    seen = draw(Banner("white"), packs=pack, placement="item", size=SMALL).pixels
+    # The dye is F9FFFE; the lightmap's full light is 252 of 255.
+    assert seen.reshape(-1, 4).max(axis=0).tolist() == [246, 252, 251, 255]
