@@ -238,9 +238,9 @@ class Settings:
         audience="anyone",
     )
     contact: Contact = _option(
-        "all",
+        "world",
         str,
-        "What the cloth cannot pass through: the world around it, or all, which is also itself",
+        "What the cloth cannot pass through: nothing, the world around it, or all: itself too",
         choices=get_args(Contact),
         audience="anyone",
     )

@@ -33,7 +33,7 @@ from drapery.cloth.colliders.collision_world import CollisionWorld
 from drapery.cloth.colliders.packing import distance, pack
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.collisions import Collisions, collision_world
-from drapery.cloth.contact import self_contact
+from drapery.cloth.self_contact import self_contact
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 
@@ -78,14 +78,6 @@ def state(positions, velocities=None, time=0.0):
 
 def world_of(cloth, colliders, order=1, radius=RADIUS):
     return CollisionWorld(cloth.inv_mass, colliders, sample_points(cloth, order), radius)
-
-
-def separate(cloth, thickness, now):
-    """The state with the cloth's own particles apart."""
-    world = CollisionWorld(
-        cloth.inv_mass, (), sample_points(cloth, 1), RADIUS, self_contact(cloth, thickness)
-    )
-    return world.resolve(now, State(now.positions, now.velocities, now.time + 1))
 
 
 def fall(cloth, start, colliders, steps, dt, order=1, force=GRAVITY, radius=RADIUS):
@@ -474,41 +466,6 @@ def test_a_batch_equals_its_cloths_alone_bit_for_bit():
         np.testing.assert_array_equal(alone.velocities[0], batch.velocities[b])
 
 
-def test_self_collision_keeps_points_apart():
-    points = np.random.default_rng(2).uniform(0, 0.3, size=(60, 3))
-    cloth = Cloth(**{**vars(dust(60)), "rest_positions": np.arange(180.0).reshape(60, 3)})
-    now = state(points)
-    for _ in range(10):
-        now = separate(cloth, 0.05, now)
-    apart = np.linalg.norm(now.positions[0, :, None] - now.positions[0, None], axis=-1)
-    assert apart[~np.eye(60, dtype=bool)].min() >= 0.05 - 1e-6
-    np.testing.assert_allclose(now.positions.mean(axis=1)[0], points.mean(axis=0), atol=1e-12)
-    np.testing.assert_array_equal(
-        separate(cloth, 0.05, state(points)).positions,
-        separate(cloth, 0.05, state(points)).positions,
-    )
-
-
-def test_self_collision_stops_approach_and_leaves_neighbours_alone():
-    rest = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0.0]])
-    chain = Cloth(
-        **{
-            **vars(dust(3)),
-            "rest_positions": rest,
-            "spring_pairs": np.array([[0, 1], [1, 2]], np.int32),
-            "spring_length": np.ones(2),
-            "spring_stiffness": np.ones(2),
-            "spring_kind": np.zeros(2, np.uint8),
-        }
-    )
-    folded = state(
-        [[0, 0, 0], [0.05, 0, 0], [0.0, 0.08, 0]], np.array([[0, 1.0, 0], [0, 0, 0], [0, -1.0, 0]])
-    )
-    after = separate(chain, 0.1, folded)
-    np.testing.assert_allclose(after.positions[0], [[0, -0.01, 0], [0.05, 0, 0], [0, 0.09, 0]])
-    np.testing.assert_allclose(after.velocities[0], 0, atol=1e-12)
-
-
 class Torus:
     """A user-defined shape about the y axis, in the shape's frame."""
 
@@ -704,7 +661,7 @@ def test_a_collider_survives_being_sent_to_another_process():
         lambda: Collider(Sphere(ORIGIN, 1.0), friction=-1),
         lambda: Collider(Sphere(ORIGIN, 1.0), restitution=1.5),
         lambda: sample_points(dust(1), 0),
-        lambda: self_contact(dust(1), 0.0),
+        lambda: self_contact(sheet(2, 2, 1.0, 0.0)[0], 0.0),
         lambda: load_mesh("no such file.obj"),
     ],
 )

@@ -18,6 +18,7 @@ from drapery.cloth import (
     Wind,
     grid,
     rest_state,
+    sew,
 )
 from drapery.cloth.colliders import straight
 from drapery.cloth.colliders.check import sample_distances
@@ -30,6 +31,7 @@ UNIT = 1 / 24
 POLE = Collider(Box(np.array([0, -23, -1.5]) * UNIT, np.array([2, 42, 2]) * UNIT))
 BAR = Collider(Box(np.array([0, -1, -1.5]) * UNIT, np.array([20, 2, 2]) * UNIT))
 FLOOR = Collider(Plane(np.array([0, -1.0, 0]), np.array([0, 1.0, 0])))
+GROUND = Collider(Plane(np.zeros(3), np.array([0, 1.0, 0])))
 MET = Collisions((POLE, BAR, FLOOR), thickness=UNIT)
 
 
@@ -123,3 +125,65 @@ def test_thin_and_deep_cloth_passes_no_wall_at_any_speed() -> None:
     moving = MovingCloth.begin(cloth, collisions=Collisions((wall,), thickness=1e-3))
     moving = moving.advance((Gravity(), Wind((0, 0, -40.0))), 60)
     assert depth(moving.state.positions[0], wall, cloth) < 1e-6
+
+
+def crosses(positions: Array, triangles: Any) -> bool:
+    """Whether any edge of the triangles passes through another triangle, tested pair by pair."""
+    corners = positions.astype(float)[triangles]
+    for shift in range(3):
+        a, b = corners[:, shift], corners[:, (shift + 1) % 3]
+        for number in range(len(corners)):
+            p, q, r = corners[number]
+            normal = np.cross(q - p, r - p)
+            above, below = ((end - p) @ normal for end in (a, b))
+            through = above * below < 0
+            part = above / np.where(through, above - below, 1.0)
+            at = a + part[:, None] * (b - a)
+            sides = [np.cross(v - u, at - u) @ normal for u, v in ((p, q), (q, r), (r, p))]
+            inside = through & np.logical_and.reduce([side > 0 for side in sides])
+            shared = np.isin(triangles, triangles[number]).any(axis=1)
+            if (inside & ~shared).any():
+                return True
+    return False
+
+
+def test_a_crumpled_cloth_never_passes_through_itself() -> None:
+    cloth = grid(11, 11, 0.6, 0.6, pins="none")
+    start = rest_state(cloth, dtype=np.float64)
+    upright = start.positions + np.array([0.0, 0.62, 0.0])
+    rolled = upright + 0.02 * np.sin(9 * upright[..., [1]]) * (0, 0, 1)
+    moving = MovingCloth.begin(
+        cloth,
+        SolverXPBD(),
+        start=State(rolled, start.velocities),
+        collisions=Collisions(
+            (Collider(Plane(np.zeros(3), np.array([0, 1.0, 0]))),), 0.01, apart=0.01
+        ),
+    )
+    for _ in range(18):
+        moving = moving.advance((Gravity(),), 5)
+        assert not crosses(moving.state.positions[0], cloth.triangles)
+    positions = moving.state.positions[0]
+    assert positions[:, 1].max() < 0.4 and positions[:, 1].min() > -1e-6
+
+
+def test_cloths_that_are_sewn_without_a_seam_lie_on_each_other() -> None:
+    one = grid(7, 7, 0.5, 0.5, pins="none")
+    cloth = sew([one, one])
+    flat = one.rest_positions[:, [0, 2, 1]] * (1, 1, -1)
+    places = np.concatenate([flat + np.array([0, 0.05, 0]), flat + np.array([0.1, 0.12, 0.06])])[
+        None
+    ]
+    moving = MovingCloth.begin(
+        cloth,
+        SolverXPBD(),
+        start=State(places, np.zeros_like(places)),
+        collisions=Collisions(
+            (Collider(Plane(np.zeros(3), np.array([0, 1.0, 0]))),), 0.02, apart=0.02
+        ),
+    )
+    for _ in range(15):
+        moving = moving.advance((Gravity(),), 8)
+        assert not crosses(moving.state.positions[0], cloth.triangles)
+    lower, upper = moving.state.positions[0].reshape(2, -1, 3)[..., 1]
+    assert np.median(upper) > np.median(lower) + 0.012

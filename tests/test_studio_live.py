@@ -96,9 +96,7 @@ def test_same_inputs_same_bits() -> None:
 def test_another_design_leaves_the_motion() -> None:
     changed, left = a_live(), a_live()
     changed.step(30)
-    changed.update(
-        Banner.parse("red skull:black"), open_packs(()), replace(SETTINGS, thickness=3.0)
-    )
+    changed.update(Banner.parse("red skull:black"), open_packs(()), replace(SETTINGS, shadow=True))
     changed.step(30)
     left.step(60)
     assert np.array_equal(changed.particles()[0], left.particles()[0])

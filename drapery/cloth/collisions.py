@@ -1,12 +1,12 @@
 """The options of collisions, which are resolved after every step of every solver."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from drapery.cloth.attachments import stretch_limits
-from drapery.cloth.box_contact import BoxContact, boxes_of
+from drapery.cloth.box_contact import NO_CONTACT, BoxContact, boxes_of
 from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders.collider import Collider
@@ -14,8 +14,10 @@ from drapery.cloth.colliders.collision_world import THINNEST, CollisionWorld
 from drapery.cloth.colliders.pose import still
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.colliders.shapes import Box, Plane
-from drapery.cloth.contact import self_contact
+from drapery.cloth.lanes import run_blocks, thread_count
+from drapery.cloth.self_contact import SelfContact, meet_all, self_contact
 from drapery.cloth.solvers.driver import check_limit
+from drapery.cloth.state import State
 from drapery.errors import OptionError
 
 
@@ -26,8 +28,8 @@ class Collisions:
     colliders: applied one after another; where two overlap, the last one decides.
     thickness: of the cloth [m]; particles stay half of it away from every collider.
     order: how finely faces are tested, 1 to 16, see `sample_points`.
-    apart: least distance between particles of the cloth itself [m]; None lets it pass through
-        itself. Use about the distance between neighbours.
+    apart: least distance between parts of the cloth itself [m], such as its thickness; None lets
+        it pass through itself. Cloths that `sew` joins without seams meet each other.
     limit: longest length of a structural spring over its rest length. Springs that colliders
         stretched more are shortened, and colliders are applied again.
     rounds: how often colliders are applied in a step.
@@ -72,14 +74,52 @@ def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
 
 
 def boxes_met(cloth: Cloth, collisions: Collisions) -> BoxContact | None:
-    """The colliders of a cloth as boxes, which solvers meet inside their steps; None where one is
-    neither a Box nor a Plane, moves or bounces, or where the cloth meets itself."""
-    colliders = collisions.colliders
+    """The colliders of a cloth as boxes; None where one is neither a Box nor a Plane, moves or
+    bounces."""
     simple = all(
         isinstance(c.shape, Box | Plane) and c.path is still and not c.restitution
-        for c in colliders
+        for c in collisions.colliders
     )
-    if not colliders or not simple or collisions.apart is not None:
+    if not simple:
         return None
     radius = max(collisions.thickness / 2, THINNEST)
-    return boxes_of(cloth.inv_mass, cloth.triangles, cloth.rest_positions, colliders, radius)
+    surface = cloth.inv_mass, cloth.triangles, cloth.rest_positions
+    return boxes_of(*surface, collisions.colliders, radius) if collisions.colliders else NO_CONTACT
+
+
+def resolver(cloth: Cloth, collisions: Collisions) -> Callable[[State, State], State]:
+    """The collision stage after each step of any solver. Raises OptionError."""
+    boxes = boxes_met(cloth, collisions)
+    if boxes is None or collisions.apart is None:
+        return collision_world(cloth, collisions).resolve
+    contact = self_contact(cloth, collisions.apart)
+    return ContactStage(contact, boxes, collisions.threads).resolve
+
+
+@dataclass(frozen=True, eq=False)
+class ContactStage:
+    """Contact of cloths with themselves and with boxes that rest, after each step."""
+
+    contact: SelfContact
+    boxes: BoxContact
+    threads: int | None
+
+    def resolve(self, before: State, after: State) -> State:
+        """The state after a step, without contacts. before: the state at its start."""
+        start, wanted = (np.array(s.positions, float, order="C") for s in (before, after))
+        x = wanted.copy()
+
+        def work(first: int, last: int) -> None:
+            meet_all(start, x, first, last, self.contact, self.boxes)
+
+        run_blocks(work, len(x), 1, thread_count(self.threads))
+        velocities = np.array(after.velocities, float)
+        seen = (x - start) / (after.time - before.time)
+        limit, length = (np.sqrt((v * v).sum(axis=-1)) for v in (velocities, seen))
+        # Particles of a cloth with contact have the velocity of their motion over the step, at most
+        # as fast as before: what a solver does to the neighbours of stopped ones is not motion.
+        part = np.minimum(1.0, limit / np.maximum(length, 1e-300))[..., None]
+        changed = (x != wanted).any(axis=(1, 2), keepdims=True)
+        moving = np.where(changed, part * seen, velocities)
+        dtype = after.positions.dtype
+        return replace(after, positions=x.astype(dtype), velocities=moving.astype(dtype))

@@ -58,12 +58,17 @@ def _grid_faces(cloth: Cloth, rows: int, columns: int) -> tuple[Faces, NDArray[n
     # Facing +z: from left to right, then upwards.
     sides = np.stack([left, right, below, above], axis=-1).reshape(-1, 4)
     rest = cloth.rest_positions.reshape(rows, columns, 3)
-    down = _samples(float(np.linalg.norm(rest[-1, 0] - rest[0, 0])), rows)
-    across = _samples(float(np.linalg.norm(rest[0, -1] - rest[0, 0])), columns)
+    down = _samples(_length(rest[-1, 0] - rest[0, 0]), rows)
+    across = _samples(_length(rest[0, -1] - rest[0, 0]), columns)
     controls, weights = _bilinear(_between(down, rows), _between(across, columns), len(across))
     begin = np.arange(rows * columns + 1)
     shares = np.full(len(sides), 0.25)
     return Faces(sides, shares, begin, controls, weights), index[np.ix_(down, across)].ravel()
+
+
+def _length(offset: Array) -> float:
+    """The length [m] of a vector [3], summed without BLAS."""
+    return float(np.sqrt(np.square(offset).sum()))
 
 
 def _samples(length: float, count: int) -> NDArray[np.int64]:

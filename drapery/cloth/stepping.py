@@ -54,15 +54,8 @@ class MovingCloth:
         _check_types(cloth, solver)
         state = rest_state(cloth, count) if start is None else start
         check_state(cloth, state)
-        resolve, boxes = None, None
-        if collisions is not None:
-            # Imported here: a cloth that meets nothing starts without the colliders' kernels.
-            from drapery.cloth.collisions import boxes_met, collision_world
-
-            boxes = boxes_met(cloth, collisions) if isinstance(solver, KernelSolver) else None
-            if boxes is None:
-                resolve = collision_world(cloth, collisions).resolve
-        return MovingCloth(cloth, solver, dt, state, solver.init(cloth, dt), resolve, boxes)
+        met = _contact_of(cloth, solver, collisions)
+        return MovingCloth(cloth, solver, dt, state, solver.init(cloth, dt), *met)
 
     def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
         """The cloths some time steps later. Raises OptionError where they are torn to infinity."""
@@ -78,6 +71,20 @@ class MovingCloth:
             )
             state = state if self.resolve is None else self.resolve(before, state)
         return replace(self, state=state, solver_state=solver_state)
+
+
+def _contact_of(
+    cloth: Cloth, solver: Solver, collisions: Collisions | None
+) -> tuple[Callable[[State, State], State] | None, BoxContact | None]:
+    """The `resolve` and `boxes` of a `MovingCloth`. Raises OptionError."""
+    if collisions is None:
+        return None, None
+    # Imported here: a cloth that meets nothing starts without the colliders' kernels.
+    from drapery.cloth.collisions import boxes_met, resolver
+
+    inside = isinstance(solver, KernelSolver) and collisions.apart is None
+    boxes = boxes_met(cloth, collisions) if inside else None
+    return (None, boxes) if boxes is not None else (resolver(cloth, collisions), None)
 
 
 def simulate(

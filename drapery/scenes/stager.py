@@ -70,7 +70,8 @@ class ClothSpec:
 
     shape: particles across and down. size: width and height [m]. pins: which particles are pinned.
     solver: its name, or a Solver. fabric: its name, or a Fabric; None is the default of `grid`.
-    solids: what it cannot enter, in its own frame. thickness: of the cloth [m].
+    solids: what it cannot enter, in its own frame. itself: whether it also meets itself.
+    thickness: of the cloth [m].
     """
 
     shape: tuple[int, int]
@@ -79,6 +80,7 @@ class ClothSpec:
     solver: str | Solver
     fabric: str | Fabric | None = None
     solids: tuple[Solid, ...] = ()
+    itself: bool = False
     thickness: float = 0.0
 
     def make_cloth(self) -> Cloth:
@@ -92,13 +94,13 @@ class ClothSpec:
 
     def make_collisions(self) -> Collisions | None:
         """What the cloth meets; None if that is nothing."""
-        if not self.solids:
+        if not self.solids and not self.itself:
             return None
         boxes = []
         for solid in self.solids:
             low, high = (np.clip(corner, -ENDLESS, ENDLESS) for corner in (solid.low, solid.high))
             boxes.append(Collider(Box((low + high) / 2, high - low)))
-        return Collisions(boxes, self.thickness)
+        return Collisions(boxes, self.thickness, apart=self.thickness if self.itself else None)
 
 
 def cloth_at_rest(spec: ClothSpec) -> MovingCloth:
@@ -115,7 +117,7 @@ def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -
     moved = tuple(Solid(_less(solid.low, x, y, z), _less(solid.high, x, y, z)) for solid in met)
     thickness = max(settings.thickness, THINNEST) * panel.texel
     made = settings.grid, panel.size, pins, settings.solver, settings.fabric
-    return ClothSpec(*made, moved, thickness)
+    return ClothSpec(*made, moved, settings.contact == "all", thickness)
 
 
 def _less(corner: tuple[float, float, float], *origin: float) -> tuple[float, float, float]:

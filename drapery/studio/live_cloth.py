@@ -120,9 +120,9 @@ class LiveCloth(MovingCloth):
         return replace(new, state=_resampled(self, new))
 
     def _with_cloth(self, cloth: Cloth, grab: Grab | None) -> Self:
-        solver_state = self.solver.init(cloth, STEP)
-        boxes = self.boxes and self.boxes._replace(inv_mass=cloth.inv_mass)
-        return replace(self, cloth=cloth, solver_state=solver_state, boxes=boxes, grab=grab)
+        made = MovingCloth.begin(cloth, self.solver, STEP, collisions=self.spec.make_collisions())
+        changed = replace(self, cloth=cloth, solver_state=made.solver_state, grab=grab)
+        return replace(changed, resolve=made.resolve, boxes=made.boxes)
 
     def _path(self) -> PinPath | None:
         """The path of the held particles during a time step; None if all are at their targets."""

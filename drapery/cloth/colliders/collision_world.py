@@ -20,14 +20,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.attachments import Attachments
+from drapery.cloth.box_contact import NO_CONTACT
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.pose import Pose
 from drapery.cloth.colliders.sampling import SamplePoints
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, ContactParams, RigidSweep, sweep_point
 from drapery.cloth.colliders.vectors import Vector, add_scaled, norm, row, scale, subtract
-from drapery.cloth.contact import SelfContact, separate_all
 from drapery.cloth.lanes import run_blocks, thread_count
+from drapery.cloth.self_contact import SelfContact, meet_all
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel
@@ -100,9 +101,9 @@ class CollisionWorld:
         self, first: int, last: int, motion: ClothMotion, sweeps: Sequence[RigidSweep], dt: float
     ) -> None:
         """Cloths first..last of a batch; each is one thread's alone, so threads change no bit."""
-        if self.self_contact is not None:
-            separate_all(motion.x, motion.v, first, last, self.self_contact)
         solved, speeds = motion.x[first:last].copy(), motion.v[first:last].copy()
+        if self.self_contact is not None:
+            meet_all(motion.start, motion.x, first, last, self.self_contact, NO_CONTACT)
         active = np.ones(len(motion.x), np.bool_)
         for number in range(self.rounds):
             for collider, sweep in zip(self.colliders, sweeps, strict=True):

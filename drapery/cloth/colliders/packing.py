@@ -116,7 +116,7 @@ def _(shape: Capsule) -> Field:
 def _(shape: Box) -> Field:
     centre, half = np.asarray(shape.centre, float), np.asarray(shape.size, float) / 2
     rotation = np.asarray(shape.rotation, float)
-    extent = np.abs(rotation) @ half
+    extent = (np.abs(rotation) * half).sum(axis=1)
     numbers = np.concatenate([centre, half, rotation.ravel()])
     return Field(BOX, numbers, np.stack([centre - extent, centre + extent]), float(half.min()))
 
@@ -124,7 +124,9 @@ def _(shape: Box) -> Field:
 @pack.register
 def _(shape: Plane) -> Field:
     normal = np.asarray(shape.normal, float)
-    numbers = np.concatenate([np.asarray(shape.point, float), normal / np.linalg.norm(normal)])
+    numbers = np.concatenate(
+        [np.asarray(shape.point, float), normal / np.sqrt(np.square(normal).sum())]
+    )
     return Field(PLANE, numbers, np.array([[-np.inf] * 3, [np.inf] * 3]), np.inf)
 
 

@@ -72,7 +72,7 @@ class Plane:
     def __post_init__(self) -> None:
         _points("Plane point", self.point, (3,))
         _points("Plane normal", self.normal, (3,))
-        _lengths("Plane normal", float(np.linalg.norm(np.asarray(self.normal, float))))
+        _lengths("Plane normal", float(np.sqrt(np.square(np.asarray(self.normal, float)).sum())))
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,5 +150,6 @@ def _lengths(what: str, value: Array | float) -> None:
 def _rotation(what: str, value: Array) -> None:
     _points(what, np.ravel(value), (9,))
     matrix = np.asarray(value, float)
-    if not np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-9) or np.linalg.det(matrix) < 0:
+    product = np.einsum("ij,kj->ik", matrix, matrix)  # in a fixed order; BLAS may not be
+    if not np.allclose(product, np.eye(3), atol=1e-9) or np.linalg.det(matrix) < 0:
         raise OptionError(f"{what}: give an orthonormal right-handed matrix [3, 3]")

@@ -1,0 +1,288 @@
+"""Contact, judged by ipctk: `python -m benchmarks.contact`.
+
+Each case is stepped and judged after every step: whether triangles of the cloth intersect each
+other or those of a box (ipctk's exact test), and how deep its particles are in a collider. Then the
+cost of a step with and without contact is timed, on one thread. `--steps` is the number of
+steps of each case, `--case` chooses cases by a part of their name. ipctk comes with
+`pip install drapery[bench]`; only benchmarks use it.
+"""
+
+import argparse
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import cos, radians, sin
+from time import perf_counter
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from drapery.cloth import (
+    Box,
+    Cloth,
+    Collider,
+    Collisions,
+    Force,
+    Gravity,
+    MovingCloth,
+    PinPath,
+    Plane,
+    State,
+    Wind,
+    grid,
+    sew,
+)
+from drapery.cloth.colliders import still
+from drapery.cloth.colliders.check import sample_distances
+from drapery.cloth.solvers.registry import solver
+from drapery.mesh import Array
+from drapery.scenes import cape, skirt
+from drapery.scenes.gait import Gait
+
+UNIT = 1 / 24
+"""A texel of a banner [m]."""
+DT = 1 / 60
+SPEEDS, ANGLES = (0, 4, 10, 20), tuple(range(0, 360, 45))
+GRIDS = ((5, 9), (11, 21), (21, 41))
+TURN = 120
+"""The wind of a banner changes after so many steps."""
+SQUARES, STACK = 50, 10
+
+
+@dataclass(frozen=True)
+class Case:
+    """Cloth that meets something. forces: by the number of the step. colliders: judged."""
+
+    name: str
+    moving: MovingCloth
+    forces: Callable[[int], list[Force]]
+    colliders: tuple[Collider, ...]
+    pins: PinPath | None = None
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """steps: made. itself, boxes: steps after which triangles of the cloth intersect each other,
+    and those of boxes. deepest: particle in a collider [m], below 0 outside. ms: a step."""
+
+    name: str
+    steps: int
+    itself: int
+    boxes: int
+    deepest: float
+    ms: float
+
+
+def frame_of(placement: str) -> tuple[Collider, ...]:
+    """Pole, bar, wall and ground of a banner whose top edge is at the origin."""
+    bar = Collider(Box(np.array([0, -1, -1.5]) * UNIT, np.array([20, 2, 2]) * UNIT))
+    if placement == "standing":
+        pole = Collider(Box(np.array([0, -23, -1.5]) * UNIT, np.array([2, 42, 2]) * UNIT))
+        return pole, bar, floor(-44 * UNIT)
+    wall = Collider(Plane(np.array([0, 0, -3 * UNIT]), np.array([0, 0, 1.0])))
+    return bar, wall, floor(-44.5 * UNIT)
+
+
+def floor(height: float) -> Collider:
+    return Collider(Plane(np.array([0, height, 0]), np.array([0, 1.0, 0])))
+
+
+def winds(number: int) -> list[Force]:
+    """Gravity and a wind of each speed from all sides in turn."""
+    turn = number // TURN
+    speed, angle = SPEEDS[turn // len(ANGLES) % len(SPEEDS)], radians(ANGLES[turn % len(ANGLES)])
+    return [Gravity(), Wind((speed * sin(angle), 0.0, speed * cos(angle)), gusts=0.4)]
+
+
+def banner(placement: str, shape: tuple[int, int], contact: str = "world") -> Case:
+    cloth, met = grid(*shape, 20 * UNIT, 40 * UNIT), frame_of(placement)
+    collisions = Collisions(met, UNIT, apart=UNIT if contact == "all" else None)
+    moving = MovingCloth.begin(cloth, collisions=collisions)
+    name = f"banner, {placement}, {shape[0]} x {shape[1]}, {contact}"
+    return Case(name, moving, winds, met)
+
+
+def storm() -> Case:
+    cloth, met = grid(33, 65, 20 * UNIT, 40 * UNIT), frame_of("standing")
+    collisions = Collisions(met, UNIT, apart=UNIT)
+    moving = MovingCloth.begin(cloth, solver("xpbd"), collisions=collisions)
+    wind = Wind((0.0, 0.0, 15.0), gusts=0.4)
+    return Case("banner, 33 x 65, xpbd, 15 m/s", moving, lambda number: [Gravity(), wind], met)
+
+
+def squares(count: int, shape: tuple[int, int], side: float, gap: float) -> tuple[Cloth, State]:
+    """Squares above each other as one cloth, each turned and shifted a little."""
+    one = grid(*shape, side, side, pins="none")
+    cloth = sew([one] * count)
+    random = np.random.default_rng(0)
+    places = []
+    for number in range(count):
+        angle = random.uniform(0, 2 * np.pi) if gap > 0.03 else 0.0
+        x, z = one.rest_positions[:, 0], one.rest_positions[:, 1] + side / 2
+        shift = random.uniform(-0.1, 0.1, 2) if gap > 0.03 else (0.0, 0.0)
+        turned = x * cos(angle) - z * sin(angle) + shift[0], x * sin(angle) + z * cos(angle)
+        places.append(np.stack([turned[0], 0 * x + gap * (number + 1), turned[1] + shift[1]], 1))
+    positions = np.concatenate(places)[None]
+    return cloth, State(positions, np.zeros_like(positions))
+
+
+def heap() -> Case:
+    cloth, start = squares(SQUARES, (7, 7), 0.5, 0.06)
+    met = (floor(0.0),)
+    collisions = Collisions(met, 0.02, apart=0.02)
+    moving = MovingCloth.begin(cloth, solver("xpbd"), DT, start=start, collisions=collisions)
+    return Case("50 falling squares", moving, lambda number: [Gravity()], met)
+
+
+def stack() -> Case:
+    cloth, start = squares(STACK, (21, 41), 1.0, 0.025)
+    met = (floor(0.0),)
+    collisions = Collisions(met, 0.02, apart=0.02, threads=1)
+    moving = MovingCloth.begin(cloth, solver("xpbd"), DT, start=start, collisions=collisions)
+    return Case("10 stacked, 21 x 41", moving, lambda number: [Gravity()], met)
+
+
+def runner(garment: str) -> Case:
+    """A cape or a skirt on a runner."""
+    gait = Gait(5.0)
+    module = cape if garment == "cape" else skirt
+    parameters = cape.CapeParameters() if garment == "cape" else skirt.SkirtParameters()
+    cloth = (
+        cape.cape_cloth(parameters.grid)
+        if garment == "cape"
+        else skirt.skirt_cloth(skirt.SkirtParameters())
+    )
+    met = gait.colliders(module.BODY)
+    collisions = Collisions(met, cape.TEXEL, order=3, apart=cape.TEXEL / 2)
+    moving = MovingCloth.begin(cloth, None, 1 / 120, collisions=collisions)
+    wind = Wind((0.0, 0.0, -5.5), period=4.0)
+    forces: list[Force] = [Gravity(), wind]
+    return Case(f"{garment} on a runner", moving, lambda number: forces, met, gait.pins(cloth))
+
+
+def cases() -> Iterator[Callable[[], Case]]:
+    for placement in ("standing", "wall"):
+        for shape in GRIDS:
+            yield lambda placement=placement, shape=shape: banner(placement, shape)  # type: ignore[misc]
+    yield storm
+    yield heap
+    yield stack
+    yield lambda: runner("cape")
+    yield lambda: runner("skirt")
+
+
+def depth_in(positions: Array, cloth: Cloth, collider: Collider, time: float) -> float:
+    """How deep the particles are in a collider [m]; below 0 outside."""
+    pose = collider.path(time)
+    local = np.einsum("ji,nj->ni", pose.rotation, positions - pose.position)
+    free = cloth.inv_mass > 0
+    return -float(sample_distances(collider.packed, np.ascontiguousarray(local[free])).min())
+
+
+def judged(case: Case, steps: int) -> Verdict:
+    """Step a case and judge it after every step."""
+    import ipctk
+
+    moving, cloth = case.moving, case.moving.cloth
+    faces = np.asarray(cloth.triangles, int)
+    solids, solid_faces = box_triangles(case.colliders)
+    both = np.concatenate([faces, solid_faces + len(cloth.inv_mass)])
+    rest = np.concatenate([cloth.rest_positions, solids])
+    alone = ipctk.CollisionMesh(cloth.rest_positions, ipctk.edges(faces), faces)
+    world = ipctk.CollisionMesh(rest, ipctk.edges(both), both)
+    itself, boxes, deepest, spent = 0, 0, -np.inf, 0.0
+    for number in range(steps):
+        forces = case.forces(number)
+        start = perf_counter()
+        moving = moving.advance(forces, 1, case.pins)
+        spent += (perf_counter() - start) * (number > 0)
+        positions = moving.state.positions[0].astype(float)
+        crosses = bool(ipctk.has_intersections(alone, positions))
+        itself += crosses
+        if not crosses and len(solids):
+            boxes += bool(ipctk.has_intersections(world, np.concatenate([positions, solids])))
+        depths = [depth_in(positions, cloth, c, moving.state.time) for c in case.colliders]
+        deepest = max(deepest, *depths)
+    return Verdict(case.name, steps, itself, boxes, deepest, spent / max(1, steps - 1) * 1e3)
+
+
+def box_triangles(colliders: tuple[Collider, ...]) -> tuple[Array, Array]:
+    """The surfaces of all boxes that rest, a little smaller so that they do not touch each other:
+    corners [V, 3] and triangles [T, 3]."""
+    corners, faces = [np.zeros((0, 3))], [np.zeros((0, 3), int)]
+    for collider in colliders:
+        if not isinstance(collider.shape, Box) or collider.path is not still:
+            continue
+        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        first = sum(len(part) for part in corners)
+        corners.append(collider.shape.centre + signs * (collider.shape.size / 2 - 1e-4))
+        faces.append(np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]) + first)
+    return np.concatenate(corners), np.concatenate(faces)
+
+
+def cost(shape: tuple[int, int], name: str, contact: str, wind: Wind) -> float:
+    """Milliseconds a step of a banner on its pole, on one thread, 60 steps in a call."""
+    cloth = grid(*shape, 20 * UNIT, 40 * UNIT)
+    met = Collisions(
+        frame_of("standing"), UNIT, apart=UNIT if contact == "all" else None, threads=1
+    )
+    method = type(solver(name))(threads=1)  # type: ignore[call-arg]
+    moving = MovingCloth.begin(cloth, method, collisions=None if contact == "none" else met)
+    moving = moving.advance([Gravity(), wind], 60)
+    best = np.inf
+    for _ in range(5):
+        start = perf_counter()
+        moving = moving.advance([Gravity(), wind], 60)
+        best = min(best, (perf_counter() - start) / 60)
+    return best * 1e3
+
+
+def crowd(count: int, contact: str) -> float:
+    """Steps a second of many banners on their poles, with xpbd of 3 substeps, on two threads."""
+    from drapery.cloth import SolverXPBD
+
+    cloth = grid(5, 9, 20 * UNIT, 40 * UNIT)
+    met = Collisions(frame_of("standing"), UNIT)
+    moving = MovingCloth.begin(
+        cloth, SolverXPBD(3), count=count, collisions=None if contact == "none" else met
+    )
+    forces = [Gravity(), Wind((1.4, 0.0, 3.7))]
+    moving = moving.advance(forces, 5)
+    start = perf_counter()
+    moving.advance(forces, 10)
+    return 10 / (perf_counter() - start)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])  # type: ignore[union-attr]
+    parser.add_argument("--steps", type=int, default=100_000)
+    parser.add_argument("--case", default="", help="only cases whose name contains this")
+    parser.add_argument("--no-cost", action="store_true", help="do not time steps")
+    chosen = parser.parse_args()
+    console = Console(width=110)
+    for make in cases():
+        case = make()
+        if chosen.case in case.name:
+            v = judged(case, chosen.steps)
+            console.print(
+                f"{v.name}: {v.steps} steps; crosses itself after {v.itself} and a box after "
+                f"{v.boxes} of them; deepest {v.deepest * 1e3:.2f} mm; {v.ms:.2f} ms a step"
+            )
+    if chosen.no_cost:
+        return
+    table = Table("solver", "grid", "wind", "without [ms]", "world", "all")
+    for name in ("desbrun", "xpbd"):
+        for shape in GRIDS:
+            for wind in (Wind((1.4, 0.0, 3.7)), Wind((1.4, 0.0, -3.7))):
+                off, world, both = (cost(shape, name, c, wind) for c in ("none", "world", "all"))
+                side = "behind" if wind.velocity[2] > 0 else "front"
+                ratios = f"{world / off:.2f} x", f"{both / off:.2f} x"
+                table.add_row(name, f"{shape[0]} x {shape[1]}", side, f"{off:.3f}", *ratios)
+    console.print(table)
+    for contact in ("none", "world"):
+        console.print(f"4913 banners, contact {contact}: {crowd(4913, contact):.0f} steps/s")
+
+
+if __name__ == "__main__":
+    main()
