@@ -70,7 +70,7 @@ class Options(TypedDict, total=False):
     size: tuple[int, int]
     grid: tuple[int, int]
     solver: SolverName | Solver
-    fabric: FabricName | Fabric | None
+    fabric: FabricName | Fabric
     forces: Sequence[Force]
     pins: Pins | None
     contact: Contact
@@ -197,7 +197,7 @@ class Settings:
         audience="anyone",
     )
     grid: tuple[int, int] = _option(
-        (5, 9),
+        (16, 31),
         int,
         "Particles across and down the cloth",
         bounds=(2, MAX_GRID),
@@ -206,19 +206,18 @@ class Settings:
         audience="anyone",
     )
     solver: SolverName | Solver = _option(
-        "desbrun",
+        "xpbd",
         str,
         "Method that moves the cloth",
         choices=get_args(SolverName),
         takes=_has("init", "step"),
     )
-    fabric: FabricName | Fabric | None = _option(
-        None,
+    fabric: FabricName | Fabric = _option(
+        "wool",
         str,
         "Material of the cloth",
         choices=get_args(FabricName),
         takes=_has("density", "stretch", "bending"),
-        default_text="a light cloth of springs",
         audience="anyone",
     )
     forces: Sequence[Force] = _option(

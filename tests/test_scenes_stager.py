@@ -9,13 +9,13 @@ import pytest
 import drapery.style
 from drapery import Banner
 from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, Fabric, SolverXPBD, State, Wind
+from drapery.cloth import FABRICS, Cloth, Fabric, SolverXPBD, State, Wind
 from drapery.mesh import Array
 from drapery.scenes.stager import Stager, loop, still, wind_of
 from drapery.settings import Settings
 from drapery.style.kinds import body_of
 
-NAMED = Settings(time=0.5, solver="xpbd", wind=6.0, direction=40.0, seed=3)
+NAMED = Settings(time=0.5, grid=(5, 9), solver="xpbd", wind=6.0, direction=40.0, seed=3)
 
 
 def flag(**options: Any) -> Array:
@@ -26,7 +26,7 @@ def test_objects_equal_the_names_they_stand_for() -> None:
     named = flag()
     assert np.array_equal(flag(solver=SolverXPBD()), named)
     assert np.array_equal(flag(wind=wind_of(NAMED)), named)
-    assert np.array_equal(flag(fabric=Fabric()), named)
+    assert np.array_equal(flag(fabric=FABRICS["wool"]), named)
 
 
 def test_a_stager_advances_to_the_still() -> None:

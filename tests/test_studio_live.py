@@ -216,7 +216,7 @@ def test_another_grid_goes_on_from_the_same_shape() -> None:
     cloth = new_live_cloth(SPEC)
     finer = cloth.remade(replace(SPEC, shape=(9, 17)))
     assert np.allclose(finer.positions, new_live_cloth(finer.spec).positions, atol=1e-6)
-    live = a_live()
+    live = a_live(grid=(5, 9))
     live.step(40)
     coarse = live.particles()[0].copy()
     live.update(DESIGN, open_packs(()), replace(SETTINGS, grid=(9, 17)))
@@ -304,7 +304,7 @@ def test_a_moment_is_as_long_as_what_moves() -> None:
     shown = live.shown()
     (message,) = encoder.messages(shown)
     header, arrays = unpack(message)
-    vertices = 2 * 45 + 4 * 24  # two sheets of 5 x 9 particles and a rim of 24 edges
+    vertices = 2 * 496 + 4 * 90  # two sheets of 16 x 31 particles and a rim of 90 edges
     assert [run[1] for run in header["runs"]] == [vertices]
     assert sum(array.nbytes for array in arrays.values()) == 16 * vertices
     assert len(message) < 16 * vertices + 512
@@ -410,7 +410,7 @@ def test_the_socket_streams_the_motion_of_pictures(client: Any) -> None:
     session = open_session(SETTINGS)
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)
-        sent = [m["positions"].reshape(-1, 3)[-186:] for m in moments(socket, 12)]
+        sent = [m["positions"].reshape(-1, 3)[-1352:] for m in moments(socket, 12)]
     session.close()
     pictures = flags(400)
     places = [place_of(flag, pictures) for flag in sent]
@@ -429,7 +429,7 @@ def test_the_socket_waits_for_the_viewer(client: Any) -> None:
         wait_for(lambda: viewport.version > version + 30)
         # All that has been sent meanwhile lies unread; the next moment skips what was not sent.
         socket.send_json({"drawn": UNDER_WAY})
-        third = moments(socket, 1)[0]["positions"].reshape(-1, 3)[-186:]
+        third = moments(socket, 1)[0]["positions"].reshape(-1, 3)[-1352:]
     pictures = flags(400)
     assert place_of(third, pictures) > 20
     session.close()

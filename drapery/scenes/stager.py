@@ -52,6 +52,8 @@ STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""
 SETTLING = 8.0
 """The cloth of a loop moves at least this long before it is recorded [s]."""
+FADE = 1.5
+"""The end of a loop fades so long into the motion that leads to its start [s]."""
 SHOWN_GROUND = 0.4
 """How much of the block below a banner is surely in the picture [m]."""
 WIND_AXIS = (0.35, 0.0, 1.0)
@@ -60,6 +62,13 @@ ENDLESS = 1e3
 """A solid without an end is a box up to this coordinate [m]."""
 THINNEST = 0.1
 """Thinner cloth keeps the distance of this thickness from solids [texels]."""
+RIPPLES, VORTICES = 2.5, 0.75
+"""Ripples and vortices of a picture's wind, over the strength of its gusts."""
+RIPPLE_SIZE = 0.5
+"""Middle length of the ripples [m]: of eddies behind a pole or bar 1/12 to 1/8 m thick."""
+LEE = 0.4
+"""Behind a wall the wind across it keeps this part of its speed. Backflow behind a step reaches
+over 20 % of the free flow: Eaton, Johnston, AIAA J. 19 (1981)."""
 MAX_CACHED = 16 << 20
 """A recorded motion is cached up to this size [bytes]."""
 
@@ -358,13 +367,42 @@ def wind_of(settings: Settings, period: float | None = None) -> Wind:
     given = settings.wind
     if isinstance(given, Wind):
         return given if period is None else replace(given, period=period)
-    velocity = flow(given, settings.direction)
-    return Wind(velocity, gusts=settings.gusts, seed=settings.seed, period=period)
+    return breeze(given, settings.direction, settings.gusts, settings.seed, period)
+
+
+def breeze(
+    speed: float, direction: float | None, gusts: float, seed: int, period: float | None = None
+) -> Wind:
+    """The wind that the settings describe by numbers, with ripples as strong as its gusts.
+
+    speed: [m/s]. direction, gusts, seed: see `Settings`. period: it repeats after this time [s].
+    """
+    return Wind(
+        flow(speed, direction),
+        gusts=gusts,
+        seed=seed,
+        period=period,
+        ripples=RIPPLES * gusts,
+        ripple_size=RIPPLE_SIZE,
+        vortices=VORTICES * gusts,
+    )
 
 
 def forces_of(settings: Settings, wind: Wind) -> tuple[Force, ...]:
-    """All forces on the cloth: gravity, the wind, and those that the settings add."""
+    """All forces on the cloth: gravity, the wind, and those that the settings add.
+
+    A wall shelters its banner, unless the settings have a Wind of their own.
+    """
+    if settings.placement == "wall" and not isinstance(settings.wind, Wind):
+        wind = in_lee(wind)
     return (Gravity(), wind, *settings.forces)
+
+
+@lru_cache(maxsize=16)
+def in_lee(wind: Wind) -> Wind:
+    """The wind before a wall that faces +z; the same object for the same wind."""
+    x, y, z = wind.velocity
+    return replace(wind, velocity=(x, y, LEE * z))
 
 
 @dataclass(frozen=True)
@@ -394,18 +432,21 @@ def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, 
     size = at.count * math.prod(spec.shape) * 3 * np.dtype(float).itemsize
     named = isinstance(spec.solver, str) and not isinstance(spec.fabric, Fabric)
     if named and not isinstance(settings.wind, Wind) and not settings.forces and size <= MAX_CACHED:
-        wind = (settings.wind, settings.direction, settings.gusts, settings.seed)
+        # Only what changes the wind: pictures that differ in other options share a motion.
+        wind = Settings(
+            wind=settings.wind,
+            direction=settings.direction,
+            gusts=settings.gusts,
+            seed=settings.seed,
+            placement=settings.placement,
+        )
         return _cached(spec, wind, at)
     return _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
 
 
 @lru_cache(maxsize=16)
-def _cached(
-    spec: ClothSpec, wind: tuple[float, float | None, float, int], at: Moments
-) -> tuple[State, ...]:
+def _cached(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, ...]:
     # Banners of one batch often move alike, because a design does not change the cloth.
-    speed, direction, gusts, seed = wind
-    settings = Settings(wind=speed, direction=direction, gusts=gusts, seed=seed)
     moments = _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
     for moment in moments:
         moment.positions.flags.writeable = False
@@ -416,19 +457,22 @@ def _periodic(spec: ClothSpec, settings: Settings, count: int, fps: float) -> Ar
     """One period of the cloth's motion in a periodic wind [m], shape [count, N, 3]."""
     period = count / fps
     steps = math.ceil(1 / (fps * STEP))
-    first = math.ceil(SETTLING / period) * count
-    at = Moments(1 / (fps * steps), steps, first, count + 1, period)
+    before = min(count, math.ceil(FADE * fps))
+    first = math.ceil(SETTLING / period) * count - before
+    at = Moments(1 / (fps * steps), steps, first, before + count, period)
     moments = _recorded(spec, settings, at)
-    return close_loop(np.stack([moment.positions[0] for moment in moments]))
+    return close_loop(np.stack([moment.positions[0] for moment in moments]), before)
 
 
-def close_loop(motion: Array) -> Array:
-    """Make a recorded motion [F + 1, ...] end where it began; returns its first F moments.
+def close_loop(motion: Array, before: int) -> Array:
+    """Make the last F moments of a recorded motion [before + F, ...] a seamless loop.
 
-    The difference between the last moment and the first is removed evenly over the loop, so each
-    step between two moments changes by 1/F of it.
+    The wind repeats, so the moments before the loop resemble those at its end, and they lead to its
+    first one: the end of the loop fades into them.
     """
-    count = len(motion) - 1
-    share = np.arange(count).reshape(-1, *[1] * (motion.ndim - 1)) / count
-    closed: Array = motion[:-1] + share * (motion[0] - motion[-1])
-    return closed
+    looped = motion[before:].copy()
+    share = np.arange(1, before + 1).reshape(-1, *[1] * (motion.ndim - 1)) / (before + 1)
+    share = share * share * (3 - 2 * share)
+    end = looped[len(looped) - before :]
+    end += share * (motion[:before] - end)
+    return looped

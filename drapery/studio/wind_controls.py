@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drapery.cloth import Wind
-from drapery.scenes import WIND_AXIS, flow
+from drapery.scenes import WIND_AXIS, breeze
 from drapery.settings import MAX_WIND, OPTIONS, Settings
 
 DEFAULT_HEADING = float(np.degrees(np.arctan2(WIND_AXIS[0], WIND_AXIS[2])))
@@ -54,7 +54,7 @@ def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
 def wind_of(controls: WindControls) -> Wind:
     """The wind on a cloth, in the cloth's frame; bit-identical to the wind of pictures."""
     speed = controls.speed if controls.on else 0.0
-    return Wind(flow(speed, controls.direction), gusts=controls.gusts, seed=controls.seed)
+    return breeze(speed, controls.direction, controls.gusts, controls.seed)
 
 
 def steered(

@@ -9,7 +9,7 @@ from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
 from drapery.studio.wind_controls import wind_controls_of
 
-GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (17, 33), (25, 49), (33, 65))
+GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (16, 31), (17, 33), (25, 49), (33, 65))
 NOON = 12.0
 
 
