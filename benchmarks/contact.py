@@ -38,6 +38,7 @@ from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array
 from drapery.scenes import cape, skirt
 from drapery.scenes.gait import Gait
+from drapery.style.figure import TEXEL
 
 UNIT = 1 / 24
 """A texel of a banner [m]."""
@@ -145,15 +146,12 @@ def stack() -> Case:
 def runner(garment: str) -> Case:
     """A cape or a skirt on a runner."""
     gait = Gait(5.0)
-    module = cape if garment == "cape" else skirt
-    parameters = cape.CapeParameters() if garment == "cape" else skirt.SkirtParameters()
-    cloth = (
-        cape.cape_cloth(parameters.grid)
-        if garment == "cape"
-        else skirt.skirt_cloth(skirt.SkirtParameters())
-    )
-    met = gait.colliders(module.BODY)
-    collisions = Collisions(met, cape.TEXEL, order=3, apart=cape.TEXEL / 2)
+    if garment == "cape":
+        cloth, names = cape.cape_cloth(cape.CapeParameters().grid), cape.BODY
+    else:
+        cloth, names = skirt.skirt_cloth(skirt.SkirtParameters()), skirt.BODY
+    met = gait.colliders(names)
+    collisions = Collisions(met, TEXEL, order=3, apart=TEXEL / 2)
     moving = MovingCloth.begin(cloth, None, 1 / 120, collisions=collisions)
     wind = Wind((0.0, 0.0, -5.5), period=4.0)
     forces: list[Force] = [Gravity(), wind]
@@ -247,7 +245,7 @@ def crowd(count: int, contact: str) -> float:
     moving = MovingCloth.begin(
         cloth, SolverXPBD(3), count=count, collisions=None if contact == "none" else met
     )
-    forces = [Gravity(), Wind((1.4, 0.0, 3.7))]
+    forces: list[Force] = [Gravity(), Wind((1.4, 0.0, 3.7))]
     moving = moving.advance(forces, 5)
     start = perf_counter()
     moving.advance(forces, 10)
@@ -255,7 +253,7 @@ def crowd(count: int, contact: str) -> float:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])  # type: ignore[union-attr]
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--steps", type=int, default=100_000)
     parser.add_argument("--case", default="", help="only cases whose name contains this")
     parser.add_argument("--no-cost", action="store_true", help="do not time steps")

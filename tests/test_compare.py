@@ -127,7 +127,7 @@ def test_packs_are_compared(drapery: Run, tmp_path: Path) -> None:
         ("red",),
         ("red", "blue", "--layers", "stacked,flat"),
         ("red", "blue", "-o", "out.doc"),
-        ("red", "blu"),
+        ("red", "bluu"),
         ("red", "blue", "--backend", "soft,crayon"),
         ("red", "blue", "--tolerance", "300"),
     ],

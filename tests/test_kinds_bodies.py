@@ -18,6 +18,7 @@ from drapery.render.soft import draw_scene
 from drapery.scenes.stager import still
 from drapery.settings import Kind, Settings
 from drapery.style.block import turn
+from drapery.style.extrusion import THINNEST
 from drapery.style.figure import CAPE_SIZE
 from drapery.style.kinds import KINDS
 from drapery.style.kinds.player import SHOULDERS
@@ -154,7 +155,8 @@ def test_a_cape_is_held_at_the_shoulders_and_waves(texture: Path) -> None:
         for t in (0, 3)
     )
     moved = later.models[0].mesh.positions - first.models[0].mesh.positions
-    assert np.allclose(moved[:5], 0) and np.abs(moved[40:45, 2]).min() > 0.05
+    # The vertices lie half of the least thickness off the particles, along turning normals.
+    assert np.allclose(moved[:5], 0, atol=THINNEST) and np.abs(moved[40:45, 2]).min() > 0.05
 
 
 def test_small_sheets_of_capes_are_the_same_cape(tmp_path: Path, texture: Path) -> None:
