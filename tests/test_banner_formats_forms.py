@@ -42,11 +42,13 @@ LACKS = {
     "gamergeeks": NO_CODE,
     "optifine": {"mojang"},
     "bannotation": {"base"} | NO_CODE,
+    "bannerfont": {"base"},
     "essentialsx": NO_CODE,
 }
 NO_SHIELDS = {
     *("give-1.12", "setblock", "block-entity", "bedrock", "wynncraft"),
     *("planet-minecraft", "needcoolshoes", "gamergeeks", "optifine", "bannotation"),
+    "bannerfont",
     *("bentobox", "commandpanels", "crazycrates", "skript", "loom-assistant"),
 }
 NO_DATA_PACKS = {

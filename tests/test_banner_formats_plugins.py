@@ -1,5 +1,7 @@
 """The forms of plugins, mods and editors, and what surrounds a copied text."""
 
+import re
+
 import pytest
 
 from drapery.banner.design import Banner, Layer
@@ -138,6 +140,11 @@ SAME = {
         "a0cre5bo15",
     ],
     "bannotation": ["Wh. Li-Cr. Bk-F.", "Wh. Li-Cr. Bk-F", "Wh.Li-Cr.\nBk-F."],
+    "bannerfont": [
+        "\ue000\U000cfff7\ue804\U000cfff7\ue301",
+        "\ue00d\ue000\U000cfff7\ue804\U000cfff7\ue301\ue00f",
+        "https://banner-writer.web.app/?writing=%EE%80%80%F3%8F%BF%B7%EE%A0%84%F3%8F%BF%B7%EE%8C%81",
+    ],
     "optifine": [
         "http://optifine.net/showBanner?format=pakkac&valign=m",
         "https://optifine.net/banners&&pakkac",
@@ -307,3 +314,22 @@ def test_a_command_over_several_lines_is_one():
 
 def test_all_forms_have_a_writer():
     assert [name for name, form in FORMS.items() if form.write is None] == []
+
+
+def test_bannerfont_has_several_banners_and_names_a_bad_character():
+    found = FORMS["bannerfont"].read("\ue600_\ue300\U000cfff7\ue022\ue00a \uec00")
+    assert [(one.banner.base, len(one.banner.layers), one.where) for one in found] == [
+        ("red", 0, "banner 1"),
+        ("black", 1, "banner 2"),
+        ("blue", 0, "banner 3"),
+    ]
+    assert found[1].banner.layers[0].pattern == "skull"
+    for text, named in {
+        "\ue000\U000cfff7\ue80a": "character 3, U+E80A",
+        "\ue000\U000cfff7\ue843": "character 3, U+E843",
+        "\ue804": "character 1, U+E804",
+        "\ue000\ue804": "character 2, U+E804",
+        "\ue000x": "character 2, U+0078",
+    }.items():
+        with pytest.raises(DesignError, match=re.escape(named)):
+            FORMS["bannerfont"].read(text)

@@ -8,6 +8,7 @@ from types import ModuleType
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import (
+    bannerfont,
     bannotation,
     bedrock,
     bentobox,
@@ -83,6 +84,7 @@ _TABLE = (
     _site(minecraft_tools),
     _site(gamergeeks),
     _site(optifine),
+    _form(bannerfont, bannerfont.read),
     _form(bannotation, single(bannotation.parse)),
     _form(kubejs, kubejs.read),
     _form(crafttweaker, crafttweaker.read),
