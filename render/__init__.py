@@ -22,6 +22,7 @@ from drapery.lazy import lazy_names
 if TYPE_CHECKING:
     from drapery.mesh import Mesh, face_normals, make_mesh, vertex_normals
     from drapery.render.backends import DrawScene, backend, backend_names
+    from drapery.render.buffers import Buffers
     from drapery.render.camera import Camera, clip_matrix, projection_matrix, view_matrix
     from drapery.render.contact import contact_sheet, contact_table, on_checker, stack_frames
     from drapery.render.debug import (
@@ -55,6 +56,7 @@ if TYPE_CHECKING:
     from drapery.render.resize import enlarge
     from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
     from drapery.render.shadow import contact_shadow
+    from drapery.render.soft import draw_buffers
     from drapery.render.views import VIEWS, View, find_view, frame_points, frame_view, turntable
 
 __all__ = [
@@ -64,6 +66,7 @@ __all__ = [
     "VIEWS",
     "Animation",
     "BackendReport",
+    "Buffers",
     "Camera",
     "Colour",
     "DrawList",
@@ -96,6 +99,7 @@ __all__ = [
     "contact_sheet",
     "contact_table",
     "dot_model",
+    "draw_buffers",
     "draw_list",
     "draw_models",
     "draw_scene",
@@ -134,6 +138,7 @@ __getattr__, __dir__ = lazy_names(
     {
         "mesh": ("Mesh", "face_normals", "make_mesh", "vertex_normals"),
         "render.backends": ("DrawScene", "backend", "backend_names"),
+        "render.buffers": ("Buffers",),
         "render.camera": ("Camera", "clip_matrix", "projection_matrix", "view_matrix"),
         "render.contact": ("contact_sheet", "contact_table", "on_checker", "stack_frames"),
         "render.debug": (
@@ -167,6 +172,7 @@ __getattr__, __dir__ = lazy_names(
         "render.resize": ("enlarge",),
         "render.scene": ("Material", "Model", "Scene", "Texels", "TextureLayer"),
         "render.shadow": ("contact_shadow",),
+        "render.soft": ("draw_buffers",),
         "render.views": ("VIEWS", "View", "find_view", "frame_points", "frame_view", "turntable"),
     },
 )

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.mesh import Mesh, Triangles
+from drapery.render.buffers import BACKGROUND, Buffers
 from drapery.render.camera import Camera, Matrix, clip_matrix
 from drapery.render.drawlist import Float32, Topology, make_topology
 from drapery.render.flatten import composite_layers
@@ -38,6 +39,7 @@ from drapery.render.soft.shadows import (
     openness_of,
     split_light,
 )
+from drapery.render.soft.surface import surface_tiles
 from drapery.render.soft.tiles import (
     FULL_LIGHT,
     depth_tiles,
@@ -69,7 +71,8 @@ class Raster:
     vertices: shape [V] of VERTEX.
     flags: see `drapery.render.soft.projection`, shape [V], uint8.
     triangles, triangle_material: as in `Topology`.
-    receivers: where the vertices lie on the shadow map; see `draw_tiles`.
+    receivers: more numbers of each vertex, shape [V, 4] or none: where it lies on the shadow map
+        (see `draw_tiles`), or its normal and model (see `surface_tiles`).
     """
 
     vertices: NDArray[np.void]
@@ -109,6 +112,56 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
     picture = np.full((scene.size[1], scene.size[0]), _background(scene), np.uint32)
     _draw(scene, tables, raster, shadows, grid, workers, picture)
     return Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
+
+
+def draw_buffers(scene: Scene, *, threads: int | None = None) -> Buffers:
+    """Depth, normal, model and texture coordinates in the middle of each pixel of a scene.
+
+    They have the same bits for any number of threads, and fit the picture of any backend.
+    Raises OptionError for sizes, textures or meshes that cannot be drawn.
+    """
+    scene = replace(scene, samples=1)
+    grid, workers = _grid(scene), threads or worker_count()
+    constant = make_topology(scene.models)
+    matrix = clip_matrix(scene.camera, scene.size)
+    raster, union = _project(scene, constant, matrix, grid, workers)
+    raster = replace(raster, receivers=_marks(scene, constant))
+    if union:
+        raster = _clipped(scene, raster, matrix, grid)
+    solid = constant.material_tables.material_alpha[raster.triangle_material] != BLEND
+    triangles, materials = raster.triangles[solid], raster.triangle_material[solid]
+    raster = replace(raster, triangles=triangles, triangle_material=materials)
+    shape = scene.size[1], scene.size[0]
+    depth, model = np.full(shape, np.inf, np.float32), np.full(shape, BACKGROUND, np.int32)
+    normal, uv = np.zeros((*shape, 3), np.float32), np.zeros((*shape, 2), np.float32)
+    _draw_surface(scene, raster, constant, workers, (depth, normal, model, uv))
+    return Buffers(depth, normal, model, uv)
+
+
+def _draw_surface(
+    scene: Scene, raster: Raster, constant: Topology, workers: int, buffers: tuple[Any, ...]
+) -> None:
+    tables = _tables(composite_layers(constant.material_tables))
+    camera, mesh = scene.camera, (raster.vertices, raster.triangles, raster.triangle_material)
+    lens = float(camera.near), float(camera.far), camera.height is not None
+    given = mesh, _kernel_tables(tables), raster.receivers, lens, scene.size, buffers
+    tiles_x, tiles_y = (-(-side // TILE) for side in scene.size)
+
+    def draw(first: int, starts: NDArray[np.int64], records: NDArray[np.int32]) -> None:
+        parts = PARTS * workers if workers > 1 else 1
+        every = tiles_x, first, starts, records, *given
+        run_parts(lambda part: surface_tiles(part, parts, *every), parts, workers)
+
+    _over_tiles(raster, tables, (tiles_x, tiles_y), workers, draw)
+
+
+def _marks(scene: Scene, constant: Topology) -> Float32:
+    """Normal and number of the model at each vertex, shape [V, 4]."""
+    marks = np.zeros((int(constant.vertex_start[-1]), 4), np.float32)
+    for number, model in enumerate(scene.models):
+        part = slice(*constant.vertex_start[number : number + 2])
+        marks[part, :3], marks[part, 3] = _vectors(model.mesh.normals), number
+    return marks
 
 
 def _shadowed(

@@ -1,0 +1,40 @@
+"""What a renderer knows of each pixel beside its colour."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+BACKGROUND = -1
+"""The model of a pixel that shows no model."""
+
+
+@dataclass(frozen=True, eq=False)
+class Buffers:
+    """What lies in the middle of each pixel of a picture, top row first.
+
+    Surfaces that blend, such as contact shadows, are not in the buffers.
+
+    depth: distance from the camera along its line of sight [m], shape [H, W], float32; infinite
+        on the background.
+    normal: unit vector of the surface in the scene's axes, shape [H, W, 3], float32; zero on the
+        background.
+    model: number of the model in `Scene.models`, shape [H, W], int32; -1 on the background.
+    uv: texture coordinates, shape [H, W, 2], float32; zero on the background.
+    """
+
+    depth: NDArray[np.float32]
+    normal: NDArray[np.float32]
+    model: NDArray[np.int32]
+    uv: NDArray[np.float32]
+
+    @property
+    def coverage(self) -> NDArray[np.bool_]:
+        """Whether a pixel shows a model, shape [H, W]."""
+        covered: NDArray[np.bool_] = self.model != BACKGROUND
+        return covered
+
+    def every(self, step: int) -> "Buffers":
+        """The buffers in the middle of each square of `step` x `step` pixels."""
+        at = slice(step // 2, None, step), slice(step // 2, None, step)
+        return Buffers(self.depth[at], self.normal[at], self.model[at], self.uv[at])

@@ -1,0 +1,81 @@
+"""The visible surface at each pixel: its depth, normal, texture coordinates and model."""
+
+from typing import Any
+
+import numpy as np
+
+from drapery.jit import entry_point
+from drapery.render.soft.bins import ID_MASK, TILE, TILE_BITS
+from drapery.render.soft.projection import NEAREST
+from drapery.render.soft.tiles import KEY_BITS, LAYER, STRIDE, _cover_tile, _weights
+
+
+@entry_point
+def surface_tiles(
+    part: Any,
+    parts: Any,
+    tiles_x: Any,
+    first: Any,
+    starts: Any,
+    records: Any,
+    mesh: Any,
+    tables: Any,
+    marks: Any,
+    lens: Any,
+    size: Any,
+    buffers: Any,
+) -> Any:
+    """Write the surface at the pixels of every parts-th tile, beginning with number `part`.
+
+    marks: normal and number of the model at each vertex, shape [V, 4], float32.
+    lens: near plane, far plane [m], and whether the picture is orthographic.
+    size: of the picture [pixels]. buffers: the results, `depth`, `normal`, `model` and `uv` as in
+    `Buffers`, filled with those of the background. All else: see `draw_tiles`.
+    """
+    vertices, triangles, triangle_material = mesh
+    (near, far, flat), (across, down) = lens, size
+    depths, normals, models, uvs = buffers
+    keys = np.empty(2 * LAYER, np.int64)
+    for tile in range(part, len(starts) - 1, parts):
+        if starts[tile] == starts[tile + 1]:
+            continue
+        x0, y0 = ((first + tile) % tiles_x) << TILE_BITS, ((first + tile) // tiles_x) << TILE_BITS
+        keys[:LAYER] = 0
+        _cover_tile(
+            starts[tile],
+            starts[tile + 1],
+            x0,
+            y0,
+            records,
+            vertices,
+            triangles,
+            triangle_material,
+            tables,
+            keys,
+        )
+        for row in range(min(TILE, down - y0)):
+            for k in range(min(TILE, across - x0)):
+                key = keys[row * STRIDE + k]
+                if key == 0:
+                    continue
+                t = (key & ID_MASK) - 1
+                wa, wb, wc, _, _, _ = _weights(t, x0 + k, y0 + row, vertices, triangles)
+                w = 1.0 / (wa + wb + wc)
+                i, j, m = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+                a, b, c = vertices[i], vertices[j], vertices[m]
+                nearness = (key >> KEY_BITS) / NEAREST
+                y, x = y0 + row, x0 + k
+                if flat:
+                    depths[y, x] = near + (1.0 - nearness) * (far - near)
+                else:
+                    depths[y, x] = near * far / (near + nearness * (far - near))
+                nx = (wa * marks[i, 0] + wb * marks[j, 0] + wc * marks[m, 0]) * w
+                ny = (wa * marks[i, 1] + wb * marks[j, 1] + wc * marks[m, 1]) * w
+                nz = (wa * marks[i, 2] + wb * marks[j, 2] + wc * marks[m, 2]) * w
+                length = max(np.sqrt(nx * nx + ny * ny + nz * nz), 1e-12)
+                normals[y, x, 0] = nx / length
+                normals[y, x, 1] = ny / length
+                normals[y, x, 2] = nz / length
+                models[y, x] = np.int32(np.rint(marks[i, 3]))
+                uvs[y, x, 0] = (wa * a.u + wb * b.u + wc * c.u) * w
+                uvs[y, x, 1] = (wa * a.v + wb * b.v + wc * c.v) * w
