@@ -33,6 +33,7 @@ class Option:
     several: whether the value is a tuple of any number of values.
     takes: whether an object may be given, by a program, in place of a name or a number.
     audience: who may set it.
+    ending: texts that end with it are paths of files; only for options of type str.
     flag: its name on the command line.
     metavar: what help shows in place of the value.
     """
@@ -49,6 +50,7 @@ class Option:
     several: bool = False
     takes: Callable[[object], bool] | None = None
     audience: Audience = "local"
+    ending: str = ""
     flag: str = ""
     metavar: str | None = None
 
@@ -98,6 +100,10 @@ class Option:
         if self.several and isinstance(value, list | tuple):
             return self.check([self._parse_one(each, folder) for each in value])
         return self.check(self._parse_one(value, folder))
+
+    def is_path(self, value: object) -> bool:
+        """Whether a value of this option is the path of a file."""
+        return self.type is Path or bool(self.ending and str(value).endswith(self.ending))
 
     def to_text(self, value: object) -> str:
         """A value as `parse` reads it; an empty text for None."""
@@ -151,8 +157,8 @@ class Option:
             value = _from_text(value.strip(), self.type)
         elif self.type is int and isinstance(value, float) and value.is_integer():
             value = int(value)
-        if self.type is Path and folder is not None and isinstance(value, str | Path):
-            value = folder / value
+        if folder is not None and isinstance(value, str | Path) and self.is_path(value):
+            value = folder / value if self.type is Path else str(folder / value)
         return value
 
 

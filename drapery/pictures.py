@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Unpack
 
@@ -134,13 +135,18 @@ def face_pixels(
 
 
 def draw_scenes(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterator[Frame]:
-    """Draw scenes one by one with the backend and size of pixels of the settings.
+    """Draw scenes one by one with the backend, styles and size of pixels of the settings.
 
     After the first scene it warns of missing textures. Raises BackendError.
     """
     from drapery.render.backends import backend
 
-    return _drawn(scenes, packs, settings, backend(settings.backend))
+    draw_scene = backend(settings.backend)
+    if settings.style:
+        from drapery.styles import combined_style
+
+        draw_scene = partial(combined_style(settings.style).draw, draw_scene=draw_scene)
+    return _drawn(scenes, packs, settings, draw_scene)
 
 
 def _drawn(

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from drapery.cloth import Fabric, Force, Solver, Wind
     from drapery.packs import PackLike
     from drapery.render import DrawScene, View
+    from drapery.styles import StyleLike
 
 Kind = Literal["auto", "banner", "shield", "cape", "elytra"]
 Pose = Literal["cloth", "vanilla"]
@@ -81,6 +82,7 @@ class Options(TypedDict, total=False):
     seed: int
     layers: LayerMode
     pbr: bool
+    style: StyleLike | Sequence[StyleLike]
     thickness: float
     background: str
     ground: str | None
@@ -107,6 +109,10 @@ def _is_pack(value: object) -> bool:
 
 def _is_force(value: object) -> bool:
     return any(_has(name)(value) for name in ("acceleration", "rate", "velocity"))
+
+
+def _is_style(value: object) -> bool:
+    return isinstance(value, Path) or _has("steps", "settle")(value)
 
 
 def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
@@ -295,6 +301,16 @@ class Settings:
         False,
         bool,
         "Light by the LabPBR maps of the packs (_n and _s)",
+    )
+    style: StyleLike | Sequence[StyleLike] = _option(
+        (),
+        str,
+        "How it looks: the name of a style or a TOML file; several are applied in their order",
+        several=True,
+        takes=_is_style,
+        ending=".toml",
+        metavar="NAME|FILE",
+        audience="anyone",
     )
     thickness: float = _option(
         1.0,

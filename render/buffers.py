@@ -36,5 +36,11 @@ class Buffers:
 
     def every(self, step: int) -> "Buffers":
         """The buffers in the middle of each square of `step` x `step` pixels."""
-        at = slice(step // 2, None, step), slice(step // 2, None, step)
+        at = np.ix_(*(middles(side, step) for side in self.model.shape))
         return Buffers(self.depth[at], self.normal[at], self.model[at], self.uv[at])
+
+
+def middles(side: int, step: int) -> NDArray[np.intp]:
+    """The middle of every `step` pixels of a side; the last ones may be fewer than `step`."""
+    at = np.arange(-(-side // step), dtype=np.intp) * step + step // 2
+    return np.minimum(at, side - 1)

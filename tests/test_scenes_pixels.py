@@ -9,9 +9,10 @@ from drapery.mesh import Array
 from drapery.scenes import cape_pixel, julia
 from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.dots import CapeTweaks, dot_grid, step
-from drapery.style.block import FLAG_MAPPING, SCALE
-from drapery.style.blocky import pixelled, stepped
+from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.hero import LEGS, sprite
+from drapery.styles.shape_steps import boards, voxels
+from drapery.styles.sheet import Sheet, grid_lattice
 
 NONE = CapeTweaks(False, False, False, False)
 
@@ -138,20 +139,21 @@ def test_the_art_is_enlarged_by_a_whole_number(debug) -> None:
     assert works <= colours if debug == "yes" else not works & colours
 
 
-def crumpled() -> Array:
+def crumpled(flat: bool = False) -> Sheet:
     rows = np.zeros((6, 3, 3))
     rows[..., 0] = np.linspace(-0.4, 0.4, 3)
     bends = np.array([0.1, 0.5, 0.9, 0.3, -0.4])
     rows[1:, :, 1] = -0.3 * np.cumsum(np.cos(bends))[:, None]
     rows[1:, :, 2] = 0.3 * np.cumsum(np.sin(bends))[:, None]
-    return rows.reshape(-1, 3)
+    positions = rows.reshape(-1, 3) * [1, 1, 0 if flat else 1]
+    return Sheet(positions, grid_lattice(6, 3), SCALE, SCALE, FLAG_SIZE, FLAG_MAPPING)
 
 
 @pytest.mark.parametrize("steps", [1, 4, 7])
 def test_steps_bend_only_by_whole_angles_and_keep_lengths(steps) -> None:
     sheet = crumpled()
-    rows = stepped(sheet, (6, 3), steps).reshape(6, 3, 3)
-    np.testing.assert_allclose(rows[0], sheet.reshape(6, 3, 3)[0])
+    rows = boards(sheet, steps=steps).grid
+    np.testing.assert_allclose(rows[0], sheet.grid[0])
     along = np.diff(rows[:, 1], axis=0)
     np.testing.assert_allclose(np.linalg.norm(along, axis=1), 0.3)
     turns = np.arctan2(along[:, 2], -along[:, 1]) / (np.pi / 2 / steps)
@@ -160,12 +162,12 @@ def test_steps_bend_only_by_whole_angles_and_keep_lengths(steps) -> None:
 
 
 def test_a_hanging_sheet_needs_no_steps() -> None:
-    flat = crumpled() * [1, 1, 0]
-    np.testing.assert_allclose(stepped(flat, (6, 3), 4), flat, atol=1e-12)
+    flat = crumpled(flat=True)
+    np.testing.assert_allclose(boards(flat, steps=4).positions, flat.positions, atol=1e-12)
 
 
 def test_snapped_texels_are_level_cubes_on_one_lattice() -> None:
-    mesh = pixelled(crumpled(), (6, 3), (20, 40), FLAG_MAPPING, SCALE)
+    mesh = voxels(crumpled())
     cubes = mesh.positions.reshape(800, 24, 3)
     np.testing.assert_allclose(np.ptp(cubes, axis=1), SCALE)
     places = (cubes.mean(axis=1) - cubes[0].mean(axis=0)) / SCALE

@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import cache
 from importlib.metadata import version
 from importlib.resources import files
@@ -15,6 +15,7 @@ from typing import Any
 from drapery import Banner
 from drapery.errors import PackError
 from drapery.settings import Settings
+from drapery.styles import combined_style
 
 MAX_FILES = 200_000
 
@@ -59,10 +60,12 @@ def picture_key(
 ) -> str:
     """The key of a picture: 64 hexadecimal digits. Raises PackError for unreadable packs.
 
-    It is a hash of the design in its canonical form, the options, the bytes of packs and textures
-    (not their names), and `code_version`.
+    It is a hash of the design in its canonical form, the options, the steps of styles, the bytes of
+    packs and textures (not their names), and `code_version`.
     """
-    options, texture = asdict(settings), settings.texture_path
+    style = combined_style(settings.style)
+    options, texture = asdict(replace(settings, style=())), settings.texture_path
+    options["style"] = style.describe()
     options["packs"] = [digests.of(pack) for pack in settings.pack_paths]
     options["texture"] = None if texture is None else digests.of(texture)
     whole: dict[str, Any] = {
@@ -88,7 +91,9 @@ def _own_files(node: Traversable, name: str) -> Iterator[tuple[str, Traversable]
     for child in node.iterdir():
         if child.is_dir() and child.name != "__pycache__":
             yield from _own_files(child, f"{name}/{child.name}")
-        elif child.name.endswith((".py", ".png", ".mcmeta", ".json", ".lark", ".vert", ".frag")):
+        elif child.name.endswith(
+            (".py", ".png", ".mcmeta", ".json", ".lark", ".toml", ".vert", ".frag")
+        ):
             yield f"{name}/{child.name}", child
 
 

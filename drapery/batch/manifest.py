@@ -147,7 +147,11 @@ def _request(
     faults = unknown_names(values, known)
     fields = _fields(values, faults)
     settings = check_options(options, folder)
-    faults += settings if isinstance(settings, list) else _objects(settings, options)
+    if not isinstance(settings, list):
+        faults += _objects(settings, options)
+        settings = _with_styles(settings)
+    if isinstance(settings, list):
+        faults += settings
     banner = row.banner or _design(fields.design, folder, faults)
     out = _out(fields, row, number, ending, faults)
     times = _times(out, fields, faults)
@@ -177,6 +181,22 @@ def _fields(values: Mapping[str, Any], faults: list[str]) -> RowFields:
             else:
                 read[name] = text
     return RowFields(**read)
+
+
+def _with_styles(settings: Settings) -> Settings | list[str]:
+    """The settings with files of styles read, as workers may run elsewhere; or the fault."""
+    from drapery.styles import combined_style, find_style
+
+    option = OPTIONS["style"]
+    try:
+        read = [
+            find_style(each) if option.is_path(each) else each
+            for each in option.check(settings.style)
+        ]
+        combined_style(read)
+    except OptionError as error:
+        return [one_line(str(error))]
+    return replace(settings, style=tuple(read)) if read else settings
 
 
 def _objects(settings: Settings, options: Mapping[str, Any]) -> list[str]:

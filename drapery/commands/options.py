@@ -93,7 +93,7 @@ def _from_option(option: Option) -> inspect.Parameter:
     if option.parts:
         kind, default = str, option.to_text(default)
     elif option.several:
-        kind, default = list[Path], None
+        kind, default = list[kind], None
     if default is None:
         kind |= None
     return _parameter(option.name, default, Annotated[kind, from_table(option.name)])

@@ -9,7 +9,7 @@ from drapery.banner.packs import open_packs
 from drapery.cloth import Gravity, Wind
 from drapery.errors import OptionError
 from drapery.mesh import Array
-from drapery.render.scene import Material, Model, Scene
+from drapery.render.scene import Model, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.banners import (
     BannerBlock,
@@ -29,17 +29,16 @@ from drapery.scenes.parameters import (
     wind_parameter,
 )
 from drapery.scenes.picture_grid import PictureGrid, panel_size
-from drapery.style.block import FLAG_MAPPING, SCALE
+from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.block_world import blocks, plateau
-from drapery.style.blocky import pixelled, stepped
 from drapery.style.scenery import SKY, shadow
 from drapery.style.tailoring import garment
+from drapery.styles.shape_steps import boards, voxels
+from drapery.styles.sheet import Sheet, grid_lattice
 
 BLOCK = BannerBlock((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=42, elevation=10, fov=26)
 LOOP = 4.0
-TEXELS = (20, 40)
-"""Of a flag: texels across and down."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +63,7 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     count = 2 if parameters.pixel_snap else 1
     size = panel_size(clip.size, 2, count)
     cloth, materials = flag_cloth(parameters.grid), flag_materials((parameters.design,), packs)
-    shell, shape = flag_shell(cloth), (parameters.grid[1], parameters.grid[0])
+    shell, lattice = flag_shell(cloth), grid_lattice(parameters.grid[1], parameters.grid[0])
     still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wood_model((BLOCK,), packs))
     camera = frame_points(SIDE_ON, _framed_points(), size[0] / size[1], margin=0.05)
     velocity = (0.25 * parameters.wind, 0.0, 0.97 * parameters.wind)
@@ -72,19 +71,15 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     start = flags_at_rest(cloth, (BLOCK,))
     labels = ("smooth", f"{parameters.steps} steps", "pixel-snap", "both")
     for state in motion(cloth, clip, forces=forces, start=start, settle=2 * LOOP, step=1 / 60):
-        smooth = state.positions[0]
-        few = stepped(smooth, shape, parameters.steps)
-        flags = [garment(shell, sheet, SCALE, *materials) for sheet in (smooth, few)]
+        smooth = Sheet(state.positions[0], lattice, SCALE, SCALE, FLAG_SIZE, FLAG_MAPPING)
+        sheets = smooth, boards(smooth, steps=parameters.steps)
+        flags = [garment(shell, sheet.positions, SCALE, *materials) for sheet in sheets]
         if parameters.pixel_snap:
-            flags += [_pixels(sheet, shape, materials) for sheet in (smooth, few)]
+            flags += [Model(voxels(sheet), materials) for sheet in sheets]
         scenes = tuple(
             Scene((*still, flag), camera, size, background=SKY, samples=4) for flag in flags
         )
         yield PictureGrid(scenes, labels[: len(scenes)])
-
-
-def _pixels(sheet: Array, shape: tuple[int, int], materials: tuple[Material, ...]) -> Model:
-    return Model(pixelled(sheet, shape, TEXELS, FLAG_MAPPING, SCALE), materials)
 
 
 def _framed_points() -> Array:

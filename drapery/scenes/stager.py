@@ -47,6 +47,8 @@ from drapery.style.body import Body, Panel, Part, Solid
 from drapery.style.extrusion import Shell, make_shell, thicken
 from drapery.style.kinds import body_of
 from drapery.style.uv_mapping import UVMapping
+from drapery.styles.catalogue import combined_style
+from drapery.styles.sheet import Sheet, grid_lattice
 
 STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""
@@ -140,6 +142,7 @@ class Stager:
 
     cloths: one for each panel; at rest unless given, none for the game's own stiff pose.
     wind: the wind from now on. steps: how many time steps have been made.
+    style: the styles of the settings as one, which also gives the settings light and samples.
     Raises OptionError.
     """
 
@@ -147,7 +150,8 @@ class Stager:
         self, body: Body, settings: Settings, cloths: Sequence[MovingCloth] | None = None
     ) -> None:
         self.body = body
-        self.settings = settings
+        self.style = combined_style(settings.style)
+        self.settings = settings = self.style.settle(settings)
         self.wind = wind_of(settings)
         self.steps = 0
         self.parts = [self._turned(part.mesh) for part in body.parts]
@@ -214,9 +218,9 @@ class Stager:
     def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
         """The meshes with the materials of a time [s]; body: another one, which gives them."""
         shown = body or self.body
-        getters = [part.material_at for part in shown.parts]
-        getters += [panel.material_at for panel in shown.panels]
-        return [Model(mesh, (at(time),)) for mesh, at in zip(meshes, getters, strict=True)]
+        materials = [part.material_at(time) for part in shown.parts]
+        materials += [self.style.material(panel.material_at(time)) for panel in shown.panels]
+        return [Model(mesh, (made,)) for mesh, made in zip(meshes, materials, strict=True)]
 
     def contact(self, models: Sequence[Model], floor: float) -> Model:
         """The contact shadow of models on a floor [m], or on the block below them."""
@@ -240,7 +244,22 @@ class Stager:
             settings.sample_count,
         )
 
+    def moved(self, motions: Sequence[Array]) -> list[Array]:
+        """The motion of each panel after the style's steps. motions: [m], each [F, N, 3]."""
+        if not self.style.has("motion"):
+            return [*motions]
+        panels = zip(self.body.panels, motions, strict=True)
+        return [self.style.move(self._sheet(panel, motion)).positions for panel, motion in panels]
+
+    def _sheet(self, panel: Panel, positions: Array) -> Sheet:
+        columns, rows = self.settings.grid
+        thickness = self.settings.thickness * panel.texel
+        lattice, mapping = grid_lattice(rows, columns), panel.uv_mapping
+        return Sheet(positions, lattice, thickness, panel.texel, panel.size, mapping)
+
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
+        if self.style.has("shape"):
+            return self._turned(self.style.mesh(self._sheet(panel, sheet + panel.origin)))
         shell = _grid_shell(self.settings.grid, panel.uv_mapping)
         thickness = self.settings.thickness * panel.texel
         return self._turned(thicken(shell, sheet + panel.origin, thickness))
@@ -282,7 +301,8 @@ def loop(
     body = body_of(design, packs, settings)
     stager, frames = Stager(body, settings, ()), range(count)
     if settings.pose == "cloth":
-        motions = [_periodic(spec, settings, count, fps) for spec in _specs(body, settings)]
+        specs = _specs(body, settings)
+        motions = stager.moved([_periodic(spec, settings, count, fps) for spec in specs])
         moments = [stager.soft([motion[frame] for motion in motions]) for frame in frames]
     else:
         # A whole number of the game's sways fills the loop.

@@ -8,9 +8,10 @@ from urllib.parse import parse_qsl
 
 from drapery.batch.manifest import PictureRequest
 from drapery.errors import DraperyError, OptionError
-from drapery.option import Option, within
+from drapery.option import Option, shown, within
 from drapery.options import check_options, one_line, unknown
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
+from drapery.styles import combined_style
 
 PUBLIC_OPTIONS = tuple(name for name, option in OPTIONS.items() if option.public)
 """Options that anyone may set. Only the service sets those that name files, packs or backends."""
@@ -104,11 +105,15 @@ def read_request(
     values = dict(query)
     if faults:
         return faults[:MAX_REASONS]
+    option = OPTIONS["style"]
+    if any(option.is_path(each) for each in option.parse(values.get("style", ""))):
+        return [f"style {shown(values['style'])} names a file, which an address cannot; use a name"]
     settings = check_options({n: values[n] for n in PUBLIC_OPTIONS if n in values}, Path())
     if isinstance(settings, list):
         return settings[:MAX_REASONS]
     chosen = {n: getattr(settings, n) for n in PUBLIC_OPTIONS if n in values}
     try:
+        combined_style(settings.style)
         settings = replace(config.base, **chosen)
         return _request(values, settings, ending, config.limits)
     except (DraperyError, ValueError) as error:

@@ -24,7 +24,7 @@ MAX_LINK = 4096
 MAX_JSON = 16 << 10
 """The largest size of a link's data after it is decompressed [bytes]."""
 
-LOCAL_OPTIONS = frozenset({"packs", "texture", "kind", "backend"})
+LOCAL_OPTIONS = frozenset({"packs", "texture", "kind", "style", "backend"})
 """Options that a link leaves out: they name or need a file, or depend on installed software."""
 SHARED = tuple(name for name in NAMED_OPTIONS if name not in LOCAL_OPTIONS)
 

@@ -1,0 +1,60 @@
+"""The picture that the picture steps of a style change, and what is known of its pixels."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from drapery.render.buffers import Buffers, middles
+from drapery.render.pixels import Pixels
+
+
+@dataclass(frozen=True, eq=False)
+class Canvas:
+    """A picture between two picture steps.
+
+    pixels: sRGB, straight alpha, shape [H, W, 4], uint8, top row first.
+    make_buffers: makes `buffers`, when a step asks for them for the first time.
+    grid: the picture is drawn this many times larger than it will be, so that edges are smooth.
+    pixel: each pixel becomes a square of this side.
+    """
+
+    pixels: Pixels
+    make_buffers: Callable[[], Buffers]
+    grid: int = 1
+    pixel: int = 1
+
+    @cached_property
+    def buffers(self) -> Buffers:
+        """Depth, normal, model and texture coordinates of each pixel."""
+        return self.make_buffers()
+
+    def painted(self, pixels: Pixels) -> "Canvas":
+        """The same canvas with other colours. pixels: shape [H, W, 4], uint8."""
+        return replace(self, pixels=pixels, make_buffers=lambda: self.buffers)
+
+    def coarse(self, size: int) -> "Canvas":
+        """The colour in the middle of each square of `size` x `size` pixels of the result."""
+        step = size * self.grid
+        at = np.ix_(*(middles(side, step) for side in self.pixels.shape[:2]))
+        return Canvas(self.pixels[at], lambda: self.buffers.every(step), 1, size * self.pixel)
+
+    def finished(self, size: tuple[int, int]) -> Pixels:
+        """The picture of this width and height: averaged over `grid`, then enlarged."""
+        pixels = _averaged(self.pixels, self.grid)
+        large = pixels.repeat(self.pixel, axis=0).repeat(self.pixel, axis=1)
+        return np.ascontiguousarray(large[: size[1], : size[0]])
+
+
+def _averaged(pixels: Pixels, grid: int) -> Pixels:
+    """Squares of grid x grid pixels as one each, weighted by their opacity."""
+    if grid == 1:
+        return pixels
+    height, width = pixels.shape[0] // grid, pixels.shape[1] // grid
+    blocks = pixels[: height * grid, : width * grid].reshape(height, grid, width, grid, 4)
+    alpha = blocks[..., 3:].astype(np.int64)
+    total = alpha.sum(axis=(1, 3))
+    colour = ((blocks[..., :3] * alpha).sum(axis=(1, 3)) + total // 2) // np.maximum(total, 1)
+    count = grid * grid
+    return np.concatenate([colour, (total + count // 2) // count], axis=-1).astype(np.uint8)

@@ -1,0 +1,92 @@
+"""Styles by name: presets, and those of installed packages.
+
+Another package adds a style by an entry point in the group `drapery.styles`. The name of the entry
+point is the name of the style, its value is a `Style`. In the package's pyproject.toml:
+
+    [project.entry-points."drapery.styles"]
+    sparkle = "my_package.styles:sparkle"
+"""
+
+from collections.abc import Iterable
+from functools import cache, reduce
+from importlib.metadata import EntryPoint, entry_points
+from importlib.resources import as_file, files
+from operator import or_
+from pathlib import Path
+
+from drapery.errors import OptionError
+from drapery.option import shown
+from drapery.styles.style import Style
+
+GROUP = "drapery.styles"
+ENDING = ".toml"
+
+PRESETS = (
+    *("game", "smooth", "few-bends", "boards", "voxel", "low-poly", "tattered"),
+    *("woven", "felt", "embroidered", "hatched", "stained-glass"),
+    *("pixel-art", "cel", "ink", "blueprint"),
+)
+"""Names of the presets, in the order of lists."""
+
+StyleLike = str | Path | Style
+"""A style: its name, its file or the object."""
+
+PLAIN = Style("plain")
+"""No step: what is drawn without a style."""
+
+
+def style_names() -> list[str]:
+    """All names that `find_style` takes: presets, then those of installed packages."""
+    return [*PRESETS, *(name for name in _added() if name not in PRESETS)]
+
+
+def find_style(name: StyleLike) -> Style:
+    """The style of this name, or of a file whose path ends with `.toml`.
+
+    Raises OptionError for another name and for a style that cannot be loaded.
+    """
+    if isinstance(name, Style):
+        return name
+    if str(name).endswith(ENDING):
+        return Style.load(name)
+    if str(name) in PRESETS:
+        return _preset(str(name))
+    added = _added()
+    if str(name) not in added:
+        known = ", ".join(style_names())
+        raise OptionError(
+            f"style {shown(str(name))} is not known; use a file that ends with {ENDING},"
+            f" or one of: {known}"
+        )
+    return _loaded(str(name), added[str(name)])
+
+
+def combined_style(styles: StyleLike | Iterable[StyleLike]) -> Style:
+    """All styles as one, in their order; `PLAIN` if there are none. Raises OptionError."""
+    several = (styles,) if isinstance(styles, str | Path | Style) else styles
+    found = [find_style(style) for style in several]
+    return reduce(or_, found) if found else PLAIN
+
+
+@cache
+def _preset(name: str) -> Style:
+    with as_file(files("drapery.styles") / "presets" / f"{name}{ENDING}") as path:
+        return Style.load(path)
+
+
+def _loaded(name: str, point: EntryPoint) -> Style:
+    try:
+        style = point.load()
+    except Exception as fault:  # a package may raise anything while it is imported
+        raise OptionError(
+            f"style {name!r} of {point.value} cannot be loaded ({fault});"
+            " repair or remove the package that adds it"
+        ) from fault
+    if not isinstance(style, Style):
+        raise OptionError(f"style {name!r} of {point.value} is not a Style; make it one")
+    return style
+
+
+def _added() -> dict[str, EntryPoint]:
+    points = sorted(entry_points(group=GROUP), key=lambda point: point.name)
+    return {point.name: point for point in points}

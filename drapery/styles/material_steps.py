@@ -1,0 +1,300 @@
+"""Steps that change what cloth is made of: the texels of its material, and their shading.
+
+A sheet is 64 texels wide in the game. A step first enlarges it to `fine` pixels a texel, so that
+threads and stitches have room; steps that follow work on the larger sheet.
+"""
+
+from dataclasses import replace
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from drapery.banner.dyes import DYES
+from drapery.mesh import Array
+from drapery.render.flatten import lay_over
+from drapery.render.scene import Material, Texels, TextureLayer
+from drapery.styles.step import COLOUR_PATTERN
+
+SHEET = 64
+"""Width of a sheet [texels]."""
+
+Colour = Annotated[str, Field(pattern=COLOUR_PATTERN)]
+Numbers = NDArray[np.intp]
+
+
+def weave(
+    material: Material,
+    *,
+    threads: Annotated[int, Field(ge=1, le=4, description="threads along each texel")] = 2,
+    depth: Annotated[float, Field(ge=0, le=1, description="darkness between the threads")] = 0.5,
+) -> Material:
+    """Plain weave: each thread goes over one and under the next."""
+    texels, fine = _enlarged(material, 4 * threads)
+    width = fine // threads
+    y, x = np.indices(texels.shape[:2])
+    column, row = x // width, y // width
+    upright = (column + row) % 2 == 0
+    across, along = np.where(upright, (x, y), (y, x)) % width
+    height = _bulge(across, width) * (0.65 + 0.35 * _bulge(along, width))
+    own = _noise((texels.shape[0] // width + 1, texels.shape[1] // width + 1), 1)
+    uneven = 0.94 + 0.12 * np.where(upright, own[0, column], own[row, 0])
+    return _sheet(material, _shaded(texels, (1 - depth * (1 - height)) * uneven))
+
+
+def felt(
+    material: Material,
+    *,
+    fuzz: Annotated[float, Field(ge=0, le=1, description="how far fibres stray [texels]")] = 0.4,
+    depth: Annotated[float, Field(ge=0, le=1, description="contrast of the fibres")] = 0.35,
+) -> Material:
+    """Matted wool: short fibres in all directions, which blur the edges of colours."""
+    texels, fine = _enlarged(material, 8)
+    shape = texels.shape[:2]
+    y, x = np.indices(shape)
+    stray = fuzz * fine
+    shift = [
+        stray * (0.6 * _smooth_noise(shape, 5, n) + 0.9 * _noise(shape, n + 2)) for n in (3, 4)
+    ]
+    rows = np.clip(y + np.rint(shift[0] - 0.75 * stray), 0, shape[0] - 1).astype(np.intp)
+    columns = np.clip(x + np.rint(shift[1] - 0.75 * stray), 0, shape[1] - 1).astype(np.intp)
+    fibres = sum(_blurred(_noise(shape, 20 + n), step) for n, step in enumerate(_DIRECTIONS))
+    clouds = _smooth_noise(shape, 2 * fine, 9)
+    light = 1 + depth * (1.6 * (fibres / len(_DIRECTIONS) - 0.5) * 2 + 0.35 * (clouds - 0.5))
+    return _sheet(material, _shaded(texels[rows, columns], light))
+
+
+def embroider(
+    material: Material,
+    *,
+    stitch: Annotated[int, Field(ge=2, le=8, description="width of a stitch [1/8 texel]")] = 3,
+    depth: Annotated[float, Field(ge=0, le=1, description="darkness between stitches")] = 0.55,
+) -> Material:
+    """Patterns in satin stitch, each dye in a direction of its own, on a plainly woven ground."""
+    texels, _ = _enlarged(material, 8)
+    dyes = _enlarged_like(_dye_numbers(material), texels)
+    ground = _enlarged_like(_dye_numbers(replace(material, layers=material.layers[:2])), texels)
+    y, x = np.indices(texels.shape[:2])
+    angle = np.radians(20 + 70 * (np.arange(len(DYES)) % 3 - 1.0))[dyes]
+    across = (x * np.cos(angle) + y * np.sin(angle)) / stitch
+    along = (y * np.cos(angle) - x * np.sin(angle)) / (9.0 * stitch) + 0.5 * (np.floor(across) % 2)
+    satin = _bulge(across % 1 * 16, 16) * (0.75 + 0.25 * _bulge(along % 1 * 16, 16))
+    edge = _near(_borders(dyes), 1)
+    stitched = (1.12 - depth * (1 - satin)) * np.where(edge, 0.5, 1.0)
+    linen = 0.93 - 0.16 * ((x // 2 + y // 2) % 2) + 0.06 * _noise(texels.shape[:2], 5)
+    seam = np.where(_near(_borders(dyes), 3), 0.72, 1.0)
+    return _sheet(material, _shaded(texels, np.where(dyes == ground, linen * seam, stitched)))
+
+
+def hatch(
+    material: Material,
+    *,
+    paper: Annotated[Colour, Field(description="colour of the paper")] = "#f4ead2",
+    ink: Annotated[Colour, Field(description="colour of the lines")] = "#2a221c",
+    spacing: Annotated[int, Field(ge=3, le=16, description="between lines [1/8 texel]")] = 7,
+    width: Annotated[int, Field(ge=1, le=8, description="of lines [1/8 texel]")] = 2,
+) -> Material:
+    """Each dye as the heraldic hatching of Silvester Petra Sancta ("Tesserae gentilitiae", 1638).
+
+    Dots are gold, upright lines red, level lines blue, lines down to the right green, lines down to
+    the left purple, crossed lines black, and plain paper is silver.
+    """
+    texels, _ = _enlarged(material, 8)
+    dyes = _enlarged_like(_dye_numbers(material), texels)
+    y, x = np.indices(texels.shape[:2])
+    lines = {
+        "|": x % spacing < width,
+        "-": y % spacing < width,
+        "\\": (x - y) % spacing < width,
+        "/": (x + y) % spacing < width,
+        ".": (x % spacing < width) & ((y + x // spacing % 2 * (spacing // 2)) % spacing < width),
+        ":": (y % spacing < width) & ((x + y // spacing % 2 * spacing) % (2 * spacing) < spacing),
+    }
+    drawn = _borders(dyes)
+    for number, name in enumerate(DYES):
+        for mark in _HATCHING[name]:
+            drawn |= (dyes == number) & lines[mark]
+    colours = np.where(drawn[..., None], _rgb(ink), _rgb(paper)).astype(np.uint8)
+    return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
+
+
+def stained_glass(
+    material: Material,
+    *,
+    pane: Annotated[int, Field(ge=2, le=20, description="side of a pane [texels]")] = 7,
+    lead: Annotated[int, Field(ge=1, le=8, description="half width of the lead [1/8 texel]")] = 3,
+) -> Material:
+    """Panes of bright glass in lead, which goes along the edges of colours and in diamonds."""
+    texels, fine = _enlarged(material, 8)
+    flat, dyes = _dye_colours(material, texels), _enlarged_like(_dye_numbers(material), texels)
+    y, x = np.indices(texels.shape[:2])
+    side = pane * fine
+    one: Numbers = np.asarray((x + y // 2) // side)
+    other: Numbers = np.asarray((x - y // 2 + 64 * side) // side)
+    came = _near(_borders(dyes) | _borders(one) | _borders(other), lead - 1)
+    own = _noise((256, 256), 7)[one % 256, (other + 7 * dyes) % 256]
+    streaks = _smooth_noise(texels.shape[:2], fine, 8)
+    glow = 0.72 + 0.4 * own + 0.35 * (streaks - 0.5)
+    glass = _vivid(flat, 1.35) * glow[..., None] + 26
+    core = _near(_borders(dyes) | _borders(one) | _borders(other), max(lead - 3, 0))
+    metal = np.where(core[..., None], 92.0, 38.0) * np.array([0.95, 1.0, 1.05])
+    colours = np.clip(np.where(came[..., None], metal, glass), 0, 255).astype(np.uint8)
+    return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
+
+
+def age(
+    material: Material,
+    *,
+    fade: Annotated[float, Field(ge=0, le=1, description="loss of colour")] = 0.4,
+    dirt: Annotated[float, Field(ge=0, le=1, description="stains")] = 0.5,
+    seed: Annotated[int, Field(ge=0, le=2**31, description="which stains")] = 0,
+) -> Material:
+    """Faded by the sun, and dirty."""
+    texels, fine = _enlarged(material, 4)
+    shape = texels.shape[:2]
+    colour = texels[..., :3].astype(float)
+    grey = 0.3 * colour[..., 0] + 0.59 * colour[..., 1] + 0.11 * colour[..., 2]
+    worn = colour + fade * (0.45 * grey[..., None] + 0.55 * np.array([176, 160, 128]) - colour)
+    stains = 0.6 * _smooth_noise(shape, 9 * fine, seed) + 0.4 * _smooth_noise(shape, 3 * fine, seed)
+    share = dirt * np.clip(stains * 2.6 - 1.1, 0, 1)[..., None]
+    mixed = worn + share * (np.array([66, 52, 36]) - worn)
+    grain = 0.92 + 0.16 * _noise(shape, seed + 1)
+    return _sheet(
+        material, np.concatenate([_bytes(mixed * grain[..., None]), texels[..., 3:]], axis=-1)
+    )
+
+
+_HATCHING = {
+    **{"white": "", "light_gray": ".-", "gray": "-:", "black": "|-", "brown": "-\\"},
+    **{"red": "|", "orange": "|:", "yellow": ".", "lime": "\\.", "green": "\\", "cyan": "\\:"},
+    **{"light_blue": ":", "blue": "-", "purple": "/", "magenta": "/|", "pink": "/."},
+}
+"""The lines of each dye; those without a colour in heraldry combine two."""
+
+_DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2))
+
+
+def _enlarged(material: Material, fine: int) -> tuple[Texels, int]:
+    """The layers of a material as one, opaque, and its pixels a texel; at least `fine` of them."""
+    side = max(layer.texels.shape[1] for layer in material.layers)
+    times = max(1, fine * SHEET // side)
+    merged: Texels | None = None
+    for layer in material.layers:
+        own = layer.texels.copy()
+        own[..., :3] = (own[..., :3] * np.array(layer.tint, np.uint16) + 127) // 255
+        own = own.repeat(side // own.shape[1], axis=0).repeat(side // own.shape[1], axis=1)
+        if merged is None:
+            merged = own
+            if material.alpha == "opaque":
+                merged[..., 3] = 255
+        else:
+            merged = lay_over(own, merged)
+    assert merged is not None
+    large = merged.repeat(times, axis=0).repeat(times, axis=1)
+    return large, max(1, side * times // SHEET)
+
+
+def _sheet(material: Material, texels: Texels) -> Material:
+    return replace(material, layers=(TextureLayer(np.ascontiguousarray(texels)),))
+
+
+def _enlarged_like(values: Numbers, texels: Texels) -> Numbers:
+    times = texels.shape[1] // values.shape[1]
+    return values.repeat(times, axis=0).repeat(times, axis=1)
+
+
+def _dye_numbers(material: Material) -> Numbers:
+    """The dye of each texel: that of the uppermost layer that covers half of it, or the nearest."""
+    side = max(layer.texels.shape[1] for layer in material.layers)
+    numbers = {dye.rgb: dye.number for dye in DYES.values()}
+    tinted = [layer for layer in material.layers if layer.tint in numbers]
+    if len(tinted) < len(material.layers) - 1 or not tinted:
+        return _nearest_dyes(_enlarged(material, 1)[0])
+    shape = max(layer.texels.shape[0] for layer in material.layers), side
+    found = np.zeros(shape, np.intp)
+    for layer in tinted:
+        times = side // layer.texels.shape[1]
+        shown = (layer.texels[..., 3] >= 128).repeat(times, axis=0).repeat(times, axis=1)
+        found[shown] = numbers[layer.tint]
+    return found
+
+
+def _nearest_dyes(texels: Texels) -> Numbers:
+    colours = np.array([dye.rgb for dye in DYES.values()], np.int32)
+    apart = texels[..., None, :3].astype(np.int32) - colours
+    nearest: Numbers = np.argmin((apart * apart).sum(axis=-1), axis=-1)
+    return nearest
+
+
+def _dye_colours(material: Material, texels: Texels) -> Array:
+    colours = np.array([dye.rgb for dye in DYES.values()], np.float64)
+    flat: Array = colours[_enlarged_like(_dye_numbers(material), texels)]
+    return flat
+
+
+def _borders(values: Numbers) -> NDArray[np.bool_]:
+    """Whether the value to the right of a pixel, or below it, is another one."""
+    edge = np.zeros(values.shape, np.bool_)
+    edge[:, :-1] |= values[:, :-1] != values[:, 1:]
+    edge[:-1] |= values[:-1] != values[1:]
+    return edge
+
+
+def _near(marks: NDArray[np.bool_], distance: int) -> NDArray[np.bool_]:
+    """Pixels at most this far from a mark, across, down or diagonally."""
+    from scipy.ndimage import binary_dilation
+
+    if distance < 1:
+        return marks
+    near: NDArray[np.bool_] = binary_dilation(marks, np.ones((3, 3), np.bool_), distance)
+    return near
+
+
+def _bulge(place: Array | Numbers, width: int) -> Array:
+    """The height 0..1 of a round thread at a place across its width."""
+    bulge: Array = np.sin(np.pi * (place + 0.5) / width)
+    return np.clip(bulge, 0, 1)
+
+
+def _noise(shape: tuple[int, ...], seed: int) -> Array:
+    return np.random.default_rng(seed).random(shape)
+
+
+def _smooth_noise(shape: tuple[int, int], cell: int, seed: int) -> Array:
+    """Noise 0..1 that changes over `cell` pixels: values on a lattice, blended by smoothstep."""
+    corners = _noise((shape[0] // cell + 2, shape[1] // cell + 2), seed)
+    y, x = (np.arange(side) / cell for side in shape)
+    row, column = y.astype(int), x.astype(int)
+    s, t = ((part * part * (3 - 2 * part)) for part in (y - row, x - column))
+    s, t = s[:, None], t[None, :]
+    above = (1 - t) * corners[row][:, column] + t * corners[row][:, column + 1]
+    below = (1 - t) * corners[row + 1][:, column] + t * corners[row + 1][:, column + 1]
+    blend: Array = (1 - s) * above + s * below
+    return blend
+
+
+def _blurred(noise: Array, step: tuple[int, int]) -> Array:
+    """Noise as short fibres in one direction: the mean along it, with its contrast restored."""
+    moved = [np.roll(noise, (k * step[0], k * step[1]), (0, 1)) for k in range(-3, 4)]
+    fibres: Array = 0.5 + (np.sum(moved, axis=0) / 7 - 0.5) * 1.9
+    return fibres
+
+
+def _vivid(colours: Array, times: float) -> Array:
+    grey = colours.mean(axis=-1, keepdims=True)
+    vivid: Array = grey + (colours - grey) * times
+    return vivid
+
+
+def _shaded(texels: Texels, light: Array) -> Texels:
+    return np.concatenate([_bytes(texels[..., :3] * light[..., None]), texels[..., 3:]], axis=-1)
+
+
+def _bytes(colours: Array) -> Texels:
+    clipped: Texels = np.clip(np.rint(colours), 0, 255).astype(np.uint8)
+    return clipped
+
+
+def _rgb(colour: str) -> tuple[int, ...]:
+    return tuple(bytes.fromhex(colour.removeprefix("#")))

@@ -1,0 +1,252 @@
+"""Steps that change the shape of cloth after the simulation, which they do not affect."""
+
+from dataclasses import dataclass, replace
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from drapery.mesh import Array, Mesh
+from drapery.style.boxes import ModelBox, box_mesh, upright
+from drapery.style.uv_mapping import UVMapping
+from drapery.styles.sheet import Sheet, grid_lattice, without_cells
+
+MAX_PARTICLES = 257
+"""The most particles along one side of a sheet after a step."""
+
+
+def thickness(
+    sheet: Sheet,
+    *,
+    texels: Annotated[float, Field(ge=0, le=8, description="thickness of the cloth")] = 0.5,
+) -> Sheet:
+    """Make the cloth thicker or thinner; a texel is 1/24 m on a banner."""
+    return replace(sheet, thickness=texels * sheet.texel)
+
+
+def smooth(
+    sheet: Sheet,
+    *,
+    times: Annotated[int, Field(ge=1, le=8, description="new cells along each cell")] = 4,
+) -> Sheet:
+    """Round the folds: more particles on curves through those that were simulated.
+
+    The curves are Catmull and Rom's ("A class of local interpolating splines", 1974).
+    """
+    lattice = sheet.lattice
+    rows, columns = (
+        min((side - 1) * times + 1, max(MAX_PARTICLES, side))
+        for side in (lattice.rows, lattice.columns)
+    )
+    return _resampled(sheet, rows, columns, curved=True)
+
+
+def coarse(
+    sheet: Sheet,
+    *,
+    columns: Annotated[int, Field(ge=2, le=65, description="particles across")] = 3,
+    rows: Annotated[int, Field(ge=2, le=65, description="particles down")] = 5,
+) -> Sheet:
+    """Show the cloth with fewer bends: straight pieces between a few of its points."""
+    return _resampled(sheet, rows, columns, curved=False)
+
+
+def facets(sheet: Sheet) -> Sheet:
+    """Light each triangle by itself, so that all edges are sharp."""
+    return replace(sheet, facets=True)
+
+
+def boards(
+    sheet: Sheet,
+    *,
+    steps: Annotated[int, Field(ge=1, le=90, description="bend angles in a right angle")] = 4,
+) -> Sheet:
+    """A chain of stiff boards below the top row, at multiples of 90 / steps degrees.
+
+    Each board keeps the distance of its two rows and starts at the end of the one above; the top
+    row stays where it is.
+    """
+    rows = sheet.grid
+    middles = rows.mean(axis=-2)
+    along = np.diff(middles, axis=-2)
+    across = rows[..., :1, -1, :] - rows[..., :1, 0, :]
+    side = across / np.linalg.norm(across, axis=-1, keepdims=True)
+    front = np.cross(side, [0.0, 1.0, 0.0])
+    lengths = np.linalg.norm(along, axis=-1)
+    aside, ahead = (np.sum(along * axis, axis=-1) for axis in (side, front))
+    lean = _snapped(np.arctan2(aside, np.hypot(along[..., 1], ahead)), steps)
+    bend = _snapped(np.arctan2(ahead, -along[..., 1]), steps)
+    down = np.array([0.0, -1.0, 0.0])
+    turned = np.cos(bend)[..., None] * down + np.sin(bend)[..., None] * front
+    pieces = np.cos(lean)[..., None] * turned + np.sin(lean)[..., None] * side
+    below = np.cumsum(lengths[..., None] * pieces, axis=-2)
+    offsets = np.concatenate([np.zeros_like(below[..., :1, :]), below], axis=-2)
+    result = (rows[..., :1, :, :] + offsets[..., None, :]).reshape(sheet.positions.shape)
+    return replace(sheet, positions=result)
+
+
+def voxels(sheet: Sheet) -> Mesh:
+    """Upright cubes, one for each texel, on a lattice of texels; the rows of the sheet run along x.
+
+    A row of texels moves sideways and down as one, so that it has no holes; each texel moves
+    forwards and backwards alone. A cube shows its texel of the back on its back, and its texel of
+    the front on its other sides.
+    """
+    texel, corner = sheet.texel, sheet.positions[0]
+    across, down = _texels(sheet)
+    first = corner + np.array([texel / 2, -texel / 2, 0.0])
+    column, row = np.meshgrid(np.arange(across), np.arange(down))
+    lattice = first + np.stack([column, -row, 0 * row], axis=-1) * texel
+    shift = _middles(sheet.grid, (across, down)) - lattice
+    shift[..., :2] = shift[..., :2].mean(axis=1, keepdims=True)
+    snapped = (lattice + np.round(shift / texel) * texel).reshape(-1, 3)
+    cube = upright(box_mesh(ModelBox((-0.5, -0.5, -0.5), (1, 1, 1), (0, 0))), texel, (0, 0, 0))
+    count = len(snapped)
+    firsts = len(cube.positions) * np.arange(count, dtype=np.int32)[:, None, None]
+    return Mesh(
+        (snapped[:, None] + cube.positions).reshape(-1, 3),
+        np.tile(cube.normals, (count, 1)),
+        (cube.triangles + firsts).reshape(-1, 3),
+        _texel_uvs((across, down), sheet.uv_mapping).reshape(-1, 2),
+    )
+
+
+def swallow_tail(
+    sheet: Sheet,
+    *,
+    depth: Annotated[float, Field(ge=0, le=0.9, description="share of the height cut out")] = 0.3,
+) -> Sheet:
+    """Cut a wedge of whole texels out of the lower edge."""
+    across, down = _texels(sheet)
+    column, row = np.meshgrid(np.arange(across) + 0.5, np.arange(down) + 0.5)
+    reach = (row - down * (1 - depth)) / max(down * depth, 1e-9)
+    return _cut(sheet, np.abs(column / across - 0.5) * 2 >= reach)
+
+
+def tear(
+    sheet: Sheet,
+    *,
+    depth: Annotated[float, Field(ge=0, le=0.9, description="share of the height torn")] = 0.22,
+    holes: Annotated[int, Field(ge=0, le=40, description="number of holes")] = 4,
+    seed: Annotated[int, Field(ge=0, le=2**31, description="which tears")] = 0,
+) -> Sheet:
+    """Tear texels out of the lower edge and the sides, and holes into the cloth."""
+    across, down = _texels(sheet)
+    chance = np.random.default_rng(seed)
+    kept = np.ones((down, across), np.bool_)
+    fringe = chance.random(across)
+    ragged = 0.5 * fringe + 0.5 * np.repeat(chance.random(-(-across // 3)), 3)[:across] ** 2
+    for column, share in enumerate(ragged):
+        kept[down - int(share * depth * down) :, column] = False
+    for side in (0, -1):
+        bites = chance.random(down) < 0.25 * np.linspace(0, 1, down) * min(1, 4 * depth)
+        kept[bites, side] = False
+    for _ in range(holes):
+        row = int(down * (0.25 + 0.55 * chance.random()))
+        column = int(across * (0.1 + 0.8 * chance.random()))
+        height, width = 1 + int(4 * chance.random()), 1 + int(2 * chance.random())
+        kept[row : row + height, column : column + width] = False
+        kept[row + height // 2, column + width : column + width + 1] = False
+    return _cut(sheet, _held(kept))
+
+
+@dataclass(frozen=True)
+class CutMapping:
+    """A mapping whose new edges, inside the sheet, show the texels beside them. See `UVMapping`."""
+
+    whole: UVMapping
+
+    def front(self, uvs: Array) -> Array:
+        return self.whole.front(uvs)
+
+    def back(self, uvs: Array) -> Array:
+        return self.whole.back(uvs)
+
+    def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
+        start, end = uvs[edges[:, 0]], uvs[edges[:, 1]]
+        outer = ((start == end) & ((start == 0) | (start == 1))).any(axis=-1)
+        beside = self.whole.front(uvs)[np.tile(edges, 2).reshape(-1)]
+        return np.where(np.repeat(outer, 4)[:, None], self.whole.rim(uvs, edges), beside)
+
+
+def _cut(sheet: Sheet, kept: NDArray[np.bool_]) -> Sheet:
+    """The sheet without some of its texels. kept: shape [texels down, texels across]."""
+    down, across = kept.shape
+    fine = _resampled(sheet, down + 1, across + 1, curved=True)
+    lattice = without_cells(fine.lattice, kept)
+    return replace(fine, lattice=lattice, uv_mapping=CutMapping(sheet.uv_mapping))
+
+
+def _held(kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The texels that hang together with the top edge by their sides."""
+    from scipy.ndimage import label
+
+    pieces, _ = label(kept)
+    held: NDArray[np.bool_] = kept & np.isin(pieces, np.unique(pieces[0][kept[0]]))
+    return held
+
+
+def _resampled(sheet: Sheet, rows: int, columns: int, *, curved: bool) -> Sheet:
+    """The sheet at evenly spaced points of its grid, on straight lines or on curves."""
+    points = _along(_along(sheet.grid, rows, -3, curved), columns, -2, curved)
+    positions = points.reshape(*points.shape[:-3], rows * columns, 3)
+    return replace(sheet, positions=positions, lattice=grid_lattice(rows, columns))
+
+
+def _along(points: Array, count: int, axis: int, curved: bool) -> Array:
+    """`count` evenly spaced points along one axis of a grid, on lines or Catmull-Rom curves."""
+    given = points.shape[axis]
+    at = np.arange(count) * (given - 1) / (count - 1)
+    low = np.minimum(at.astype(int), given - 2)
+    share = at - low
+    shape = [1] * points.ndim
+    shape[axis] = count
+    t = share.reshape(shape)
+    start, end = points.take(low, axis), points.take(low + 1, axis)
+    if not curved:
+        straight: Array = (1 - t) * start + t * end
+        return straight
+    # Beyond the ends the first and last piece go on straight.
+    before, after = (points.take(np.clip(low + k, 0, given - 1), axis) for k in (-1, 2))
+    first, last = (low == 0).reshape(shape), (low == given - 2).reshape(shape)
+    before, after = np.where(first, 2 * start - end, before), np.where(last, 2 * end - start, after)
+    result: Array = start + 0.5 * t * (
+        end
+        - before
+        + t * (2 * before - 5 * start + 4 * end - after + t * (3 * (start - end) + after - before))
+    )
+    return result
+
+
+def _texels(sheet: Sheet) -> tuple[int, int]:
+    """How many texels the sheet has across and down."""
+    across, down = (max(1, round(side / sheet.texel)) for side in sheet.size)
+    return across, down
+
+
+def _snapped(angles: Array, steps: int) -> Array:
+    quantum = np.pi / 2 / steps
+    snapped: Array = np.round(angles / quantum) * quantum
+    return snapped
+
+
+def _middles(rows: Array, size: tuple[int, int]) -> Array:
+    """The middles of the texels of a grid [R, C, 3], shape [size[1], size[0], 3]."""
+    for axis, count in ((0, size[1]), (1, size[0])):
+        at = (np.arange(count) + 0.5) / count * (rows.shape[axis] - 1)
+        low = np.minimum(at.astype(int), rows.shape[axis] - 2)
+        part = (at - low).reshape(-1, 1, 1) if axis == 0 else (at - low).reshape(1, -1, 1)
+        rows = (1 - part) * rows.take(low, axis) + part * rows.take(low + 1, axis)
+    return rows
+
+
+def _texel_uvs(size: tuple[int, int], uv_mapping: UVMapping) -> Array:
+    """The 24 texture coordinates of each cube, shape [M, 24, 2]: the middle of one texel a face."""
+    across, down = np.meshgrid(
+        (np.arange(size[0]) + 0.5) / size[0], (np.arange(size[1]) + 0.5) / size[1]
+    )
+    uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
+    # The faces of a box: front, back, left, right, top, bottom, four corners each.
+    faces = [uv_mapping.front(uvs), uv_mapping.back(uvs), *[uv_mapping.front(uvs)] * 4]
+    return np.repeat(np.stack(faces, axis=1), 4, axis=1)

@@ -1,0 +1,150 @@
+"""One step of a style: a plain function and its checked parameters."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from inspect import Parameter, signature
+from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin, get_type_hints
+
+from drapery.errors import OptionError
+from drapery.option import limits, one_of, shown
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+    from pydantic.fields import FieldInfo
+
+StepKind = Literal["motion", "shape", "material", "picture"]
+STEP_KINDS: tuple[StepKind, ...] = get_args(StepKind)
+"""The kinds of steps, in the order in which they are applied."""
+
+StepFunction = Callable[..., Any]
+
+COLOUR_PATTERN = r"^#[0-9a-fA-F]{6}$"
+"""A colour in a style, such as `#5a3c1e`."""
+
+
+@dataclass(frozen=True)
+class StyleStep:
+    """A function of one kind, and the values of its parameters.
+
+    kind: what it changes: `motion`, `shape`, `material` or `picture`.
+    function: takes what it changes and keyword parameters with defaults, and returns the result:
+
+        motion: Sheet -> Sheet; the positions of all moments, shape [F, N, 3]
+        shape: Sheet -> Sheet or Mesh; one moment, shape [N, 3]
+        material: Material -> Material, of the cloth
+        picture: Canvas -> Canvas
+
+    parameters: their values; those left out have their defaults. Annotate each parameter with
+    pydantic's `Field`, such as `Annotated[int, Field(ge=1, le=60, description="...")]`.
+    Raises OptionError that names the parameter and its limits.
+    """
+
+    kind: StepKind
+    function: StepFunction
+    parameters: Mapping[str, Any] | tuple[tuple[str, Any], ...] = ()
+
+    def __post_init__(self) -> None:
+        one_of("kind of step", self.kind, STEP_KINDS)
+        given = dict(self.parameters)
+        if faults := parameter_faults(self.function, given):
+            raise OptionError(f"step {self.name}: {next(iter(faults.values()))}")
+        model = parameter_model(self.function)(**given)
+        values = tuple((name, getattr(model, name)) for name in type(model).model_fields)
+        object.__setattr__(self, "parameters", values)
+
+    @property
+    def name(self) -> str:
+        """The name of the function, as it stands in files."""
+        return self.function.__name__.replace("_", "-")
+
+    def apply(self, value: Any) -> Any:
+        """What the step makes of a value; see `function`."""
+        return self.function(value, **dict(self.parameters))
+
+
+@lru_cache(maxsize=256)
+def parameter_model(function: StepFunction) -> "type[BaseModel]":
+    """The parameters of a step's function as a pydantic model that refuses unknown names."""
+    from pydantic import ConfigDict, create_model
+
+    hints = get_type_hints(function, include_extras=True)
+    _, *own = signature(function).parameters.values()
+    bare = [each.name for each in own if each.default is Parameter.empty]
+    if bare:
+        raise OptionError(f"step {function.__name__}: give {bare[0]} a default value")
+    fields: dict[str, Any] = {each.name: (hints.get(each.name, Any), each.default) for each in own}
+    config = ConfigDict(extra="forbid")
+    model: type[BaseModel] = create_model(function.__name__, __config__=config, **fields)
+    return model
+
+
+def parameter_faults(function: StepFunction, given: Mapping[str, Any]) -> dict[str, str]:
+    """What is wrong with values of parameters: a message for each name; empty if nothing is."""
+    from pydantic import ValidationError
+
+    model = parameter_model(function)
+    try:
+        model(**given)
+    except ValidationError as error:
+        return {
+            str(fault["loc"][0]): _message(model, str(fault["loc"][0]), given)
+            for fault in error.errors()
+        }
+    return {}
+
+
+def _message(model: "type[BaseModel]", name: str, given: Mapping[str, Any]) -> str:
+    if name not in model.model_fields:
+        known = ", ".join(model.model_fields) or "none, it has no parameters"
+        return f"{name} is not a parameter; use one of: {known}"
+    field = model.model_fields[name]
+    allowed = parameter_limits(field)
+    return f"{name} {shown(given[name])} cannot be used; use {allowed}"
+
+
+def parameter_limits(field: "FieldInfo") -> str:
+    """The values that a parameter may have, such as `1 to 60`."""
+    kind = field.annotation
+    if get_origin(kind) is Literal:
+        *first, last = map(str, get_args(kind))
+        return f"{', '.join(first)} or {last}"
+    bounds = {
+        side: value
+        for rule in field.metadata
+        for side in ("ge", "le")
+        if (value := getattr(rule, side, None)) is not None
+    }
+    if {"ge", "le"} <= set(bounds):
+        return ("whole numbers " if kind is int else "") + limits(bounds["ge"], bounds["le"])
+    if any(getattr(rule, "pattern", None) == COLOUR_PATTERN for rule in field.metadata):
+        return "a colour like #5a3c1e"
+    return _KINDS.get(kind, "a list of colours like #5a3c1e")
+
+
+_KINDS: dict[object, str] = {
+    bool: "true or false",
+    int: "a whole number",
+    float: "a number",
+    str: "a text",
+}
+
+
+def parameter_lines(step: StyleStep) -> list[str]:
+    """The parameters of a step, one a line: name, value, meaning and limits."""
+    model = parameter_model(step.function)
+    return [
+        f"{name} = {_as_toml(value)}  # {model.model_fields[name].description or name}"
+        f" ({parameter_limits(model.model_fields[name])})"
+        for name, value in dict(step.parameters).items()
+    ]
+
+
+def _as_toml(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_as_toml, value))}]"
+    return f"{value:g}" if isinstance(value, float) else str(value)

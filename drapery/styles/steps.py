@@ -1,0 +1,47 @@
+"""The steps that a file of a style can name."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from drapery.styles import material_steps, motion_steps, picture_steps, shape_steps
+from drapery.styles.step import StepFunction, StepKind
+
+_FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
+    "motion": (motion_steps.hold,),
+    "shape": (
+        shape_steps.thickness,
+        shape_steps.smooth,
+        shape_steps.coarse,
+        shape_steps.facets,
+        shape_steps.boards,
+        shape_steps.voxels,
+        shape_steps.swallow_tail,
+        shape_steps.tear,
+    ),
+    "material": (
+        material_steps.weave,
+        material_steps.felt,
+        material_steps.embroider,
+        material_steps.hatch,
+        material_steps.stained_glass,
+        material_steps.age,
+    ),
+    "picture": (
+        picture_steps.pixels,
+        picture_steps.shade,
+        picture_steps.outline,
+        picture_steps.posterize,
+        picture_steps.palette,
+        picture_steps.tones,
+        picture_steps.hatching,
+        picture_steps.paper,
+    ),
+}
+
+STEPS: Mapping[StepKind, Mapping[str, StepFunction]] = MappingProxyType(
+    {
+        kind: MappingProxyType({each.__name__.replace("_", "-"): each for each in functions})
+        for kind, functions in _FUNCTIONS.items()
+    }
+)
+"""The functions by kind and name; see `StyleStep`."""

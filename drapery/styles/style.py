@@ -1,0 +1,145 @@
+"""A style: a named chain of steps that change motion, shape, material and picture."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Literal
+
+from drapery.errors import OptionError
+from drapery.mesh import Mesh
+from drapery.option import one_of
+from drapery.render.buffers import Buffers
+from drapery.render.frame import Frame
+from drapery.render.identity_cache import IdentityCache
+from drapery.render.scene import Material, Scene
+from drapery.settings import Lighting, Settings
+from drapery.styles.canvas import Canvas
+from drapery.styles.loading import read_style_file
+from drapery.styles.sheet import Sheet
+from drapery.styles.step import StepKind, StyleStep, parameter_lines
+
+MAX_SAMPLES = 1 << 25
+"""The most samples of a picture that steps change; they take about 1 GiB."""
+
+_materials: IdentityCache[Material] = IdentityCache(32)
+
+
+@dataclass(frozen=True)
+class Style:
+    """How cloth is to look: steps that change what is simulated and drawn.
+
+    name: shown in lists. steps: applied kind by kind, each kind in this order; see `StyleStep`.
+    light, samples: those of a picture that gives none, see `Settings`; None leaves them.
+    description: one line about it.
+
+    `one | other` has the steps of both, those of `one` first. Raises OptionError.
+    """
+
+    name: str
+    steps: tuple[StyleStep, ...] = ()
+    light: Lighting | None = None
+    samples: Literal[1, 4, 16] | None = None
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        if self.light is not None:
+            one_of("light", self.light, ("game", "flat", "studio"))
+        if self.samples is not None:
+            one_of("samples", self.samples, (1, 4, 16))
+        if not all(isinstance(step, StyleStep) for step in self.steps):
+            raise OptionError(f"style {self.name}: a step is not a StyleStep; make it one")
+        object.__setattr__(self, "steps", tuple(self.steps))
+
+    def __or__(self, other: "Style") -> "Style":
+        return Style(
+            f"{self.name} | {other.name}",
+            (*self.steps, *other.steps),
+            other.light or self.light,
+            other.samples or self.samples,
+        )
+
+    @classmethod
+    def load(cls, path: str | Path) -> "Style":
+        """The style of a TOML file, named after it.
+
+        Raises OptionError that names the file, the line, the field and the remedy.
+        """
+        parsed, steps = read_style_file(path)
+        return cls(Path(path).stem, steps, parsed.light, parsed.samples, parsed.description)
+
+    def has(self, kind: StepKind) -> bool:
+        """Whether any step is of this kind."""
+        return any(step.kind == kind for step in self.steps)
+
+    def describe(self) -> str:
+        """The style as TOML, with every parameter, its meaning and its limits as comments."""
+        lines = [f'description = "{self.description}"'] if self.description else []
+        lines += [f'light = "{self.light}"'] if self.light else []
+        lines += [f"samples = {self.samples}"] if self.samples else []
+        for step in self.steps:
+            lines += ["", f"[[{step.kind}]]", f'step = "{step.name}"', *parameter_lines(step)]
+        return "\n".join(lines).strip() + "\n"
+
+    def settle(self, settings: Settings) -> Settings:
+        """The settings with this style's light and samples where they give none."""
+        if not (self.light or self.samples):
+            return settings
+        light, samples = settings.light or self.light, settings.samples or self.samples
+        return replace(settings, light=light, samples=samples)
+
+    def move(self, sheet: Sheet) -> Sheet:
+        """The motion steps applied. sheet: all moments, positions of shape [F, N, 3]."""
+        moved: Sheet = self._applied("motion", sheet)
+        return moved
+
+    def mesh(self, sheet: Sheet) -> Mesh:
+        """The shape steps applied, then the thickness. sheet: one moment. Raises OptionError."""
+        shaped: Any = sheet
+        for step in self._of("shape"):
+            if isinstance(shaped, Mesh):
+                raise OptionError(
+                    f"style {self.name}: step {step.name} follows one that makes a mesh;"
+                    " put it before that step"
+                )
+            shaped = step.apply(shaped)
+        return shaped if isinstance(shaped, Mesh) else shaped.mesh()
+
+    def material(self, material: Material) -> Material:
+        """The material steps applied; the same object for the same material, while it is cached."""
+        if not self.has("material"):
+            return material
+        return _materials.get((material,), self, lambda: self._applied("material", material))
+
+    def draw(self, scene: Scene, draw_scene: Callable[[Scene], Frame]) -> Frame:
+        """A scene drawn by a backend, and the picture steps applied to it.
+
+        Edges are smoothed after the steps: the scene is drawn larger, with one sample a pixel.
+        Raises OptionError for over MAX_SAMPLES samples.
+        """
+        if not self.has("picture"):
+            return draw_scene(scene)
+        grid = int(scene.samples**0.5)
+        large = scene.size[0] * grid, scene.size[1] * grid
+        if large[0] * large[1] > MAX_SAMPLES:
+            raise OptionError(
+                f"style {self.name} changes pictures of at most {MAX_SAMPLES} samples;"
+                " use a smaller size or fewer samples"
+            )
+        sharp = replace(scene, size=large, samples=1)
+        canvas = Canvas(draw_scene(sharp).pixels, lambda: _buffers(sharp), grid)
+        finished: Canvas = self._applied("picture", canvas)
+        return Frame(finished.finished(scene.size))
+
+    def _of(self, kind: StepKind) -> Iterable[StyleStep]:
+        return (step for step in self.steps if step.kind == kind)
+
+    def _applied(self, kind: StepKind, value: Any) -> Any:
+        for step in self._of(kind):
+            value = step.apply(value)
+        return value
+
+
+def _buffers(scene: Scene) -> Buffers:
+    from drapery.render.soft import draw_buffers
+
+    return draw_buffers(scene)

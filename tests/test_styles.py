@@ -1,0 +1,332 @@
+"""Styles: chains of checked steps for motion, shape, material and picture."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import pytest
+import trimesh
+from conftest import Run
+from pydantic import Field
+
+from drapery import Banner, Settings, animate, draw
+from drapery.batch.keys import DigestCache, picture_key
+from drapery.batch.manifest import read_manifest
+from drapery.cloth import grid
+from drapery.errors import OptionError
+from drapery.mesh import Mesh
+from drapery.render import Buffers, Camera, Scene, draw_scene
+from drapery.serve.request_params import ServiceConfig, read_request
+from drapery.style import FLAG_MAPPING, FLAG_SIZE
+from drapery.styles import (
+    STEPS,
+    Canvas,
+    Sheet,
+    Style,
+    StyleStep,
+    combined_style,
+    find_style,
+    style_names,
+)
+from drapery.styles.catalogue import PRESETS
+from drapery.styles.loading import MAX_BYTES, MAX_STEPS
+from drapery.styles.sheet import grid_lattice
+from drapery.styles.style import MAX_SAMPLES
+
+BANNER = Banner.parse("white creeper:lime border:black")
+TEXEL = 1 / 24
+ALL_STEPS = [(kind, name) for kind, steps in STEPS.items() for name in steps]
+
+
+def rippled(rows: int = 9, columns: int = 5) -> Sheet:
+    """A flag that hangs in shallow waves."""
+    rest = grid(columns, rows, *FLAG_SIZE).rest_positions
+    waves = 0.1 * np.sin(4 * rest[:, 1:2] + 2 * rest[:, :1]) * [0.2, 0.1, 1]
+    lattice = grid_lattice(rows, columns)
+    return Sheet(rest + waves, lattice, TEXEL, TEXEL, FLAG_SIZE, FLAG_MAPPING)
+
+
+def no_buffers() -> Buffers:
+    raise AssertionError("nobody should have asked for buffers")
+
+
+def canvas(height: int = 30, width: int = 40) -> Canvas:
+    """A ramp of colours, whose left half shows a model."""
+    pixels = np.full((height, width, 4), 255, np.uint8)
+    pixels[..., 0] = np.arange(width) * 6
+    pixels[..., 1] = np.arange(height)[:, None] * 8
+    shown = np.broadcast_to(np.arange(width) < width // 2, (height, width))
+    normal = np.where(shown[..., None], np.float32([0, 0, 1]), np.float32(0))
+    depth = np.where(shown, np.float32(3), np.float32(np.inf))
+    model, uv = np.where(shown, 0, -1).astype(np.int32), np.zeros((height, width, 2), np.float32)
+    return Canvas(pixels, lambda: Buffers(depth, normal, model, uv))
+
+
+@pytest.mark.parametrize("name", style_names())
+def test_a_preset_is_what_its_description_says(name: str, tmp_path: Path) -> None:
+    style = find_style(name)
+    path = tmp_path / f"{name}.toml"
+    path.write_text(style.describe(), encoding="utf-8")
+    assert Style.load(path) == style
+    assert style.description
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "said"),
+    [
+        ("light = flat", "line 1", "is not TOML"),
+        ('light = "dim"', "line 1", "use game, flat or studio"),
+        ("samples = 2", "line 1", "use 1, 4 or 16"),
+        ("\ncolour = 1", "line 2", "colour is not a field of a style; use one of: description"),
+        ("[[shape]]\ntimes = 2", "line 1", "step is missing; use one of: thickness, smooth"),
+        ('[[shape]]\nstep = "pixels"', "line 2", "step 'pixels' is not known; use one of"),
+        (
+            '[[shape]]\nstep = "facets"\n\n[[shape]]\nstep = "smooth"\ntimes = 99',
+            "line 6",
+            "smooth: times 99 cannot be used; use whole numbers 1 to 8",
+        ),
+        (
+            '[[picture]]\nstep = "outline"\nwide = 3',
+            "line 3",
+            "outline: wide is not a parameter; use one of: colour, width",
+        ),
+        (
+            '[[picture]]\nstep = "outline"\ncolour = "red"',
+            "line 3",
+            "outline: colour 'red' cannot be used; use a colour like #5a3c1e",
+        ),
+        ("shape = 3", "line 1", "shape 3 cannot be used; use at most 32 tables like [[shape]]"),
+    ],
+)
+def test_a_fault_in_a_file_names_the_line_the_field_and_the_remedy(
+    text: str, line: str, said: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(OptionError) as caught:
+        Style.load(path)
+    message = str(caught.value)
+    assert "my.toml" in message and line in message and said in message
+
+
+def test_a_file_of_a_style_has_a_largest_size(tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text("#" * (MAX_BYTES + 1), encoding="utf-8")
+    with pytest.raises(OptionError, match="over 65536 bytes; a style is shorter"):
+        Style.load(path)
+    path.write_text('[[shape]]\nstep = "facets"\n' * (MAX_STEPS + 1), encoding="utf-8")
+    with pytest.raises(OptionError, match="use at most 32 tables"):
+        Style.load(path)
+    path.write_text('[[shape]]\nstep = "facets"\n' * MAX_STEPS, encoding="utf-8")
+    assert len(Style.load(path).steps) == MAX_STEPS
+
+
+def test_a_picture_that_a_style_changes_has_a_largest_size() -> None:
+    scene = Scene((), Camera((0, 0, 3), (0, 0, 0)), (8192, 8192), samples=4)
+    assert scene.size[0] * scene.size[1] * scene.samples > MAX_SAMPLES
+    with pytest.raises(OptionError, match=r"style ink changes .*; use a smaller size or fewer"):
+        find_style("ink").draw(scene, draw_scene)
+
+
+def test_a_style_that_is_not_known_names_all_that_are() -> None:
+    with pytest.raises(OptionError, match=r"style 'inky' is not known; use a file .* one of: game"):
+        find_style("inky")
+    with pytest.raises(OptionError, match=r"missing\.toml cannot be read: .*; check the path"):
+        find_style("missing.toml")
+
+
+def test_steps_of_two_styles_follow_each_other() -> None:
+    one, other = find_style("cel"), find_style("tattered")
+    both = one | other
+    assert both.steps == (*one.steps, *other.steps)
+    assert (both.light, both.samples) == (other.light, other.samples)
+    assert combined_style(["cel", other]).steps == both.steps
+
+
+def test_a_step_of_ones_own_has_checked_parameters() -> None:
+    def dim(canvas: Canvas, *, share: Annotated[float, Field(ge=0, le=1)] = 0.5) -> Canvas:
+        """Darker by a share."""
+        pixels = canvas.pixels.copy()
+        pixels[..., :3] = pixels[..., :3] * (1 - share)
+        return canvas.painted(pixels)
+
+    style = Style("dim", (StyleStep("picture", dim, {"share": 1.0}),))
+    dark = draw(BANNER, style=style, size=(40, 50)).pixels
+    assert not dark[..., :3].any() and dark[..., 3].any()
+    with pytest.raises(OptionError, match="step dim: share 2 cannot be used; use 0 to 1"):
+        StyleStep("picture", dim, {"share": 2})
+    with pytest.raises(OptionError, match="kind of step 'sound' is not known"):
+        StyleStep("sound", dim)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("kind", "name"), ALL_STEPS)
+def test_every_parameter_has_a_meaning_and_every_step_a_docstring(kind: str, name: str) -> None:
+    function = STEPS[kind][name]  # type: ignore[index]
+    text = Style("one", (StyleStep(kind, function),)).describe()  # type: ignore[arg-type]
+    assert function.__doc__
+    assert all("  # " in line for line in text.splitlines()[2:])
+
+
+def test_the_style_game_is_the_plain_picture() -> None:
+    plain, game = draw(BANNER, size=(60, 80)), draw(BANNER, size=(60, 80), style="game")
+    assert np.array_equal(plain.pixels, game.pixels)
+
+
+def test_options_win_over_the_light_and_samples_of_a_style() -> None:
+    settled = find_style("cel").settle(Settings(samples=1))
+    assert (settled.light, settled.samples) == ("flat", 1)
+
+
+@pytest.mark.parametrize("name", [n for n in STEPS["shape"] if n != "voxels"])
+def test_a_shape_step_leaves_a_closed_mesh(name: str) -> None:
+    style = Style(name, (StyleStep("shape", STEPS["shape"][name]),))
+    closed(style.mesh(rippled()))
+
+
+def test_shape_steps_work_one_after_the_other() -> None:
+    steps = [StyleStep("shape", STEPS["shape"][n]) for n in ("smooth", "boards", "tear", "facets")]
+    closed(Style("many", tuple(steps)).mesh(rippled()))
+    with pytest.raises(OptionError, match="put it before the step that cuts it"):
+        Style("late", tuple(steps[2:0:-1])).mesh(rippled())
+    voxels = StyleStep("shape", STEPS["shape"]["voxels"])
+    with pytest.raises(OptionError, match="step smooth follows one that makes a mesh"):
+        Style("late", (voxels, steps[0])).mesh(rippled())
+
+
+def closed(mesh: Mesh) -> None:
+    merged = trimesh.Trimesh(mesh.positions, mesh.triangles, process=False)
+    merged.merge_vertices(merge_tex=True, merge_norm=True)
+    edges, count = np.unique(np.sort(merged.edges, axis=1), axis=0, return_counts=True)
+    assert len(edges) and (count % 2 == 0).all()
+    np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=-1), 1, atol=1e-5)
+
+
+def test_smooth_goes_through_the_particles() -> None:
+    sheet = rippled()
+    fine = STEPS["shape"]["smooth"](sheet, times=4)
+    np.testing.assert_allclose(fine.grid[::4, ::4], sheet.grid, atol=1e-12)
+
+
+def test_hold_shows_each_pose_for_several_frames() -> None:
+    moments = np.stack([rippled().positions + n for n in range(5)])
+    held = STEPS["motion"]["hold"](replace(rippled(), positions=moments), every=2)
+    assert [round(each[0, 0] - moments[0, 0, 0]) for each in held.positions] == [0, 0, 2, 2, 4]
+
+
+def test_a_loop_takes_motion_steps() -> None:
+    style = Style("held", (StyleStep("motion", STEPS["motion"]["hold"], {"every": 2}),))
+    frames = animate(BANNER, style=style, seconds=0.4, fps=10, size=(40, 50)).frames
+    first, second, third, fourth = (frame.pixels for frame in frames)
+    assert np.array_equal(first, second) and np.array_equal(third, fourth)
+    assert not np.array_equal(first, third)
+
+
+@pytest.mark.parametrize("name", STEPS["picture"])
+def test_a_picture_step_changes_colours_and_keeps_the_size(name: str) -> None:
+    given = canvas()
+    before = given.pixels.copy()
+    result = STEPS["picture"][name](given).finished((40, 30))
+    assert result.shape == (30, 40, 4) and result.dtype == np.uint8
+    assert np.array_equal(given.pixels, before)
+
+
+def test_buffers_are_made_only_when_a_step_asks() -> None:
+    plain = replace(canvas(), make_buffers=no_buffers)
+    STEPS["picture"]["tones"](STEPS["picture"]["pixels"](plain))
+    with pytest.raises(AssertionError, match="nobody"):
+        STEPS["picture"]["outline"](plain)
+
+
+def test_large_pixels_are_squares_of_one_colour() -> None:
+    drawn = draw(BANNER, style="pixel-art", size=(60, 90)).pixels
+    blocks = drawn.reshape(15, 6, 10, 6, 4)
+    assert (blocks == blocks[:, :1, :, :1]).all()
+
+
+def test_an_outline_has_one_pixel() -> None:
+    marked = STEPS["picture"]["outline"](canvas(), colour="#010203")
+    line = (marked.pixels[..., :3] == [1, 2, 3]).all(axis=-1)
+    assert (line.sum(axis=1) == 1).all() and line[:, 19].all()
+
+
+def test_a_palette_limits_the_colours() -> None:
+    table = ("#000000", "#808080", "#ff4000")
+    few = STEPS["picture"]["palette"](canvas(), colours=table, dither=0.5).pixels
+    found = {f"#{bytes(each).hex()}" for each in few[..., :3].reshape(-1, 3)}
+    assert found <= set(table)
+
+
+@pytest.mark.parametrize("name", ["cel", "tattered", "felt"])
+def test_the_same_style_gives_the_same_bytes(name: str) -> None:
+    one, other = (draw(BANNER, style=name, size=(60, 75)).pixels for _ in range(2))
+    assert np.array_equal(one, other)
+
+
+def test_a_command_takes_styles(drapery: Run, tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text('[[picture]]\nstep = "tones"\n', encoding="utf-8")
+    words = ["--style", "game", "--style", path, "--size", "40x50", "-o", tmp_path / "a.png"]
+    code, _, said = drapery("render", "white", *words)
+    assert code == 0, said
+    code, _, said = drapery("render", "white", "--style", "gane", "-o", tmp_path / "b.png")
+    assert code == 2 and "style 'gane' is not known" in said
+
+
+def test_a_manifest_reads_files_of_styles_beside_it(tmp_path: Path) -> None:
+    (tmp_path / "my.toml").write_text('[[picture]]\nstep = "tones"\n', encoding="utf-8")
+    rows = tmp_path / "rows.csv"
+    rows.write_text("design,style\nwhite,my.toml\n", encoding="utf-8")
+    keys = []
+    for gamma in (1.0, 2.0):
+        text = f'[[picture]]\nstep = "tones"\ngamma = {gamma}\n'
+        (tmp_path / "my.toml").write_text(text, encoding="utf-8")
+        (request,) = read_manifest(rows)
+        given = {"ending": ".png", "seconds": None, "fps": None}
+        keys.append(picture_key(request.banner, request.settings, DigestCache(), **given))
+    assert keys[0] != keys[1]
+    (tmp_path / "my.toml").write_text("light = 3", encoding="utf-8")
+    with pytest.raises(OptionError, match=r"my\.toml line 1: light 3 cannot be used"):
+        read_manifest(rows)
+
+
+def test_an_address_takes_names_and_no_files() -> None:
+    config = ServiceConfig()
+    good = read_request([("design", "white"), ("style", "cel;ink")], ".png", config)
+    assert not isinstance(good, list) and good.settings.style == ("cel", "ink")
+    (fault,) = read_request([("design", "white"), ("style", "/etc/my.toml")], ".png", config)
+    assert "names a file, which an address cannot; use a name" in fault
+    (fault,) = read_request([("design", "white"), ("style", "gane")], ".png", config)
+    assert "style 'gane' is not known" in fault
+
+
+def test_a_package_adds_a_style(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "sparkle_styles.py").write_text(
+        'from drapery.styles import Style\n\nsparkle = Style("sparkle", light="flat")\nwrong = 3\n',
+        encoding="utf-8",
+    )
+    about = tmp_path / "sparkle-1.0.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text("Name: sparkle\nVersion: 1.0\n", encoding="utf-8")
+    (about / "entry_points.txt").write_text(
+        "[drapery.styles]\nsparkle = sparkle_styles:sparkle\nwrong = sparkle_styles:wrong\n",
+        encoding="utf-8",
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    assert "sparkle" in style_names()
+    assert find_style("sparkle").light == "flat"
+    with pytest.raises(OptionError, match="is not a Style; make it one"):
+        find_style("wrong")
+
+
+def test_the_page_on_styles_names_everything_and_its_file_loads(tmp_path: Path) -> None:
+    text = (Path(__file__).parent.parent / "docs" / "styles.md").read_text(encoding="utf-8")
+    for name in (*PRESETS, *(name for _, name in ALL_STEPS)):
+        assert f"`{name}`" in text
+    blocks = re.findall(r"```(\w+)\n(.*?)```", text, re.DOTALL)
+    (tmp_path / "my.toml").write_text(blocks[1][1], encoding="utf-8")
+    assert Style.load(tmp_path / "my.toml").steps[0].name == "hold"
+    names: dict[str, Style] = {}
+    exec(blocks[2][1], names)
+    draw(BANNER, style=names["television"], size=(40, 50))
