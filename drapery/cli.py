@@ -28,6 +28,7 @@ from drapery.commands import (
     sheet,
     show,
     studio,
+    style,
 )
 from drapery.commands.notices import adopt_warnings, say
 from drapery.errors import DraperyError
@@ -57,6 +58,7 @@ for name, command in {
     app.command(name, context_settings=getattr(command, "CONTEXT", None))(command.run)
 app.add_typer(golden.app, name="golden")
 app.add_typer(sheet.app, name="sheet")
+app.add_typer(style.app, name="style")
 
 INTERRUPTED = 130
 """The exit code after Ctrl-C: 128 and the number of SIGINT."""

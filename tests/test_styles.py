@@ -19,6 +19,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.render import Buffers, Camera, Scene, draw_scene
 from drapery.serve.request_params import ServiceConfig, read_request
+from drapery.sheets import styles_sheet
 from drapery.style import FLAG_MAPPING, FLAG_SIZE
 from drapery.styles import (
     STEPS,
@@ -232,6 +233,12 @@ def test_a_picture_step_changes_colours_and_keeps_the_size(name: str) -> None:
     assert np.array_equal(given.pixels, before)
 
 
+def test_steps_do_not_change_the_background() -> None:
+    drawn = draw(BANNER, style="pixel-art", size=(60, 80), background="#123456").pixels
+    assert drawn[0, 0].tolist() == [0x12, 0x34, 0x56, 255]
+    assert (drawn[..., 3] == 255).all()
+
+
 def test_buffers_are_made_only_when_a_step_asks() -> None:
     plain = replace(canvas(), make_buffers=no_buffers)
     STEPS["picture"]["tones"](STEPS["picture"]["pixels"](plain))
@@ -272,6 +279,23 @@ def test_a_command_takes_styles(drapery: Run, tmp_path: Path) -> None:
     assert code == 0, said
     code, _, said = drapery("render", "white", "--style", "gane", "-o", tmp_path / "b.png")
     assert code == 2 and "style 'gane' is not known" in said
+
+
+def test_commands_list_and_show_styles(drapery: Run, tmp_path: Path) -> None:
+    code, listed, _ = drapery("style", "list")
+    assert code == 0
+    assert [line.split()[0] for line in listed.splitlines()] == style_names()
+    code, shown, _ = drapery("style", "show", "ink")
+    assert code == 0
+    assert shown == find_style("ink").describe()
+
+
+def test_a_sheet_of_styles_has_a_row_for_each_of_several_moments(tmp_path: Path) -> None:
+    settings = Settings(style=("game", "cel"), size=(40, 50), grid=(5, 9))
+    sheet = styles_sheet(BANNER, settings, moments=2)
+    assert (sheet.down, len(sheet.across), len(sheet.cells)) == (("game", "cel"), 2, 4)
+    assert (sheet.cells[0].pixels[..., 3] == 255).all()
+    assert len(styles_sheet(BANNER, settings).cells) == 2
 
 
 def test_a_manifest_reads_files_of_styles_beside_it(tmp_path: Path) -> None:

@@ -16,6 +16,9 @@ SheetOption = Annotated[
     Path, typer.Option("-o", "--out", metavar="FILE", help="The sheet: .png, or .html in one file.")
 ]
 MAX_SCALE = 32
+MAX_MOMENTS = 8
+STYLED = "white creeper:lime border:black"
+"""The design of a sheet of styles, unless one is given."""
 
 
 @app.command("patterns")
@@ -105,6 +108,31 @@ def write_packs(
         faces = scale if flat else None
         banner = read_design(design, form=form, number=number)
         packs_sheet(banner, packs, settings, scale=faces).save(out)
+
+
+@app.command("styles")
+@o.pictured()
+def write_styles(
+    out: SheetOption,
+    moments: Annotated[
+        int, typer.Option(help="Pictures of each style, at moments that follow each other.")
+    ] = 1,
+    view: o.ViewOption = "hero",
+    size: Annotated[str, typer.Option(help="Size of each picture in pixels.")] = "192x240",
+    **words: Any,
+) -> None:
+    """One design in every style, or in those of --style."""
+    from drapery.banner import parse_banner
+    from drapery.option import within
+    from drapery.settings import Settings
+    from drapery.sheets import check_sheet_target, styles_sheet
+
+    within("moments", moments, 1, MAX_MOMENTS)
+    settings = Settings(**o.options_of(words | {"view": view, "size": size}))
+    check_sheet_target(out)
+    with compile_notice():
+        design = o.design_of(words) or parse_banner(STYLED)
+        styles_sheet(design, settings, moments=moments).save(out)
 
 
 def _check_scale(scale: int) -> None:

@@ -1,4 +1,4 @@
-"""Sheets of drawn pictures: all rotations of one design, one design with many packs."""
+"""Sheets of drawn pictures: all rotations of one design, one design with many packs or styles."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -11,8 +11,14 @@ from drapery.banner.packs import open_packs
 from drapery.pictures import draw, draw_face, draw_scenes
 from drapery.render import Frame, frame_view
 from drapery.scenes.stager import still
-from drapery.settings import ROTATIONS, Settings
+from drapery.settings import OPTIONS, ROTATIONS, Settings
 from drapery.sheets.sheet import PictureSheet, SheetCell
+from drapery.styles import find_style, style_names
+
+BETWEEN = 0.7
+"""Time between two moments of a sheet of styles [s]."""
+
+PAPER = "#c8d0d8"
 
 COMPASS = {0: "south", 4: "west", 8: "north", 12: "east"}
 
@@ -54,3 +60,27 @@ def packs_sheet(
             frame = draw_face(banner, packs=packs, format=settings.format, scale=scale)
         cells.append(SheetCell(name, frame.pixels))
     return PictureSheet("One design over many packs", tuple(cells), min(len(cells), 6))
+
+
+def styles_sheet(
+    design: Banner | None, settings: Settings, *, moments: int = 1, background: str = PAPER
+) -> PictureSheet:
+    """One design in each style of the settings, or in all that are known if these have none.
+
+    moments: pictures of each style, BETWEEN seconds apart; with several, each style has a row.
+    background: of pictures whose settings have a transparent one, so that pale lines are seen.
+    Raises OptionError, PackError or BackendError.
+    """
+    if settings.background == "transparent":
+        settings = replace(settings, background=background)
+    names = OPTIONS["style"].check(settings.style) or tuple(style_names())
+    times = [settings.time + BETWEEN * moment for moment in range(moments)]
+    cells = tuple(
+        SheetCell(find_style(name).name, draw(design, settings, style=name, time=time).pixels)
+        for name in names
+        for time in times
+    )
+    if moments == 1:
+        return PictureSheet("Styles", cells, min(len(cells), 8))
+    across = tuple(f"{time:g} s" for time in times)
+    return PictureSheet("Styles", cells, moments, across, tuple(c.label for c in cells[::moments]))

@@ -18,7 +18,7 @@ Place = tuple[slice, ...]
 DARK, BRIGHT = 0.1, 0.5
 """Cosines to the light between which cel shading divides its steps: a cloth's folds are shallow."""
 
-SOLID = 0.88
+SOLID = 0.985
 """A place darker than this is ink alone."""
 
 BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
@@ -85,13 +85,15 @@ def outline(
 def posterize(
     canvas: Canvas,
     *,
-    levels: Annotated[int, Field(ge=2, le=64, description="of each channel")] = 6,
+    levels: Annotated[int, Field(ge=2, le=64, description="of brightness")] = 6,
     dither: Annotated[float, Field(ge=0, le=1, description="strength of ordered dither")] = 0.0,
 ) -> Canvas:
-    """A few levels of each channel, with ordered dither if wanted."""
+    """A few levels of brightness, with ordered dither if wanted; hues stay."""
     step = 255 / (levels - 1)
-    raised = canvas.pixels[..., :3] + dither * step * _thresholds(canvas)[..., None]
-    return _with_colours(canvas, np.rint(raised / step) * step)
+    bright = canvas.pixels[..., :3].max(axis=-1).astype(np.float64)
+    level = np.rint((bright + dither * step * _thresholds(canvas)) / step) * step
+    factor = level / np.maximum(bright, 1)
+    return _with_colours(canvas, canvas.pixels[..., :3] * factor[..., None])
 
 
 def palette(
@@ -134,20 +136,25 @@ def hatching(
     width: Annotated[float, Field(ge=0.2, le=16, description="of the strokes [pixels]")] = 1.2,
     paper: Annotated[Colour, Field(description="of what is bright")] = "#f6f1e4",
     layers: Annotated[int, Field(ge=1, le=4, description="directions of strokes")] = 3,
+    strength: Annotated[float, Field(ge=0.1, le=4, description="over 1: more strokes")] = 1.0,
 ) -> Canvas:
-    """Strokes of a pen: the darker a place, the more directions of strokes cross there."""
-    dark = 1 - _brightness(canvas.pixels) / 255
+    """Strokes of a pen: the darker a place, the more directions of strokes cross there.
+
+    What is black is ink alone, such as lines of an outline in black.
+    """
+    black = 1 - _brightness(canvas.pixels) / 255
+    dark = strength * black
     y, x = (axis / canvas.grid for axis in np.indices(dark.shape))
-    drawn = np.zeros(dark.shape, np.bool_)
-    drawn |= dark > SOLID
+    drawn = black > SOLID
     for number, degrees in enumerate((45, -45, 0, 90)[:layers]):
         angle = np.radians(degrees)
         across = (x * np.cos(angle) + y * np.sin(angle)) % spacing
-        least = 0.3 + 0.55 * number / layers
+        least = 0.22 + 0.6 * number / layers
         swell = width * np.clip((dark - least) * 3 + 0.5, 0, 1.6)
         drawn |= (across < swell) & (dark > least)
     colours = np.where(drawn[..., None], _rgb(colour), _rgb(paper))
-    return _with_colours(canvas, np.where(canvas.buffers.coverage[..., None], colours, 255))
+    shown = canvas.buffers.coverage[..., None]
+    return _with_colours(canvas, np.where(shown, colours, canvas.pixels[..., :3]).astype(float))
 
 
 def paper(

@@ -5,10 +5,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
+
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.option import one_of
 from drapery.render.buffers import Buffers
+from drapery.render.flatten import lay_over
 from drapery.render.frame import Frame
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
@@ -111,7 +114,7 @@ class Style:
         return _materials.get((material,), self, lambda: self._applied("material", material))
 
     def draw(self, scene: Scene, draw_scene: Callable[[Scene], Frame]) -> Frame:
-        """A scene drawn by a backend, and the picture steps applied to it.
+        """A scene drawn by a backend, and the picture steps applied to all but its background.
 
         Edges are smoothed after the steps: the scene is drawn larger, with one sample a pixel.
         Raises OptionError for over MAX_SAMPLES samples.
@@ -125,10 +128,14 @@ class Style:
                 f"style {self.name} changes pictures of at most {MAX_SAMPLES} samples;"
                 " use a smaller size or fewer samples"
             )
-        sharp = replace(scene, size=large, samples=1)
+        sharp = replace(scene, size=large, samples=1, background=(0, 0, 0, 0))
         canvas = Canvas(draw_scene(sharp).pixels, lambda: _buffers(sharp), grid)
-        finished: Canvas = self._applied("picture", canvas)
-        return Frame(finished.finished(scene.size))
+        changed: Canvas = self._applied("picture", canvas)
+        pixels = changed.finished(scene.size)
+        if not scene.background[3]:
+            return Frame(pixels)
+        behind = np.broadcast_to(np.array(scene.background, np.uint8), pixels.shape)
+        return Frame(lay_over(pixels, behind))
 
     def _of(self, kind: StepKind) -> Iterable[StyleStep]:
         return (step for step in self.steps if step.kind == kind)
