@@ -24,6 +24,7 @@ PROGRAMS = {
     "own_cloth": ("sheet.png",),
     "own_collider": ("own_collider.png",),
     "own_solver": ("own_solver.png",),
+    "own_style": ("comic.png",),
     "video": ("banner.mp4",),
     "compare_designs": ("difference.png",),
     "batch": tuple(f"pictures/{dye}.png" for dye in ("white", "yellow", "orange", "red")),
@@ -35,7 +36,8 @@ SMALLER: dict[str, dict[str, Any]] = {"crowd": {"side": 5}}
 """The same program on less, where the whole takes long."""
 PUBLIC = (
     *("drapery", "drapery.banner", "drapery.batch", "drapery.cloth", "drapery.cloth.colliders"),
-    *("drapery.packs", "drapery.render", "drapery.scenes", "drapery.style", "drapery.testing"),
+    *("drapery.packs", "drapery.render", "drapery.scenes", "drapery.style", "drapery.styles"),
+    "drapery.testing",
 )
 
 
