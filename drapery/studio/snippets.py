@@ -21,8 +21,8 @@ SCALE = Option("scale", "Pixels of a texel", int, 8, bounds=(1, 256), unit="pixe
 """The option `--scale` of `drapery flat`."""
 MODEL_OPTIONS = (
     *("packs", "format", "kind", "texture", "pose", "placement", "rotation", "facing"),
-    *("view", "grid", "solver", "pins", "wind", "direction", "gusts", "time", "seed"),
-    "thickness",
+    *("view", "grid", "solver", "fabric", "pins", "contact", "wind", "direction", "gusts"),
+    *("time", "seed", "style", "thickness"),
 )
 """Options of `drapery model`; the others have no effect on a 3-D file."""
 FACE_OPTIONS = ("packs", "format")
