@@ -52,8 +52,8 @@ def shade(
     facing = sum(normal[..., axis] * light[axis] for axis in range(3))
     share = (facing - DARK) / (BRIGHT - DARK)
     level = np.clip(np.floor(share * bands), 0, bands - 1) / (bands - 1)
-    factor = np.where(canvas.buffers.coverage, darkest + (1 - darkest) * level, 1)
-    return _with_colours(canvas, canvas.pixels[..., :3] * factor[..., None].astype(np.float64))
+    factor: Array = np.where(canvas.buffers.coverage, darkest + (1 - darkest) * level, 1)
+    return _with_colours(canvas, canvas.pixels[..., :3].astype(np.float64) * factor[..., None])
 
 
 def outline(

@@ -2,7 +2,8 @@
 
 With pytest the fixture `golden`, of the type `Golden`, compares a picture with its golden file.
 `read_cases` and `check_cases` check a TOML or YAML file of cases. `agrees` compares two pictures
-within a `Tolerance`. Names are loaded when they are first used.
+within a `Tolerance`. `check_style` tests a style of your own. Names are loaded when they are first
+used.
 """
 
 from typing import TYPE_CHECKING
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
         fingerprint,
     )
     from drapery.testing.plugin import Golden
+    from drapery.testing.style_check import check_style
 
 __all__ = [
     "Case",
@@ -36,6 +38,7 @@ __all__ = [
     "agrees",
     "as_frame",
     "check_cases",
+    "check_style",
     "clear_report",
     "decode",
     "encode",
@@ -66,5 +69,6 @@ __getattr__, __dir__ = lazy_names(
             "fingerprint",
         ),
         "testing.plugin": ("Golden",),
+        "testing.style_check": ("check_style",),
     },
 )
