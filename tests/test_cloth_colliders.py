@@ -33,7 +33,7 @@ from drapery.cloth.colliders.collision_world import CollisionWorld
 from drapery.cloth.colliders.packing import distance, pack
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.collisions import Collisions, collision_world
-from drapery.cloth.self_contact import self_contact
+from drapery.cloth.self_contact import make_self_contact
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 
@@ -661,7 +661,7 @@ def test_a_collider_survives_being_sent_to_another_process():
         lambda: Collider(Sphere(ORIGIN, 1.0), friction=-1),
         lambda: Collider(Sphere(ORIGIN, 1.0), restitution=1.5),
         lambda: sample_points(dust(1), 0),
-        lambda: self_contact(sheet(2, 2, 1.0, 0.0)[0], 0.0),
+        lambda: make_self_contact(sheet(2, 2, 1.0, 0.0)[0], 0.0),
         lambda: load_mesh("no such file.obj"),
     ],
 )

@@ -15,7 +15,7 @@ from drapery.cloth.colliders.pose import still
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.colliders.shapes import Box, Plane
 from drapery.cloth.lanes import run_blocks, thread_count
-from drapery.cloth.self_contact import SelfContact, meet_all, self_contact
+from drapery.cloth.self_contact import SelfContact, make_self_contact, meet_all
 from drapery.cloth.solvers.driver import check_limit
 from drapery.cloth.state import State
 from drapery.errors import OptionError
@@ -66,7 +66,7 @@ def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
         tuple(collisions.colliders),
         sample_points(cloth, collisions.order),
         collisions.thickness / 2,
-        None if apart is None else self_contact(cloth, apart),
+        None if apart is None else make_self_contact(cloth, apart),
         stretch_limits(cloth, collisions.limit, 1),
         collisions.rounds,
         collisions.threads,
@@ -92,7 +92,7 @@ def resolver(cloth: Cloth, collisions: Collisions) -> Callable[[State, State], S
     boxes = boxes_met(cloth, collisions)
     if boxes is None or collisions.apart is None:
         return collision_world(cloth, collisions).resolve
-    contact = self_contact(cloth, collisions.apart)
+    contact = make_self_contact(cloth, collisions.apart)
     return ContactStage(contact, boxes, collisions.threads).resolve
 
 

@@ -99,7 +99,7 @@ class SelfContact(NamedTuple):
     columns: int
 
 
-class Pairs(NamedTuple):
+class TouchingPairs(NamedTuple):
     """Pairs in a step: particles [P, 4]; a particle and a face, or two edges if `edges` [P] is 1.
 
     normals: from the nearest point of the second to that of the first at the start [P, 3].
@@ -112,7 +112,7 @@ class Pairs(NamedTuple):
     starts: Array
 
 
-def self_contact(cloth: Cloth, thickness: float) -> SelfContact:
+def make_self_contact(cloth: Cloth, thickness: float) -> SelfContact:
     """What contact of a cloth with itself needs; thickness: least distance [m].
 
     Raises OptionError unless it is above 0.
@@ -203,7 +203,7 @@ def meet_one(
 def make_safe(
     x0: Array,
     x: Array,
-    pairs: Pairs,
+    pairs: TouchingPairs,
     contact: SelfContact,
     boxes: BoxContact,
     frame: Array,
@@ -332,7 +332,7 @@ def hashed(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int6
 
 
 @kernel
-def find_pairs(x0: Array, x: Array, contact: SelfContact) -> Pairs:
+def find_pairs(x0: Array, x: Array, contact: SelfContact) -> TouchingPairs:
     """All pairs that may come nearer than the thickness in this step."""
     triangles, edges, of_face = contact.triangles, contact.edges, contact.of_face
     particle_owner, edge_owner = contact.particle_owner, contact.edge_owner
@@ -384,7 +384,7 @@ def find_pairs(x0: Array, x: Array, contact: SelfContact) -> Pairs:
                         count = add_edges(
                             x0, x, limit, s, t, edges, of_face, edge_owner, of_edges, pairs, count
                         )
-    return Pairs(
+    return TouchingPairs(
         pairs.ends[:count], pairs.edges[:count], pairs.normals[:count], pairs.starts[:count]
     )
 
@@ -404,8 +404,8 @@ def cells_of(bounds: Array) -> NDArray[np.int64]:
 
 
 @kernel
-def empty_pairs(count: int) -> Pairs:
-    return Pairs(
+def empty_pairs(count: int) -> TouchingPairs:
+    return TouchingPairs(
         np.empty((count, 4), np.int32),
         np.empty(count, np.uint8),
         np.empty((count, 3)),
@@ -414,7 +414,7 @@ def empty_pairs(count: int) -> Pairs:
 
 
 @kernel
-def longer(pairs: Pairs) -> Pairs:
+def longer(pairs: TouchingPairs) -> TouchingPairs:
     """The same pairs with twice the space."""
     count = len(pairs.ends)
     more = empty_pairs(2 * count)
@@ -436,7 +436,7 @@ def add_corners(
     owner: NDArray[np.int32],
     of_particles: Array,
     bounds: Array,
-    pairs: Pairs,
+    pairs: TouchingPairs,
     count: int,
 ) -> int:
     """Add the pairs of face t and the particles for which face s answers; returns the new count."""
@@ -459,7 +459,7 @@ def add_edges(
     of_face: NDArray[np.int32],
     owner: NDArray[np.int32],
     of_edges: Array,
-    pairs: Pairs,
+    pairs: TouchingPairs,
     count: int,
 ) -> int:
     """Add the pairs of edges for which faces s and t answer; returns the new count."""
@@ -478,7 +478,7 @@ def add_pair(
     x0: Array,
     x: Array,
     limit: float,
-    pairs: Pairs,
+    pairs: TouchingPairs,
     count: int,
     i: int,
     j: int,
@@ -589,7 +589,7 @@ def nearest_of_face(a: Vector, b: Vector, c: Vector, p: Vector) -> Vector:
 
 
 @kernel
-def push_pairs(x0: Array, x: Array, pairs: Pairs, contact: SelfContact) -> float:
+def push_pairs(x0: Array, x: Array, pairs: TouchingPairs, contact: SelfContact) -> float:
     """Push apart the pairs that are too near, one after another; returns the deepest [m]."""
     w, deepest = contact.inv_mass, 0.0
     for n in range(len(pairs.ends)):
@@ -631,7 +631,7 @@ def push_pairs(x0: Array, x: Array, pairs: Pairs, contact: SelfContact) -> float
 
 
 @kernel
-def shorten_unsafe(x0: Array, x: Array, pairs: Pairs, w: Array, stop: bool) -> bool:
+def shorten_unsafe(x0: Array, x: Array, pairs: TouchingPairs, w: Array, stop: bool) -> bool:
     """Shorten the displacements of pairs that would cross, to 0 if they shall stop; returns whether
     there was any."""
     found = False
