@@ -240,10 +240,12 @@ def test_help_does_not_wait_for_the_kernels() -> None:
 
 
 def test_doctor_prints_the_whole_remedy(drapery: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    from drapery import render
     from drapery.render import doctor
 
+    assert render.backend_report is doctor.backend_report  # imported before it is replaced
     report = [doctor.BackendReport("video", False, "no PyAV", 'pip install "drapery[video]"')]
-    monkeypatch.setattr(doctor, "backend_report", lambda: report)
+    monkeypatch.setattr(render, "backend_report", lambda: report)
     code, out, _ = drapery("doctor")
     assert code == 0 and 'to mend it: pip install "drapery[video]"' in out
 

@@ -4,6 +4,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -215,16 +216,29 @@ def _objects(settings: Settings, options: Mapping[str, Any]) -> list[str]:
 def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
     from drapery.banner import read_design
 
+    design: Banner | str
     try:
         if text is None:
             return None
         file = folder / text if len(text) < 200 and "\0" not in text else None
         if file is not None and "\n" not in text and file.is_file():
             return read_design(file)
-        return Banner.parse(text)
+        design = _parsed(text)
     except (DesignError, OSError) as error:
-        faults.append(f"design: {error}")
-        return None
+        design = str(error)
+    if isinstance(design, Banner):
+        return design
+    faults.append(f"design: {design}")
+    return None
+
+
+@lru_cache(maxsize=1024)
+def _parsed(text: str) -> Banner | str:
+    """The banner of a text, or what is wrong with it. Rows of a manifest often repeat a text."""
+    try:
+        return Banner.parse(text)
+    except DesignError as error:
+        return str(error)
 
 
 def _out(fields: RowFields, row: ManifestRow, number: int, ending: str, faults: list[str]) -> str:
