@@ -247,7 +247,7 @@ def test_arguments_of_a_batch_are_checked_before_anything_is_drawn(tmp_path: Pat
 
 
 FULL_DISK = """
-mount -t tmpfs -o size=256k tmpfs out
+mount -t tmpfs -o size=160k tmpfs out
 {python} -m drapery batch m.jsonl -o out --workers 1 --retries 0
 code=$?
 cp out/*.png .
