@@ -1,15 +1,19 @@
 """Decorators: `kernel` for functions that kernels call, `entry_point` for those Python calls."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar, cast
 
-from numba import njit
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
 
 from drapery.jit_cache import cache_on_disk
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
 _njit: Any = njit  # its type stubs lack the wrapper options
+_types: Any = types
+_intrinsic: Any = intrinsic
 INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 OUTER = {"error_model": "numpy", "nogil": True}
 
@@ -22,3 +26,36 @@ def kernel(function: Function) -> Function:
 def entry_point(function: Function) -> Function:
     """The same for a function that Python calls: cached on disk; it releases the GIL."""
     return cast(Function, cache_on_disk(_njit(**OUTER)(function)))
+
+
+def call_by_address(result: Any, parameters: Sequence[Any]) -> Any:
+    """A function (address, arguments) that kernels call; see `address_of`.
+
+    What a kernel calls so is compiled once, not again as part of each of its callers.
+    result, parameters: types of numba. arguments: a tuple of exactly these types.
+    """
+    wanted = _types.Tuple(parameters)
+
+    @_intrinsic
+    def call(typing: Any, address: Any, arguments: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            given = [builder.extract_value(values[1], i) for i in range(len(parameters))]
+            shape = context.call_conv.get_function_type(result, parameters)
+            function = builder.inttoptr(values[0], ir.PointerType(shape))
+            _status, value = context.call_conv.call_function(
+                builder, function, result, parameters, given
+            )
+            return value
+
+        if arguments != wanted:
+            raise TypeError(f"called with {arguments}, not with {wanted}")
+        return result(_types.int64, wanted), generate
+
+    return call
+
+
+def address_of(function: Any, parameters: Sequence[Any]) -> int:
+    """Where the compiled code of an entry point for parameters of such types is in memory."""
+    function.compile(tuple(parameters))
+    made = function.overloads[tuple(parameters)]
+    return cast(int, made.library.get_pointer_to_function(made.fndesc.llvm_func_name))

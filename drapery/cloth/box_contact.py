@@ -155,8 +155,7 @@ class Candidates(NamedTuple):
     counts: NDArray[np.int64]
 
 
-@kernel
-def empty_candidates(contact: BoxContact) -> Candidates:
+def no_candidates(contact: BoxContact) -> Candidates:
     """Arrays for the cloth and the boxes of a contact."""
     boxes = len(contact.halves)
     return Candidates(
@@ -167,6 +166,9 @@ def empty_candidates(contact: BoxContact) -> Candidates:
     )
 
 
+empty_candidates = kernel(no_candidates)
+
+
 @kernel
 def meet_boxes(x0: Array, x: Array, contact: BoxContact, frame: Array, near: Candidates) -> bool:
     """Resolve the contacts of one cloth in one step; returns whether there was any.
@@ -174,9 +176,24 @@ def meet_boxes(x0: Array, x: Array, contact: BoxContact, frame: Array, near: Can
     x0, x: places at the start and the end of the step [m], [N, 3]; x is changed.
     frame, near: arrays to work in.
     """
+    find_boxes(x0, x, contact, frame, near)
+    return solve_boxes(x0, x, contact, frame, near)
+
+
+@kernel
+def find_boxes(x0: Array, x: Array, contact: BoxContact, frame: Array, near: Candidates) -> bool:
+    """List what is near the boxes; returns whether there is anything."""
     low, high = bounds_of(x0, x)
+    found = False
     for k in range(len(contact.halves)):
         find_near(x0, x, low, high, contact, k, frame, near)
+        found = found or near.counts[k, 0] > 0
+    return found
+
+
+@kernel
+def solve_boxes(x0: Array, x: Array, contact: BoxContact, frame: Array, near: Candidates) -> bool:
+    """`meet_boxes` for what was found near."""
     met, deepest = False, 0.0
     for _ in range(PASSES):
         deepest = 0.0

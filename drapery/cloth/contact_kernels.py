@@ -2,117 +2,156 @@
 
 A solver moves the cloth without regard to boxes. Then, still in the same compiled loop, each
 cloth is copied to an array [N, 3], its contacts are resolved, and the next step starts from there.
+The kernels call `resolve` by its address, so it is compiled once for all of them.
 """
 
+from functools import cache
 from typing import Any, NamedTuple
 
+import numba
 import numpy as np
 
-from drapery.cloth.box_contact import COLUMNS, Candidates, empty_candidates, meet_boxes
+from drapery.cloth.box_contact import (
+    COLUMNS,
+    NO_CONTACT,
+    BoxContact,
+    Candidates,
+    find_boxes,
+    no_candidates,
+    put,
+    solve_boxes,
+)
 from drapery.cloth.colliders.vectors import norm, row, scale, subtract
 from drapery.cloth.sheet_kernels import lane_of
-from drapery.jit import kernel
+from drapery.jit import address_of, call_by_address, entry_point, kernel
 from drapery.mesh import Array
+
+_typeof: Any = numba.typeof
 
 
 class ContactWork(NamedTuple):
     """starts: places of each cloth of a block at the start of a step [m], [C, N, 3]; C is 0
-    without contact. end: of one cloth at its end [m], [N, 3]. speeds: its velocities [m/s], [N, 3].
-    frame, near: see `box_contact`."""
+    without contact. solved, end: of one cloth at its end, as its solver left it and as contact
+    does [m], [N, 3]. speeds: its velocities [m/s], [N, 3]. frame, near: see `box_contact`."""
 
     starts: Array
+    solved: Array
     end: Array
     speeds: Array
     frame: Array
     near: Candidates
 
 
-@kernel
-def contact_work(cloths: Any, contact: Any) -> Any:
-    """Arrays for the contact of so many cloths."""
-    meets = contact.halves.shape[0] > 0
+def contact_work(cloths: int, contact: BoxContact) -> ContactWork:
+    """Arrays for the contact of so many cloths at a time."""
+    meets = len(contact.halves) > 0
     particles = contact.inv_mass.size if meets else 0
     return ContactWork(
         np.empty((cloths if meets else 0, particles, 3)),
         np.empty((particles, 3)),
         np.empty((particles, 3)),
+        np.empty((particles, 3)),
         np.empty((particles, COLUMNS)),
-        empty_candidates(contact),
+        no_candidates(contact),
     )
 
 
+@entry_point
+def resolve(cloth: Any, work: Any, contact: Any, dt: Any) -> bool:
+    """Resolve the contacts of cloth number `cloth` of the block in a step of dt [s] that ends at
+    work.end with work.speeds. Returns whether it had any."""
+    start = work.starts[cloth]
+    if not find_boxes(start, work.end, contact, work.frame, work.near):
+        return False
+    for i in range(len(start)):  # a slice would compile numba's messages about shapes, for seconds
+        put(work.solved, i, 0, row(work.end, i))
+    met = solve_boxes(start, work.end, contact, work.frame, work.near)
+    if met:
+        for i in range(len(start)):
+            limit_speed(work, start, i, dt)
+    return bool(met)
+
+
+_PARAMETERS = (
+    numba.int64,
+    _typeof(contact_work(0, NO_CONTACT)),
+    _typeof(NO_CONTACT),
+    numba.float64,
+)
+_resolve_at = call_by_address(numba.boolean, _PARAMETERS)
+
+
+@cache
+def resolve_address() -> int:
+    """Where `resolve` is in memory."""
+    return address_of(resolve, _PARAMETERS)
+
+
 @kernel
-def begin_lanes(y: Any, batch: Any, start: Any) -> Any:
-    """The arrays for a block of lanes y [3N, L], with its places before the first step."""
-    work = contact_work(max(0, min(y.shape[1], batch.cloths - start)), batch.contact)
-    for cloth in range(work.starts.shape[0]):
-        for i in range(work.starts.shape[1]):
+def begin_lanes(y: Any, batch: Any, start: Any) -> None:
+    """Note the places of a block of lanes y [3N, L] before the first step."""
+    starts = batch.work.starts
+    for cloth in range(min(starts.shape[0], batch.cloths - start)):
+        for i in range(starts.shape[1]):
             for axis in range(3):
-                work.starts[cloth, i, axis] = y[3 * i + axis, cloth]
-    return work
+                starts[cloth, i, axis] = y[3 * i + axis, cloth]
 
 
 @kernel
-def meet_lanes(y: Any, u: Any, work: Any, batch: Any, dt: Any) -> None:
+def meet_lanes(y: Any, u: Any, batch: Any, start: Any, dt: Any) -> None:
     """Resolve the contacts of a block y, u [3N, L] at the end of a step of dt [s]."""
-    for cloth in range(work.starts.shape[0]):
-        start = work.starts[cloth]
-        for i in range(start.shape[0]):
+    work = batch.work
+    for cloth in range(min(work.starts.shape[0], batch.cloths - start)):
+        for i in range(work.end.shape[0]):
             for axis in range(3):
                 work.end[i, axis] = y[3 * i + axis, cloth]
                 work.speeds[i, axis] = u[3 * i + axis, cloth]
-        met = meet_boxes(start, work.end, batch.contact, work.frame, work.near)
-        for i in range(start.shape[0]):
-            if met:
-                limit_speed(
-                    work, start, i, dt, y[3 * i, cloth], y[3 * i + 1, cloth], y[3 * i + 2, cloth]
-                )
+        met = _resolve_at(batch.resolve, (cloth, work, batch.contact, np.float64(dt)))
+        for i in range(work.end.shape[0]):
             for axis in range(3):
                 if met:
                     y[3 * i + axis, cloth] = work.end[i, axis]
                     u[3 * i + axis, cloth] = work.speeds[i, axis]
-                start[i, axis] = y[3 * i + axis, cloth]
+                work.starts[cloth, i, axis] = y[3 * i + axis, cloth]
 
 
 @kernel
-def begin_plane(y: Any, batch: Any, sheet: Any) -> Any:
+def begin_plane(y: Any, batch: Any, sheet: Any) -> None:
     """The same for one cloth as a plane of lanes, y [3, lanes]."""
-    work = contact_work(1, batch.contact)
-    for i in range(work.starts.shape[1]):
-        for axis in range(3):
-            work.starts[0, i, axis] = y[axis, lane_of(i, sheet)]
-    return work
+    starts = batch.work.starts
+    if starts.shape[0] > 0:
+        for i in range(starts.shape[1]):
+            for axis in range(3):
+                starts[0, i, axis] = y[axis, lane_of(i, sheet)]
 
 
 @kernel
-def meet_plane(y: Any, u: Any, work: Any, batch: Any, dt: Any, sheet: Any) -> None:
+def meet_plane(y: Any, u: Any, batch: Any, dt: Any, sheet: Any) -> None:
     """Resolve the contacts of a plane y, u [3, lanes] at the end of a step of dt [s]."""
+    work = batch.work
     if work.starts.shape[0] == 0:
         return
-    start = work.starts[0]
-    for i in range(start.shape[0]):
+    for i in range(work.end.shape[0]):
         for axis in range(3):
             work.end[i, axis] = y[axis, lane_of(i, sheet)]
             work.speeds[i, axis] = u[axis, lane_of(i, sheet)]
-    met = meet_boxes(start, work.end, batch.contact, work.frame, work.near)
-    for i in range(start.shape[0]):
+    met = _resolve_at(batch.resolve, (0, work, batch.contact, np.float64(dt)))
+    for i in range(work.end.shape[0]):
         lane = lane_of(i, sheet)
-        if met:
-            limit_speed(work, start, i, dt, y[0, lane], y[1, lane], y[2, lane])
         for axis in range(3):
             if met:
                 y[axis, lane] = work.end[i, axis]
                 u[axis, lane] = work.speeds[i, axis]
-            start[i, axis] = y[axis, lane]
+            work.starts[0, i, axis] = y[axis, lane]
 
 
 @kernel
-def limit_speed(work: Any, start: Any, i: Any, dt: Any, x: Any, y: Any, z: Any) -> None:
-    """Give a particle that contact moved from (x, y, z) the velocity of its motion over the step,
-    at most as fast as before. Otherwise a cloth that its solver pulls into a surface at every step
-    would keep the speed of that pull."""
-    end = row(work.end, i)
-    if end[0] == x and end[1] == y and end[2] == z:
+def limit_speed(work: Any, start: Any, i: Any, dt: Any) -> None:
+    """Give a particle that contact moved the velocity of its motion over the step, at most as fast
+    as before. Otherwise a cloth that its solver pulls into a surface at every step would keep the
+    speed of that pull."""
+    end, solved = row(work.end, i), row(work.solved, i)
+    if end[0] == solved[0] and end[1] == solved[1] and end[2] == solved[2]:
         return
     seen = scale(1.0 / dt, subtract(end, row(start, i)))
     limit, length = norm(row(work.speeds, i)), norm(seen)

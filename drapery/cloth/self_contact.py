@@ -418,10 +418,11 @@ def longer(pairs: TouchingPairs) -> TouchingPairs:
     """The same pairs with twice the space."""
     count = len(pairs.ends)
     more = empty_pairs(2 * count)
-    more.ends[:count] = pairs.ends
-    more.edges[:count] = pairs.edges
-    more.normals[:count] = pairs.normals
-    more.starts[:count] = pairs.starts
+    for i in range(count):  # slices would compile numba's messages about shapes, for seconds
+        for end in range(4):
+            more.ends[i, end] = pairs.ends[i, end]
+        more.edges[i], more.starts[i] = pairs.edges[i], pairs.starts[i]
+        put(more.normals, i, 0, row(pairs.normals, i))
     return more
 
 

@@ -144,7 +144,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
-        contact = contact_kernels.begin_lanes(y, batch, start)
+        contact_kernels.begin_lanes(y, batch, start)
         for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
             kernels.frame_velocity(mean, u, body.pins)
@@ -162,7 +162,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, dt)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_lanes(y, u, contact, batch, dt * substeps)
+                contact_kernels.meet_lanes(y, u, batch, start, dt * substeps)
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -179,7 +179,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
-        contact = contact_kernels.begin_plane(y, batch, sheet)
+        contact_kernels.begin_plane(y, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
         for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
@@ -200,6 +200,6 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             )
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_plane(y, u, contact, batch, dt * substeps, sheet)
+                contact_kernels.meet_plane(y, u, batch, dt * substeps, sheet)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

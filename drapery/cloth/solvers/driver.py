@@ -15,6 +15,7 @@ from drapery.cloth.bending import Stencils, fastest_bending, force_stencils
 from drapery.cloth.box_contact import NO_CONTACT, BoxContact
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
+from drapery.cloth.contact_kernels import ContactWork, contact_work, resolve_address
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
 from drapery.cloth.pins import PinPath
@@ -62,7 +63,9 @@ class Batch(NamedTuple):
 
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
     targets: positions of the pins after each substep. push: accelerations by user-defined forces.
-    contact: the boxes that the cloths meet. often: see `SolverState`. cloths: their number, B.
+    contact: the boxes that the cloths meet. resolve: address of the function that resolves it;
+        0 without contact. work: arrays for it, which no other thread uses.
+    often: see `SolverState`. cloths: their number, B.
     width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
         0 where every solve reached the tolerance, [B].
@@ -79,6 +82,8 @@ class Batch(NamedTuple):
     width: int
     residuals: Array
     contact: BoxContact
+    resolve: int
+    work: ContactWork
     often: bool
     cloths: int
 
@@ -183,8 +188,10 @@ def _advance(
     batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads, boxes)
 
     def work(first: int, last: int) -> None:
+        cloths = 1 if solver_state.alone else min(batch.width, last - first)
+        mine = batch._replace(work=contact_work(cloths, batch.contact))
         solver_state.kernel(
-            first, last, plan, batch, steps, solver_state.substeps, *solver_state.options
+            first, last, plan, mine, steps, solver_state.substeps, *solver_state.options
         )
 
     count = len(state.positions)
@@ -230,6 +237,8 @@ def batch_of(
         lanes.block_width(len(cloth.inv_mass), x, threads),
         np.zeros(x.shape[1]),
         NO_CONTACT if boxes is None else boxes,
+        0 if boxes is None else resolve_address(),
+        contact_work(0, NO_CONTACT),
         solver_state.often,
         len(state.positions),
     )

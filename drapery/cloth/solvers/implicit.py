@@ -355,7 +355,7 @@ def _advance(
     rows, springs, bends = batch.x.shape[0], plan.body.springs, plan.bends
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        contact = contact_kernels.begin_lanes(y, batch, start)
+        contact_kernels.begin_lanes(y, batch, start)
         lanes = y.shape[1]
         residuals = batch.residuals[start : start + lanes]
         b, dv = simd.empty_lanes(rows, lanes, batch.x), simd.empty_lanes(rows, lanes, batch.x)
@@ -385,5 +385,5 @@ def _advance(
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_lanes(y, u, contact, batch, h * substeps)
+                contact_kernels.meet_lanes(y, u, batch, start, h * substeps)
         store_block(batch, y, u, start)

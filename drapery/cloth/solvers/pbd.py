@@ -280,7 +280,7 @@ def _advance(
     h = dtype.type(batch.numbers[0])
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        contact = contact_kernels.begin_lanes(y, batch, start)
+        contact_kernels.begin_lanes(y, batch, start)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -298,5 +298,5 @@ def _advance(
             shorten_too_long(y, plan.springs, sweeps, work)
             kernels.set_velocities(u, y, old, h)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_lanes(y, u, contact, batch, h * substeps)
+                contact_kernels.meet_lanes(y, u, batch, start, h * substeps)
         store_block(batch, y, u, start)

@@ -119,7 +119,7 @@ def _advance(
     h, half = dtype.type(batch.numbers[0]), dtype.type(batch.numbers[0] / 2)
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        contact = contact_kernels.begin_lanes(y, batch, start)
+        contact_kernels.begin_lanes(y, batch, start)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -132,5 +132,5 @@ def _advance(
             kernels.set_velocities(u, y, old, h)
             kick(u, y, g, body, batch, wind, half, start, work)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_lanes(y, u, contact, batch, h * substeps)
+                contact_kernels.meet_lanes(y, u, batch, start, h * substeps)
         store_block(batch, y, u, start)
