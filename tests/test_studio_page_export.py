@@ -74,6 +74,8 @@ const field = [...(root?.querySelectorAll("label") ?? [])]
   .find((each) => each.innerText.trimStart().startsWith(arguments[1]))
   ?.querySelector("input, select");
 if (!field) return false;
+const choices = [...(field.options ?? [])].map((each) => each.value);
+if (choices.length && !choices.includes(arguments[2])) return false;  // not offered yet
 const tick = field.type === "checkbox";
 field[tick ? "checked" : "value"] = arguments[2];
 field.dispatchEvent(new Event("input", { bubbles: true }));

@@ -51,6 +51,8 @@ class LibraryPanel:
         self._tag = ""
         self._names: dict[str, int] = {}
         self._limit = PAGE
+        # Searches started so far.
+        self._asked = 0
         self._form()
         self._search()
         self._undo = ui.element("div").classes("line undo").props("role=status")
@@ -158,15 +160,17 @@ class LibraryPanel:
             return None
 
     async def _refresh(self) -> None:
+        self._asked += 1
+        number = self._asked
         wanted, tag, limit = self._words, self._tag or None, self._limit
 
         def ask(library: "Library") -> "tuple[list[Design], int, dict[str, int]]":
             return *library.search(wanted, tag, limit=limit), library.tags()
 
         answer = await self._do(ask)
-        # Drop this answer if a newer search has started since: that search shows its own result.
-        stale = (wanted, tag, limit) != (self._words, self._tag or None, self._limit)
-        if answer is None or stale or self._session.closed:
+        # Drop this answer if a newer search has started since: that one shows its own result, and
+        # this one may have read the library before the latest change.
+        if answer is None or number != self._asked or self._session.closed:
             return
         designs, count, names = answer
         if tag is not None and tag not in names:
