@@ -71,6 +71,8 @@ AT_REST = 0.75
 """Parts of one cloth may be as near as this many times their distance at rest."""
 FRICTION = 0.3
 """Coulomb's coefficient between cloths: wool on wool has 0.3 to 0.5."""
+ROUNDING = 1e-9
+"""Parts are found that are farther than they may be by this [m]."""
 PRIMES = (73856093, 19349663, 83492791)
 """Teschner's primes for the three cell coordinates."""
 
@@ -97,6 +99,24 @@ class SelfContact(NamedTuple):
     edge_owner: NDArray[np.int32]
     rows: int
     columns: int
+
+
+class Parts(NamedTuple):
+    """Where particles, edges or faces are in a step. bounds: of the motion, [K, 6]. balls: a ball
+    around each at the start, its centre (3), mean motion (3), radius, and how much the motion of a
+    particle differs from the mean [m], [K, 8]."""
+
+    bounds: Array
+    balls: Array
+
+
+class Surroundings(NamedTuple):
+    """All parts of a cloth in a step, and how near two parts matter [m]."""
+
+    particles: Parts
+    edges: Parts
+    faces: Parts
+    limit: float
 
 
 class TouchingPairs(NamedTuple):
@@ -334,14 +354,18 @@ def hashed(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int6
 @kernel
 def find_pairs(x0: Array, x: Array, contact: SelfContact) -> TouchingPairs:
     """All pairs that may come nearer than the thickness in this step."""
-    triangles, edges, of_face = contact.triangles, contact.edges, contact.of_face
-    particle_owner, edge_owner = contact.particle_owner, contact.edge_owner
-    of_particles = particle_bounds(x0, x, 0.5 * REACH * contact.thickness)
-    of_edges = joined_bounds(of_particles, edges)
-    bounds = joined_bounds(of_particles, triangles)
-    cells = cells_of(bounds)
+    triangles, limit = contact.triangles, REACH * contact.thickness
+    bounds = particle_bounds(x0, x, 0.5 * limit)
+    near = Surroundings(
+        Parts(bounds, balls_of(x0, x, single(len(x)))),
+        Parts(joined_bounds(bounds, contact.edges), balls_of(x0, x, contact.edges)),
+        Parts(joined_bounds(bounds, triangles), balls_of(x0, x, triangles)),
+        limit,
+    )
+    faces = near.faces
+    cells = cells_of(faces.bounds)
     starts, members = hashed(cells)
-    pairs, count, limit = empty_pairs(8 * len(triangles) + 64), 0, REACH * contact.thickness
+    pairs, count = empty_pairs(8 * len(triangles) + 64), 0
     for s in range(len(triangles)):
         for a in range(cells[s, 0] - 1, cells[s, 0] + 2):
             for b in range(cells[s, 1] - 1, cells[s, 1] + 2):
@@ -351,42 +375,60 @@ def find_pairs(x0: Array, x: Array, contact: SelfContact) -> TouchingPairs:
                         t = members[place]
                         if t <= s or cells[t, 0] != a or cells[t, 1] != b or cells[t, 2] != c:
                             continue
-                        if not touch(bounds, s, bounds, t):
+                        if not may_meet(faces, s, faces, t, limit):
                             continue
                         if count + 15 > len(pairs.ends):
                             pairs = longer(pairs)
-                        count = add_corners(
-                            x0,
-                            x,
-                            limit,
-                            s,
-                            t,
-                            triangles,
-                            particle_owner,
-                            of_particles,
-                            bounds,
-                            pairs,
-                            count,
-                        )
-                        count = add_corners(
-                            x0,
-                            x,
-                            limit,
-                            t,
-                            s,
-                            triangles,
-                            particle_owner,
-                            of_particles,
-                            bounds,
-                            pairs,
-                            count,
-                        )
-                        count = add_edges(
-                            x0, x, limit, s, t, edges, of_face, edge_owner, of_edges, pairs, count
-                        )
+                        count = add_corners(x0, x, s, t, contact, near, pairs, count)
+                        count = add_corners(x0, x, t, s, contact, near, pairs, count)
+                        count = add_edges(x0, x, s, t, contact, near, pairs, count)
     return TouchingPairs(
         pairs.ends[:count], pairs.edges[:count], pairs.normals[:count], pairs.starts[:count]
     )
+
+
+@kernel
+def single(count: int) -> NDArray[np.int32]:
+    """Parts of one particle each, [count, 1]."""
+    parts = np.empty((count, 1), np.int32)
+    for i in range(count):
+        parts[i, 0] = i
+    return parts
+
+
+@kernel
+def balls_of(x0: Array, x: Array, parts: NDArray[np.int32]) -> Array:
+    """The balls of `Parts`; parts: particles, [K, 1], [K, 2] or [K, 3]."""
+    balls, size = np.empty((len(parts), 8)), parts.shape[1]
+    for n in range(len(parts)):
+        centre, motion = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        for corner in range(size):
+            i = parts[n, corner]
+            centre = add_scaled(centre, 1.0 / size, row(x0, i))
+            motion = add_scaled(motion, 1.0 / size, moved(x0, x, i))
+        radius, spread = 0.0, 0.0
+        for corner in range(size):
+            i = parts[n, corner]
+            radius = max(radius, square(row(x0, i), centre))
+            spread = max(spread, square(moved(x0, x, i), motion))
+        put(balls, n, 0, centre)
+        put(balls, n, 3, motion)
+        balls[n, 6], balls[n, 7] = np.sqrt(radius), np.sqrt(spread)
+    return balls
+
+
+@kernel
+def may_meet(one: Parts, i: int, other: Parts, j: int, limit: float) -> bool:
+    """Whether two parts may come within the limit [m]: their bounds overlap, and their balls are
+    not farther from each other than that and their motion relative to each other."""
+    a, b = one.balls, other.balls
+    away = square(row(a, i), row(b, j))
+    reach = limit + a[i, 6] + b[j, 6] + a[i, 7] + b[j, 7] + ROUNDING
+    if away > reach * reach:
+        reach += np.sqrt(square((a[i, 3], a[i, 4], a[i, 5]), (b[j, 3], b[j, 4], b[j, 5])))
+        if away > reach * reach:
+            return False
+    return touch(one.bounds, i, other.bounds, j)
 
 
 @kernel
@@ -430,22 +472,22 @@ def longer(pairs: TouchingPairs) -> TouchingPairs:
 def add_corners(
     x0: Array,
     x: Array,
-    limit: float,
     s: int,
     t: int,
-    triangles: NDArray[np.int32],
-    owner: NDArray[np.int32],
-    of_particles: Array,
-    bounds: Array,
+    contact: SelfContact,
+    near: Surroundings,
     pairs: TouchingPairs,
     count: int,
 ) -> int:
     """Add the pairs of face t and the particles for which face s answers; returns the new count."""
+    triangles, owner = contact.triangles, contact.particle_owner
     i, j, k = triangles[t, 0], triangles[t, 1], triangles[t, 2]
     for corner in range(3):
         p = triangles[s, corner]
-        if owner[p] == s and p != i and p != j and p != k and touch(of_particles, p, bounds, t):
-            count = add_pair(x0, x, limit, pairs, count, p, i, j, k, 0)
+        if owner[p] != s or p in (i, j, k):
+            continue
+        if may_meet(near.particles, p, near.faces, t, near.limit):
+            count = add_pair(x0, x, near.limit, pairs, count, p, i, j, k, 0)
     return count
 
 
@@ -453,24 +495,24 @@ def add_corners(
 def add_edges(
     x0: Array,
     x: Array,
-    limit: float,
     s: int,
     t: int,
-    edges: NDArray[np.int32],
-    of_face: NDArray[np.int32],
-    owner: NDArray[np.int32],
-    of_edges: Array,
+    contact: SelfContact,
+    near: Surroundings,
     pairs: TouchingPairs,
     count: int,
 ) -> int:
     """Add the pairs of edges for which faces s and t answer; returns the new count."""
+    edges, owner = contact.edges, contact.edge_owner
     for n in range(9):
-        e, f = of_face[s, n // 3], of_face[t, n % 3]
-        if owner[e] != s or owner[f] != t or not touch(of_edges, e, of_edges, f):
+        e, f = contact.of_face[s, n // 3], contact.of_face[t, n % 3]
+        if owner[e] != s or owner[f] != t:
             continue
         i, j, k, m = edges[e, 0], edges[e, 1], edges[f, 0], edges[f, 1]
-        if i != k and i != m and j != k and j != m:
-            count = add_pair(x0, x, limit, pairs, count, i, j, k, m, 1)
+        if i in (k, m) or j in (k, m):
+            continue
+        if may_meet(near.edges, e, near.edges, f, near.limit):
+            count = add_pair(x0, x, near.limit, pairs, count, i, j, k, m, 1)
     return count
 
 
