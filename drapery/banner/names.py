@@ -1,6 +1,7 @@
 """Names of patterns and dyes in every version and edition of the game, and their ids."""
 
-from functools import cache
+from collections.abc import Iterable
+from functools import cache, lru_cache
 
 from drapery.banner.dyes import DYE_NAMES, DYES
 from drapery.banner.patterns import BY_CODE, PATTERNS
@@ -43,6 +44,9 @@ _DYE_ALSO = {
     "dark_green": "green",
     "light_green": "lime",
 }
+
+_CLOSE = 0.6
+"""The least likeness of a name that an error suggests."""
 
 _PATH_LETTERS = frozenset("abcdefghijklmnopqrstuvwxyz0123456789_-./")
 _LONGEST = 256
@@ -172,9 +176,32 @@ def _pattern_hint(name: str, key: str) -> str:
     return _did_you_mean(key, _pattern_table()) or ": give an id, such as 'creeper' or 'stripe_top'"
 
 
-def _did_you_mean(key: str, names: "dict[str, str] | list[str]") -> str:
+def _did_you_mean(key: str, names: Iterable[str]) -> str:
+    # Matching takes time with the square of the length.
+    return _suggestion(key[:40], tuple(names))
+
+
+@lru_cache(maxsize=1000)
+def _suggestion(key: str, names: tuple[str, ...]) -> str:
     import difflib
 
-    # Matching takes time with the square of the length.
-    close = difflib.get_close_matches(key[:40], [n for n in names if len(n) > 1], 1, 0.6)
+    candidates = [name for name in names if len(name) > 1 and _shares_letters(key, name)]
+    close = difflib.get_close_matches(key, candidates, 1, _CLOSE)
     return f"; did you mean '{close[0]}'?" if close else ""
+
+
+def _shares_letters(key: str, name: str) -> bool:
+    """Whether two words have enough letters in common that difflib may call them close.
+
+    The ratio of difflib is twice the letters that match, divided by the letters of both.
+    """
+    least = _CLOSE * (len(key) + len(name)) / 2
+    if min(len(key), len(name)) < least:
+        return False
+    return len(key) - len(key.translate(_without(name))) >= least
+
+
+@cache
+def _without(name: str) -> dict[int, None]:
+    """The table of `str.translate` that deletes the letters of a name."""
+    return dict.fromkeys(map(ord, name))

@@ -9,6 +9,7 @@ import json
 import re
 import unicodedata
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -80,7 +81,42 @@ def is_known(text: str) -> bool:
     if not may_be(text):
         return False
     text = _small(text)
-    return any(_parse(text, language) for language in known_languages())
+    return any(_parse(text, language) for language in _possible(text))
+
+
+@cache
+def _starts() -> tuple[dict[str, set[str]], dict[str, set[str]]]:
+    """The languages of each dye or layer that a text may begin with, and of each item's stem."""
+    names: dict[str, set[str]] = {}
+    stems: dict[str, set[str]] = {}
+    for language in known_languages():
+        for name in (*language.dyes, *language.phrases):
+            names.setdefault(name, set()).add(language.name)
+        for stem in (language.banner, language.shield):
+            stems.setdefault(stem, set()).add(language.name)
+    return names, stems
+
+
+def _possible(text: str) -> list[Language]:
+    """The languages that can have a text in small letters, by the first of its words.
+
+    One table of all languages is asked, since most texts are of none.
+    """
+    names, stems = _starts()
+    first = next((line for line in text.split("\n") if _BREAK.sub("", line).strip()), "")
+    found: set[str] = set()
+    for head in {" ".join(first.split()), next(_parts(first), "")}:
+        words = re.split("[ :]", head, maxsplit=_MOST_WORDS)
+        for count in range(1, len(words) + 1):
+            found |= names.get(" ".join(words[:count]), set())
+        found |= names.get(head, set())
+        found = found.union(*(its for stem, its in stems.items() if stem in head))
+    return [language for language in known_languages() if language.name in found]
+
+
+def _parts(line: str) -> Iterator[str]:
+    """The parts of a line between its commas."""
+    return (piece for part in _BREAK.split(" ".join(line.split())) if (piece := part.strip()))
 
 
 def _small(text: str) -> str:
@@ -95,7 +131,7 @@ def parse(text: str) -> Banner:
     if not may_be(text):
         raise DesignError(f"{shown(text)}: not a name that the game shows in a known language")
     text = _small(text)
-    read = {language.name: _parse(text, language) for language in known_languages()}
+    read = {language.name: _parse(text, language) for language in _possible(text)}
     found = {name: banner for name, banner in read.items() if isinstance(banner, Banner)}
     if len(set(found.values())) > 1:
         raise DesignError(
@@ -151,7 +187,7 @@ def _pieces(line: str, language: Language) -> list[str]:
     line = " ".join(line.split())
     if line in language.phrases:
         return [line]
-    return [piece for part in _BREAK.split(line) if (piece := part.strip())]
+    return [*_parts(line)]
 
 
 def _is_foreign(piece: str) -> bool:
