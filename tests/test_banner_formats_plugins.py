@@ -52,6 +52,8 @@ OLD_STACK = """item:
     - {color: LIME, pattern: cre}
     - {color: BLACK, pattern: bo}
 """
+LAYERS = '[{pattern:"creeper",color:"lime"},{pattern:"minecraft:border",color:"black"}]'
+NEW = f"[banner_patterns={LAYERS}]"
 TAG = '{BlockEntityTag:{Patterns:[{Pattern:"cre",Color:5},{Pattern:"bo",Color:15}]}}'
 
 SAME = {
@@ -129,6 +131,13 @@ SAME = {
         'Item.of(\'white_banner[banner_patterns=[{pattern:"creeper",color:"lime"},'
         '{pattern:"border",color:"black"}]]\')',
         f"Item.of('white_banner', '{TAG[:-1]},display:{{Name:\\'{{\"text\":\"x\"}}\\'}}}}')",
+        f"Item.of('2x minecraft:white_banner{NEW}')",
+        f"Item.of(`white_banner`, 3, `{NEW}`)",
+        f"event.shapeless(Item.of('ominous_bottle'), [`minecraft:white_banner{NEW}`, 'stick'])",
+        f"Item.of('white_banner', {{'minecraft:banner_patterns': {LAYERS}}})",
+        f"Item.of('white_banner').withCount(2).set('banner_patterns', {LAYERS}).withLore('x')",
+        f"const flag = {TAG};\nevent.shaped(Item.of('white_banner', flag), ['AAA'])",
+        f"let layers = {LAYERS}\nItem.of('white_banner').set('minecraft:banner_patterns', layers)",
     ],
     "loom-assistant": [
         '{"description":"x","author":"y","banner_color":"white","layers":[{"pattern":'
@@ -192,6 +201,11 @@ def test_bukkit_is_written_for_old_servers_where_that_holds_the_banner():
         ),
         ("Item.of('minecraft:white_banner', '{BlockEntityTag:5}')", ["line 1", "5"]),
         ("Item.of('minecraft:white_banner', '{Blo", ["line 1", "is not closed"]),
+        ("Item.of('white_banner', flagTag)", ["line 1 white_banner", "flagTag is not in the text"]),
+        ("event.shaped('white_banner[banner_patterns=[')", ["line 1 white_banner", "expected ']'"]),
+        ("\nevent.x('white_banner[", ["line 2", "the quote ' is not closed"]),
+        ("Item.of('red_banner[lore=[]]').set('banner_patterns', [])", ["a tag and calls of set()"]),
+        ("Item.of('red_banner').set('banner_patterns', [5])", ["line 1 red_banner", "5"]),
         ("<item:minecraft:white_banner>.withTag({a:})", ["line 1", "minecraft:white_banner"]),
         ('{"banner_color":"whit","layers":[]}', ["banner_color", "did you mean 'white'"]),
         ("https://www.gamergeeks.net/apps/minecraft/banners/letters", ["no #mcb="]),

@@ -1,16 +1,26 @@
 """An item in KubeJS's scripts: `Item.of('minecraft:red_banner', '{BlockEntityTag:{…}}')`.
 
-Since 1.20.5 the item's name has its components: `Item.of('minecraft:red_banner[…]')`. The tag may
-be a text or an object, after an amount or not.
+Since 1.20.5 the item's name has its components: `Item.of('minecraft:red_banner[…]')`, and in a
+recipe such a text is an item without `Item.of`. The tag may be a text, an object or a variable,
+after an amount or not; components may also be in an object, or in calls of `set`.
 """
 
 import re
+from collections.abc import Callable
+from functools import cache
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import give
 from drapery.banner.formats.found import FoundBanner
-from drapery.banner.formats.scripts import banner_of, calls, literal
-from drapery.banner.formats.tree import bare
+from drapery.banner.formats.scripts import arguments, banner_of, bracketed, literal, places
+from drapery.banner.formats.snbt import parse_snbt
+from drapery.banner.formats.tree import (
+    DataTree,
+    banner_from_components,
+    bare,
+    is_banner_id,
+    is_shield_id,
+)
 from drapery.errors import DesignError
 
 NAME = "kubejs"
@@ -19,36 +29,143 @@ EXAMPLE = (
     "Item.of('minecraft:white_banner', '{BlockEntityTag:{Patterns:["
     '{Pattern:"cre",Color:5},{Pattern:"bo",Color:15}]}}\')'
 )
-SOURCE = "https://kubejs.com/wiki/ref/ItemStack"
+SOURCE = "https://kubejs.com/wiki/concepts/item-stack"
+
 _CALL = re.compile(r"\bItem\s*\.\s*of\(")
-_AFTER = re.compile(r"\bItem\s*\.\s*of\(\s*['\"]([\w:]{1,60})['\"][^()\n]{0,20}\)\s*\.\s*withNBT\(")
+_EVENT = re.compile(r"\bevent\s*\.\s*\w{1,40}\(")
+_QUOTED = re.compile(
+    r"['\"`](?=(?:[0-9]{1,3}x\s{1,9})?(?:minecraft:)?[a-z_]{0,30}(?:banner|shield)\[)"
+)
+"""The start of an item with components, which is an item wherever a script needs one."""
+
+_ITEM = re.compile(f"(?P<call>{_CALL.pattern})|{_QUOTED.pattern}")
+_AMOUNT = re.compile(r"\s*[0-9]{1,3}\s*x\s+")
+_CHAINED = re.compile(r"\s*\.\s*(\w{1,40})\(")
+_VARIABLE = re.compile(r"[A-Za-z_$][\w$]{0,60}")
+_DEFINED = re.compile(r"([A-Za-z_$][\w$]{0,60})\s*=\s*(?=[{\[])")
+_TAG_NAME = re.compile("nbt|tag|component|pattern|data", re.IGNORECASE)
+_COMPONENTS = frozenset({"banner_patterns", "base_color"})
+
+_ValueOf = Callable[[str], str | None]
+"""Gives the object or list that is a variable's value, or None if it is not in the text."""
 
 
 def recognises(text: str) -> bool:
-    """Whether the text calls `Item.of` and names a banner or a shield."""
-    return _CALL.search(text) is not None and ("banner" in text or "shield" in text)
+    """Whether the text calls `Item.of`, or an event, and names a banner or a shield."""
+    if "banner" not in text and "shield" not in text:
+        return False
+    if _CALL.search(text) is not None:
+        return True
+    return _EVENT.search(text) is not None and _QUOTED.search(text) is not None
 
 
 def read(text: str) -> list[FoundBanner]:
     """All banners of the script. Raises DesignError with the place."""
-    found = []
-    after = {match.start(): (match[1], inner) for match, inner, _ in calls(text, _AFTER)}
-    for match, inner, at in calls(text, _CALL):
-        name, tags = literal(inner[0]) if inner else None, inner[1:]
-        if match.start() in after:
-            name, tags = after[match.start()]
-        if name is None:
+    place_of, value_of = places(text), _values(text)
+    found: list[FoundBanner] = []
+    end = 0
+    for match in _ITEM.finditer(text):
+        if match.start() < end:
             continue
-        identifier, bracket, components = name.partition("[")
-        words = (literal(tag) or tag for tag in tags)
-        tag = next((word for word in words if word.startswith(("{", "["))), None)
-        at = f"{at} {bare(identifier)}"
-        banner = banner_of(identifier.strip(), bracket + components if bracket else tag, at)
-        if banner:
-            found.append(FoundBanner(banner, at))
+        at = place_of(match.start())
+        if match["call"]:
+            inner, calls, end = _calls(text, match.end(), at)
+        else:
+            end = _end_of_quote(text, match.start(), at)
+            inner, calls = [text[match.start() : end]], []
+        one = _read_item(inner, calls, value_of, at)
+        found += [one] if one else []
     if not found:
         raise DesignError(f"no banner in the script: write it as {EXAMPLE}")
     return found
+
+
+def _values(text: str) -> _ValueOf:
+    starts = {match[1]: match.end() for match in _DEFINED.finditer(text)}
+
+    @cache
+    def value_of(name: str) -> str | None:
+        return bracketed(text, starts[name]) if name in starts else None
+
+    return value_of
+
+
+def _end_of_quote(text: str, start: int, at: str) -> int:
+    end = re.compile(rf"(?:[^{text[start]}\\]|\\.)*{text[start]}", re.DOTALL).match(text, start + 1)
+    if end is None:
+        raise DesignError(f"{at}: the quote {text[start]} is not closed; add it")
+    return end.end()
+
+
+def _calls(text: str, place: int, at: str) -> tuple[list[str], list[tuple[str, list[str]]], int]:
+    """The arguments of `Item.of`, the calls after it with theirs, and the end of all."""
+    first = _arguments(text, place, "Item.of", at)
+    calls, end = [], first[1]
+    while match := _CHAINED.match(text, end):
+        inner, end = _arguments(text, match.end(), match[1], at)
+        calls.append((match[1], inner))
+    return first[0], calls, end
+
+
+def _arguments(text: str, place: int, name: str, at: str) -> tuple[list[str], int]:
+    found = arguments(text, place)
+    if found is None:
+        raise DesignError(f"{at}: the call '{name}(' is not closed; add ')'")
+    return found
+
+
+def _read_item(
+    inner: list[str], calls: list[tuple[str, list[str]]], value_of: _ValueOf, at: str
+) -> FoundBanner | None:
+    """The banner of an item's name, its other arguments and the calls after it."""
+    text = literal(inner[0]) if inner else None
+    name = _AMOUNT.sub("", text or "", count=1).strip()
+    place = min((at for at in map(name.find, "[{") if at >= 0), default=len(name))
+    name, tag = name[:place].strip(), name[place:]
+    if not (is_banner_id(name) or is_shield_id(name)):
+        return None
+    at = f"{at} {bare(name)}"
+    others = [*inner[1:], *(call[1][0] for call in calls if call[0] == "withNBT" and call[1])]
+    tag = tag or next(filter(None, (_tag(word, value_of, at) for word in others)), "")
+    components = {
+        literal(call[1][0]) or call[1][0]: _tree(call[1][1], value_of, at)
+        for call in calls
+        if call[0] == "set" and len(call[1]) == 2
+    }
+    banner = _banner(name, tag, components, at)
+    return FoundBanner(banner, at) if banner else None
+
+
+def _banner(name: str, tag: str, components: dict[str, DataTree], at: str) -> Banner | None:
+    set_design = _COMPONENTS.intersection(map(bare, components))
+    if set_design and tag:
+        raise DesignError(f"{at}: it has a tag and calls of set(); write the components in one")
+    if set_design:
+        return banner_from_components(name, components, at)
+    if tag.startswith("{"):
+        tree = _tree(tag, lambda name: None, at)
+        if isinstance(tree, dict) and _COMPONENTS.intersection(map(bare, tree)):
+            return banner_from_components(name, tree, at)
+    return banner_of(name, tag or None, at)
+
+
+def _tag(argument: str, value_of: _ValueOf, at: str) -> str:
+    """The tag or components that an argument is; empty for another argument, such as an amount."""
+    text = literal(argument) or argument
+    if _VARIABLE.fullmatch(text):
+        text = value_of(text) or ""
+        if not text and _TAG_NAME.search(argument):
+            raise DesignError(
+                f"{at}: the value of {argument} is not in the text; write it into the call"
+            )
+    return text if text.startswith(("{", "[")) else ""
+
+
+def _tree(argument: str, value_of: _ValueOf, at: str) -> DataTree:
+    try:
+        return parse_snbt(_tag(argument, value_of, at) or argument)
+    except DesignError as error:
+        raise error if str(error).startswith(at) else DesignError(f"{at}: {error}") from None
 
 
 def write(banner: Banner) -> str:

@@ -2,7 +2,7 @@
 
 import re
 from bisect import bisect_left
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 from drapery.banner.design import Banner
 from drapery.banner.formats.commands import read_command
@@ -41,6 +41,21 @@ def arguments(text: str, start: int) -> tuple[list[str], int] | None:
     return None
 
 
+def bracketed(text: str, start: int) -> str | None:
+    """The part of a text from the bracket at `start` to the one that closes it; None without one.
+
+    Raises DesignError for brackets that nest too deeply.
+    """
+    depth = 0
+    for match in _TOKEN.finditer(text, start):
+        depth += (match[0] in _OPEN) - (match[0] in _CLOSE)
+        if depth > MAX_DEPTH:
+            raise DesignError(f"{places(text)(start)}: brackets nest over {MAX_DEPTH} deep")
+        if depth == 0:
+            return text[start : match.end()]
+    return None
+
+
 def literal(argument: str) -> str | None:
     """The text in an argument's quotes, with its escapes resolved; None for another argument."""
     if len(argument) < 2 or argument[0] not in "'\"`" or argument[-1] != argument[0]:
@@ -69,19 +84,3 @@ def places(text: str) -> Callable[[int], str]:
     """A function that names a place in a text as messages do: `line 3`."""
     ends = [match.start() for match in re.finditer("\n", text)]
     return lambda place: f"line {bisect_left(ends, place) + 1}"
-
-
-def calls(
-    text: str, pattern: "re.Pattern[str]"
-) -> Iterator[tuple["re.Match[str]", list[str], str]]:
-    """The calls whose names a pattern matches up to the bracket: match, arguments and place.
-
-    Raises DesignError for a call that is not closed.
-    """
-    place_of = places(text)
-    for match in pattern.finditer(text):
-        at = place_of(match.start())
-        found = arguments(text, match.end())
-        if found is None:
-            raise DesignError(f"{at}: the call {match[0].strip()!r} is not closed; add ')'")
-        yield match, found[0], at
