@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import world_maker as make
 
-from drapery.banner.formats import FoundBanner, parse_banner, read_designs
+from drapery.banner.formats import FoundBanner, datapack, parse_banner, read_designs
 from drapery.banner.formats.structure import write as write_structure
 from drapery.errors import DesignError
 
@@ -136,3 +136,74 @@ def test_a_folder_without_pack_mcmeta_is_a_folder_of_designs(tmp_path: Path) -> 
     shutil.rmtree(folder / "over")
     with pytest.warns(UserWarning, match=r"data \(a folder; give it by itself\)"):
         assert [one.where for one in read_designs(folder)] == ["a.txt"]
+
+
+def world(folder: Path) -> Path:
+    level = make.nbt_file({"Data": {"Player": {"Item": make.item(make.LIME)}}})
+    make.save(folder / "level.dat", level)
+    written(folder / "datapacks" / "kits", FILES)
+    zipped(folder / "datapacks" / "hall.zip", FILES, "hall-1.0/")
+    written(folder / "datapacks" / "half", {"data/a/function/kit.mcfunction": GIVE})
+    return folder
+
+
+def test_data_packs_of_a_world_are_read_with_it(tmp_path: Path) -> None:
+    """Found by hand: only the structures of a world's data packs were read."""
+    with pytest.warns(UserWarning) as caught:
+        found = read_designs(world(tmp_path / "world"))
+    assert [one.where for one in found] == [
+        "level.dat.Data.Player.Item",
+        *(f"datapacks/hall.zip/{place}" for place in PLACES),
+        *(f"datapacks/kits/{place}" for place in PLACES),
+    ]
+    assert [one.banner for one in found] == [make.LIME, *[LIME] * 8]
+    (warning,) = caught
+    assert str(warning.message).startswith("datapacks/half: not a data pack, since it lacks")
+
+
+def test_a_broken_pack_of_a_world_is_reported_and_the_others_are_read(tmp_path: Path) -> None:
+    folder = world(tmp_path / "world")
+    (folder / "datapacks" / "hall.zip").write_bytes(b"PK\x03\x04 and no more")
+    (folder / "datapacks" / "half").rename(tmp_path / "half")
+    (folder / "datapacks" / "linked").symlink_to(tmp_path / "half")
+    with pytest.warns(UserWarning) as caught:
+        assert len(read_designs(folder)) == 5
+    told = [str(warning.message) for warning in caught]
+    assert told[0].startswith("datapacks/hall.zip: ") and "complete zip" in told[0]
+    assert told[1] == "datapacks/linked: a link; give the pack itself"
+
+
+def test_packs_of_a_world_share_one_bound_on_size(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    size = sum(len(content) for content in FILES.values())
+    monkeypatch.setattr(datapack, "MAX_UNPACKED", size * 3 // 2)
+    with pytest.raises(DesignError, match="MiB unpacked; split"):
+        read_designs(world(tmp_path / "world"))
+
+
+@pytest.mark.parametrize("kind", ["a world", "a data pack", "a zip"])
+def test_a_form_of_text_is_refused_for_what_is_not_a_text(kind: str, tmp_path: Path) -> None:
+    """Found by hand: `--from give` with a data pack or a world was ignored in silence."""
+    path = {
+        "a world": lambda: world(tmp_path / "world"),
+        "a data pack": lambda: written(tmp_path / "pack", FILES),
+        "a zip": lambda: zipped(tmp_path / "pack.zip", FILES),
+    }[kind]()
+    with pytest.raises(DesignError) as caught:
+        read_designs(path, form="give")
+    assert str(caught.value) == (
+        f"{path}: {kind}, which cannot be read as the form 'give';"
+        " leave the form out, then it is found for each file"
+    )
+
+
+def test_a_template_pool_alone_is_refused_with_what_to_give(tmp_path: Path) -> None:
+    """Found by hand: the message asked for an item's id."""
+    written(tmp_path, {"pool.json": json.dumps(POOL)})
+    with pytest.raises(DesignError) as caught:
+        read_designs(tmp_path / "pool.json")
+    assert str(caught.value) == (
+        f"{tmp_path / 'pool.json'}: a template pool, which only names structures; give the folder"
+        " of its data pack, or a structure such as 'data/a/structure/banner_hall.nbt'"
+    )

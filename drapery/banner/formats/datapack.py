@@ -57,6 +57,30 @@ def is_pack(folder: Path) -> bool:
     )
 
 
+def in_world(world: Path, on_error: OnError) -> Iterator[FoundBanner]:
+    """Every banner of the data packs in a world's folder; a place begins with `datapacks/`.
+
+    As `in_folder`; the bounds are those of all the packs together, and a pack that cannot be read
+    is reported and skipped.
+    """
+    budget = _Budget(str(world / files.PACKS), MAX_UNPACKED)
+    for path in sorted((world / files.PACKS).glob("*")):
+        name = f"{files.PACKS}/{path.name}"
+        try:
+            if path.is_symlink():
+                raise DesignError("a link; give the pack itself")
+            if path.is_dir() and is_pack(path):
+                yield from _in_folder(path, on_error, budget, f"{name}/")
+            elif path.is_file() and path.suffix.lower() == ".zip":
+                yield from _in_zip(path, on_error, budget, f"{name}/")
+            elif path.is_dir():
+                raise DesignError("not a data pack, since it lacks pack.mcmeta or data; add them")
+        except DesignError as error:
+            if budget.left < 0:
+                raise
+            on_error(DesignError(f"{name}: {str(error).removeprefix(f'{path}: ')}"))
+
+
 def in_folder(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
     """Every banner of a pack's folder; a place begins with the file's path in it.
 
@@ -66,15 +90,21 @@ def in_folder(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
 
     Raises DesignError for over MAX_FILES files or MAX_UNPACKED bytes.
     """
+    yield from _in_folder(folder, on_error, _Budget(str(folder), MAX_UNPACKED))
+
+
+def _in_folder(
+    folder: Path, on_error: OnError, budget: _Budget, start: str = ""
+) -> Iterator[FoundBanner]:
+    """As `in_folder`. start: of every place."""
     paths: list[Path] = []
     for top, folders, names in os.walk(folder):
         folders.sort()
         paths += (Path(top, name) for name in names if _may_hold(Path(top, name), folder))
         if len(paths) > files.MAX_FILES:
             raise DesignError(f"{folder}: over {files.MAX_FILES} files; give a part of the pack")
-    budget = _Budget(str(folder), MAX_UNPACKED)
     for path in sorted(paths):
-        name = path.relative_to(folder).as_posix()
+        name = start + path.relative_to(folder).as_posix()
         if path.is_symlink():
             on_error(DesignError(f"{name}: a link; give the file itself"))
         elif path.is_file():
@@ -91,6 +121,13 @@ def in_zip(path: Path, on_error: OnError) -> Iterator[FoundBanner]:
 
     Raises DesignError for a zip that is broken or without a pack.
     """
+    yield from _in_zip(path, on_error, _Budget(str(path), MAX_UNPACKED))
+
+
+def _in_zip(
+    path: Path, on_error: OnError, budget: _Budget, start: str = ""
+) -> Iterator[FoundBanner]:
+    """As `in_zip`. start: of every place."""
     try:
         source = open_zip(path, ("data", "pack.mcmeta", "manifest.json"))
     except PackError as error:
@@ -102,9 +139,8 @@ def in_zip(path: Path, on_error: OnError) -> Iterator[FoundBanner]:
         is_bedrock = "manifest.json" in source.entries
         if not is_bedrock and not any("data" in name.split("/")[:2] for name in names):
             raise _no_pack(path)
-        budget = _Budget(str(path), MAX_UNPACKED)
         for name in sorted(names):
-            yield from _in_file(name, _reader(source, name), budget, on_error)
+            yield from _in_file(start + name, _reader(source, name), budget, on_error)
 
 
 def _no_pack(path: Path) -> DesignError:

@@ -17,6 +17,9 @@ from drapery.errors import DesignError
 MAX_FILES = 100_000
 """Most files of one world that are read."""
 
+PACKS = "datapacks"
+"""The folder of a world in which its data packs are."""
+
 _HEAD = 2 * region.SECTOR
 _NUMBER = re.compile(r"-?[0-9]{1,11}")
 
@@ -125,9 +128,14 @@ def _in_world(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
 
 
 def _world_files(folder: Path) -> Iterator[Path]:
-    """The files of a world that may hold banners, folder by folder in a fixed order."""
+    """The files of a world that may hold banners, folder by folder in a fixed order.
+
+    Its data packs have a reader of their own.
+    """
     count = 0
     for top, folders, names in os.walk(folder):
+        if Path(top) == folder:
+            folders[:] = (name for name in folders if name != PACKS)
         folders.sort()
         for name in sorted(names, key=_natural):
             path = Path(top, name)

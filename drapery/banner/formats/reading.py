@@ -58,9 +58,10 @@ def read_design(
 def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBanner]:
     """All banners of a text, a file, a folder of files, a world, a data pack, or input ("-").
 
-    A data pack may be a folder or a zip. A folder that is neither a world nor a pack is read file
-    by file, sorted by name, without its folders and links; each banner's place begins with its
-    file's name. One UserWarning names all that is not read, with the reason.
+    A data pack may be a folder or a zip; those of a world are read with it. A folder that is
+    neither a world nor a pack is read file by file, sorted by name, without its folders and links;
+    each banner's place begins with its file's name. One UserWarning names all that is not read,
+    with the reason.
 
     form: one of FORMS or of `binary_forms()`, or None to recognise it.
     Raises DesignError as `parse_banners` does, for files that cannot be read, and for a folder
@@ -160,10 +161,13 @@ def _read_path(path: Path, form: str | None, errors: list[DesignError]) -> list[
             raise unknown_form(form)
         return _read_as(path, binary_forms()[form])
     if path.is_dir():
-        return _read_binary(path, errors) if _is_world(path) else _read_pack(path, errors)
+        kind = "a world" if _is_world(path) else "a data pack"
+        _check_form(path, form, kind)
+        return _read_world(path, errors) if _is_world(path) else _read_pack(path, errors)
     with path.open("rb") as file:
         head = file.read(_HEAD)
         if head.startswith(_ZIP):
+            _check_form(path, form, "a zip")
             return _read_pack(path, errors)
         binary = is_binary(head, path.stat().st_size) or path.suffix.lower() == ".mca"
         if binary and form is None:
@@ -176,6 +180,15 @@ def _read_path(path: Path, form: str | None, errors: list[DesignError]) -> list[
         return parse_all(text, form, errors)
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from None
+
+
+def _check_form(path: Path, form: str | None, kind: str) -> None:
+    """Raise DesignError if the form of a text is asked for, but the path is not a text."""
+    if form is not None:
+        raise DesignError(
+            f"{path}: {kind}, which cannot be read as the form {form!r};"
+            " leave the form out, then it is found for each file"
+        )
 
 
 def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
@@ -191,6 +204,15 @@ def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
         return some_of(list(form.read(path.read_bytes())), [], "no banner in it")
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from None
+
+
+def _read_world(path: Path, errors: list[DesignError]) -> list[FoundBanner]:
+    """All banners of a world: of its regions, players and structures, and of its data packs."""
+    from drapery.banner.formats import datapack
+    from drapery.banner.formats.files import banners_in
+
+    found = [*banners_in(path, errors.append), *datapack.in_world(path, errors.append)]
+    return some_of(found, errors, f"{path}: no banner in it")
 
 
 def _read_binary(path: Path, errors: list[DesignError]) -> list[FoundBanner]:

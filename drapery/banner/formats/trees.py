@@ -7,9 +7,10 @@ from contextlib import suppress
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import loom_assistant, loot, own_json, wynncraft
-from drapery.banner.formats.found import FoundBanner, find_banners
+from drapery.banner.formats.found import FoundBanner, children_of, find_banners
 from drapery.banner.formats.snbt import MAX_TEXT, parse_snbt
 from drapery.banner.formats.tree import DataTree, banner_from_block_entity, banner_from_tag, get
+from drapery.banner.names import shown
 from drapery.errors import DesignError
 
 _COMMENT = re.compile(r'("[^"\\\n]*(?:\\.[^"\\\n]*)*(?:"|\\?(?=\n|\Z)))|//[^\n]*')
@@ -39,11 +40,34 @@ def read_wynncraft(text: str) -> list[FoundBanner]:
 
 def _all(tree: DataTree) -> list[FoundBanner]:
     found = list(_found(tree))
-    if not found:
-        raise DesignError(
-            f"no banner in the {_sort(tree)}: it needs an id such as 'minecraft:red_banner'"
-        )
-    return found
+    if found:
+        return found
+    if isinstance(tree, dict) and isinstance(tree.get("elements"), list):
+        raise DesignError(_pool(tree))
+    raise DesignError(
+        f"no banner in the {_sort(tree)}: it needs an id such as 'minecraft:red_banner'"
+    )
+
+
+def _pool(tree: DataTree) -> str:
+    """The refusal of a template pool, with the first structure that it names."""
+    name = next(_locations(tree), "namespace:name")
+    namespace, _, path = name.rpartition(":")
+    file = f"data/{namespace or 'minecraft'}/structure/{path}.nbt"
+    return (
+        "a template pool, which only names structures; give the folder of its data pack, or a"
+        f" structure such as {shown(file, 80)}"
+    )
+
+
+def _locations(tree: DataTree) -> Iterator[str]:
+    """The names of the structures in a template pool."""
+    nodes = [tree]
+    while nodes:
+        node = nodes.pop()
+        if isinstance(node, dict) and isinstance(node.get("location"), str):
+            yield node["location"]
+        nodes += [child for _, child in children_of((None, ""), node)][::-1]
 
 
 def read_text(text: str) -> DataTree:
