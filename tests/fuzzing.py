@@ -406,6 +406,13 @@ _MORE_TEXTS = {
         "data modify storage a:b c set value [{id:red_banner},[{id:'banner',Count:1}],5]\n"
         "execute as @a[nbt=!{a:1}] run fill 1 2 3 4 5 6 red_banner replace blue_banner\n",
     ],
+    "kubejs": [
+        "const tag = {BlockEntityTag:{Patterns:[{Pattern:'cre',Color:5}]}}\n"
+        "event.shapeless(Item.of('2x white_banner', 3, tag), [`white_banner[banner_patterns=["
+        "{pattern:creeper,color:lime}]]`, 'stick'])\nItem.of('shield').withCount(2)"
+        ".set('base_color', 'red').set('banner_patterns', [{pattern:'cross',color:'red'}])\n"
+        "Item.of('red_banner', {'minecraft:banner_patterns':[]}).withNBT({})",
+    ],
     "loot-table": [
         '{"functions": [{"function": "set_components", "components": {"banner_patterns": '
         '[{"pattern": "cross", "color": "red"}], "base_color": "red"}}], "pools": [{"entries": ['
