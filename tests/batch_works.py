@@ -27,6 +27,8 @@ def work(one: Job) -> JobResult:
         os.kill(os.getpid(), 9)
     if kind.startswith("hang"):
         time.sleep(600)
+    if kind.startswith("compile"):
+        compile_for(0.8)
     if kind.startswith("eat"):
         return JobResult(one, None, size=len(bytearray(8 << 30)))
     if kind.startswith("nibble"):
@@ -34,6 +36,14 @@ def work(one: Job) -> JobResult:
         while True:
             blocks.append(b"x" * (1 << 20))
     return JobResult(one, None, size=os.getpid())
+
+
+def compile_for(seconds: float) -> None:
+    """Tell what numba tells while it compiles a kernel that calls another one."""
+    from numba.core import event
+
+    with event.trigger_event("numba:compile"), event.trigger_event("numba:compile"):
+        time.sleep(seconds)
 
 
 def command(version: str, words: list[str]) -> None:

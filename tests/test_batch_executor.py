@@ -87,6 +87,17 @@ def test_a_pool_outlives_what_its_jobs_do() -> None:
     assert all("more memory" in ended[name][0] for name in ("eat", "nibble"))
 
 
+def test_time_for_compiling_kernels_is_not_the_time_of_a_job() -> None:
+    """A cold service ended every worker that compiled for over 20 s, and so did the next one."""
+    pool = ProcessPool(work, 1, JobLimits(seconds=0.3))
+    try:
+        ended = dict(_ended(pool, ["compile", "fine", "hang"], RetryPolicy(0)))
+    finally:
+        pool.close()
+    assert ended["compile"][0] is ended["fine"][0] is None
+    assert "took over 0.3 s" in ended["hang"][0]
+
+
 def test_a_worker_killed_from_outside_loses_no_job(tmp_path: Path) -> None:
     pool = ProcessPool(work, 2, JobLimits(), ahead=2)
     mark = str(tmp_path / "mark").replace("/", "!")

@@ -40,7 +40,9 @@ LIME = "white+creeper:lime"
 
 @pytest.fixture(scope="module")
 def client() -> Iterator[TestClient]:
-    warm_up()  # as the command does, so that no picture waits for a compiler
+    warm_up()  # as the command does, so that no picture waits for a compiler,
+    for view in ("front", "hero"):  # nor these, whose small grid has kernels of its own
+        draw(Banner(), size=(24, 32), grid=(3, 5), view=view)
     with TestClient(make_app(workers=1, limits=JobLimits(20.0, 1 << 30), rate=0)) as client:
         yield client
 

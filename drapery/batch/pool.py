@@ -20,6 +20,8 @@ CHECK_INTERVAL = 0.1
 """How often the workers' time and memory are checked [s]."""
 RESTARTS = RetryPolicy(limit=9, pause=0.1, longest=1.0)
 """How often a worker that ends before it is ready is started again; the system may kill some."""
+MAX_COMPILING = 300.0
+"""The longest time of a job for compiling kernels, once for each kernel and machine [s]."""
 MAX_AHEAD = 100
 """The most outputs of a job that is sent to a worker that is busy with another."""
 
@@ -29,7 +31,11 @@ Pipe: TypeAlias = Any
 
 @dataclass(frozen=True)
 class JobLimits:
-    """Limits of one job: time [s], and memory in addition to that of its worker [bytes]."""
+    """Limits of one job: time [s], and memory in addition to that of its worker [bytes].
+
+    The time for compiling kernels does not count, up to MAX_COMPILING: a worker that is ended while
+    it compiles would have to begin anew, and so would the next.
+    """
 
     seconds: float = 300.0
     memory: int = 2 << 30
@@ -39,7 +45,8 @@ class JobLimits:
 class _Worker:
     """One worker process. ready: it has reported. resting: its memory without a job [bytes].
 
-    jobs: sent to it; it runs the first. began: when it began that one.
+    jobs: sent to it; it runs the first. began: when it began that one. compiling: since when it
+    compiles kernels; 0 if it does not. compiled: how long it did, for this job [s].
     """
 
     process: BaseProcess
@@ -48,6 +55,27 @@ class _Worker:
     resting: int = 0
     jobs: deque[Job] = field(default_factory=deque)
     began: float = 0.0
+    compiling: float = 0.0
+    compiled: float = 0.0
+
+    def begin(self) -> None:
+        """Count the time of a job from now on."""
+        self.began, self.compiled = time.monotonic(), 0.0
+
+    def report(self, state: worker_process.Compiling) -> None:
+        """Note that the worker begins or ends to compile."""
+        now = time.monotonic()
+        if state is worker_process.Compiling.BEGINS:
+            self.compiling = now
+        elif self.compiling:
+            self.compiled += now - self.compiling
+            self.compiling = 0.0
+
+    def seconds(self) -> float:
+        """How long the job runs, less the time for compiling."""
+        now = time.monotonic()
+        compiled = self.compiled + (now - self.compiling if self.compiling else 0.0)
+        return now - self.began - min(compiled, MAX_COMPILING)
 
 
 @dataclass
@@ -100,7 +128,7 @@ class ProcessPool:
             if worker is None or (worker.jobs and len(self._backlog[0].outs) > MAX_AHEAD):
                 return
             if not worker.jobs:
-                worker.began = time.monotonic()
+                worker.begin()
             worker.jobs.append(self._backlog.popleft())
             # `poll` finds a dead worker by the end of its pipe.
             with contextlib.suppress(OSError):
@@ -183,15 +211,18 @@ class ProcessPool:
         if message is None:
             # A worker that ran out of memory is not used again.
             return self._lost(worker, OUT_OF_MEMORY)
+        if isinstance(message, worker_process.Compiling):
+            worker.report(message)
+            return []
         worker.jobs.popleft()
-        worker.began = time.monotonic()
+        worker.begin()
         return [message]
 
     def _check(self, worker: _Worker) -> list[JobResult]:
         """End a worker whose job exceeds its limits."""
         if not worker.jobs:
             return []
-        if time.monotonic() - worker.began > self.limits.seconds:
+        if worker.seconds() > self.limits.seconds:
             reason = f"it took over {self.limits.seconds:g} s; raise --timeout"
             return self._lost(worker, reason, timed_out=True)
         if _resident(worker.process.pid) > worker.resting + self.limits.memory:

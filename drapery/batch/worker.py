@@ -4,8 +4,9 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from enum import Enum
 from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,17 @@ ADDRESS_SPACE, RESIDENT = 0, 1
 """Columns of /proc/PID/statm."""
 
 
+class Compiling(Enum):
+    """What a worker reports while it does a job: that it begins and ends to compile kernels."""
+
+    BEGINS = "begins"
+    ENDS = "ends"
+
+
 def run(pipe: Any, work: Callable[[Any], Any], memory: int, threads: int) -> None:
     """Do jobs until the other end closes; None is sent where one needs too much memory.
+
+    While kernels are compiled for a job, that is sent too; see `Compiling`.
 
     When the parent is killed there is nobody to report to, so the worker ends without a message.
 
@@ -31,10 +41,32 @@ def run(pipe: Any, work: Callable[[Any], Any], memory: int, threads: int) -> Non
     _ = drapery.draw
 
     _limit(memory)
-    with suppress(EOFError, ConnectionError):
+    with suppress(EOFError, ConnectionError), _reported_compiling(pipe):
         pipe.send(memory_of("self", RESIDENT))
         while True:
             pipe.send(_result(work, pipe.recv()))
+
+
+@contextmanager
+def _reported_compiling(pipe: Any) -> Iterator[None]:
+    """Report when kernels are compiled. A kernel that another one calls is compiled within it."""
+    from numba.core import event
+
+    class Reporter(event.Listener):
+        depth = 0
+
+        def on_start(self, event: Any) -> None:
+            self.depth += 1
+            if self.depth == 1:
+                pipe.send(Compiling.BEGINS)
+
+        def on_end(self, event: Any) -> None:
+            self.depth -= 1
+            if self.depth == 0:
+                pipe.send(Compiling.ENDS)
+
+    with event.install_listener("numba:compile", Reporter()):
+        yield
 
 
 def _result(work: Callable[[Any], Any], job: Any) -> Any:
