@@ -296,8 +296,16 @@ def test_links_are_unwrapped(text: str):
 def test_typographic_and_escaped_quotes_of_a_command_are_quotes():
     give = write_banner(CREEPER, "give")
     left_right = give.replace('"', "“", 1).replace('"', "”")
-    for text in (give.replace('"', '\\"'), left_right, give.replace('"', "’"), f'"{give}"'):
+    escaped = give.replace('"', '\\"')
+    texts = (escaped, left_right, give.replace('"', "’"), f'"{give}"', f'\\"{escaped}\\"')
+    for text in texts:
         assert parse_banner(text) == CREEPER
+
+
+def test_an_amount_after_a_plain_item_is_removed():
+    assert parse_banner("minecraft:red_banner,8") == parse_banner("red_banner:64") == Banner("red")
+    with pytest.raises(DesignError):
+        parse_banner("red:5")
 
 
 @pytest.mark.parametrize(

@@ -34,6 +34,8 @@ def fault(text: str) -> str:
         ("white skull on a red banner", "red skull:white"),
         ("white skull on red field", "red skull:white"),
         ("white skull on red", "red skull:white"),
+        ("shield red with white skull", "shield red skull:white"),
+        ("shield with white skull on red", "shield red skull:white"),
         ("creeper lime on a white banner", "white creeper:lime"),
         ("light gray banner with a dark green border", "light_gray border:green"),
         ("black banner with white Per Bend Sinister", "black diagonal_left:white"),

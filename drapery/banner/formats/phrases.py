@@ -1,8 +1,7 @@
 """A banner in plain English: `red banner with white skull`, `white creeper lime border black`.
 
 The base is the dye before `banner`, `shield`, `field` or `background`, or after `on`, or else the
-first dye. Then
-each pattern has its dye before it, or each has it after it.
+first dye. Then each pattern has its dye before it, or each has it after it.
 """
 
 import re
@@ -122,13 +121,19 @@ def _base(words: list[_Word]) -> tuple[str, list[_Word], str]:
     kind = "shield" if any(words[mark].name == "shield" for mark in marks) else "banner"
     before = (mark - 1 for mark in marks if mark and words[mark - 1].kind == "dye")
     after = (n + 1 for n, (word, dye) in enumerate(pairwise(words)) if _is_ground(word, dye))
-    place = next(before, next(after, 0))
+    place = next(before, next(after, 1 if _begins_with_mark(words) else 0))
     if not words or words[place].kind != "dye":
         raise DesignError(
             "the base is missing: write the banner's dye, as in 'red banner with white skull'"
         )
     rest = [word for n, word in enumerate(words) if n != place and word.kind in ("dye", "pattern")]
     return words[place].name, rest, kind
+
+
+def _begins_with_mark(words: list[_Word]) -> bool:
+    """Whether the base follows the word for the item, as in `shield red with black border`."""
+    kinds = [word.kind for word in words[:3]]
+    return kinds == ["base", "dye"] or kinds == ["base", "dye", "dye"]
 
 
 def _is_ground(word: _Word, dye: _Word) -> bool:

@@ -49,6 +49,7 @@ from drapery.banner.formats.form import BinaryForm, Form, single
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.resemblance import advice
 from drapery.banner.formats.snbt import MAX_TEXT
+from drapery.banner.formats.tree import is_banner_id
 from drapery.banner.formats.wrapping import unwrap, without_suffix
 from drapery.banner.names import shown
 from drapery.errors import DesignError
@@ -171,8 +172,7 @@ def _any_form(text: str, errors: list[DesignError]) -> list[FoundBanner]:
     except DesignError as error:
         if found := several.find_in_lines(text, _recognised, errors):
             return found
-        found = _without_suffix(text)
-        if any(one.banner.layers for one in found):
+        if found := _without_suffix(text):
             return found
         told = advice(text) if _is_typed(text) else None
         raise (DesignError(f"the text is {told}") if told else error) from None
@@ -186,10 +186,15 @@ def _is_typed(text: str) -> bool:
 
 
 def _without_suffix(text: str) -> list[FoundBanner]:
-    """The banners of a text without the amount or size at its end; empty if it has none."""
+    """The banners of a text without the amount or size at its end; empty if it has none.
+
+    A plain banner counts only by an item's name, since `red:5` is not a banner.
+    """
     shorter = without_suffix(text)
     with suppress(DesignError):
-        return _recognised(shorter) if shorter else []
+        found = _recognised(shorter) if shorter else []
+        if is_banner_id(shorter) or any(one.banner.layers for one in found):
+            return found
     return []
 
 

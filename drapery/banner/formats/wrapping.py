@@ -35,6 +35,8 @@ def _without_one(text: str) -> str | None:
         return match[1]
     if text.startswith("<http") and text.endswith(">"):
         return text[1:-1]
+    if text.startswith('\\"') and text.endswith('\\"') and len(text) > 4:
+        return text[2:-2]
     if text.startswith('"/') and text.endswith('"'):
         return text[1:-1]
     for left, right in _PAIRS:
