@@ -1,56 +1,72 @@
 """Print the SHA-256 of pictures and models: `python -m benchmarks.same_bits`.
 
-Run it on two machines, Pythons or sets of dependencies: every line must be the same. The bytes of
+Run it on two machines, Pythons or sets of dependencies: every line must be the same. With names,
+as in `python -m benchmarks.same_bits face small`, only those are made. The bytes of
 mp4 and webp files come from encoders that change with their version, so for animations the pixels
 are hashed, and the bytes only of PNG files and models, which this package writes itself.
 """
 
 import hashlib
+import os
 import platform
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 
 import llvmlite.binding
 
-from drapery import Banner, animate, draw, draw_face, save_model
+from drapery import Animation, Banner, animate, draw, draw_face, save_model
 
 SOLVERS = ("desbrun", "xpbd", "pbd", "verlet", "implicit", "provot")
 VIEWS = ("front", "back", "iso", "gui", "hero")
 DESIGN = Banner.parse("white creeper:lime border:black")
 
 
-def outputs() -> Iterator[tuple[str, bytes]]:
-    """The name and the bytes of each output."""
-    yield "face", draw_face(DESIGN).pixels.tobytes()
+def outputs() -> Iterator[tuple[str, Callable[[], bytes]]]:
+    """The name of each output, and what makes its bytes."""
+    yield "face", lambda: draw_face(DESIGN).pixels.tobytes()
+    yield "small", lambda: draw(DESIGN, size=(48, 64), grid=(5, 9), time=0.2).pixels.tobytes()
     for solver in SOLVERS:
-        yield f"solver {solver}", draw(DESIGN, solver=solver, grid=(11, 21)).pixels.tobytes()
+        yield f"solver {solver}", partial(pixels, solver=solver, grid=(11, 21))
     for view in VIEWS:
-        frame = draw(DESIGN, view=view, samples=4, shadow=True)
-        yield f"view {view}", frame.pixels.tobytes()
-    loop = animate(DESIGN, seconds=1, fps=10, size=(96, 128), wind=8)
-    yield "animation", b"".join(frame.pixels.tobytes() for frame in loop)
+        yield f"view {view}", partial(pixels, view=view, samples=4, shadow=True)
+    yield "animation", lambda: b"".join(frame.pixels.tobytes() for frame in loop())
+    yield ".png", lambda: saved("still.png", draw(DESIGN).save)
+    yield ".gif", lambda: saved("loop.gif", loop().save)
+    for ending in (".glb", ".obj", ".ply"):
+        yield ending, partial(saved, f"model{ending}", partial(save_model, DESIGN))
+
+
+def pixels(**options: object) -> bytes:
+    """The pixels of a picture."""
+    return draw(DESIGN, **options).pixels.tobytes()
+
+
+def loop() -> Animation:
+    """A short loop."""
+    return animate(DESIGN, seconds=1, fps=10, size=(96, 128), wind=8)
+
+
+def saved(name: str, save: Callable[[Path], object]) -> bytes:
+    """The bytes of a file that `save` writes."""
     with tempfile.TemporaryDirectory() as folder:
-        for name in ("still.png", "loop.gif", "model.glb", "model.obj", "model.ply"):
-            path = Path(folder, name)
-            if path.suffix == ".png":
-                draw(DESIGN).save(path)
-            elif path.suffix == ".gif":
-                loop.save(path)
-            else:
-                save_model(DESIGN, path)
-            yield path.suffix, path.read_bytes()
+        path = Path(folder, name)
+        save(path)
+        return path.read_bytes()
 
 
 def main() -> None:
+    """Print the line of each output, or of those that the command line names."""
     packages = ", ".join(f"{name} {version(name)}" for name in ("numpy", "numba", "pillow"))
-    target = llvmlite.binding.get_host_cpu_name()
+    target = os.environ.get("NUMBA_CPU_NAME") or llvmlite.binding.get_host_cpu_name()
     about = f"{platform.machine()} ({target}), Python {platform.python_version()}, {packages}"
     print(about, file=sys.stderr)
-    for name, data in outputs():
-        print(f"{hashlib.sha256(data).hexdigest()}  {name}")
+    for name, make in outputs():
+        if name in sys.argv[1:] or len(sys.argv) == 1:
+            print(f"{hashlib.sha256(make()).hexdigest()}  {name}", flush=True)
 
 
 if __name__ == "__main__":
