@@ -165,3 +165,22 @@ def test_the_first_words_of_a_text_tell_its_languages(language: Language):
 @pytest.mark.parametrize("text", ["", ",;", "some player", "xyzzy:lime", "this is a sentence"])
 def test_a_text_of_no_language_is_tried_in_none(text: str):
     assert _possible(text) == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "RED_BANNER:1:CREEPER:LIME",
+        "red_banner[patterns=LIME/CREEPER]",
+        "red_banner 1 cre,8439583",
+        "/give @p red_banner[banner_patterns=[{pattern:creeper,color:lime}]]",
+        "Item.of('red_banner[banner_patterns=[{pattern:creeper,color:lime}]]')",
+    ],
+)
+def test_no_line_of_a_mixed_list_is_lost(line: str):
+    """Found by hand: the form of one line recognised the whole text and passed over the others."""
+    text = f"# ours\nred creeper:white\n- white banner with red skull\n{line}\n{line}\nnonsense\n"
+    with pytest.warns(UserWarning, match="line 6 'nonsense'"):
+        found = parse_banners(text)
+    assert [one.where.partition(" ")[2][:1] for one in found] == ["2", "3", "4", "5"]
+    assert found[2].banner == found[3].banner == Banner.parse("red creeper:lime")

@@ -68,6 +68,15 @@ def recognises(text: str) -> bool:
     return holding > 0 and first_word(text) in COMMANDS and "\\\n" in text.replace("\r", "")
 
 
+def has_only_commands(text: str) -> bool:
+    """Whether every line is a comment, a macro or a command of the game."""
+    words = ((_command(line), line) for _, line in lines_of(text))
+    return all(
+        word in COMMANDS or word in _OTHERS or line.lstrip().startswith(("#", "$", "//"))
+        for word, line in words
+    )
+
+
 def read(text: str) -> list[FoundBanner]:
     """All banners of the commands. Raises DesignError for the first broken line, and for none."""
     errors: list[DesignError] = []

@@ -157,7 +157,9 @@ def parse_all(text: str, form: str | None, errors: list[DesignError]) -> list[Fo
     if not text.strip():
         raise DesignError(f"the text is empty: give a banner, such as {shorthand.EXAMPLE!r}")
     if form == functions.NAME or (form is None and _is_function(text)):
-        return some_of(functions.find(text, errors.append), errors, functions.NOTHING)
+        found = some_of(functions.find(text, errors.append), errors, functions.NOTHING)
+        is_function = form is not None or functions.has_only_commands(text)
+        return found if is_function else _in_lines_if_more(text, found, errors)
     return _any_form(unwrap(text), errors) if form is None else _named(form).read(text)
 
 
@@ -168,7 +170,8 @@ def _is_function(text: str) -> bool:
 def _any_form(text: str, errors: list[DesignError]) -> list[FoundBanner]:
     """The banners of a text in the form that recognises it, or line by line."""
     try:
-        return _recognised(text)
+        found = _recognised(text)
+        return found if _is_typed(text) else _in_lines_if_more(text, found, errors)
     except DesignError as error:
         if found := several.find_in_lines(text, _recognised, errors):
             return found
@@ -176,6 +179,21 @@ def _any_form(text: str, errors: list[DesignError]) -> list[FoundBanner]:
             return found
         told = advice(text) if _is_typed(text) else None
         raise (DesignError(f"the text is {told}") if told else error) from None
+
+
+def _in_lines_if_more(
+    text: str, found: list[FoundBanner], errors: list[DesignError]
+) -> list[FoundBanner]:
+    """The banners line by line if these are more than those of the whole text.
+
+    A form that looks for its own items passes over the lines that are designs in other forms.
+    """
+    faults: list[DesignError] = []
+    in_lines = several.find_in_lines(text, _recognised, faults)
+    if len(in_lines) <= len(found):
+        return found
+    errors += faults
+    return in_lines
 
 
 def _is_typed(text: str) -> bool:
