@@ -182,3 +182,11 @@ def test_a_file_of_one_line_is_a_function_by_its_name(tmp_path: Path) -> None:
 def test_long_functions_are_read_in_linear_time() -> None:
     lines = ["say banner"] * 50_000 + ["pattern:" * 5_000] + ["give @s stick\\"] * 9_999
     assert functions.find("\n".join(lines) + "\n", lambda error: None) == []
+
+
+@pytest.mark.parametrize("count", [2, 5000])
+def test_a_line_of_many_dollars_is_refused(count: int):
+    """Found by fuzzing: each dollar was read as the start of a macro within the macro."""
+    give = 'give @s red_banner[banner_patterns=[{pattern:"creeper",color:"lime"}]]'
+    with pytest.raises(DesignError, match="holds a design; give a /give command"):
+        parse_banners("$" * count + give, form="function")

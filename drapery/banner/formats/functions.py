@@ -151,6 +151,10 @@ def _read_line(line: str, number: int) -> list[FoundBanner]:
     """The banners of one line. Raises DesignError for a design that cannot be read."""
     if line.lstrip().startswith("$"):
         return _read_macro(literal_macro(line), number)
+    return _read_command(line, number)
+
+
+def _read_command(line: str, number: int) -> list[FoundBanner]:
     if line.rstrip().endswith("\\"):
         raise DesignError("the line ends with a backslash, but no line follows; remove it")
     word = first_word(line)
@@ -163,7 +167,7 @@ def _read_line(line: str, number: int) -> list[FoundBanner]:
 
 def _read_macro(line: str, number: int) -> list[FoundBanner]:
     try:
-        return _read_line(line, number)
+        return _read_command(line, number)
     except DesignError as error:
         message = PARAMETER.sub(r"$(\1)", str(error))
         if "macro" not in message and PARAMETER.search(line):
