@@ -38,11 +38,16 @@ def find_in_lines(
                 return []
         else:
             good += 1
-            found += [FoundBanner(f.banner, f"line {number} {f.where}".rstrip()) for f in read_line]
+            found += [FoundBanner(f.banner, _at(number, f.where)) for f in read_line]
     if good < min(2, len(lines)) or len(faults) > good:
         return []
     errors += faults
     return found
+
+
+def _at(number: int, where: str) -> str:
+    """A place in a line as one in the text."""
+    return f"line {number} {where.removeprefix('line 1').lstrip()}".rstrip()
 
 
 def _is_design(line: str) -> bool:
