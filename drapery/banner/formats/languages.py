@@ -17,7 +17,7 @@ from importlib.resources import files
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.formats.tree import check_count
-from drapery.banner.names import shown
+from drapery.banner.names import is_pattern, pattern_id, shown
 from drapery.errors import DesignError
 
 _LONGEST = 4000
@@ -246,6 +246,9 @@ def _layer(entry: str, language: Language) -> Layer | None:
     if entry in language.phrases:
         return language.phrases[entry]
     name, colon, dye = (part.strip() for part in entry.rpartition(":"))
-    if colon and name in language.patterns and dye in language.dyes:
+    if not colon or dye not in language.dyes:
+        return None
+    if name in language.patterns:
         return Layer(language.patterns[name], language.dyes[dye])
-    return None
+    # Ids are the same in every language.
+    return Layer(pattern_id(name), language.dyes[dye]) if is_pattern(name) else None
