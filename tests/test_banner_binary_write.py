@@ -109,10 +109,11 @@ def test_show_writes_and_reads_a_form_of_bytes_by_its_name(drapery: Run, tmp_pat
     assert drapery("show", path, "--from", "schem", "--as", "text")[1] == "red border:black\n"
     for words, fault in (
         ((path, "--from", "litematic"), "the file is NBT but not a Litematica schematic"),
-        ((path, "--from", "give"), "neither text nor a known kind of file"),
+        ((path, "--from", "give"), "a binary file, which cannot be read as the form 'give'"),
         ((path, "--from", "schemm"), "did you mean 'schem'?"),
         (("white", "--from", "schem"), "this is a text; give a file"),
         (("white", "--as", "litematic", "-o", path), "can be read but not written"),
+        (("white", "-o", path.with_suffix(".mca")), "'region' can be read but not written"),
         ((tmp_path / "empty", "--from", "nbt"), "no design in the folder"),
     ):
         code, _, said = drapery("show", *words)

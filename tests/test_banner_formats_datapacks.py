@@ -182,19 +182,20 @@ def test_packs_of_a_world_share_one_bound_on_size(
         read_designs(world(tmp_path / "world"))
 
 
-@pytest.mark.parametrize("kind", ["a world", "a data pack", "a zip"])
+@pytest.mark.parametrize("kind", ["a world", "a data pack", "a zip", "a binary file"])
 def test_a_form_of_text_is_refused_for_what_is_not_a_text(kind: str, tmp_path: Path) -> None:
     """Found by hand: `--from give` with a data pack or a world was ignored in silence."""
     path = {
         "a world": lambda: world(tmp_path / "world"),
         "a data pack": lambda: written(tmp_path / "pack", FILES),
         "a zip": lambda: zipped(tmp_path / "pack.zip", FILES),
+        "a binary file": lambda: make.save(tmp_path / "a.nbt", write_structure([LIME])),
     }[kind]()
     with pytest.raises(DesignError) as caught:
         read_designs(path, form="give")
     assert str(caught.value) == (
         f"{path}: {kind}, which cannot be read as the form 'give';"
-        " leave the form out, then it is found for each file"
+        " leave the form out, so that it is recognised"
     )
 
 

@@ -57,15 +57,16 @@ def _write(banner: "Banner", out: Path, form: str | None) -> None:
     from drapery.errors import DesignError
     from drapery.render import replacing
 
-    ending = out.suffix.lower()
-    kinds = [kind for kind in binary_forms().values() if kind.write]
+    ending, kinds = out.suffix.lower(), binary_forms().values()
     fits = (kind for kind in kinds if (kind.name == form if form else ending in kind.suffixes))
-    kind = next(fits, None)
-    if kind is None and form in binary_forms():
-        names = ", ".join(kind.name for kind in kinds)
-        raise DesignError(f"the form {form!r} can be read but not written; use one of: {names}")
-    if kind is None or kind.write is None:
+    kind = min(fits, key=lambda kind: kind.write is None, default=None)
+    if kind is None:
         data = (write_banner(banner, form or "json") + "\n").encode()
+    elif kind.write is None:
+        names = ", ".join(kind.name for kind in kinds if kind.write)
+        raise DesignError(
+            f"the form {kind.name!r} can be read but not written; use one of: {names}"
+        )
     else:
         data = kind.write(banner)
     with replacing(out) as path:

@@ -173,7 +173,11 @@ def _read_path(path: Path, form: str | None, errors: list[DesignError]) -> list[
         if binary and form is None:
             return _read_binary(path, errors)
         data = head + file.read(4 * MAX_TEXT + 1 - len(head))
-    text = _decoded(data, str(path))
+    try:
+        text = _decoded(data, str(path))
+    except DesignError:
+        _check_form(path, form if binary else None, "a binary file")
+        raise
     if form is None and path.suffix.lower() == ".mcfunction":
         form = "function"
     try:
@@ -187,7 +191,7 @@ def _check_form(path: Path, form: str | None, kind: str) -> None:
     if form is not None:
         raise DesignError(
             f"{path}: {kind}, which cannot be read as the form {form!r};"
-            " leave the form out, then it is found for each file"
+            " leave the form out, so that it is recognised"
         )
 
 
