@@ -3,6 +3,7 @@
 import base64
 import io
 import json
+import re
 import struct
 from dataclasses import replace
 from pathlib import Path
@@ -183,6 +184,21 @@ def test_obj_opens_again_with_its_texture(tmp_path: Path) -> None:
     image = np.asarray(mesh.visual.material.image.convert("RGBA"))
     assert np.array_equal(image, np.asarray(Image.open(tmp_path / "a_texture.png")))
     assert len(mesh.visual.uv) == len(mesh.vertices)
+
+
+def test_obj_is_written_to_the_letter(tmp_path: Path) -> None:
+    """trimesh 4.5 named the texture otherwise than trimesh 5, so that the bytes differed."""
+    save_model(SCENES, tmp_path / "a.obj")
+    text = (tmp_path / "a.obj").read_text("utf-8")
+    assert text.startswith("# drapery\nmtllib a.mtl\n\no ") and "\nusemtl a_texture\nv " in text
+    corners = re.findall(r"(\d+)/(\d+)/(\d+)", text)
+    assert all(len({*corner}) == 1 for corner in corners)
+    assert max(int(corner[0]) for corner in corners) == text.count("\nv ")
+    assert (tmp_path / "a.mtl").read_text("utf-8") == (
+        "# drapery\n\nnewmtl a_texture\nKa 1.00000000 1.00000000 1.00000000\n"
+        "Kd 1.00000000 1.00000000 1.00000000\nKs 0.00000000 0.00000000 0.00000000\n"
+        "Ns 1.00000000\nmap_Kd a_texture.png\n"
+    )
 
 
 def test_ply_has_the_texels_at_its_vertices(tmp_path: Path) -> None:

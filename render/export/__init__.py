@@ -76,32 +76,9 @@ def _glb(parts: MeshParts, scene: Scene, fps: float, name: str) -> Files:
 
 
 def _obj(parts: MeshParts, scene: Scene, fps: float, name: str) -> Files:
-    from PIL import Image
+    from drapery.render.export.obj import obj_files
 
-    visual = _library("trimesh.visual")
-    white, black = (255, 255, 255, 255), (0, 0, 0, 255)
-    material = visual.material.SimpleMaterial(
-        Image.fromarray(parts.atlas),
-        diffuse=white,
-        ambient=white,
-        specular=black,
-        name=f"{name}_texture",
-    )
-    objects = _library("trimesh").Scene()
-    for part in parts.parts:
-        mesh = _library("trimesh").Trimesh(
-            part.positions[0],
-            part.triangles,
-            vertex_normals=part.normals[0],
-            visual=visual.TextureVisuals(_upward(part.uvs), material),
-            process=False,
-        )
-        mesh.metadata["name"] = part.name
-        objects.add_geometry(mesh, geom_name=part.name)
-    text, others = _library("trimesh.exchange.obj").export_obj(
-        objects, include_normals=True, return_texture=True, mtl_name=f"{name}.mtl", header="drapery"
-    )
-    return {**others, f"{name}.obj": text.encode()}
+    return obj_files(parts, name)
 
 
 def _ply(parts: MeshParts, scene: Scene, fps: float, name: str) -> Files:
@@ -145,11 +122,6 @@ WRITERS: dict[str, Callable[[MeshParts, Scene, float, str], Files]] = {
 def _library(name: str) -> Any:
     """A module of trimesh, imported when it is needed; parts of it have no types."""
     return import_module(name)
-
-
-def _upward(uvs: Any) -> Any:
-    """UVs in the convention of trimesh and OBJ: v grows upwards."""
-    return np.stack([uvs[:, 0], 1 - uvs[:, 1]], axis=1)
 
 
 def _vertex_colours(part: MeshPart, atlas: Texels) -> Texels:
