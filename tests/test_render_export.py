@@ -187,13 +187,16 @@ def test_obj_opens_again_with_its_texture(tmp_path: Path) -> None:
 
 
 def test_obj_is_written_to_the_letter(tmp_path: Path) -> None:
-    """trimesh 4.5 named the texture otherwise than trimesh 5, so that the bytes differed."""
+    """The bytes differed with trimesh's version, and its normals were not those of the meshes."""
     save_model(SCENES, tmp_path / "a.obj")
     text = (tmp_path / "a.obj").read_text("utf-8")
     assert text.startswith("# drapery\nmtllib a.mtl\n\no ") and "\nusemtl a_texture\nv " in text
     corners = re.findall(r"(\d+)/(\d+)/(\d+)", text)
     assert all(len({*corner}) == 1 for corner in corners)
     assert max(int(corner[0]) for corner in corners) == text.count("\nv ")
+    rows = [line.split()[1:] for line in text.split("\n") if line.startswith("vn ")]
+    normals = np.concatenate([model.mesh.normals.reshape(-1, 3) for model in SCENES[0].models])
+    assert np.allclose(np.array(rows, float), normals, atol=1e-7)
     assert (tmp_path / "a.mtl").read_text("utf-8") == (
         "# drapery\n\nnewmtl a_texture\nKa 1.00000000 1.00000000 1.00000000\n"
         "Kd 1.00000000 1.00000000 1.00000000\nKs 0.00000000 0.00000000 0.00000000\n"
