@@ -1,6 +1,8 @@
 """Styles: chains of checked steps for motion, shape, material and picture."""
 
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
@@ -244,6 +246,20 @@ def test_buffers_are_made_only_when_a_step_asks() -> None:
     STEPS["picture"]["tones"](STEPS["picture"]["pixels"](plain))
     with pytest.raises(AssertionError, match="nobody"):
         STEPS["picture"]["outline"](plain)
+
+
+def test_steps_leave_invisible_pixels_as_they_are() -> None:
+    given = canvas()
+    given.pixels[:, :7] = (3, 2, 1, 0)
+    for name in ("shade", "posterize", "palette", "tones", "hatching"):
+        drawn = STEPS["picture"][name](given).pixels
+        assert (drawn[:, :7] == (3, 2, 1, 0)).all(), name
+
+
+def test_styles_are_imported_without_their_kernels() -> None:
+    program = "import sys; from drapery.styles import STEPS; print('numba.core' in sys.modules)"
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert said.stdout.strip() == "False", said.stderr
 
 
 def test_large_pixels_are_squares_of_one_colour() -> None:

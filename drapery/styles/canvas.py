@@ -5,9 +5,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.render.buffers import Buffers, middles
 from drapery.render.pixels import Pixels
+
+Words = NDArray[np.uint32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +37,11 @@ class Canvas:
         """The same canvas with other colours. pixels: shape [H, W, 4], uint8."""
         return replace(self, pixels=pixels, make_buffers=lambda: self.buffers)
 
+    def words(self) -> Words:
+        """The pixels as a copy with one number each, shape [H, W]; see `kernels`."""
+        words: Words = np.array(self.pixels, order="C").view(np.uint32)[..., 0]
+        return words
+
     def coarse(self, size: int) -> "Canvas":
         """The colour in the middle of each square of `size` x `size` pixels of the result."""
         step = size * self.grid
@@ -47,14 +55,18 @@ class Canvas:
         return np.ascontiguousarray(large[: size[1], : size[0]])
 
 
+def as_pixels(words: Words) -> Pixels:
+    """Words, shape [H, W], as pixels, shape [H, W, 4]; no copy."""
+    return words.view(np.uint8).reshape(*words.shape, 4)
+
+
 def _averaged(pixels: Pixels, grid: int) -> Pixels:
     """Squares of grid x grid pixels as one each, weighted by their opacity."""
     if grid == 1:
         return pixels
-    height, width = pixels.shape[0] // grid, pixels.shape[1] // grid
-    blocks = pixels[: height * grid, : width * grid].reshape(height, grid, width, grid, 4)
-    alpha = blocks[..., 3:].astype(np.int64)
-    total = alpha.sum(axis=(1, 3))
-    colour = ((blocks[..., :3] * alpha).sum(axis=(1, 3)) + total // 2) // np.maximum(total, 1)
-    count = grid * grid
-    return np.concatenate([colour, (total + count // 2) // count], axis=-1).astype(np.uint8)
+    from drapery.styles.kernels import average
+
+    words = np.array(pixels, order="C").view(np.uint32)[..., 0]
+    result = np.empty((pixels.shape[0] // grid, pixels.shape[1] // grid), np.uint32)
+    average(words, grid, result)
+    return as_pixels(result)

@@ -1,5 +1,9 @@
-"""Steps that change the finished picture, by its colours and by what lies in each pixel."""
+"""Steps that change the finished picture, by its colours and by what lies in each pixel.
 
+Invisible pixels stay as they are. The kernels are imported when a step first runs.
+"""
+
+from functools import lru_cache
 from typing import Annotated
 
 import numpy as np
@@ -7,16 +11,18 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.mesh import Array
+from drapery.render.flatten import lay_over
 from drapery.render.pixels import Pixels
-from drapery.styles.canvas import Canvas
+from drapery.styles.canvas import Canvas, Words, as_pixels
 from drapery.styles.step import COLOUR_PATTERN
 
 Colour = Annotated[str, Field(pattern=COLOUR_PATTERN)]
-Marks = NDArray[np.bool_]
-Place = tuple[slice, ...]
 
 DARK, BRIGHT = 0.1, 0.5
 """Cosines to the light between which cel shading divides its steps: a cloth's folds are shallow."""
+
+VISIBLE, OPAQUE = np.uint32(1 << 24), np.uint32(255 << 24)
+"""The least words of pixels that are visible at all, and wholly."""
 
 SOLID = 0.985
 """A place darker than this is ink alone."""
@@ -46,14 +52,16 @@ def shade(
 
     The light stands at an azimuth from the front, to the viewer's right if positive.
     """
+    from drapery.styles.kernels import cel
+
     a, e = np.radians([azimuth, elevation])
-    light = np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)], np.float32)
-    normal = canvas.buffers.normal
-    facing = sum(normal[..., axis] * light[axis] for axis in range(3))
-    share = (facing - DARK) / (BRIGHT - DARK)
-    level = np.clip(np.floor(share * bands), 0, bands - 1) / (bands - 1)
-    factor: Array = np.where(canvas.buffers.coverage, darkest + (1 - darkest) * level, 1)
-    return _with_colours(canvas, canvas.pixels[..., :3].astype(np.float64) * factor[..., None])
+    towards = np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)
+    light = np.array([*towards, DARK, BRIGHT - DARK], np.float32)
+    factors = darkest + (1 - darkest) * (np.arange(bands, dtype=np.float32) / (bands - 1))
+    table = np.rint(np.arange(256) * factors[:, None].astype(np.float64)).astype(np.uint8)
+    drawn, found = canvas.words(), canvas.buffers
+    cel(drawn, found.normal, found.model, light, bands, table)
+    return canvas.painted(as_pixels(drawn))
 
 
 def outline(
@@ -70,16 +78,16 @@ def outline(
 
     The method is Saito and Takahashi's ("Comprehensible rendering of 3-D shapes", 1990).
     """
-    marks = _edges(canvas, depth, float(np.cos(np.radians(crease))))
-    if contrast:
-        marks |= _colour_edges(canvas.pixels, contrast)
+    from drapery.styles.kernels import draw_lines
+
+    levels = np.arange(256)[None] * (1 - darken) + np.array(_rgb(colour))[:, None] * darken
+    limits = np.array([depth, np.cos(np.radians(crease))], np.float32)
     # A line of one pixel is as it is; others grow by discs.
-    thick = _grown(marks, max(0.0, (width * canvas.grid - 1) / 2))
-    drawn = canvas.pixels.copy()
-    own = drawn[thick][:, :3] * (1 - darken) + np.array(_rgb(colour)) * darken
-    drawn[thick, :3] = np.rint(own).astype(np.uint8)
-    drawn[thick, 3] = 255
-    return canvas.painted(drawn)
+    reach, table = _disc((width * canvas.grid - 1) / 2), np.rint(levels).astype(np.uint8)
+    drawn, found = canvas.words(), canvas.buffers
+    normal = found.normal.reshape(len(drawn), -1)
+    draw_lines(drawn, found.depth, normal, found.model, limits, contrast, reach, table)
+    return canvas.painted(as_pixels(drawn))
 
 
 def posterize(
@@ -89,11 +97,11 @@ def posterize(
     dither: Annotated[float, Field(ge=0, le=1, description="strength of ordered dither")] = 0.0,
 ) -> Canvas:
     """A few levels of brightness, with ordered dither if wanted; hues stay."""
-    step = 255 / (levels - 1)
-    bright = canvas.pixels[..., :3].max(axis=-1).astype(np.float64)
-    level = np.rint((bright + dither * step * _thresholds(canvas)) / step) * step
-    factor = level / np.maximum(bright, 1)
-    return _with_colours(canvas, canvas.pixels[..., :3] * factor[..., None])
+    from drapery.styles.kernels import level_out
+
+    drawn = canvas.words()
+    level_out(drawn, *_level_table(levels, dither))
+    return canvas.painted(as_pixels(drawn))
 
 
 def palette(
@@ -105,15 +113,12 @@ def palette(
     dither: Annotated[float, Field(ge=0, le=1, description="strength of ordered dither")] = 0.0,
 ) -> Canvas:
     """Only these colours: the nearest to each, by a weighted distance in sRGB."""
+    from drapery.styles.kernels import nearest
+
     table = np.array([_rgb(colour) for colour in colours], np.float64)
-    raised = canvas.pixels[..., :3] + dither * 48 * _thresholds(canvas)[..., None]
-    best, nearest = None, np.zeros(canvas.pixels.shape[:2], np.intp)
-    for number, entry in enumerate(table):
-        apart = ((raised - entry) ** 2 * np.array([2.0, 4.0, 3.0])).sum(axis=-1)
-        closer = apart < best if best is not None else np.ones(apart.shape, np.bool_)
-        best = np.where(closer, apart, best if best is not None else apart)
-        nearest = np.where(closer, number, nearest)
-    return _with_colours(canvas, table[nearest])
+    drawn, (offsets, tile) = canvas.words(), _thresholds(dither)
+    nearest(drawn, table, dither * 48 * offsets, tile)
+    return canvas.painted(as_pixels(drawn))
 
 
 def tones(
@@ -124,8 +129,11 @@ def tones(
     gamma: Annotated[float, Field(ge=0.1, le=10, description="over 1 darkens the middle")] = 1.0,
 ) -> Canvas:
     """All colours by their brightness, on the way from one colour to another."""
-    share = (_brightness(canvas.pixels) / 255)[..., None] ** gamma
-    return _with_colours(canvas, _rgb(dark) + share * np.subtract(_rgb(light), _rgb(dark)))
+    from drapery.styles.kernels import tone
+
+    drawn = canvas.words()
+    tone(drawn, np.array(_rgb(dark), np.float64), np.array(_rgb(light), np.float64), gamma)
+    return canvas.painted(as_pixels(drawn))
 
 
 def hatching(
@@ -142,19 +150,15 @@ def hatching(
 
     What is black is ink alone, such as lines of an outline in black.
     """
-    black = 1 - _brightness(canvas.pixels) / 255
-    dark = strength * black
-    y, x = (axis / canvas.grid for axis in np.indices(dark.shape))
-    drawn = black > SOLID
-    for number, degrees in enumerate((45, -45, 0, 90)[:layers]):
-        angle = np.radians(degrees)
-        across = (x * np.cos(angle) + y * np.sin(angle)) % spacing
-        least = 0.22 + 0.6 * number / layers
-        swell = width * np.clip((dark - least) * 3 + 0.5, 0, 1.6)
-        drawn |= (across < swell) & (dark > least)
-    colours = np.where(drawn[..., None], _rgb(colour), _rgb(paper))
-    shown = canvas.buffers.coverage[..., None]
-    return _with_colours(canvas, np.where(shown, colours, canvas.pixels[..., :3]).astype(float))
+    from drapery.styles.kernels import hatch
+
+    angles = np.radians((45, -45, 0, 90)[:layers])
+    least = 0.22 + 0.6 * np.arange(layers) / layers
+    strokes = np.stack([np.cos(angles), np.sin(angles), least], axis=-1)
+    pen = np.array([spacing, width, strength, SOLID])
+    drawn, model = canvas.words(), canvas.buffers.model
+    hatch(drawn, model, strokes, canvas.grid, pen, _word(colour), _word(paper))
+    return canvas.painted(as_pixels(drawn))
 
 
 def paper(
@@ -166,94 +170,58 @@ def paper(
     grain: Annotated[float, Field(ge=0, le=1, description="unevenness")] = 0.0,
 ) -> Canvas:
     """Paper behind what is drawn, plain or ruled in squares."""
-    shape = canvas.pixels.shape[:2]
-    y, x = (axis // canvas.grid for axis in np.indices(shape))
+    behind = _sheet_of_paper(canvas.pixels.shape[:2], canvas.grid, colour, lines, spacing, grain)
+    words = canvas.words()
+    drawn = np.where(words < VISIBLE, behind, words)
+    (partly,) = np.nonzero(((words >= VISIBLE) & (words < OPAQUE)).reshape(-1))
+    if len(partly):
+        under, above = (as_pixels(each).reshape(-1, 4)[partly] for each in (behind, words))
+        as_pixels(drawn).reshape(-1, 4)[partly] = lay_over(above, under)
+    return canvas.painted(as_pixels(drawn))
+
+
+def _disc(radius: float) -> NDArray[np.int64]:
+    """How far a disc reaches to each side, in each row from its top to its foot [pixels]."""
+    height = max(0, int(radius))
+    rows = np.arange(-height, height + 1)
+    return np.sqrt(max(radius, 0) ** 2 - rows * rows).astype(np.int64)
+
+
+def _thresholds(dither: float) -> tuple[Array, NDArray[np.int32]]:
+    """Offsets of an ordered dither, -0.5..0.5, and the tile of their indices; without it one 0."""
+    if not dither:
+        return np.zeros(1), np.zeros((1, 1), np.int32)
+    return (np.arange(BAYER.size) + 0.5) / BAYER.size - 0.5, BAYER.astype(np.int32)
+
+
+@lru_cache(maxsize=8)
+def _level_table(levels: int, dither: float) -> tuple[Pixels, NDArray[np.int32]]:
+    """What becomes of each level of a channel, and the tile of dither; see `level_out`."""
+    step = 255 / (levels - 1)
+    offsets, tile = _thresholds(dither)
+    bright = np.arange(256.0)
+    raised = bright + dither * step * offsets[:, None]
+    factors = np.rint(raised / step) * step / np.maximum(bright, 1)
+    return np.clip(np.rint(factors[..., None] * bright), 0, 255).astype(np.uint8), tile
+
+
+@lru_cache(maxsize=4)
+def _sheet_of_paper(
+    shape: tuple[int, int], grid: int, colour: str, lines: str, spacing: int, grain: float
+) -> Words:
+    y, x = (axis // grid for axis in np.indices(shape))
     ruled = (x % spacing == 0) | (y % spacing == 0) if spacing else np.zeros(shape, np.bool_)
-    behind = np.where(ruled[..., None], _rgb(lines), _rgb(colour)).astype(float)
-    behind *= 1 + grain * (np.random.default_rng(0).random(shape)[..., None] - 0.5) * 0.2
-    alpha = canvas.pixels[..., 3:] / 255
-    mixed = canvas.pixels[..., :3] * alpha + np.clip(behind, 0, 255) * (1 - alpha)
-    opaque = np.full((*shape, 1), 255, np.uint8)
-    return canvas.painted(np.concatenate([np.rint(mixed).astype(np.uint8), opaque], axis=-1))
-
-
-def _edges(canvas: Canvas, depth: float, cosine: float) -> Marks:
-    """Pixels at an edge of what is seen: on the nearer side of it."""
-    found = canvas.buffers
-    marks = np.zeros(found.model.shape, np.bool_)
-    for axis, (one, other) in enumerate(_pairs()):
-        far = _steps(found.depth, one, other)
-        apart = found.model[one] != found.model[other]
-        step = np.abs(far) - _slopes(far, 1 - axis) > depth
-        near, behind = far >= 0, far < 0
-        facing = (found.normal[one] * found.normal[other]).sum(axis=-1)
-        both = (found.model[one] >= 0) & (found.model[other] >= 0)
-        edge = apart | (both & step)
-        marks[one] |= (edge & near) | (both & ~edge & (facing < cosine))
-        marks[other] |= edge & behind
-    return marks & found.coverage
-
-
-def _steps(depth: NDArray[np.float32], one: Place, other: Place) -> NDArray[np.float32]:
-    """How much farther neighbours are [m]; none between two pixels of the background."""
-    with np.errstate(invalid="ignore"):  # the background is infinitely far
-        far: NDArray[np.float32] = depth[other] - depth[one]
-    return np.where(np.isnan(far), np.float32(0), far)
-
-
-def _slopes(far: NDArray[np.float32], axis: int) -> NDArray[np.float32]:
-    """The smaller step before or after each step: what a plane in perspective has by itself."""
-    steps = np.abs(far)
-    padding = [(1, 1) if each == axis else (0, 0) for each in range(2)]
-    around = np.pad(steps, padding, constant_values=np.inf)
-    count = steps.shape[axis]
-    least = np.minimum(around.take(range(count), axis), around.take(range(2, count + 2), axis))
-    return np.where(np.isfinite(least), least, np.float32(0))
-
-
-def _colour_edges(colours: Pixels, contrast: int) -> Marks:
-    marks = np.zeros(colours.shape[:2], np.bool_)
-    rgb = colours.astype(np.int16)
-    for one, other in _pairs():
-        inside = (rgb[one][..., 3] > 0) & (rgb[other][..., 3] > 0)
-        marks[one] |= inside & (np.abs(rgb[one] - rgb[other])[..., :3].max(axis=-1) >= contrast)
-    return marks
-
-
-def _pairs() -> tuple[tuple[Place, Place], ...]:
-    """Places of neighbours: each pixel with that to its right, and with that below it."""
-    every, first, last = slice(None), slice(None, -1), slice(1, None)
-    return ((every, first), (every, last)), ((first, every), (last, every))
-
-
-def _grown(marks: Marks, radius: float) -> Marks:
-    """Pixels whose middle is at most this far from that of a mark [pixels]."""
-    from scipy.ndimage import distance_transform_edt
-
-    if radius < 0.5:
-        return marks
-    near: Marks = np.asarray(distance_transform_edt(~marks)) <= radius
-    return near
-
-
-def _thresholds(canvas: Canvas) -> Array:
-    """The ordered dither's offset of each pixel, -0.5..0.5."""
-    height, width = canvas.pixels.shape[:2]
-    tile = (BAYER + 0.5) / BAYER.size - 0.5
-    offsets: Array = np.tile(tile, (-(-height // 4), -(-width // 4)))[:height, :width]
-    return offsets
-
-
-def _brightness(colours: Pixels) -> Array:
-    red, green, blue = (colours[..., channel].astype(np.float64) for channel in range(3))
-    return 0.299 * red + 0.587 * green + 0.114 * blue
-
-
-def _with_colours(canvas: Canvas, colours: Array) -> Canvas:
-    """The canvas with other colours and its own opacity. colours: 0..255, shape [H, W, 3]."""
-    whole = np.clip(np.rint(colours), 0, 255).astype(np.uint8)
-    return canvas.painted(np.concatenate([whole, canvas.pixels[..., 3:]], axis=-1))
+    sheet = np.where(ruled[..., None], _rgb(lines), _rgb(colour)).astype(float)
+    sheet *= 1 + grain * (np.random.default_rng(0).random(shape)[..., None] - 0.5) * 0.2
+    pixels = np.full((*shape, 4), 255, np.uint8)
+    pixels[..., :3] = np.rint(np.clip(sheet, 0, 255))
+    return pixels.view(np.uint32)[..., 0]
 
 
 def _rgb(colour: str) -> tuple[int, ...]:
     return tuple(bytes.fromhex(colour.removeprefix("#")))
+
+
+def _word(colour: str) -> int:
+    """A colour as the lower bytes of a pixel's word."""
+    return int.from_bytes(bytes(_rgb(colour)), "little")

@@ -1,0 +1,65 @@
+"""What styles cost: `python -m benchmarks.styles [--size 512] [--runs 30]`.
+
+Each picture step of each preset is timed on one thread, on a square picture with one sample a
+pixel, whose buffers are made already. A picture with more samples takes that many times longer.
+"""
+
+import argparse
+import time
+from dataclasses import replace
+
+from rich.console import Console
+from rich.table import Table
+
+from drapery import Banner, Settings
+from drapery.packs import open_packs
+from drapery.render.soft import draw_buffers, draw_scene
+from drapery.scenes import still
+from drapery.styles import Canvas, Style, find_style, style_names
+
+BANNER = Banner.parse("white creeper:lime border:black")
+GOAL = 1.0
+"""The most that a step may take at 512 x 512 [ms]."""
+
+
+def canvas_of(style: Style, size: int) -> Canvas:
+    """The banner in a style before its picture steps."""
+    settings = Settings(size=(size, size), samples=1, style=(style,))
+    scene = still(BANNER, open_packs(()), settings)
+    buffers = draw_buffers(scene, threads=1)
+    return Canvas(draw_scene(scene, threads=1).pixels, lambda: buffers)
+
+
+def step_times(style: Style, size: int, runs: int) -> list[tuple[str, float]]:
+    """The name of each picture step, and the least time that it took [ms]."""
+    canvas, found = canvas_of(style, size), []
+    for step in style.steps:
+        if step.kind != "picture":
+            continue
+        result, times = step.apply(canvas), []
+        for _ in range(runs):
+            given = replace(canvas)
+            _ = given.buffers
+            begin = time.perf_counter()
+            result = step.apply(given)
+            times.append(time.perf_counter() - begin)
+        canvas = result
+        found.append((step.name, min(times) * 1e3))
+    return found
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--size", type=int, default=512, help="width and height [pixels]")
+    parser.add_argument("--runs", type=int, default=30)
+    given = parser.parse_args()
+    table = Table("style", "step", f"ms at {given.size} x {given.size}")
+    for name in style_names():
+        for step, taken in step_times(find_style(name), given.size, given.runs):
+            mark = "" if taken <= GOAL else f", over {GOAL:g}"
+            table.add_row(name, step, f"{taken:.2f}{mark}")
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    main()
