@@ -3,9 +3,8 @@
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
-from typing import Any, Literal, Unpack
+from typing import Literal, Unpack
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
@@ -69,7 +68,8 @@ def iter_frames(
     """
     design, chosen = _checked(banner, settings, options)
     packs = open_packs(chosen.packs, format=chosen.format)
-    return draw_scenes(_loop(design, packs, chosen, seconds, fps), packs, chosen)
+    scenes = _loop(design, packs, chosen, seconds, fps)
+    return draw_scenes(scenes, packs, chosen, loop=True)
 
 
 def save_model(
@@ -134,26 +134,31 @@ def face_pixels(
     return FLAG_REGIONS[side].sample(composite(flag_layers(banner, packs)), scale)
 
 
-def draw_scenes(scenes: Iterable[Scene], packs: Packs, settings: Settings) -> Iterator[Frame]:
+def draw_scenes(
+    scenes: Iterable[Scene], packs: Packs, settings: Settings, *, loop: bool = False
+) -> Iterator[Frame]:
     """Draw scenes one by one with the backend, styles and size of pixels of the settings.
 
+    loop: whether the scenes are the frames of a loop, which steps of styles may change together.
     After the first scene it warns of missing textures. Raises BackendError.
     """
     from drapery.render.backends import backend
 
     draw_scene = backend(settings.backend)
+    frames: Iterable[Frame] = map(draw_scene, scenes)
     if settings.style:
         from drapery.styles import combined_style
 
-        draw_scene = partial(combined_style(settings.style).draw, draw_scene=draw_scene)
-    return _drawn(scenes, packs, settings, draw_scene)
+        style = combined_style(settings.style)
+        if loop:
+            frames = style.draw_loop(scenes, draw_scene)
+        else:
+            frames = (style.draw(scene, draw_scene) for scene in scenes)
+    return _drawn(frames, packs, settings)
 
 
-def _drawn(
-    scenes: Iterable[Scene], packs: Packs, settings: Settings, draw_scene: Any
-) -> Iterator[Frame]:
-    for number, scene in enumerate(scenes):
-        frame = draw_scene(scene)
+def _drawn(frames: Iterable[Frame], packs: Packs, settings: Settings) -> Iterator[Frame]:
+    for number, frame in enumerate(frames):
         yield frame if settings.pixel == 1 else enlarge(frame, settings.pixel)
         if number == 0:
             _warn_of(packs)

@@ -129,7 +129,7 @@ def test_a_file_of_a_style_has_a_largest_size(tmp_path: Path) -> None:
 def test_a_picture_that_a_style_changes_has_a_largest_size() -> None:
     scene = Scene((), Camera((0, 0, 3), (0, 0, 0)), (8192, 8192), samples=4)
     assert scene.size[0] * scene.size[1] * scene.samples > MAX_SAMPLES
-    with pytest.raises(OptionError, match=r"style ink changes .*; use a smaller size or fewer"):
+    with pytest.raises(OptionError, match=r"style ink changes .*; use a smaller size, fewer"):
         find_style("ink").draw(scene, draw_scene)
 
 
@@ -230,7 +230,7 @@ def test_a_loop_takes_motion_steps() -> None:
 def test_a_picture_step_changes_colours_and_keeps_the_size(name: str) -> None:
     given = canvas()
     before = given.pixels.copy()
-    result = STEPS["picture"][name](given).finished((40, 30))
+    (result,) = [each.finished((40, 30)) for each in stepped(name, given)]
     assert result.shape == (30, 40, 4) and result.dtype == np.uint8
     assert np.array_equal(given.pixels, before)
 
@@ -370,3 +370,61 @@ def test_the_page_on_styles_names_everything_and_its_file_loads(tmp_path: Path) 
     names: dict[str, Style] = {}
     exec(blocks[2][1], names)
     draw(BANNER, style=names["television"], size=(40, 50))
+
+
+def stepped(name: str, *canvases: Canvas) -> list[Canvas]:
+    """A picture step on the frames of a loop."""
+    step = StyleStep("picture", STEPS["picture"][name])
+    return step.apply(canvases) if step.over_time else [step.apply(one) for one in canvases]
+
+
+def flat_canvas(colours: list[list[int]]) -> Canvas:
+    """Visible pixels of these levels of red, each over a model whose depth is that level."""
+    red = np.array(colours)
+    pixels = np.zeros((*red.shape, 4), np.uint8)
+    pixels[..., 0], pixels[..., 3] = red, 255
+    normal = np.zeros((*red.shape, 3), np.float32)
+    buffers = Buffers(
+        red.astype(np.float32), normal, np.zeros(red.shape, np.int32), normal[..., :2]
+    )
+    return Canvas(pixels, lambda: buffers)
+
+
+def test_steady_pixels_do_not_return_to_a_colour_over_the_seam_either() -> None:
+    times = [[1, 5, 1, 3, 3, 3, 3, 3], [9, 9, 9, 9, 9, 2, 9, 9], [4, 4, 4, 7, 7, 7, 7, 4]]
+    loop = [flat_canvas([[row[frame] for row in times]]) for frame in range(8)]
+    drawn = STEPS["picture"]["steady"](loop, frames=3)
+    shown = np.array([canvas.pixels[0, :, 0] for canvas in drawn]).T
+    assert shown.tolist() == [[1, 1, 1, 3, 3, 3, 3, 3], [9] * 8, [4, 4, 4, 7, 7, 7, 7, 4]]
+    assert np.array_equal([canvas.buffers.depth[0] for canvas in drawn], shown.T)
+
+
+def test_a_limit_of_colours_holds_for_a_whole_loop() -> None:
+    loop = [flat_canvas([[0, 10, 10, 200]]), flat_canvas([[12, 10, 201, 200]])]
+    drawn = [
+        canvas.pixels[0, :, 0].tolist() for canvas in STEPS["picture"]["limit"](loop, colours=2)
+    ]
+    assert drawn == [[10, 10, 10, 200], [10, 10, 200, 200]]
+
+
+def test_a_clean_picture_has_no_orphans() -> None:
+    speck = STEPS["picture"]["clean"](flat_canvas([[8, 8, 8, 8], [8, 9, 8, 7], [8, 8, 8, 7]]))
+    assert speck.pixels[..., 0].tolist() == [[8, 8, 8, 8], [8, 8, 8, 7], [8, 8, 8, 7]]
+
+
+def test_pixel_art_neither_creeps_nor_has_many_colours() -> None:
+    style = find_style("pixel-art")
+    frames = animate(BANNER, style=style, seconds=1, fps=12, size=(180, 240), grid=(5, 9)).frames
+    words = np.stack([frame.pixels[::6, ::6].copy().view(np.uint32)[..., 0] for frame in frames])
+    before, after = np.roll(words, 1, axis=0), np.roll(words, -1, axis=0)
+    assert np.count_nonzero((before == after) & (words != before)) == 0
+    assert len(np.unique(words[words != 0])) <= 16
+
+
+def test_a_loop_has_a_largest_size_for_steps_over_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("drapery.styles.style.MAX_SAMPLES", 1000)
+    style = Style("calm", (StyleStep("picture", STEPS["picture"]["steady"]),))
+    scene = Scene((), Camera((0, 0, 3), (0, 0, 0)), (20, 20))
+    assert len(list(style.draw_loop([scene] * 2, draw_scene))) == 2
+    with pytest.raises(OptionError, match=r"all frames together of at most .* or a shorter loop"):
+        list(style.draw_loop([scene] * 3, draw_scene))

@@ -14,7 +14,8 @@ A `Style` holds `StyleStep`s of four kinds. Each is a plain function with keywor
 - `motion` steps change a `Sheet` of all moments of a loop;
 - `shape` steps change the `Sheet` of one moment, or make a `Mesh` of it;
 - `material` steps change the `Material` of the cloth;
-- `picture` steps change a `Canvas`, the picture with its `Buffers` (depth, normal, model).
+- `picture` steps change a `Canvas`, the picture with its `Buffers` (depth, normal, model), or all
+  canvases of a loop.
 
 `STEPS` holds the functions that files of styles can name. Names are loaded when they are first
 used.
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from drapery.styles.canvas import Canvas
     from drapery.styles.catalogue import StyleLike, combined_style, find_style, style_names
     from drapery.styles.sheet import Lattice, Sheet
-    from drapery.styles.step import StepKind, StyleStep
+    from drapery.styles.step import StepKind, StyleStep, over_time
     from drapery.styles.steps import STEPS
     from drapery.styles.style import Style
 
@@ -43,6 +44,7 @@ __all__ = [
     "StyleStep",
     "combined_style",
     "find_style",
+    "over_time",
     "style_names",
 ]
 
@@ -52,7 +54,7 @@ __getattr__, __dir__ = lazy_names(
         "styles.canvas": ("Canvas",),
         "styles.catalogue": ("StyleLike", "combined_style", "find_style", "style_names"),
         "styles.sheet": ("Lattice", "Sheet"),
-        "styles.step": ("StepKind", "StyleStep"),
+        "styles.step": ("StepKind", "StyleStep", "over_time"),
         "styles.steps": ("STEPS",),
         "styles.style": ("Style",),
     },

@@ -42,6 +42,11 @@ class Canvas:
         words: Words = np.array(self.pixels, order="C").view(np.uint32)[..., 0]
         return words
 
+    def alone(self) -> "Canvas":
+        """The same with its buffers made, so that it does not keep larger canvases in memory."""
+        buffers = self.buffers
+        return replace(self, make_buffers=lambda: buffers)
+
     def coarse(self, size: int) -> "Canvas":
         """The colour in the middle of each square of `size` x `size` pixels of the result."""
         step = size * self.grid

@@ -31,15 +31,6 @@ BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
 """Order of the thresholds of a 4 x 4 ordered dither (Bayer 1973)."""
 
 
-def pixels(
-    canvas: Canvas,
-    *,
-    size: Annotated[int, Field(ge=2, le=64, description="side of a large pixel [pixels]")] = 4,
-) -> Canvas:
-    """Large pixels, each with the one colour in its middle. Steps after this one work on them."""
-    return canvas.coarse(size)
-
-
 def shade(
     canvas: Canvas,
     *,

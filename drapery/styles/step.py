@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from inspect import Parameter, signature
-from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 from drapery.errors import OptionError
 from drapery.option import limits, one_of, shown
@@ -18,9 +18,19 @@ STEP_KINDS: tuple[StepKind, ...] = get_args(StepKind)
 """The kinds of steps, in the order in which they are applied."""
 
 StepFunction = Callable[..., Any]
+Function = TypeVar("Function", bound=StepFunction)
 
 COLOUR_PATTERN = r"^#[0-9a-fA-F]{6}$"
 """A colour in a style, such as `#5a3c1e`."""
+
+
+def over_time(function: Function) -> Function:
+    """Decorate a picture step that takes and returns the canvases of all frames of a loop, a list.
+
+    A picture that does not move is a loop of one frame.
+    """
+    vars(function)["over_time"] = True
+    return function
 
 
 @dataclass(frozen=True)
@@ -33,7 +43,7 @@ class StyleStep:
         motion: Sheet -> Sheet; the positions of all moments, shape [F, N, 3]
         shape: Sheet -> Sheet or Mesh; one moment, shape [N, 3]
         material: Material -> Material, of the cloth
-        picture: Canvas -> Canvas
+        picture: Canvas -> Canvas; or see `over_time`
 
     parameters: their values; those left out have their defaults. Annotate each parameter with
     pydantic's `Field`, such as `Annotated[int, Field(ge=1, le=60, description="...")]`.
@@ -57,6 +67,11 @@ class StyleStep:
     def name(self) -> str:
         """The name of the function, as it stands in files."""
         return self.function.__name__.replace("_", "-")
+
+    @property
+    def over_time(self) -> bool:
+        """Whether the step changes all frames of a loop together; see the decorator."""
+        return bool(getattr(self.function, "over_time", False))
 
     def apply(self, value: Any) -> Any:
         """What the step makes of a value; see `function`."""

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from drapery.styles import material_steps, motion_steps, picture_steps, shape_steps
+from drapery.styles import material_steps, motion_steps, picture_steps, pixel_steps, shape_steps
 from drapery.styles.step import StepFunction, StepKind
 
 _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
@@ -27,7 +27,10 @@ _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
         material_steps.age,
     ),
     "picture": (
-        picture_steps.pixels,
+        pixel_steps.pixels,
+        pixel_steps.limit,
+        pixel_steps.clean,
+        pixel_steps.steady,
         picture_steps.shade,
         picture_steps.outline,
         picture_steps.posterize,

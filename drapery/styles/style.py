@@ -1,6 +1,6 @@
 """A style: a named chain of steps that change motion, shape, material and picture."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -23,6 +23,8 @@ from drapery.styles.step import StepKind, StyleStep, parameter_lines
 
 MAX_SAMPLES = 1 << 25
 """The most samples of a picture that steps change; they take about 1 GiB."""
+
+DrawScene = Callable[[Scene], Frame]
 
 _materials: IdentityCache[Material] = IdentityCache(32)
 
@@ -113,29 +115,66 @@ class Style:
             return material
         return _materials.get((material,), self, lambda: self._applied("material", material))
 
-    def draw(self, scene: Scene, draw_scene: Callable[[Scene], Frame]) -> Frame:
+    def draw(self, scene: Scene, draw_scene: DrawScene) -> Frame:
         """A scene drawn by a backend, and the picture steps applied to all but its background.
 
         Edges are smoothed after the steps: the scene is drawn larger, with one sample a pixel.
         Raises OptionError for over MAX_SAMPLES samples.
         """
-        if not self.has("picture"):
-            return draw_scene(scene)
+        return next(self.draw_loop((scene,), draw_scene))
+
+    def draw_loop(self, scenes: Iterable[Scene], draw_scene: DrawScene) -> Iterator[Frame]:
+        """The scenes of a loop, all of one size, drawn as by `draw`.
+
+        Each is drawn when the iterator reaches it, or all at once for steps that are `over_time`.
+        """
+        steps = [*self._of("picture")]
+        if not steps:
+            yield from map(draw_scene, scenes)
+            return
+        first = next((n for n, step in enumerate(steps) if step.over_time), len(steps))
+        canvases = ((scene, self._canvas(scene, draw_scene, steps[:first])) for scene in scenes)
+        if first < len(steps):
+            canvases = self._together(canvases, steps[first:])
+        for scene, canvas in canvases:
+            pixels = canvas.finished(scene.size)
+            if scene.background[3]:
+                behind = np.broadcast_to(np.array(scene.background, np.uint8), pixels.shape)
+                pixels = lay_over(pixels, behind)
+            yield Frame(pixels)
+
+    def _canvas(self, scene: Scene, draw_scene: DrawScene, steps: Iterable[StyleStep]) -> Canvas:
+        """A scene after some picture steps."""
         grid = int(scene.samples**0.5)
         large = scene.size[0] * grid, scene.size[1] * grid
-        if large[0] * large[1] > MAX_SAMPLES:
-            raise OptionError(
-                f"style {self.name} changes pictures of at most {MAX_SAMPLES} samples;"
-                " use a smaller size or fewer samples"
-            )
+        self._check_samples(large[0] * large[1])
         sharp = replace(scene, size=large, samples=1, background=(0, 0, 0, 0))
         canvas = Canvas(draw_scene(sharp).pixels, lambda: _buffers(sharp), grid)
-        changed: Canvas = self._applied("picture", canvas)
-        pixels = changed.finished(scene.size)
-        if not scene.background[3]:
-            return Frame(pixels)
-        behind = np.broadcast_to(np.array(scene.background, np.uint8), pixels.shape)
-        return Frame(lay_over(pixels, behind))
+        for step in steps:
+            canvas = step.apply(canvas)
+        return canvas
+
+    def _together(
+        self, drawn: Iterable[tuple[Scene, Canvas]], steps: Iterable[StyleStep]
+    ) -> Iterator[tuple[Scene, Canvas]]:
+        """All scenes after some more steps, of which at least one is over time."""
+        scenes: list[Scene] = []
+        canvases: list[Canvas] = []
+        for scene, canvas in drawn:
+            scenes.append(scene)
+            canvases.append(canvas.alone())
+            self._check_samples(canvas.pixels[..., 0].size * len(canvases), "all frames together")
+        for step in steps:
+            each = step.over_time
+            canvases = step.apply(canvases) if each else [step.apply(one) for one in canvases]
+        return zip(scenes, canvases, strict=True)
+
+    def _check_samples(self, count: int, of: str = "pictures") -> None:
+        if count > MAX_SAMPLES:
+            raise OptionError(
+                f"style {self.name} changes {of} of at most {MAX_SAMPLES} samples;"
+                " use a smaller size, fewer samples or a shorter loop"
+            )
 
     def _of(self, kind: StepKind) -> Iterable[StyleStep]:
         return (step for step in self.steps if step.kind == kind)
