@@ -51,7 +51,10 @@ def run(
     ] = "auto",
     **words: Any,
 ) -> None:
-    """Compare pictures with the first; exit code 0 same, 1 different, 2 bad input."""
+    """Compare pictures with the first; exit code 0 same, 1 different, 2 bad input.
+
+    Each --style is a picture of its own.
+    """
     from drapery.comparison import compare_variants, draw_variants
     from drapery.option import within
     from drapery.settings import Settings
@@ -60,12 +63,12 @@ def run(
         _check_target(target)
     within("tolerance", tolerance, 0, 255)
     within("pixels", pixels, 0, 2**31)
-    modes, backends = layers.split(","), backend.split(",")
+    modes, backends, styles = layers.split(","), backend.split(","), words.pop("style") or ()
     first = {"layers": modes[0], "backend": backends[0]}
     settings = Settings(**o.options_of(words | first))
     reading = {name: words[name] for name in ("form", "number")}
     with compile_notice():
-        chosen = draw_variants(subjects, settings, modes, backends, **reading)
+        chosen = draw_variants(subjects, settings, modes, backends, styles, **reading)
         pairs = compare_variants(chosen, perceptual=perceptual)
         costs = {v.label: _cost(v) for v in chosen} if cost else {}
     for pair in pairs:

@@ -1,5 +1,6 @@
 """`drapery scene`: the ready-made scenes, each by one command."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import typer
@@ -32,6 +33,7 @@ def run(
         float | None, typer.Option(help="Frames per second; 20 for most scenes.")
     ] = None,
     size: o.SizeOption = "480x480",
+    style: o.StyleOption = None,
     backend: o.BackendOption = "auto",
 ) -> None:
     """Play a ready-made scene; a still picture shows its last moment.
@@ -48,7 +50,7 @@ def run(
         _show_parameters(name)
     else:
         parameters = [*(parameter or []), *_as_parameters(context.args)]
-        _play(name, out, parameters, seconds, fps, size, backend)
+        _play(name, out, parameters, seconds, fps, size, backend, style or ())
 
 
 def _play(
@@ -59,6 +61,7 @@ def _play(
     fps: float | None,
     size: str,
     backend: str,
+    style: Sequence[str],
 ) -> None:
     from drapery.render import check_animation_target, check_still_target, save_animation
     from drapery.scenes import Clip, find_scene, scene_frames
@@ -72,7 +75,8 @@ def _play(
     length = own.count / own.fps if seconds is None else seconds
     clip = Clip(OPTIONS["size"].parse(size), frame_count(length, fps), fps)
     with compile_notice(), progress("frames", clip.count) as tick:
-        drawn = scene_frames(scene, scene.parameters(words), clip, backend, last=is_still)
+        given = scene.parameters(words)
+        drawn = scene_frames(scene, given, clip, backend, last=is_still, style=style)
         if is_still:
             next(drawn).save(out)
         else:

@@ -15,9 +15,13 @@ from drapery.errors import OptionError
 from drapery.pictures import draw
 from drapery.render import Frame
 from drapery.settings import Options, Settings
+from drapery.styles import StyleLike, find_style
 
 PICTURE_ENDINGS = (".png", ".gif", ".webp", ".apng")
 MAX_PICTURE_SIDE = 16384
+
+Axes = dict[str, list[tuple[str, dict[str, Any]]]]
+"""The values of each thing that may vary: their labels, and the settings that they change."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,7 @@ def draw_variants(
     settings: Settings,
     layer_modes: Sequence[str] = (),
     backends: Sequence[str] = (),
+    styles: Sequence[StyleLike] = (),
     *,
     form: str | None = None,
     number: int | None = None,
@@ -67,8 +72,10 @@ def draw_variants(
     """Draw the variants of a comparison.
 
     subjects: two or more pictures; or one or more designs, and packs to draw them with.
+    styles: one for each variant.
     form, number: the form of the designs, and which banner to use if a text holds several.
-    Raises OptionError unless exactly one of designs, packs, layer modes and backends varies.
+    Raises OptionError unless exactly one of designs, packs, layer modes, backends and styles
+    varies.
     """
     pictures = [subject for subject in subjects if _is_picture(subject)]
     if pictures:
@@ -78,7 +85,14 @@ def draw_variants(
     packs = [subject for subject in subjects if _is_pack(subject)]
     designs = [subject for subject in subjects if subject not in packs]
     banners = [(text, _banner(text, form, number)) for text in designs]
-    return _drawn(banners, packs, settings, layer_modes, backends)
+    axes: Axes = {
+        "designs": [(text, {}) for text, _ in banners] if len(banners) > 1 else [],
+        "packs": [(Path(p).name, {"packs": (*settings.pack_paths, p)}) for p in packs],
+        "layers": [(mode, {"layers": mode}) for mode in layer_modes],
+        "backends": [(name, {"backend": name}) for name in backends],
+        "styles": [(find_style(style).name, {"style": style}) for style in styles],
+    }
+    return _drawn(banners, settings, axes)
 
 
 def _banner(text: str, form: str | None, number: int | None) -> Banner:
@@ -88,27 +102,19 @@ def _banner(text: str, form: str | None, number: int | None) -> Banner:
 
 def _drawn(
     banners: list[tuple[str, Banner]],
-    packs: list[str],
     settings: Settings,
-    layer_modes: Sequence[str],
-    backends: Sequence[str],
+    axes: Axes,
 ) -> list[Variant]:
     if not banners:
         raise OptionError(
             "no design is named; give one beside the packs, like 'white creeper:lime'"
         )
-    axes: dict[str, list[tuple[str, dict[str, Any]]]] = {
-        "designs": [(text, {}) for text, _ in banners] if len(banners) > 1 else [],
-        "packs": [(Path(p).name, {"packs": (*settings.pack_paths, p)}) for p in packs],
-        "layers": [(mode, {"layers": mode}) for mode in layer_modes],
-        "backends": [(name, {"backend": name}) for name in backends],
-    }
     varied = {name: values for name, values in axes.items() if len(values) > 1}
     if len(varied) != 1:
         found = " and ".join(varied) or "nothing"
         raise OptionError(
             f"a comparison varies one thing, and here {found} would vary; give two designs, two"
-            " packs, --layers stacked,flat or --backend soft,pyrender"
+            " packs, two styles, --layers stacked,flat or --backend soft,pyrender"
         )
     fixed = {
         k: v for name, values in axes.items() if len(values) == 1 for k, v in values[0][1].items()

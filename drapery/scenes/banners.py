@@ -69,7 +69,8 @@ def flag_models(
     every frame the same objects, because the renderer recognises them by identity.
     """
     index = np.arange(len(state.positions), dtype=np.int32) % len(materials)
-    return garment(shell, state.positions, thickness * SCALE, *materials, index=index)
+    given = {"index": index, "size": FLAG_SIZE, "texel": SCALE}
+    return garment(shell, state.positions, thickness * SCALE, *materials, **given)
 
 
 def _sheet(cloth: Cloth, block: BannerBlock) -> Mesh:

@@ -9,7 +9,7 @@ from drapery.banner.packs import open_packs
 from drapery.cloth import Gravity, Wind
 from drapery.errors import OptionError
 from drapery.mesh import Array
-from drapery.render.scene import Model, Scene
+from drapery.render.scene import Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.banners import (
     BannerBlock,
@@ -32,7 +32,7 @@ from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.block_world import blocks, plateau
 from drapery.style.scenery import SKY, shadow
-from drapery.style.tailoring import garment
+from drapery.style.tailoring import ClothModel, garment
 from drapery.styles.shape_steps import boards, voxels
 from drapery.styles.sheet import Sheet, grid_lattice
 
@@ -73,9 +73,10 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     for state in motion(cloth, clip, forces=forces, start=start, settle=2 * LOOP, step=1 / 60):
         smooth = Sheet(state.positions[0], lattice, SCALE, SCALE, FLAG_SIZE, FLAG_MAPPING)
         sheets = smooth, boards(smooth, steps=parameters.steps)
-        flags = [garment(shell, sheet.positions, SCALE, *materials) for sheet in sheets]
+        given = {"size": FLAG_SIZE, "texel": SCALE}
+        flags = [garment(shell, sheet.positions, SCALE, *materials, **given) for sheet in sheets]
         if parameters.pixel_snap:
-            flags += [Model(voxels(sheet), materials) for sheet in sheets]
+            flags += [ClothModel(voxels(sheet), materials) for sheet in sheets]
         scenes = tuple(
             Scene((*still, flag), camera, size, background=SKY, samples=4) for flag in flags
         )

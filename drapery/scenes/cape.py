@@ -69,7 +69,7 @@ def play(parameters: CapeParameters, clip: Clip) -> Iterator[Scene]:
 
 def cape_model(shell: Shell, state: State, thickness: float, wool: Material) -> Model:
     """The cape of a state. thickness: in texels."""
-    return garment(shell, state.positions[0], thickness * TEXEL, wool)
+    return garment(shell, state.positions[0], thickness * TEXEL, wool, size=CAPE_SIZE)
 
 
 def cape_shell(cloth: Cloth) -> Shell:

@@ -58,7 +58,8 @@ def show(corners: PinName, parameters: CornersParameters, clip: Clip) -> Iterato
     still = (*blocks(plateau(4, 4), packs), *posts)
     camera = frame_points(CORNER_VIEW, _framed_points(), clip.size[0] / clip.size[1], margin=0.03)
     for state in cloth_states(cloth, parameters, clip):
-        sheet = garment(shell, state.positions[0], parameters.thickness, wool)
+        size = SIDE, SIDE
+        sheet = garment(shell, state.positions[0], parameters.thickness, wool, size=size)
         shadow = contact_shadow((*posts, sheet), 0.0, reach=HEIGHT)
         yield Scene((*still, shadow, sheet), camera, clip.size, background=SKY, samples=4)
 

@@ -1,26 +1,35 @@
 """The pictures of a ready-made scene."""
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from drapery.render.backends import backend as backend_named
 from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Clip, SceneEntry
 from drapery.scenes.picture_grid import drawn
+from drapery.scenes.styling import styled_pictures
 from drapery.settings import OPTIONS
+from drapery.styles.catalogue import StyleLike, combined_style
 
 
 def scene_frames(
-    scene: SceneEntry, parameters: Any, clip: Clip, backend: str = "auto", *, last: bool = False
+    scene: SceneEntry,
+    parameters: Any,
+    clip: Clip,
+    backend: str = "auto",
+    *,
+    last: bool = False,
+    style: StyleLike | Iterable[StyleLike] = (),
 ) -> Iterator[Frame]:
-    """The frames of a ready-made scene, or only its last, drawn one by one.
+    """The frames of a ready-made scene, or only its last, drawn one by one in a style.
 
     Raises OptionError or BackendError.
     """
     OPTIONS["size"].check(clip.size)
-    draw_scene = backend_named(backend)
+    draw_scene, chosen = backend_named(backend), combined_style(style)
     pictures = scene.play(parameters, clip)
     if last:
         pictures = iter([*deque(pictures, maxlen=1)])
+    pictures = styled_pictures(pictures, chosen, draw_scene)
     return (drawn(picture, draw_scene) for picture in pictures)

@@ -35,6 +35,7 @@ BUNTING = Fabric(stretch=10.0, shear=4.0, flexion=0.6)
 """Stiffness of the flag's springs [N/m], high enough that its free end does not crumple."""
 FRICTION = 1.8
 """Friction of the air along the flag [1/s]; the wind itself presses only on faces."""
+GROWN_SIZE = FLAG_SIZE[0] * GROWN, FLAG_SIZE[1] * GROWN
 FOOT = np.array([0.0, TOWER + 1.0, 0.0])
 
 
@@ -60,15 +61,15 @@ def play(parameters: FlagParameters, clip: Clip) -> Iterator[Scene]:
     still = (*blocks(_hill(), packs), post(FOOT, POLE, packs, 0.12))
     for state in flag_states(parameters, cloth, clip):
         sheet = state.positions[0]
-        flag = garment(shell, sheet, parameters.thickness * SCALE * GROWN, *materials)
+        thick = parameters.thickness * SCALE * GROWN
+        flag = garment(shell, sheet, thick, *materials, size=GROWN_SIZE, texel=SCALE * GROWN)
         yield Scene((*still, flag), _camera(), clip.size, background=SKY, samples=4)
 
 
 def banner_on_its_side(shape: tuple[int, int]) -> Cloth:
     """The flag, its hoist along the top of the pole."""
-    width, height = FLAG_SIZE
-    cloth = grid(*shape, width * GROWN, height * GROWN, fabric=BUNTING)
-    top = FOOT + np.array([0.1, POLE - 0.1 - width * GROWN / 2, 0.0])
+    cloth = grid(*shape, *GROWN_SIZE, fabric=BUNTING)
+    top = FOOT + np.array([0.1, POLE - 0.1 - GROWN_SIZE[0] / 2, 0.0])
     return placed(cloth, top, rotation_about((0, 0, 1), 90))
 
 

@@ -68,13 +68,14 @@ def play(parameters: FreefallParameters, clip: Clip) -> Iterator[Scene]:
     cloths = (sheet(parameters, BEETLE_AT), sheet(parameters, FOX_AT))
     colliders = (insect_colliders(parameters, insect), fox_colliders(parameters))
     shell = make_shell(cloths[0].triangles, cloths[0].uvs)
+    size = parameters.side, parameters.side
     camera = frame_points(ABOVE, _framed_points(), clip.size[0] / clip.size[1], margin=0.03)
     motions = [
         cloth_states(parameters, *pair, clip) for pair in zip(cloths, colliders, strict=True)
     ]
     for states in zip(*motions, strict=True):
         fallen = tuple(
-            garment(shell, state.positions[0], parameters.thickness, material)
+            garment(shell, state.positions[0], parameters.thickness, material, size=size)
             for state, material in zip(states, materials, strict=True)
         )
         yield Scene((*still, shadow, *fallen), camera, clip.size, background=SKY, samples=4)

@@ -75,7 +75,8 @@ def play(parameters: SailParameters, clip: Clip) -> Iterator[Scene]:
     ship = (sea(24, -0.7), *blocks(_raft(), packs), *_rigging(packs))
     camera = frame_points(STERN, _framed_points(), clip.size[0] / clip.size[1], margin=0.02)
     for state in sail_states(parameters, settings, cloth, clip):
-        sail = garment(shell, state.positions[0], parameters.thickness, canvas)
+        size = SIDE, SIDE
+        sail = garment(shell, state.positions[0], parameters.thickness, canvas, size=size)
         yield Scene((*ship, sail), camera, clip.size, background=SKY, samples=4)
 
 

@@ -28,6 +28,7 @@ from drapery.scenes.stroll import BEFORE, camera, ground, walker
 from drapery.style.extrusion import Shell, make_shell
 from drapery.style.figure import SKINS, TEXEL, figure_material
 from drapery.style.scenery import SKY
+from drapery.style.tailoring import ClothModel
 from drapery.style.uv_mapping import BoxMapping
 
 WAIST, HEM = 13.0, 5.0
@@ -137,7 +138,7 @@ def skirt_model(
     sheet = state.positions[0]
     normals = vertex_normals(sheet, cloth.triangles)
     thick = shell.cover(sheet[opened], normals[opened], parameters.thickness * TEXEL)
-    return Model(thick, (material,))
+    return ClothModel(thick, (material,))
 
 
 def skirt_material(parameters: SkirtParameters, packs: Packs) -> Material:

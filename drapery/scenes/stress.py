@@ -11,7 +11,7 @@ from drapery.banner.packs import open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.cloth import Gravity, Wind, grid, rest_state
 from drapery.mesh import Array
-from drapery.render.scene import Material, Model, Scene
+from drapery.render.scene import Material, Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
@@ -21,6 +21,7 @@ from drapery.style.crowds import cover_crowd
 from drapery.style.extrusion import make_shell
 from drapery.style.layers import flag_material
 from drapery.style.scenery import SKY
+from drapery.style.tailoring import ClothModel
 
 RAINBOW = (
     *("red", "orange", "yellow", "lime", "green", "cyan", "light_blue", "blue"),
@@ -57,7 +58,11 @@ def play(parameters: StressParameters, clip: Clip) -> Iterator[Scene]:
         placed = (positions + places[:, None]).astype(np.float32)
         mesh = cover_crowd(shell, placed, SCALE)
         yield Scene(
-            (Model(mesh, materials, material_index),), camera, clip.size, background=SKY, samples=4
+            (ClothModel(mesh, materials, material_index),),
+            camera,
+            clip.size,
+            background=SKY,
+            samples=4,
         )
 
 

@@ -9,7 +9,7 @@ from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.packs import Packs, open_packs
 from drapery.cloth import Gravity, Wind
 from drapery.mesh import Array
-from drapery.render.scene import Model, Scene
+from drapery.render.scene import Scene
 from drapery.render.views import View, frame_points
 from drapery.scenes import cape
 from drapery.scenes.banners import (
@@ -33,7 +33,7 @@ from drapery.style.board import moved
 from drapery.style.figure import figure_material
 from drapery.style.scenery import SKY, shadow
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
-from drapery.style.tailoring import dyed
+from drapery.style.tailoring import ClothModel, dyed
 
 BLOCK = BannerBlock((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=38, elevation=10, fov=26)
@@ -77,7 +77,7 @@ def _banners(
     states = motion(cloth, clip, forces=forces, start=start, settle=2 * LOOP, step=1 / 60)
     for frame, state in enumerate(states):
         board = stiff_flag("standing", sway_phase(parameters.block, frame / clip.fps))
-        stiff = Model(moved(board, np.array(BLOCK.cell)), materials)
+        stiff = ClothModel(moved(board, np.array(BLOCK.cell)), materials)
         soft = flag_models(shell, state, materials)
         left, right = (
             Scene((*still, flag), camera, size, background=SKY, samples=4) for flag in (stiff, soft)
@@ -100,13 +100,13 @@ def _capes(
     skin, causeway = figure_material(cape_parameters.skin, packs), ground(packs)
     view = camera(size)
     for frame, state in enumerate(cape.cape_states(cape_parameters, cloth, gait, clip)):
-        stiff = Model(stiff_cape(cape_lean(parameters.speed, frame / clip.fps)), (wool,))
+        stiff = ClothModel(stiff_cape(cape_lean(parameters.speed, frame / clip.fps)), (wool,))
         lifted = moved(stiff.mesh, np.array([0, gait.lift(state.time), 0]))
         soft = cape.cape_model(shell, state, 1.0, wool)
         figure = walker(gait, state.time, skin, causeway)
         left, right = (
             Scene((*figure, back), view, size, background=SKY, samples=4)
-            for back in (Model(lifted, stiff.materials), soft)
+            for back in (ClothModel(lifted, stiff.materials), soft)
         )
         yield left, right
 

@@ -41,12 +41,16 @@ class Shell:
     sheet: triangles of the thin sheet, shape [T, 3].
     rim: boundary edges of the thin sheet, shape [E, 2].
     uvs: texture coordinates of all vertices, shape [2 N + 4 E, 2].
+    sheet_uvs: texture coordinates of the thin sheet 0..1, shape [N, 2].
+    uv_mapping: how `uvs` follow from them.
     """
 
     count: int
     sheet: Triangles
     rim: NDArray[np.int32]
     uvs: Array
+    sheet_uvs: Array
+    uv_mapping: UVMapping = SHEET_MAPPING
 
     @cached_property
     def triangles(self) -> Triangles:
@@ -90,7 +94,8 @@ def make_shell(triangles: Triangles, uvs: Array, uv_mapping: UVMapping = SHEET_M
     """
     rim = boundary_edges(triangles)
     sheets = [uv_mapping.front(uvs), uv_mapping.back(uvs)]
-    return Shell(len(uvs), triangles, rim, np.concatenate([*sheets, uv_mapping.rim(uvs, rim)]))
+    every = np.concatenate([*sheets, uv_mapping.rim(uvs, rim)])
+    return Shell(len(uvs), triangles, rim, every, uvs, uv_mapping)
 
 
 def thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:

@@ -1,5 +1,7 @@
 """Thick, textured cloth of any shape."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +12,30 @@ from drapery.mesh import Array
 from drapery.render.scene import Material, Model, Texels, TextureLayer
 from drapery.style.extrusion import Shell, thicken
 
+TEXEL = 1 / 16
+"""The edge of a texel of a block [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class ClothSheet:
+    """The thin cloth of a model, from which a style makes another mesh.
+
+    positions: [m], shape [N, 3] or [B, N, 3]. thickness, texel: [m]. size: width and height [m].
+    """
+
+    shell: Shell
+    positions: Array
+    thickness: float
+    texel: float
+    size: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class ClothModel(Model):
+    """A model that is cloth, so that styles change it. sheet: None if its shape must stay."""
+
+    sheet: ClothSheet | None = None
+
 
 def garment(
     shell: Shell,
@@ -17,12 +43,16 @@ def garment(
     thickness: float,
     *materials: Material,
     index: NDArray[np.int32] | None = None,
-) -> Model:
+    size: tuple[float, float] | None = None,
+    texel: float = TEXEL,
+) -> ClothModel:
     """A cloth, or a batch of them, made thick; sheet, thickness: see `thicken`.
 
-    materials, index: as in `Model`.
+    materials, index: as in `Model`. size: width and height of a rectangle at rest [m], None for
+    other shapes. texel: the edge of a texel [m].
     """
-    return Model(thicken(shell, sheet, thickness), materials, index)
+    thin = None if size is None else ClothSheet(shell, sheet, thickness, texel, size)
+    return ClothModel(thicken(shell, sheet, thickness), materials, index, thin)
 
 
 def dyed(texels: Texels, dye: str) -> Material:

@@ -1,0 +1,149 @@
+"""Styles on the pictures of ready-made scenes."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache, partial
+
+import numpy as np
+
+from drapery.mesh import Array, Mesh
+from drapery.render.frame import Frame
+from drapery.render.light import STUDIO_LIGHT, UNLIT
+from drapery.render.scene import Model, Scene
+from drapery.scenes.picture_grid import Picture, PictureGrid
+from drapery.style.extrusion import Shell, thicken
+from drapery.style.tailoring import ClothModel, ClothSheet
+from drapery.styles.sheet import Lattice, Sheet, grid_lattice
+from drapery.styles.style import Style
+
+DrawScene = Callable[[Scene], Frame]
+
+
+def styled_pictures(
+    pictures: Iterable[Picture], style: Style, draw_scene: DrawScene
+) -> Iterator[Picture]:
+    """The pictures of a clip in a style, one by one.
+
+    Motion and shape steps change rectangles of cloth, material steps all cloth, picture steps all
+    scenes; frames that a scene draws itself stay. Motion steps, and picture steps over time, need
+    all pictures at once.
+    """
+    if style.has("motion"):
+        pictures = _moved([*pictures], style)
+    shaped = (_each(picture, partial(_dressed, style=style)) for picture in pictures)
+    if not style.has("picture"):
+        return shaped
+    if not any(step.over_time for step in style.steps):
+        return (_each(picture, partial(style.draw, draw_scene=draw_scene)) for picture in shaped)
+    return _together([*shaped], style, draw_scene)
+
+
+def _each(picture: Picture, change: Callable[[Scene], Scene | Frame]) -> Picture:
+    """The picture with all of its scenes changed."""
+    if isinstance(picture, PictureGrid):
+        parts = (part if isinstance(part, Frame) else change(part) for part in picture.pictures)
+        return replace(picture, pictures=tuple(parts))
+    return picture if isinstance(picture, Frame) else change(picture)
+
+
+def _scenes(picture: Picture) -> list[Scene]:
+    """The scenes in a picture, in the order in which `_each` changes them."""
+    parts = picture.pictures if isinstance(picture, PictureGrid) else (picture,)
+    return [part for part in parts if isinstance(part, Scene)]
+
+
+def _together(pictures: list[Picture], style: Style, draw_scene: DrawScene) -> Iterator[Picture]:
+    """Each place of a grid of pictures is a loop."""
+    loops = zip(*map(_scenes, pictures), strict=True)
+    drawn = [style.draw_loop(scenes, draw_scene) for scenes in loops]
+    for picture in pictures:
+        frames = iter([next(loop) for loop in drawn])
+        yield _each(picture, lambda _, frames=frames: next(frames))  # type: ignore[misc]
+
+
+def _dressed(scene: Scene, style: Style) -> Scene:
+    """A scene with the style's light, samples, shapes and materials."""
+    lights = {"flat": UNLIT, "studio": STUDIO_LIGHT}
+    return replace(
+        scene,
+        models=tuple(
+            _tailored(model, style) if isinstance(model, ClothModel) else model
+            for model in scene.models
+        ),
+        light=lights.get(style.light or "", scene.light),
+        samples=style.samples or scene.samples,
+    )
+
+
+def _tailored(model: ClothModel, style: Style) -> ClothModel:
+    materials = tuple(style.material(material) for material in model.materials)
+    mesh, sheet = model.mesh, model.sheet
+    lattice = None if sheet is None else _lattice(sheet.shell)
+    if sheet is not None and lattice is not None and style.has("shape"):
+        mesh = _shaped(sheet, lattice, style)
+    return replace(model, mesh=mesh, materials=materials)
+
+
+def _shaped(sheet: ClothSheet, lattice: Lattice, style: Style) -> Mesh:
+    """The mesh of a sheet, or of a batch of sheets, by the style's shape steps."""
+    batch = sheet.positions.reshape(-1, *sheet.positions.shape[-2:])
+    meshes = [style.mesh(_thin(sheet, positions, lattice)) for positions in batch]
+    if sheet.positions.ndim == 2:
+        return meshes[0]
+    positions = np.stack([mesh.positions for mesh in meshes])
+    return replace(meshes[0], positions=positions, normals=np.stack([m.normals for m in meshes]))
+
+
+def _thin(sheet: ClothSheet, positions: Array, lattice: Lattice) -> Sheet:
+    mapping = sheet.shell.uv_mapping
+    return Sheet(positions, lattice, sheet.thickness, sheet.texel, sheet.size, mapping)
+
+
+@lru_cache(maxsize=64)
+def _lattice(shell: Shell) -> Lattice | None:
+    """The lattice of a shell whose sheet is a grid of particles; None for other sheets."""
+    columns = int(np.count_nonzero(shell.sheet_uvs[:, 1] == shell.sheet_uvs[0, 1]))
+    rows = shell.count // columns
+    if rows < 2 or columns < 2 or rows * columns != shell.count:
+        return None
+    lattice = grid_lattice(rows, columns)
+    alike = np.array_equal(lattice.triangles, shell.sheet)
+    return lattice if alike and np.array_equal(lattice.uvs, shell.sheet_uvs) else None
+
+
+def _moved(pictures: list[Picture], style: Style) -> Iterator[Picture]:
+    """The pictures with the motion steps applied to each rectangle of cloth over all of them."""
+    frames = [_scenes(picture) for picture in pictures]
+    places = [_move_models(scenes, style) for scenes in zip(*frames, strict=True)]
+    for number, picture in enumerate(pictures):
+        scenes = iter([place[number] for place in places])
+        yield _each(picture, lambda _, scenes=scenes: next(scenes))  # type: ignore[misc]
+
+
+def _move_models(scenes: Sequence[Scene], style: Style) -> list[Scene]:
+    models = [[*scene.models] for scene in scenes]
+    for place in range(min(map(len, models))):
+        cloth = [frame[place] for frame in models]
+        sheets = [model.sheet for model in cloth if isinstance(model, ClothModel) and model.sheet]
+        lattice = _lattice(sheets[0].shell) if len(sheets) == len(cloth) else None
+        if lattice is not None:
+            motion = _moved_positions(sheets, lattice, style)
+            for frame, model, positions in zip(models, cloth, motion, strict=True):
+                frame[place] = _with_positions(model, positions)
+    return [replace(scene, models=tuple(m)) for scene, m in zip(scenes, models, strict=True)]
+
+
+def _moved_positions(sheets: Sequence[ClothSheet], lattice: Lattice, style: Style) -> Array:
+    """The positions of a sheet or batch at all moments after the motion steps."""
+    motion = np.stack([sheet.positions for sheet in sheets])
+    batch = motion.reshape(len(sheets), -1, *motion.shape[-2:])
+    members = (batch[:, member] for member in range(batch.shape[1]))
+    moved = [style.move(_thin(sheets[0], member, lattice)).positions for member in members]
+    return np.stack(moved, axis=1).reshape(motion.shape)
+
+
+def _with_positions(model: Model, positions: Array) -> Model:
+    if not isinstance(model, ClothModel) or model.sheet is None:
+        return model
+    sheet = replace(model.sheet, positions=positions)
+    return replace(model, mesh=thicken(sheet.shell, positions, sheet.thickness), sheet=sheet)
