@@ -154,8 +154,9 @@ def tone(words, dark, light, gamma):
             slot = ((word & 0xFFFFFF) * 2654435761 >> 20) & (SLOTS - 1)
             if keys[slot] != word:
                 share = (_brightness(word) / 255) ** gamma
-                mixed = dark + share * (light - dark)
-                red, green, blue = np.rint(mixed[0]), np.rint(mixed[1]), np.rint(mixed[2])
+                red = np.rint(dark[0] + share * (light[0] - dark[0]))
+                green = np.rint(dark[1] + share * (light[1] - dark[1]))
+                blue = np.rint(dark[2] + share * (light[2] - dark[2]))
                 keys[slot] = word
                 values[slot] = _with_bytes(word, np.int64(red), np.int64(green), np.int64(blue))
             row[x] = values[slot]
@@ -189,18 +190,20 @@ def hatch(words, model, strokes, grid, pen, ink, paper):
 
 
 @kernel
-def _flag(flags, depths, models, normals, limit, cosine):
-    """Flag 1: there may be an edge between two rows of neighbours; flag 2: there is a crease."""
-    (depth, other_depth), (model, other_model), (normal, other_normal) = depths, models, normals
+def _flag_depths(flags, depth, other_depth, model, other_model, limit):
+    """Flag 1: there may be an edge between two rows of neighbours."""
     for x in range(len(flags)):
         far = abs(other_depth[x] - depth[x])
         flags[x] = (model[x] != other_model[x]) | (far > limit)
-    if cosine <= -1:
-        return
+
+
+@kernel
+def _flag_creases(flags, normal, other, model, cosine):
+    """Flag 2: there is a crease. normal, other: three numbers for each pixel."""
     for x in range(len(flags)):
-        facing = normal[3 * x] * other_normal[3 * x]
-        facing += normal[3 * x + 1] * other_normal[3 * x + 1]
-        facing += normal[3 * x + 2] * other_normal[3 * x + 2]
+        facing = normal[3 * x] * other[3 * x]
+        facing += normal[3 * x + 1] * other[3 * x + 1]
+        facing += normal[3 * x + 2] * other[3 * x + 2]
         flags[x] |= 2 if (facing < cosine) & (model[x] >= 0) else 0
 
 
@@ -210,11 +213,9 @@ def _flag_colours(flags, row, other, apart, contrast):
     for byte in range(len(row)):
         one, two = row[byte], other[byte]
         apart[byte] = one - two if one > two else two - one
-    for byte in range(len(row)):
-        apart[byte] = apart[byte] >= contrast
-    differs = apart.view(np.uint32)
     for x in range(len(flags)):
-        flags[x] |= 4 if differs[x] & 0xFFFFFF else 0
+        most = max(apart[4 * x], apart[4 * x + 1], apart[4 * x + 2])
+        flags[x] |= 4 if most >= contrast else 0
 
 
 @kernel
@@ -231,18 +232,8 @@ def _rises(depth, y, x, down, right):
 
 
 @kernel
-def _contrast(one, other):
-    """The largest difference in a channel of two visible pixels; 0 if one is invisible."""
-    if one < 0x1000000 or other < 0x1000000:
-        return 0
-    (r, g, b), (u, v, w) = _bytes(one), _bytes(other)
-    return max(abs(r - u), abs(g - v), abs(b - w))
-
-
-@kernel
-def _mark(marks, flag, place, step, words, depth, model, limit, contrast):
+def _mark(marks, flag, y, x, down, right, words, depth, model, limit):
     """Mark the nearer of two neighbours at an edge, or the first of those at a crease."""
-    (y, x), (down, right) = place, step
     v, u = y + down, x + right
     one, other = model[y, x], model[v, u]
     edge = one != other
@@ -253,90 +244,136 @@ def _mark(marks, flag, place, step, words, depth, model, limit, contrast):
     elif edge:
         marks[y, x] |= one >= 0
     elif flag & 2 and one >= 0 and other >= 0:
-        marks[y, x] = True
-    if flag & 4 and _contrast(words[y, x], words[v, u]) >= contrast:
-        marks[y, x] = True
-
-
-@kernel
-def _span(model, y):
-    """The first pixel of a row that shows a model, and the one after the last."""
-    row, first, last = model[y], 0, model.shape[1]
-    while first < last and row[first] < 0:
-        first += 1
-    while last > first and row[last - 1] < 0:
-        last -= 1
-    return (first, last) if first < last else (model.shape[1], 0)
-
-
-@kernel
-def _edges(words, depth, normal, model, limit, cosine, contrast):
-    """The pixels at edges, bool [H, W rounded up to eights]. normal: [H, 3 W]."""
-    height, width = words.shape
-    padded = -(-width // 8) * 8
-    marks, flags = np.zeros((height, padded), np.bool_), np.zeros(padded, np.uint8)
-    eights, levels = flags.view(np.uint64), words.view(np.uint8)
-    apart = np.empty(4 * width, np.uint8)
-    spans = [_span(model, y) for y in range(height)]
-    for y in range(height):
-        for down, right in ((0, 1), (1, 0)):
-            v = y + down
-            if v == height:
-                continue
-            first, last = min(spans[y][0], spans[v][0]), max(spans[y][1], spans[v][1])
-            if last <= first:
-                continue
-            first, last = max(first - right, 0), min(last, width - right)
-            flags[:] = 0
-            one, other, normals = slice(first, last), slice(first + right, last + right), 3 * right
-            here = flags[first:last]
-            d, m = (depth[y, one], depth[v, other]), (model[y, one], model[v, other])
-            n = normal[y, 3 * first : 3 * last], normal[v, 3 * first + normals : 3 * last + normals]
-            _flag(here, d, m, n, limit, cosine)
-            if contrast:
-                room = apart[: 4 * len(here)]
-                row = levels[y, 4 * first : 4 * last]
-                next_row = levels[v, 4 * (first + right) : 4 * (last + right)]
-                _flag_colours(here, row, next_row, room, np.uint8(contrast))
-            for eight in range(len(eights)):
-                if eights[eight] == 0:
-                    continue
-                for x in range(8 * eight, 8 * eight + 8):
-                    if flags[x]:
-                        step = down, right
-                        _mark(marks, flags[x], (y, x), step, words, depth, model, limit, contrast)
-    return marks
-
-
-@kernel
-def _draw_mark(words, source, y, x, reach, table):
-    """Draw a disc around a mark."""
-    height, width = words.shape
-    radius = len(reach) // 2
-    for row in range(max(0, y - radius), min(height, y + radius + 1)):
-        side = reach[row - y + radius]
-        for column in range(max(0, x - side), min(width, x + side + 1)):
-            red, green, blue = _bytes(source[row, column])
-            drawn = _with_bytes(0, table[0, red], table[1, green], np.int64(table[2, blue]))
-            words[row, column] = 0xFF000000 | drawn
+        marks[y, x] = 1
+    if flag & 4 and words[y, x] >= 0x1000000 and words[v, u] >= 0x1000000:
+        marks[y, x] = 1
 
 
 @entry_point
-def draw_lines(words, depth, normal, model, limits, contrast, reach, table):
-    """Draw lines along edges of models.
+def mark_edges(marks, words, levels, depth, normal, model, limits, contrast, room):
+    """Mark the pixels at edges of models. marks: uint8 [H, W], zeros.
 
-    depth, normal, model: see `Buffers`; normal has the shape [H, 3 W] here. limits: step in depth
-        [m] and cosine of a crease, float32 [2]. contrast: between neighbouring colours, 0 for none.
-    reach: how far to each side a line goes in each row above and below a marked pixel, int64
-        [2 R + 1]. table: what each level of a channel becomes, uint8 [3, 256].
+    levels: `words` as bytes, [H, 4 W]. depth, normal, model: see `Buffers`, normal as [H, 3 W].
+    limits: step in depth [m] and cosine of a crease, float32 [2].
+    contrast: between neighbouring colours, uint8, 0 for none. room: uint8 [5, W].
     """
-    source = words.copy()
-    marks = _edges(source, depth, normal, model, limits[0], limits[1], contrast)
-    eights = marks.view(np.uint64)
-    for y in range(len(words)):
-        for eight in range(eights.shape[1]):
-            if eights[y, eight] == 0:
+    height, width = words.shape
+    limit, cosine = limits[0], limits[1]
+    flags, apart = room[0], room[1:].reshape(-1)
+    for y in range(height):
+        first, last = 0, width
+        below = min(y + 1, height - 1)
+        while first < last and model[y, first] < 0 and model[below, first] < 0:
+            first += 1
+        while last > first and model[y, last - 1] < 0 and model[below, last - 1] < 0:
+            last -= 1
+        for right in range(2 if last > first else 0):
+            down, v = 1 - right, y + 1 - right
+            if v == height:
                 continue
-            for x in range(8 * eight, 8 * eight + 8):
-                if marks[y, x]:
-                    _draw_mark(words, source, y, x, reach, table)
+            # To the right, the pixel before the first one and the last one also have neighbours.
+            one, end = max(first - right, 0), min(last, width - right)
+            other, stop = one + right, end + right
+            here = flags[one:end]
+            _flag_depths(
+                here,
+                depth[y, one:end],
+                depth[v, other:stop],
+                model[y, one:end],
+                model[v, other:stop],
+                limit,
+            )
+            if cosine > -1:
+                this, that = normal[y, 3 * one : 3 * end], normal[v, 3 * other : 3 * stop]
+                _flag_creases(here, this, that, model[y, one:end], cosine)
+            if contrast:
+                row, next_row = levels[y, 4 * one : 4 * end], levels[v, 4 * other : 4 * stop]
+                _flag_colours(here, row, next_row, apart, contrast)
+            for x in range(one, end):
+                if flags[x]:
+                    _mark(marks, flags[x], y, x, down, right, words, depth, model, limit)
+
+
+@entry_point
+def draw_marks(words, source, marks, reach, table):
+    """Draw a disc around each marked pixel, on visible and invisible pixels.
+
+    source: `words` before. reach: how far a disc goes to each side in each row from its top to its
+    foot, int64 [2 R + 1]. table: what each level of a channel becomes, uint8 [3, 256].
+    """
+    height, width = words.shape
+    radius = len(reach) // 2
+    for y in range(height):
+        for x in range(width):
+            if marks[y, x] == 0:
+                continue
+            for row in range(max(0, y - radius), min(height, y + radius + 1)):
+                side = reach[row - y + radius]
+                for column in range(max(0, x - side), min(width, x + side + 1)):
+                    red, green, blue = _bytes(source[row, column])
+                    drawn = table[0, red] | np.int64(table[1, green]) << 8
+                    words[row, column] = 0xFF000000 | drawn | np.int64(table[2, blue]) << 16
+
+
+@kernel
+def _box_along(values, row, radius):
+    """Replace each number of each row by the sum of those up to `radius` before and after it."""
+    height, width = values.shape
+    row[:] = 0
+    for y in range(height):
+        total = 0
+        for x in range(width):
+            row[radius + 1 + x] = values[y, x]
+        for x in range(min(radius, width)):
+            total += row[radius + 1 + x]
+        for x in range(width):
+            total += row[x + 2 * radius + 1] - row[x]
+            values[y, x] = total
+
+
+@kernel
+def _box_down(values, result, sums, radius, total):
+    """The same along columns, into another array. total: how much one is in the result."""
+    height, width = values.shape
+    scale = np.float32(1 / total)
+    sums[:] = 0
+    for y in range(-radius, height):
+        for x in range(width if y + radius < height else 0):
+            sums[x] += values[y + radius, x]
+        for x in range(width if y - radius > 0 else 0):
+            sums[x] -= values[y - radius - 1, x]
+        for x in range(width if y >= 0 else 0):
+            result[y, x] = np.int32(np.float32(sums[x]) * scale)
+
+
+@entry_point
+def blur(values, other, room, radius):
+    """Blur whole numbers by two boxes, with room for the rows in between, int32 [W + 2 R + 1].
+
+    values: int32 [H, W], overwritten with the result. other: of the same shape.
+    """
+    side = 2 * radius + 1
+    _box_along(values, room, radius)
+    _box_down(values, other, room, radius, side * side)
+    _box_along(other, room, radius)
+    _box_down(other, values, room, radius, side * side)
+
+
+@entry_point
+def lay_under(words, below, colour, scale):
+    """Lay a colour, a word's lower bytes, under a picture. below * scale: its opacity, int32."""
+    height, width = words.shape
+    r, g, b = _bytes(np.uint32(colour))
+    for y in range(height):
+        for x in range(width):
+            word = words[y, x]
+            if below[y, x] == 0 or word >= 0xFF000000:
+                continue
+            own = (word >> 24) / 255
+            under = min(1.0, below[y, x] * scale) * (1 - own)
+            red, green, blue = _bytes(word)
+            total = own + under
+            red = np.int64((red * own + r * under) / total + 0.5)
+            green = np.int64((green * own + g * under) / total + 0.5)
+            blue = np.int64((blue * own + b * under) / total + 0.5)
+            words[y, x] = np.int64(255 * total + 0.5) << 24 | blue << 16 | green << 8 | red

@@ -10,6 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from drapery.errors import OptionError
 from drapery.option import shown
+from drapery.styles.palette_files import read_palette
+from drapery.styles.picture_steps import palette
 from drapery.styles.step import STEP_KINDS, StyleStep, parameter_faults
 from drapery.styles.steps import STEPS
 
@@ -75,9 +77,25 @@ def _steps(parsed: StyleFile, path: str | Path, text: str) -> Iterator[StyleStep
                 where = _where(path, text, (kind, number, "step"))
                 said = f"step {shown(name)} is not known" if "step" in table else "step is missing"
                 raise OptionError(f"{where}: {said}; use one of: {', '.join(known)}")
+            if known[name] is palette and "file" in given:
+                where = _where(path, text, (kind, number, "file"))
+                given = _with_palette(given, Path(path).parent, where)
             for field, fault in parameter_faults(known[name], given).items():
                 raise OptionError(f"{_where(path, text, (kind, number, field))}: {name}: {fault}")
             yield StyleStep(kind, known[name], given)
+
+
+def _with_palette(given: dict[str, Any], folder: Path, where: str) -> dict[str, Any]:
+    """The parameters of the step `palette` with the colours of its file, relative to a folder."""
+    name = given.pop("file")
+    if not isinstance(name, str) or not name:
+        raise OptionError(f"{where}: file {shown(name)} is not a path; name a .gpl or .hex file")
+    if "colours" in given:
+        raise OptionError(f"{where}: palette has both file and colours; leave one out")
+    try:
+        return given | {"colours": read_palette(folder / name)}
+    except OptionError as error:
+        raise OptionError(f"{where}: {error}") from None
 
 
 def _complaint(fault: Mapping[str, Any], place: tuple[int | str, ...]) -> str:

@@ -165,6 +165,25 @@ def age(
     )
 
 
+def parchment(
+    material: Material,
+    *,
+    colour: Annotated[Colour, Field(description="of the parchment")] = "#e6d3a3",
+    ink: Annotated[float, Field(ge=0, le=1, description="strength of the colours")] = 0.7,
+    stains: Annotated[float, Field(ge=0, le=1, description="darkness of the stains")] = 0.35,
+    seed: Annotated[int, Field(ge=0, le=2**31, description="which stains")] = 0,
+) -> Material:
+    """Old parchment, on which the colours are thin inks."""
+    texels, fine = _enlarged(material, 4)
+    shape, skin = texels.shape[:2], np.array(_rgb(colour), float)
+    clouds = 0.65 * _smooth_noise(shape, 6 * fine, seed) + 0.35 * _smooth_noise(shape, fine, seed)
+    fibres = 0.97 + 0.06 * _blurred(_noise(shape, seed + 1), (1, 0))
+    inked = 1 - ink * (1 - texels[..., :3] / 255)
+    light = (1 - stains * np.clip(clouds * 2 - 0.7, 0, 1)) * fibres
+    colours = _bytes(skin * inked * light[..., None])
+    return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
+
+
 _HATCHING = {
     **{"white": "", "light_gray": ".-", "gray": "-:", "black": "|-", "brown": "-\\"},
     **{"red": "|", "orange": "|:", "yellow": ".", "lime": "\\.", "green": "\\", "cyan": "\\:"},

@@ -4,25 +4,32 @@ Invisible pixels stay as they are. The kernels are imported when a step first ru
 """
 
 from functools import lru_cache
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.mesh import Array
+from drapery.render.buffers import Buffers
 from drapery.render.flatten import lay_over
 from drapery.render.pixels import Pixels
+from drapery.styles.blue_noise import blue_noise
 from drapery.styles.canvas import Canvas, Words, as_pixels
+from drapery.styles.palette_files import MAX_COLOURS
 from drapery.styles.step import COLOUR_PATTERN
 
 Colour = Annotated[str, Field(pattern=COLOUR_PATTERN)]
+DitherPattern = Literal["bayer", "blue-noise"]
 
 DARK, BRIGHT = 0.1, 0.5
 """Cosines to the light between which cel shading divides its steps: a cloth's folds are shallow."""
 
 VISIBLE, OPAQUE = np.uint32(1 << 24), np.uint32(255 << 24)
 """The least words of pixels that are visible at all, and wholly."""
+
+FINE = 16
+"""Steps of opacity in a step of alpha, while it is blurred."""
 
 SOLID = 0.985
 """A place darker than this is ink alone."""
@@ -69,15 +76,14 @@ def outline(
 
     The method is Saito and Takahashi's ("Comprehensible rendering of 3-D shapes", 1990).
     """
-    from drapery.styles.kernels import draw_lines
+    from drapery.styles.kernels import draw_marks
 
     levels = np.arange(256)[None] * (1 - darken) + np.array(_rgb(colour))[:, None] * darken
-    limits = np.array([depth, np.cos(np.radians(crease))], np.float32)
     # A line of one pixel is as it is; others grow by discs.
     reach, table = _disc((width * canvas.grid - 1) / 2), np.rint(levels).astype(np.uint8)
-    drawn, found = canvas.words(), canvas.buffers
-    normal = found.normal.reshape(len(drawn), -1)
-    draw_lines(drawn, found.depth, normal, found.model, limits, contrast, reach, table)
+    limits = np.array([depth, np.cos(np.radians(crease))], np.float32)
+    source, drawn = canvas.words(), canvas.words()
+    draw_marks(drawn, source, _edges(source, canvas.buffers, limits, contrast), reach, table)
     return canvas.painted(as_pixels(drawn))
 
 
@@ -85,13 +91,14 @@ def posterize(
     canvas: Canvas,
     *,
     levels: Annotated[int, Field(ge=2, le=64, description="of brightness")] = 6,
-    dither: Annotated[float, Field(ge=0, le=1, description="strength of ordered dither")] = 0.0,
+    dither: Annotated[float, Field(ge=0, le=1, description="strength of the dither")] = 0.0,
+    pattern: Annotated[DitherPattern, Field(description="of the dither")] = "bayer",
 ) -> Canvas:
-    """A few levels of brightness, with ordered dither if wanted; hues stay."""
+    """A few levels of brightness, dithered if wanted; hues stay."""
     from drapery.styles.kernels import level_out
 
     drawn = canvas.words()
-    level_out(drawn, *_level_table(levels, dither))
+    level_out(drawn, *_level_table(levels, dither, pattern))
     return canvas.painted(as_pixels(drawn))
 
 
@@ -99,15 +106,20 @@ def palette(
     canvas: Canvas,
     *,
     colours: Annotated[
-        tuple[Colour, ...], Field(min_length=2, max_length=64, description="the colours to use")
+        tuple[Colour, ...],
+        Field(min_length=2, max_length=MAX_COLOURS, description="the colours to use"),
     ] = ("#1a1620", "#f4f0e8"),
-    dither: Annotated[float, Field(ge=0, le=1, description="strength of ordered dither")] = 0.0,
+    dither: Annotated[float, Field(ge=0, le=1, description="strength of the dither")] = 0.0,
+    pattern: Annotated[DitherPattern, Field(description="of the dither")] = "bayer",
 ) -> Canvas:
-    """Only these colours: the nearest to each, by a weighted distance in sRGB."""
+    """Only these colours: the nearest to each, by a weighted distance in sRGB.
+
+    In a file of a style, `file` may name a palette in place of `colours`: .gpl or .hex.
+    """
     from drapery.styles.kernels import nearest
 
     table = np.array([_rgb(colour) for colour in colours], np.float64)
-    drawn, (offsets, tile) = canvas.words(), _thresholds(dither)
+    drawn, (offsets, tile) = canvas.words(), _thresholds(dither, pattern)
     nearest(drawn, table, dither * 48 * offsets, tile)
     return canvas.painted(as_pixels(drawn))
 
@@ -152,6 +164,45 @@ def hatching(
     return canvas.painted(as_pixels(drawn))
 
 
+def scanlines(
+    canvas: Canvas,
+    *,
+    every: Annotated[int, Field(ge=2, le=64, description="distance of the lines [pixels]")] = 3,
+    width: Annotated[int, Field(ge=1, le=32, description="of the lines [pixels]")] = 1,
+    strength: Annotated[float, Field(ge=0, le=1, description="darkness of the lines")] = 0.4,
+) -> Canvas:
+    """Dark lines across, as on the screen of a tube."""
+    table = np.rint(np.arange(256) * (1 - strength)).astype(np.uint8)
+    rows = np.arange(len(canvas.pixels)) // canvas.grid % every < width
+    drawn = canvas.pixels.copy()
+    drawn[rows, :, :3] = table[drawn[rows, :, :3]]
+    return canvas.painted(drawn)
+
+
+def drop_shadow(
+    canvas: Canvas,
+    *,
+    right: Annotated[int, Field(ge=-256, le=256, description="shift to the right [pixels]")] = 6,
+    down: Annotated[int, Field(ge=-256, le=256, description="shift downwards [pixels]")] = 8,
+    blur: Annotated[int, Field(ge=0, le=128, description="softness of the edge [pixels]")] = 6,
+    colour: Annotated[Colour, Field(description="of the shadow")] = "#000000",
+    strength: Annotated[float, Field(ge=0, le=1, description="opacity")] = 0.5,
+) -> Canvas:
+    """A soft shadow on the page behind what is drawn."""
+    return _laid_under(canvas, down, right, blur, colour, strength)
+
+
+def glow(
+    canvas: Canvas,
+    *,
+    radius: Annotated[int, Field(ge=1, le=128, description="of the glow [pixels]")] = 12,
+    colour: Annotated[Colour, Field(description="of the glow")] = "#ffe9a0",
+    strength: Annotated[float, Field(ge=0, le=8, description="over 1: brighter near it")] = 1.6,
+) -> Canvas:
+    """Light around what is drawn."""
+    return _laid_under(canvas, 0, 0, radius, colour, strength)
+
+
 def paper(
     canvas: Canvas,
     *,
@@ -171,6 +222,46 @@ def paper(
     return canvas.painted(as_pixels(drawn))
 
 
+def _edges(
+    words: Words, found: Buffers, limits: NDArray[np.float32], contrast: int
+) -> NDArray[np.uint8]:
+    """The pixels at edges; see `mark_edges`."""
+    from drapery.styles.kernels import mark_edges
+
+    height, width = words.shape
+    marks, room = np.zeros((height, width), np.uint8), np.empty((5, width), np.uint8)
+    levels, normal = words.view(np.uint8), found.normal.reshape(height, -1)
+    given = (levels, found.depth, normal, found.model, limits, np.uint8(contrast))
+    mark_edges(marks, words, *given, room)
+    return marks
+
+
+def _laid_under(
+    canvas: Canvas, down: int, right: int, reach: int, colour: str, strength: float
+) -> Canvas:
+    """What is visible, moved, blurred and in one colour, laid below itself."""
+    from drapery.styles.kernels import blur, lay_under
+
+    drawn, below = canvas.words(), np.zeros(canvas.pixels.shape[:2], np.int32)
+    shift = [step * canvas.grid for step in (down, right)]
+    to, of = (
+        tuple(
+            slice(max(0, sign * n), side - max(0, -sign * n))
+            for n, side in zip(shift, drawn.shape, strict=True)
+        )
+        for sign in (1, -1)
+    )
+    below[to] = (drawn[of] >> 24) * FINE
+    # Two boxes of half the radius reach as far as the radius.
+    radius = -(-reach * canvas.grid // 2)
+    if radius:
+        blur(
+            below, np.empty_like(below), np.zeros(below.shape[1] + 2 * radius + 1, np.int32), radius
+        )
+    lay_under(drawn, below, _word(colour), strength / (FINE * 255))
+    return canvas.painted(as_pixels(drawn))
+
+
 def _disc(radius: float) -> NDArray[np.int64]:
     """How far a disc reaches to each side, in each row from its top to its foot [pixels]."""
     height = max(0, int(radius))
@@ -178,18 +269,22 @@ def _disc(radius: float) -> NDArray[np.int64]:
     return np.sqrt(max(radius, 0) ** 2 - rows * rows).astype(np.int64)
 
 
-def _thresholds(dither: float) -> tuple[Array, NDArray[np.int32]]:
-    """Offsets of an ordered dither, -0.5..0.5, and the tile of their indices; without it one 0."""
+def _thresholds(dither: float, pattern: DitherPattern) -> tuple[Array, NDArray[np.int32]]:
+    """Offsets of a dither, -0.5..0.5, and the tile of their indices; without it one 0."""
     if not dither:
         return np.zeros(1), np.zeros((1, 1), np.int32)
-    return (np.arange(BAYER.size) + 0.5) / BAYER.size - 0.5, BAYER.astype(np.int32)
+    tile = BAYER.astype(np.int32) if pattern == "bayer" else blue_noise()
+    count = int(tile.max()) + 1
+    return (np.arange(count) + 0.5) / count - 0.5, tile
 
 
 @lru_cache(maxsize=8)
-def _level_table(levels: int, dither: float) -> tuple[Pixels, NDArray[np.int32]]:
+def _level_table(
+    levels: int, dither: float, pattern: DitherPattern
+) -> tuple[Pixels, NDArray[np.int32]]:
     """What becomes of each level of a channel, and the tile of dither; see `level_out`."""
     step = 255 / (levels - 1)
-    offsets, tile = _thresholds(dither)
+    offsets, tile = _thresholds(dither, pattern)
     bright = np.arange(256.0)
     raised = bright + dither * step * offsets[:, None]
     factors = np.rint(raised / step) * step / np.maximum(bright, 1)

@@ -124,6 +124,36 @@ def swallow_tail(
     return _cut(sheet, np.abs(column / across - 0.5) * 2 >= reach)
 
 
+def rounded_hem(
+    sheet: Sheet,
+    *,
+    depth: Annotated[float, Field(ge=0, le=0.9, description="share of the height it takes")] = 0.3,
+) -> Sheet:
+    """Cut whole texels out of the lower edge so that it is half an ellipse."""
+    across, down = _texels(sheet)
+    column, row = np.meshgrid(np.arange(across) + 0.5, np.arange(down) + 0.5)
+    below = np.maximum(row - down * (1 - depth), 0) / max(down * depth, 1e-9)
+    aside = 2 * column / across - 1
+    return _cut(sheet, below * below + aside * aside <= 1 + (below == 0))
+
+
+def fringe(
+    sheet: Sheet,
+    *,
+    length: Annotated[int, Field(ge=1, le=20, description="of the threads [texels]")] = 3,
+    threads: Annotated[int, Field(ge=1, le=4, description="along two texels")] = 2,
+    seed: Annotated[int, Field(ge=0, le=2**31, description="which lengths")] = 0,
+) -> Sheet:
+    """Threads at the lower edge, every other one of them cut out, of uneven lengths."""
+    across, down = (threads * side for side in _texels(sheet))
+    least, most = -(-length * threads // 2), length * threads
+    chance = np.random.default_rng(seed)
+    lengths = chance.integers(least, most + 1, across)
+    row, column = np.indices((down, across))
+    solid, reach = row < down - most, down - most + lengths[column]
+    return _cut(sheet, solid | ((column % 2 == 0) & (row < reach)))
+
+
 def tear(
     sheet: Sheet,
     *,

@@ -16,6 +16,8 @@ _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
         shape_steps.boards,
         shape_steps.voxels,
         shape_steps.swallow_tail,
+        shape_steps.rounded_hem,
+        shape_steps.fringe,
         shape_steps.tear,
     ),
     "material": (
@@ -25,6 +27,7 @@ _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
         material_steps.hatch,
         material_steps.stained_glass,
         material_steps.age,
+        material_steps.parchment,
     ),
     "picture": (
         pixel_steps.pixels,
@@ -38,6 +41,9 @@ _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
         picture_steps.tones,
         picture_steps.hatching,
         picture_steps.paper,
+        picture_steps.scanlines,
+        picture_steps.drop_shadow,
+        picture_steps.glow,
     ),
 }
 

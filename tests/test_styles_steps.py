@@ -1,0 +1,132 @@
+"""What single steps of styles do to cloth, texels and pixels."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_styles import canvas, rippled
+
+from drapery import Banner
+from drapery.errors import OptionError
+from drapery.packs import open_packs
+from drapery.style import flag_material
+from drapery.styles import STEPS, Style, find_style
+from drapery.styles.blue_noise import LEVELS, SIDE, blue_noise
+from drapery.styles.palette_files import read_palette
+
+PICTURE, SHAPE, MATERIAL = STEPS["picture"], STEPS["shape"], STEPS["material"]
+
+
+def cells(name: str, **parameters: object) -> np.ndarray:
+    """Which cells of its lattice a shape step keeps: the number of its triangles in each row."""
+    lattice = SHAPE[name](rippled(), **parameters).lattice
+    rows = (lattice.uvs[lattice.triangles].mean(axis=1)[:, 1] * (lattice.rows - 1)).astype(int)
+    return np.bincount(rows, minlength=lattice.rows - 1) // 2
+
+
+def test_a_rounded_hem_is_widest_above_and_narrowest_below() -> None:
+    kept = cells("rounded-hem", depth=0.25)
+    assert (kept[:30] == 20).all() and (np.diff(kept[30:]) <= 0).all() and 2 <= kept[-1] < 12
+
+
+def test_a_fringe_is_half_cut_away_and_uneven() -> None:
+    kept = cells("fringe", length=4, threads=2)
+    assert (kept[:72] == 40).all() and (kept[72:76] == 20).all() and 0 < kept[-1] < 20
+
+
+def test_parchment_turns_white_into_its_own_colour_and_keeps_patterns_darker() -> None:
+    material = flag_material(Banner.parse("white stripe_center:black"), open_packs(()))
+    (layer,) = MATERIAL["parchment"](material, stains=0.0).layers
+    scale = layer.texels.shape[1] // 64
+    white, black = (layer.texels[10 * scale, x * scale, :3].astype(int) for x in (2, 11))
+    assert np.abs(white - [0xE6, 0xD3, 0xA3]).max() < 24 and (black < white - 60).all()
+
+
+def test_scanlines_darken_every_third_row() -> None:
+    given = replace(canvas(), pixels=np.full((9, 4, 4), 200, np.uint8))
+    drawn = PICTURE["scanlines"](given, every=3, strength=0.5).pixels
+    assert drawn[:, 0, 0].tolist() == [100, 200, 200] * 3 and (drawn[..., 3] == 200).all()
+
+
+def square() -> np.ndarray:
+    """A red square of 8 x 8 pixels in the middle of 32 x 32."""
+    pixels = np.zeros((32, 32, 4), np.uint8)
+    pixels[12:20, 12:20] = (255, 0, 0, 255)
+    return pixels
+
+
+def test_a_drop_shadow_is_moved_and_lies_below() -> None:
+    given = replace(canvas(), pixels=square())
+    drawn = PICTURE["drop-shadow"](given, right=4, down=6, blur=0, strength=0.5).pixels
+    assert np.array_equal(drawn[12:20, 12:20], square()[12:20, 12:20])
+    shadow = np.argwhere(drawn[..., 3] == 128)
+    assert shadow.max(axis=0).tolist() == [25, 23] and not drawn[22, 14:23, :3].any()
+
+
+def test_a_glow_is_even_around_and_fades() -> None:
+    alpha = PICTURE["glow"](replace(canvas(), pixels=square()), radius=6).pixels[..., 3]
+    assert np.array_equal(alpha, alpha.T) and np.array_equal(alpha, alpha[::-1])
+    assert (np.diff(alpha[16, 20:27].astype(int)) < 0).all() and not alpha[16, 26:].any()
+
+
+def test_blue_noise_has_each_threshold_equally_often_and_apart() -> None:
+    tile = blue_noise()
+    assert (np.bincount(tile.reshape(-1)) == SIDE * SIDE // LEVELS).all()
+    dark = tile < LEVELS // 8
+    beside = np.count_nonzero(dark & np.roll(dark, 1, 0)) + np.count_nonzero(
+        dark & np.roll(dark, 1, 1)
+    )
+    assert beside < 0.02 * np.count_nonzero(dark)
+
+
+@pytest.mark.parametrize("pattern", ["bayer", "blue-noise"])
+def test_a_dither_has_the_mean_of_what_it_replaces(pattern: str) -> None:
+    given = replace(canvas(), pixels=np.full((32, 32, 4), (96, 96, 96, 255), np.uint8))
+    drawn = PICTURE["posterize"](given, levels=2, dither=1.0, pattern=pattern).pixels
+    assert set(np.unique(drawn[..., :3])) == {0, 255}
+    assert abs(drawn[..., :3].mean() - 96) < 8
+
+
+def test_palettes_come_from_files_beside_the_style(tmp_path: Path) -> None:
+    gpl = "GIMP Palette\nName: two\nColumns: 2\n# a comment\n  0   0   0\tblack\n255 128 0 orange\n"
+    (tmp_path / "two.gpl").write_text(gpl, encoding="utf-8")
+    (tmp_path / "two.hex").write_text("000000\n#FF8000\n", encoding="utf-8")
+    for name in ("two.gpl", "two.hex"):
+        text = f'[[picture]]\nstep = "palette"\nfile = "{name}"\n'
+        (tmp_path / "my.toml").write_text(text, encoding="utf-8")
+        style = Style.load(tmp_path / "my.toml")
+        assert dict(style.steps[0].parameters)["colours"] == ("#000000", "#ff8000")
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("a.png", "", "is of an unknown type; use .gpl or .hex"),
+        ("a.hex", "00000\n", "line 1: '00000' is not a colour; use six hexadecimal digits"),
+        ("a.hex", "000000\n", "has 1 colours; use 2 to 256"),
+        ("a.gpl", "0 0 0\n", "line 1: it is not 'GIMP Palette'"),
+        ("a.gpl", "GIMP Palette\n0 0 256\n", "line 2: '0 0 256' is not a colour"),
+        ("a.hex", "f" * 70_000, "over 65536 bytes; a palette is shorter"),
+    ],
+)
+def test_a_fault_in_a_palette_names_the_line_and_the_remedy(
+    name: str, content: str, said: str, tmp_path: Path
+) -> None:
+    (tmp_path / name).write_text(content, encoding="utf-8")
+    with pytest.raises(OptionError) as caught:
+        read_palette(tmp_path / name)
+    assert said in str(caught.value)
+
+
+def test_a_fault_of_a_palette_names_the_line_of_the_style(tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    for lines, said in (
+        ('file = "none.gpl"', "none.gpl cannot be read"),
+        ("file = 3", "file 3 is not a path"),
+        ('file = "a.gpl"\ncolours = ["#000000", "#ffffff"]', "both file and colours"),
+    ):
+        path.write_text(f'[[picture]]\nstep = "palette"\n{lines}\n', encoding="utf-8")
+        with pytest.raises(OptionError, match=r"my\.toml line 3: .*") as caught:
+            find_style(path)
+        assert said in str(caught.value)
