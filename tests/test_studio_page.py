@@ -374,3 +374,18 @@ def _status(address: str) -> int:
         return urllib.request.urlopen(address, timeout=5).status
     except urllib.error.HTTPError as error:
         return error.code
+
+
+def test_a_style_is_chosen_by_its_picture(page: Any) -> None:
+    def drawn(name: str) -> bool:
+        script = "const i = arguments[0]; return i.complete && i.naturalWidth === 72"
+        return bool(page.execute_script(script, find(page, f"[data-style={name}] img")))
+
+    assert not drawn("ink")  # nothing is drawn for a panel that is not shown
+    tab(page, "styles")
+    wait_until(lambda: drawn("game"))
+    click(page, "[data-style=few-bends]")
+    pressed = "[data-style=few-bends][aria-pressed=true]"
+    wait_until(lambda: page.find_elements(By.CSS_SELECTOR, pressed))
+    click(page, "[data-style=few-bends]")
+    wait_until(lambda: not page.find_elements(By.CSS_SELECTOR, pressed))

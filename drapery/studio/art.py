@@ -1,15 +1,18 @@
 """Small pictures of designs and patterns, drawn from the session's packs, as PNG files."""
 
+import threading
 from weakref import WeakKeyDictionary
 from zlib import crc32
 
 import numpy as np
 
-from drapery import Banner, Layer
+from drapery import Banner, Layer, Settings
 from drapery.banner import FLAG_REGIONS, SHIELD_REGIONS, composite, flag_layers, shield_layers
 from drapery.packs import Packs, Texels, read_png
-from drapery.render import png_bytes
+from drapery.render import draw_scene, png_bytes
+from drapery.scenes import still
 from drapery.studio.document import Document
+from drapery.styles import find_style
 
 FACE_SCALE = 8
 COLUMNS = 9
@@ -17,6 +20,11 @@ COLUMNS = 9
 CELL = (20, 40)
 """Width and height of one pattern in a pattern sheet [pixels]."""
 GAP = 2
+STYLE_SIZE = (72, 128)
+"""Width and height of the picture of a style [pixels]."""
+STYLE_GRID = (7, 13)
+MAX_STYLES = 128
+"""Pictures of styles that are cached for a stack of packs."""
 
 
 def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
@@ -71,6 +79,33 @@ def thumbnail(banner: Banner, packs: Packs) -> bytes:
     step = FACE_SCALE // 2
     face = read_png(face_png(banner, packs), "the face")
     return png_bytes(face[step // 2 :: step, step // 2 :: step].copy())
+
+
+_styled: WeakKeyDictionary[Packs, dict[tuple[Banner, str], bytes]] = WeakKeyDictionary()
+_one_style = threading.Lock()
+
+
+def style_png(banner: Banner, packs: Packs, style: str) -> bytes:
+    """The design as cloth in a style, small. Raises OptionError, PackError.
+
+    One is drawn at a time, because a page asks for all of them at once.
+    """
+    with _one_style:
+        drawn = _styled.setdefault(packs, {})
+        if (banner, style) not in drawn:
+            while len(drawn) >= MAX_STYLES:
+                del drawn[next(iter(drawn))]
+            settings = Settings(size=STYLE_SIZE, grid=STYLE_GRID, style=(style,))
+            scene = still(banner, packs, settings)
+            drawn[banner, style] = png_bytes(find_style(style).draw(scene, draw_scene).pixels)
+        return drawn[banner, style]
+
+
+def style_address(document: Document, style: str) -> str:
+    """The address of `style_png` for the tab's packs and design."""
+    settings = document.settings
+    shown = document.sketch, settings.packs, settings.format
+    return f"/styles/{document.token}/{style}.png?v={crc32(repr(shown).encode()):x}"
 
 
 def _cell(packs: Packs, banner: Banner) -> Texels:

@@ -23,6 +23,7 @@ from drapery.studio.panels import (
     palette,
     patterns,
     shortcuts,
+    styles,
     text,
 )
 from drapery.studio.session import Session, Sessions
@@ -57,6 +58,7 @@ PANELS = (
     PagePanel("face", face.build, "Flat", "crop_portrait", "viewport"),
     PagePanel("motion", motion.build, "Motion", "tune", "under"),
     PagePanel("patterns", patterns.build, "Patterns", "grid_view", "side"),
+    PagePanel("styles", styles.build, "Styles", "style", "side"),
     PagePanel("text", text.build, "Text", "code", "side"),
     PagePanel("loom", loom.build, "Loom", "handyman", "side"),
     PagePanel("packs", packs.build, "Packs", "inventory_2", "side"),

@@ -12,10 +12,11 @@ from fastapi.responses import FileResponse, JSONResponse
 
 from drapery import DesignError, DraperyError
 from drapery.packs import Packs, open_packs
-from drapery.studio.art import face_png, pattern_rows, pattern_sheet
+from drapery.studio.art import face_png, pattern_rows, pattern_sheet, style_png
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of
 from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name
+from drapery.styles import style_names
 
 MEDIA_TYPES = {
     ".png": "image/png",
@@ -26,6 +27,9 @@ MEDIA_TYPES = {
     ".glb": "model/gltf-binary",
     ".json": "application/json",
 }
+
+CACHING = "private, max-age=3600"
+"""For pictures whose addresses change whenever their content does."""
 
 
 def add_routes(app: FastAPI, sessions: Sessions) -> None:
@@ -70,8 +74,15 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
     @app.get("/patterns/{token}.png")
     def patterns(token: str, base: str, dye: str) -> Response:
         session = session_of(token)
-        caching = "private, max-age=3600"  # the address changes whenever the content does
-        return _picture(session, lambda: pattern_sheet(session.packs(), base, dye), caching)
+        return _picture(session, lambda: pattern_sheet(session.packs(), base, dye), CACHING)
+
+    @app.get("/styles/{token}/{name}.png")
+    def style(token: str, name: str) -> Response:
+        session = session_of(token)
+        if name not in style_names():  # `find_style` would read a file
+            raise HTTPException(404, "no such style")
+        banner = banner_of(session.sketch)
+        return _picture(session, lambda: style_png(banner, session.packs(), name), CACHING)
 
     @app.get("/compare/{token}/{pack}/{what}.png")
     def compare(

@@ -1,0 +1,50 @@
+"""The design in every style; the browser asks for a picture when the panel shows it."""
+
+from nicegui import ui
+from nicegui.element import Element
+
+from drapery.studio.art import style_address
+from drapery.studio.notices import errors_shown
+from drapery.studio.session import Session
+from drapery.studio.widgets import text_element
+from drapery.styles import find_style, style_names
+
+
+def build(session: Session) -> None:
+    """A button for each style; a second press leaves the style."""
+    buttons: dict[str, Element] = {}
+    pictures: dict[str, Element] = {}
+
+    def press(name: str) -> None:
+        with errors_shown():
+            session.adjust(style=() if session.settings.style == (name,) else (name,))
+
+    def show_pressed() -> None:
+        for name, button in buttons.items():
+            pressed = str(session.settings.style == (name,)).lower()
+            if button.props.get("aria-pressed") != pressed:
+                button.props["aria-pressed"] = pressed
+                button.update()
+
+    def show_pictures() -> None:
+        for name, picture in pictures.items():
+            picture.props["src"] = style_address(session, name)
+            picture.update()
+
+    with ui.element("div").classes("styles").props('role="group" aria-label="Styles"'):
+        for name in style_names():
+            with ui.element("button").classes("style").props("type=button") as button:
+                button.props.update({"data-style": name, "title": find_style(name).description})
+                pictures[name] = ui.element("img").props("loading=lazy alt=")
+                text_element(name)
+            buttons[name] = button.on("click", lambda name=name: press(name))
+    text_element(
+        "The live banner has the shapes and the texture of a style. Its lines, tones and large"
+        " pixels are in the pictures that you export.",
+        "p",
+    ).classes("hint")
+    show_pressed()
+    show_pictures()
+    session.listen("settings", show_pressed)
+    session.listen("sketch", show_pictures)
+    session.listen("packs", show_pictures)
