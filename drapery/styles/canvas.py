@@ -8,9 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.render.buffers import Buffers, middles
+from drapery.render.flatten import lay_over
 from drapery.render.pixels import Pixels
 
 Words = NDArray[np.uint32]
+
+VISIBLE, OPAQUE = np.uint32(1 << 24), np.uint32(255 << 24)
+"""The least words of pixels that are visible at all, and wholly."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,12 +25,14 @@ class Canvas:
     make_buffers: makes `buffers`, when a step asks for them for the first time.
     grid: the picture is drawn this many times larger than it will be, so that edges are smooth.
     pixel: each pixel becomes a square of this side.
+    corner: row and column of the first of these squares at which the picture begins [pixels].
     """
 
     pixels: Pixels
     make_buffers: Callable[[], Buffers]
     grid: int = 1
     pixel: int = 1
+    corner: tuple[int, int] = (0, 0)
 
     @cached_property
     def buffers(self) -> Buffers:
@@ -57,12 +63,25 @@ class Canvas:
         """The picture of this width and height: averaged over `grid`, then enlarged."""
         pixels = _averaged(self.pixels, self.grid)
         large = pixels.repeat(self.pixel, axis=0).repeat(self.pixel, axis=1)
-        return np.ascontiguousarray(large[: size[1], : size[0]])
+        top, left = self.corner
+        return np.ascontiguousarray(large[top : top + size[1], left : left + size[0]])
 
 
 def as_pixels(words: Words) -> Pixels:
     """Words, shape [H, W], as pixels, shape [H, W, 4]; no copy."""
     return words.view(np.uint8).reshape(*words.shape, 4)
+
+
+def laid_over(words: Words, behind: Words) -> Words:
+    """A picture over another one, shape [H, W], or over one colour, [1, 1]. behind: opaque."""
+    drawn = np.where(words < VISIBLE, behind, words)
+    (partly,) = np.nonzero(((words >= VISIBLE) & (words < OPAQUE)).reshape(-1))
+    if len(partly):
+        below = np.broadcast_to(behind, words.shape)
+        every = (each.reshape(-1)[partly] for each in (words, below))
+        above, under = (each.view(np.uint8).reshape(-1, 4) for each in every)
+        as_pixels(drawn).reshape(-1, 4)[partly] = lay_over(above, under)
+    return drawn
 
 
 def _averaged(pixels: Pixels, grid: int) -> Pixels:

@@ -12,10 +12,9 @@ from pydantic import Field
 
 from drapery.mesh import Array
 from drapery.render.buffers import Buffers
-from drapery.render.flatten import lay_over
 from drapery.render.pixels import Pixels
 from drapery.styles.blue_noise import blue_noise
-from drapery.styles.canvas import Canvas, Words, as_pixels
+from drapery.styles.canvas import Canvas, Words, as_pixels, laid_over
 from drapery.styles.palette_files import MAX_COLOURS
 from drapery.styles.step import COLOUR_PATTERN
 
@@ -24,9 +23,6 @@ DitherPattern = Literal["bayer", "blue-noise"]
 
 DARK, BRIGHT = 0.1, 0.5
 """Cosines to the light between which cel shading divides its steps: a cloth's folds are shallow."""
-
-VISIBLE, OPAQUE = np.uint32(1 << 24), np.uint32(255 << 24)
-"""The least words of pixels that are visible at all, and wholly."""
 
 FINE = 16
 """Steps of opacity in a step of alpha, while it is blurred."""
@@ -213,13 +209,7 @@ def paper(
 ) -> Canvas:
     """Paper behind what is drawn, plain or ruled in squares."""
     behind = _sheet_of_paper(canvas.pixels.shape[:2], canvas.grid, colour, lines, spacing, grain)
-    words = canvas.words()
-    drawn = np.where(words < VISIBLE, behind, words)
-    (partly,) = np.nonzero(((words >= VISIBLE) & (words < OPAQUE)).reshape(-1))
-    if len(partly):
-        under, above = (as_pixels(each).reshape(-1, 4)[partly] for each in (behind, words))
-        as_pixels(drawn).reshape(-1, 4)[partly] = lay_over(above, under)
-    return canvas.painted(as_pixels(drawn))
+    return canvas.painted(as_pixels(laid_over(canvas.words(), behind)))
 
 
 def _edges(

@@ -9,11 +9,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.render.buffers import Buffers
-from drapery.styles.canvas import Canvas, Words, as_pixels
+from drapery.styles.canvas import VISIBLE, Canvas, Words, as_pixels
 from drapery.styles.step import over_time
 
-VISIBLE = np.uint32(1 << 24)
-"""The least word of a pixel that is visible."""
 COLOUR = np.uint32(0xFFFFFF)
 """The part of a word that is not alpha."""
 MOST_COLOURS = 256
@@ -66,10 +64,12 @@ def clean(canvas: Canvas) -> Canvas:
     alike = np.zeros(words.shape, np.bool_)
     for row, column in AROUND:
         alike |= framed[1 + row : 1 + row + height, 1 + column : 1 + column + width] == words
-    for y, x in np.argwhere(~alike & (words != 0)):
-        near = np.delete(framed[y : y + 3, x : x + 3].reshape(-1), 4)
-        names, counts = np.unique(near, return_counts=True)
-        words[y, x] = names[np.argmax(counts)]
+    y, x = np.nonzero(~alike & (words != 0))
+    near = np.stack([framed[1 + y + row, 1 + x + column] for row, column in AROUND], axis=-1)
+    # The most frequent one; of several the one with the least number.
+    counts = (near[:, :, None] == near[:, None]).sum(axis=-1)
+    best = np.argmax((counts << 32) - near.astype(np.int64), axis=-1)
+    words[y, x] = near[np.arange(len(near)), best]
     return canvas.painted(as_pixels(words))
 
 
@@ -140,19 +140,24 @@ def _merged(names: Words, counts: NDArray[np.intp], least: int) -> Words:
     """What each colour becomes so that `least` remain. names: without alpha."""
     rgb = names[:, None] >> np.array([0, 8, 16], np.uint32) & np.uint32(255)
     rgb = rgb.astype(np.int64)
-    order = np.argsort(-counts, kind="stable")[:MOST_COLOURS]
-    kept, weight = list(map(int, order)), counts.astype(np.int64)
-    while len(kept) > least:
-        apart = _distances(rgb[kept], rgb[kept])
-        rarer = np.minimum(weight[kept][:, None], weight[kept][None, :])
-        cost = np.where(np.eye(len(kept), dtype=np.bool_), np.iinfo(np.int64).max, apart * rarer)
+    kept = np.argsort(-counts, kind="stable")[:MOST_COLOURS]
+    weight, never = counts[kept].astype(np.int64), np.iinfo(np.int64).max
+    apart = _distances(rgb[kept], rgb[kept])
+    cost = apart * np.minimum(weight[:, None], weight[None, :])
+    np.fill_diagonal(cost, never)
+    for _ in range(len(kept) - least):
         one, other = divmod(int(np.argmin(cost)), len(kept))
-        if weight[kept[one]] < weight[kept[other]]:
+        if weight[one] < weight[other]:
             one, other = other, one
-        weight[kept[one]] += weight[kept[other]]
-        del kept[other]
+        weight[one] += weight[other]
+        weight[other] = 0
+        row = apart[one] * np.minimum(weight[one], weight)
+        row[(weight == 0) | (np.arange(len(kept)) == one)] = never
+        cost[one], cost[:, one] = row, row
+        cost[other], cost[:, other] = never, never
+    kept = kept[weight > 0]
     nearest = np.argmin(_distances(rgb, rgb[kept]), axis=1)
-    return names[np.array(kept)[nearest]]
+    return names[kept[nearest]]
 
 
 def _distances(ones: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -1,6 +1,6 @@
 """A style: a named chain of steps that change motion, shape, material and picture."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -11,16 +11,17 @@ from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.option import one_of
 from drapery.render.buffers import Buffers
-from drapery.render.flatten import lay_over
 from drapery.render.frame import Frame
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
 from drapery.settings import Lighting, Settings
-from drapery.styles.canvas import Canvas
+from drapery.styles.canvas import Canvas, as_pixels, laid_over
 from drapery.styles.loading import read_style_file
+from drapery.styles.pixel_steps import pixels
 from drapery.styles.sheet import Sheet
 from drapery.styles.step import StepKind, StyleStep, parameter_lines
 
+CLEAR = (0, 0, 0, 0)
 MAX_SAMPLES = 1 << 25
 """The most samples of a picture that steps change; they take about 1 GiB."""
 
@@ -139,17 +140,21 @@ class Style:
         for scene, canvas in canvases:
             pixels = canvas.finished(scene.size)
             if scene.background[3]:
-                behind = np.broadcast_to(np.array(scene.background, np.uint8), pixels.shape)
-                pixels = lay_over(pixels, behind)
+                behind = np.array([scene.background], np.uint8).view(np.uint32)
+                pixels = as_pixels(laid_over(pixels.view(np.uint32)[..., 0], behind))
             yield Frame(pixels)
 
-    def _canvas(self, scene: Scene, draw_scene: DrawScene, steps: Iterable[StyleStep]) -> Canvas:
-        """A scene after some picture steps."""
+    def _canvas(self, scene: Scene, draw_scene: DrawScene, steps: Sequence[StyleStep]) -> Canvas:
+        """A scene after some picture steps; large pixels at first are drawn as such."""
         grid = int(scene.samples**0.5)
-        large = scene.size[0] * grid, scene.size[1] * grid
-        self._check_samples(large[0] * large[1])
-        sharp = replace(scene, size=large, samples=1, background=(0, 0, 0, 0))
-        canvas = Canvas(draw_scene(sharp).pixels, lambda: _buffers(sharp), grid)
+        self._check_samples(scene.size[0] * scene.size[1] * scene.samples)
+        if steps and steps[0].function is pixels:
+            canvas = _large_pixels(scene, dict(steps[0].parameters)["size"], draw_scene)
+            steps = steps[1:]
+        else:
+            large = scene.size[0] * grid, scene.size[1] * grid
+            sharp = replace(scene, size=large, samples=1, background=CLEAR)
+            canvas = Canvas(draw_scene(sharp).pixels, lambda: _buffers(sharp), grid)
         for step in steps:
             canvas = step.apply(canvas)
         return canvas
@@ -183,6 +188,24 @@ class Style:
         for step in self._of(kind):
             value = step.apply(value)
         return value
+
+
+def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
+    """A scene drawn with one sample in the middle of each square of size x size pixels.
+
+    The squares lie evenly about the middle of the picture, so those at its edges may be cut.
+    """
+    across, down = (-(-side // size) for side in scene.size)
+    taller = down * size / scene.size[1]
+    camera = scene.camera
+    if camera.height is not None:
+        camera = replace(camera, height=camera.height * taller)
+    else:
+        half = np.tan(np.radians(camera.fov / 2)) * taller
+        camera = replace(camera, fov=float(2 * np.degrees(np.arctan(half))))
+    coarse = replace(scene, camera=camera, size=(across, down), samples=1, background=CLEAR)
+    corner = (down * size - scene.size[1]) // 2, (across * size - scene.size[0]) // 2
+    return Canvas(draw_scene(coarse).pixels, lambda: _buffers(coarse), 1, size, corner)
 
 
 def _buffers(scene: Scene) -> Buffers:

@@ -129,8 +129,9 @@ def draw_buffers(scene: Scene, *, threads: int | None = None) -> Buffers:
     if union:
         raster = _clipped(scene, raster, matrix, grid)
     solid = constant.material_tables.material_alpha[raster.triangle_material] != BLEND
-    triangles, materials = raster.triangles[solid], raster.triangle_material[solid]
-    raster = replace(raster, triangles=triangles, triangle_material=materials)
+    if not solid.all():
+        triangles, materials = raster.triangles[solid], raster.triangle_material[solid]
+        raster = replace(raster, triangles=triangles, triangle_material=materials)
     shape = scene.size[1], scene.size[0]
     depth, model = np.full(shape, np.inf, np.float32), np.full(shape, BACKGROUND, np.int32)
     normal, uv = np.zeros((*shape, 3), np.float32), np.zeros((*shape, 2), np.float32)
