@@ -67,7 +67,7 @@ def canvas(height: int = 30, width: int = 40) -> Canvas:
     return Canvas(pixels, lambda: Buffers(depth, normal, model, uv))
 
 
-@pytest.mark.parametrize("name", style_names())
+@pytest.mark.parametrize("name", PRESETS)
 def test_a_preset_is_what_its_description_says(name: str, tmp_path: Path) -> None:
     style = find_style(name)
     path = tmp_path / f"{name}.toml"

@@ -8,7 +8,8 @@ import pytest
 
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
-from drapery.styles import Canvas, Sheet, Style, StyleStep, find_style, style_names
+from drapery.styles import Canvas, Sheet, Style, StyleStep, find_style
+from drapery.styles.catalogue import PRESETS
 from drapery.styles.step import StepFunction, StepKind
 from drapery.testing import check_style
 
@@ -37,7 +38,7 @@ def bare(sheet: Sheet) -> Mesh:
     return replace(mesh, triangles=mesh.triangles[:part])
 
 
-@pytest.mark.parametrize("name", style_names())
+@pytest.mark.parametrize("name", PRESETS)
 def test_every_preset_passes(name: str) -> None:
     check_style(find_style(name))
 

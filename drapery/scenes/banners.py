@@ -69,8 +69,8 @@ def flag_models(
     every frame the same objects, because the renderer recognises them by identity.
     """
     index = np.arange(len(state.positions), dtype=np.int32) % len(materials)
-    given = {"index": index, "size": FLAG_SIZE, "texel": SCALE}
-    return garment(shell, state.positions, thickness * SCALE, *materials, **given)
+    thick, size = thickness * SCALE, FLAG_SIZE
+    return garment(shell, state.positions, thick, *materials, index=index, size=size, texel=SCALE)
 
 
 def _sheet(cloth: Cloth, block: BannerBlock) -> Mesh:

@@ -73,8 +73,10 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     for state in motion(cloth, clip, forces=forces, start=start, settle=2 * LOOP, step=1 / 60):
         smooth = Sheet(state.positions[0], lattice, SCALE, SCALE, FLAG_SIZE, FLAG_MAPPING)
         sheets = smooth, boards(smooth, steps=parameters.steps)
-        given = {"size": FLAG_SIZE, "texel": SCALE}
-        flags = [garment(shell, sheet.positions, SCALE, *materials, **given) for sheet in sheets]
+        flags = [
+            garment(shell, s.positions, SCALE, *materials, size=FLAG_SIZE, texel=SCALE)
+            for s in sheets
+        ]
         if parameters.pixel_snap:
             flags += [ClothModel(voxels(sheet), materials) for sheet in sheets]
         scenes = tuple(

@@ -76,4 +76,6 @@ def _weights() -> NDArray[np.int64]:
     """The energy around a point at the corner of the tile, which repeats."""
     away = np.minimum(np.arange(SIDE), SIDE - np.arange(SIDE))
     squares = away[:, None] ** 2 + away[None] ** 2
-    return np.rint((1 << 20) * np.exp(-squares / (2 * SPREAD**2))).astype(np.int64)
+    weights = (1 << 20) * np.exp(-squares / (2 * SPREAD**2))
+    whole: NDArray[np.int64] = np.rint(weights).astype(np.int64)
+    return whole

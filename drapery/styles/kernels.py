@@ -5,40 +5,49 @@ uint32 [H, W], C-contiguous. All kernels but `average` change them in place. Sid
 repeat over the picture, are powers of two.
 """
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.jit import entry_point, kernel
+
+Words = NDArray[np.uint32]
+Levels = NDArray[np.uint8]
+Whole = NDArray[np.int32]
+Singles = NDArray[np.float32]
+Doubles = NDArray[np.float64]
 
 SLOTS = 8192
 """Colours that a kernel remembers; a power of two."""
 
 
 @kernel
-def _bytes(word):
+def _bytes(word: Any) -> Any:
     """Red, green and blue."""
     return np.int64(word & 255), np.int64((word >> 8) & 255), np.int64((word >> 16) & 255)
 
 
 @kernel
-def _with_bytes(word, red, green, blue):
+def _with_bytes(word: Any, red: Any, green: Any, blue: Any) -> Any:
     """The word with another colour and its own alpha."""
     return (word & 0xFF000000) | (blue << 16) | (green << 8) | red
 
 
 @kernel
-def _brightness(word):
+def _brightness(word: Any) -> Any:
     """0..255."""
     red, green, blue = _bytes(word)
     return 0.299 * red + 0.587 * green + 0.114 * blue
 
 
 @kernel
-def _average_of(words, y, x, grid):
+def _average_of(words: Words, y: int, x: int, grid: int) -> Any:
     """One square as a pixel, each of its pixels weighted by its opacity."""
     red, green, blue, total = 0, 0, 0, 0
     for row in range(y * grid, (y + 1) * grid):
         for column in range(x * grid, (x + 1) * grid):
-            alpha = np.int64(words[row, column] >> 24)
+            alpha: Any = np.int64(words[row, column] >> 24)
             r, g, b = _bytes(words[row, column])
             red, green, blue = red + alpha * r, green + alpha * g, blue + alpha * b
             total += alpha
@@ -50,7 +59,7 @@ def _average_of(words, y, x, grid):
 
 
 @entry_point
-def average(words, grid, result):
+def average(words: Words, grid: int, result: Words) -> None:
     """Squares of grid x grid pixels become one each. result: [H // grid, W // grid], filled."""
     for y in range(result.shape[0]):
         for x in range(result.shape[1]):
@@ -65,7 +74,9 @@ def average(words, grid, result):
 
 
 @entry_point
-def cel(words, normal, model, light, bands, table):
+def cel(
+    words: Words, normal: Singles, model: Whole, light: Singles, bands: int, table: Levels
+) -> None:
     """Shade models by their normals, float32 [H, W, 3]. model: int32 [H, W].
 
     light: unit vector towards it, the cosine at the darkest step, and the range to the brightest,
@@ -86,7 +97,7 @@ def cel(words, normal, model, light, bands, table):
 
 
 @entry_point
-def level_out(words, table, tile):
+def level_out(words: Words, table: Levels, tile: Whole) -> None:
     """Replace each level of a channel: uint8 [T, 256, 256], by the largest channel and the level.
 
     tile: the first index of `table` for each pixel, int32.
@@ -102,7 +113,7 @@ def level_out(words, table, tile):
 
 
 @kernel
-def _nearest_of(word, offset, table):
+def _nearest_of(word: Any, offset: float, table: Doubles) -> int:
     """The number of the nearest colour of a table; see `nearest`."""
     (red, green, blue), best, found = _bytes(word), np.inf, 0
     for number in range(len(table)):
@@ -118,7 +129,7 @@ def _nearest_of(word, offset, table):
 
 
 @entry_point
-def nearest(words, table, offsets, tile):
+def nearest(words: Words, table: Doubles, offsets: Doubles, tile: Whole) -> None:
     """The nearest of some colours, float64 [N, 3], after each pixel is raised by an offset.
 
     The squares of the distances in red, green and blue count 2, 4 and 3 times.
@@ -142,7 +153,7 @@ def nearest(words, table, offsets, tile):
 
 
 @entry_point
-def tone(words, dark, light, gamma):
+def tone(words: Words, dark: Doubles, light: Doubles, gamma: float) -> None:
     """Each brightness becomes a colour between two, float64 [3] each."""
     keys, values = np.zeros(SLOTS, np.uint32), np.zeros(SLOTS, np.uint32)
     for y in range(words.shape[0]):
@@ -163,7 +174,9 @@ def tone(words, dark, light, gamma):
 
 
 @entry_point
-def hatch(words, model, strokes, grid, pen, ink, paper):
+def hatch(
+    words: Words, model: Whole, strokes: Doubles, grid: int, pen: Doubles, ink: int, paper: int
+) -> None:
     """Strokes on models, the more the darker.
 
     strokes: cosine and sine of each direction across the strokes, and the darkness from which on
@@ -190,7 +203,14 @@ def hatch(words, model, strokes, grid, pen, ink, paper):
 
 
 @kernel
-def _flag_depths(flags, depth, other_depth, model, other_model, limit):
+def _flag_depths(
+    flags: Levels,
+    depth: Singles,
+    other_depth: Singles,
+    model: Whole,
+    other_model: Whole,
+    limit: float,
+) -> None:
     """Flag 1: there may be an edge between two rows of neighbours."""
     for x in range(len(flags)):
         far = abs(other_depth[x] - depth[x])
@@ -198,7 +218,9 @@ def _flag_depths(flags, depth, other_depth, model, other_model, limit):
 
 
 @kernel
-def _flag_creases(flags, normal, other, model, cosine):
+def _flag_creases(
+    flags: Levels, normal: Singles, other: Singles, model: Whole, cosine: float
+) -> None:
     """Flag 2: there is a crease. normal, other: three numbers for each pixel."""
     for x in range(len(flags)):
         facing = normal[3 * x] * other[3 * x]
@@ -208,7 +230,9 @@ def _flag_creases(flags, normal, other, model, cosine):
 
 
 @kernel
-def _flag_colours(flags, row, other, apart, contrast):
+def _flag_colours(
+    flags: Levels, row: Levels, other: Levels, apart: Levels, contrast: np.uint8
+) -> None:
     """Flag 4: two neighbours have other colours. row, other: bytes. apart: room for as many."""
     for byte in range(len(row)):
         one, two = row[byte], other[byte]
@@ -219,7 +243,7 @@ def _flag_colours(flags, row, other, apart, contrast):
 
 
 @kernel
-def _rises(depth, y, x, down, right):
+def _rises(depth: Singles, y: int, x: int, down: int, right: int) -> Any:
     """How much farther the next pixel is, less what the surface rises before or after it [m]."""
     height, width = depth.shape
     far, least = abs(depth[y + down, x + right] - depth[y, x]), np.float32(np.inf)
@@ -232,7 +256,18 @@ def _rises(depth, y, x, down, right):
 
 
 @kernel
-def _mark(marks, flag, y, x, down, right, words, depth, model, limit):
+def _mark(
+    marks: Levels,
+    flag: int,
+    y: int,
+    x: int,
+    down: int,
+    right: int,
+    words: Words,
+    depth: Singles,
+    model: Whole,
+    limit: float,
+) -> None:
     """Mark the nearer of two neighbours at an edge, or the first of those at a crease."""
     v, u = y + down, x + right
     one, other = model[y, x], model[v, u]
@@ -250,7 +285,17 @@ def _mark(marks, flag, y, x, down, right, words, depth, model, limit):
 
 
 @entry_point
-def mark_edges(marks, words, levels, depth, normal, model, limits, contrast, room):
+def mark_edges(
+    marks: Levels,
+    words: Words,
+    levels: Levels,
+    depth: Singles,
+    normal: Singles,
+    model: Whole,
+    limits: Singles,
+    contrast: np.uint8,
+    room: Levels,
+) -> None:
     """Mark the pixels at edges of models. marks: uint8 [H, W], zeros.
 
     levels: `words` as bytes, [H, 4 W]. depth, normal, model: see `Buffers`, normal as [H, 3 W].
@@ -295,7 +340,9 @@ def mark_edges(marks, words, levels, depth, normal, model, limits, contrast, roo
 
 
 @entry_point
-def draw_marks(words, source, marks, reach, table):
+def draw_marks(
+    words: Words, source: Words, marks: Levels, reach: NDArray[np.int64], table: Levels
+) -> None:
     """Draw a disc around each marked pixel, on visible and invisible pixels.
 
     source: `words` before. reach: how far a disc goes to each side in each row from its top to its
@@ -316,7 +363,7 @@ def draw_marks(words, source, marks, reach, table):
 
 
 @kernel
-def _box_along(values, row, radius):
+def _box_along(values: Whole, row: Whole, radius: int) -> None:
     """Replace each number of each row by the sum of those up to `radius` before and after it."""
     height, width = values.shape
     row[:] = 0
@@ -332,7 +379,7 @@ def _box_along(values, row, radius):
 
 
 @kernel
-def _box_down(values, result, sums, radius, total):
+def _box_down(values: Whole, result: Whole, sums: Whole, radius: int, total: int) -> None:
     """The same along columns, into another array. total: how much one is in the result."""
     height, width = values.shape
     scale = np.float32(1 / total)
@@ -347,7 +394,7 @@ def _box_down(values, result, sums, radius, total):
 
 
 @entry_point
-def blur(values, other, room, radius):
+def blur(values: Whole, other: Whole, room: Whole, radius: int) -> None:
     """Blur whole numbers by two boxes, with room for the rows in between, int32 [W + 2 R + 1].
 
     values: int32 [H, W], overwritten with the result. other: of the same shape.
@@ -360,7 +407,7 @@ def blur(values, other, room, radius):
 
 
 @entry_point
-def lay_under(words, below, colour, scale):
+def lay_under(words: Words, below: Whole, colour: int, scale: float) -> None:
     """Lay a colour, a word's lower bytes, under a picture. below * scale: its opacity, int32."""
     height, width = words.shape
     r, g, b = _bytes(np.uint32(colour))

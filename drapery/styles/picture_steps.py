@@ -116,7 +116,7 @@ def palette(
 
     table = np.array([_rgb(colour) for colour in colours], np.float64)
     drawn, (offsets, tile) = canvas.words(), _thresholds(dither, pattern)
-    nearest(drawn, table, dither * 48 * offsets, tile)
+    nearest(drawn, table, np.asarray(dither * 48 * offsets, np.float64), tile)
     return canvas.painted(as_pixels(drawn))
 
 
@@ -221,8 +221,8 @@ def _edges(
     height, width = words.shape
     marks, room = np.zeros((height, width), np.uint8), np.empty((5, width), np.uint8)
     levels, normal = words.view(np.uint8), found.normal.reshape(height, -1)
-    given = (levels, found.depth, normal, found.model, limits, np.uint8(contrast))
-    mark_edges(marks, words, *given, room)
+    depth, model, least = found.depth, found.model, np.uint8(contrast)
+    mark_edges(marks, words, levels, depth, normal, model, limits, least, room)
     return marks
 
 
@@ -232,31 +232,34 @@ def _laid_under(
     """What is visible, moved, blurred and in one colour, laid below itself."""
     from drapery.styles.kernels import blur, lay_under
 
-    drawn, below = canvas.words(), np.zeros(canvas.pixels.shape[:2], np.int32)
-    shift = [step * canvas.grid for step in (down, right)]
-    to, of = (
-        tuple(
-            slice(max(0, sign * n), side - max(0, -sign * n))
-            for n, side in zip(shift, drawn.shape, strict=True)
-        )
-        for sign in (1, -1)
-    )
-    below[to] = (drawn[of] >> 24) * FINE
+    drawn = canvas.words()
+    below = _moved((drawn >> 24).astype(np.int32) * FINE, down * canvas.grid, right * canvas.grid)
     # Two boxes of half the radius reach as far as the radius.
     radius = -(-reach * canvas.grid // 2)
     if radius:
-        blur(
-            below, np.empty_like(below), np.zeros(below.shape[1] + 2 * radius + 1, np.int32), radius
-        )
+        row = np.zeros(below.shape[1] + 2 * radius + 1, np.int32)
+        blur(below, np.empty_like(below), row, radius)
     lay_under(drawn, below, _word(colour), strength / (FINE * 255))
     return canvas.painted(as_pixels(drawn))
+
+
+def _moved(values: NDArray[np.int32], down: int, right: int) -> NDArray[np.int32]:
+    """The values moved; 0 where nothing has moved to."""
+    result = np.zeros_like(values)
+    height, width = values.shape
+    rows, columns = max(0, height - abs(down)), max(0, width - abs(right))
+    top, left, from_top, from_left = (max(0, n) for n in (down, right, -down, -right))
+    part = values[from_top : from_top + rows, from_left : from_left + columns]
+    result[top : top + rows, left : left + columns] = part
+    return result
 
 
 def _disc(radius: float) -> NDArray[np.int64]:
     """How far a disc reaches to each side, in each row from its top to its foot [pixels]."""
     height = max(0, int(radius))
     rows = np.arange(-height, height + 1)
-    return np.sqrt(max(radius, 0) ** 2 - rows * rows).astype(np.int64)
+    sides: NDArray[np.int64] = np.sqrt(max(radius, 0) ** 2 - rows * rows).astype(np.int64)
+    return sides
 
 
 def _thresholds(dither: float, pattern: DitherPattern) -> tuple[Array, NDArray[np.int32]]:

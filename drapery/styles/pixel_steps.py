@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,8 @@ MOST_COLOURS = 256
 """Rarer colours than so many do not enter the search of `limit`."""
 PASSES = 4
 """How often `steady` goes around a loop before it stops waiting for the end to meet the start."""
+
+Item = TypeVar("Item", bound=np.generic)
 
 AROUND = [(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column]
 
@@ -113,23 +115,26 @@ def _steady_sources(words: Words, frames: int) -> NDArray[np.intp]:
 
 def _taken(canvases: Sequence[Canvas], source: NDArray[np.intp]) -> Canvas:
     """Each pixel, and what lies in it, from a frame of its own."""
-    base = canvases[int(source.max())]
-
-    def taken(arrays: list[NDArray[np.generic]]) -> NDArray[np.generic]:
-        result = arrays[0].copy()
-        for frame in np.unique(source):
-            chosen = source == frame
-            result[chosen] = arrays[frame][chosen]
-        return result
 
     def make_buffers() -> Buffers:
         every = [canvas.buffers for canvas in canvases]
-        names = ("depth", "normal", "model", "uv")
-        return Buffers(*(taken([getattr(one, name) for one in every]) for name in names))
+        return Buffers(
+            _chosen([one.depth for one in every], source),
+            _chosen([one.normal for one in every], source),
+            _chosen([one.model for one in every], source),
+            _chosen([one.uv for one in every], source),
+        )
 
-    return replace(
-        base, pixels=taken([canvas.pixels for canvas in canvases]), make_buffers=make_buffers
-    )
+    pixels = _chosen([canvas.pixels for canvas in canvases], source)
+    return replace(canvases[0], pixels=pixels, make_buffers=make_buffers)
+
+
+def _chosen(arrays: Sequence[NDArray[Item]], source: NDArray[np.intp]) -> NDArray[Item]:
+    """Each pixel of the array whose number `source` gives."""
+    result = arrays[0].copy()
+    for frame in np.unique(source):
+        result[source == frame] = arrays[frame][source == frame]
+    return result
 
 
 def _painted(canvases: Sequence[Canvas], drawn: Sequence[Words]) -> list[Canvas]:
@@ -138,8 +143,7 @@ def _painted(canvases: Sequence[Canvas], drawn: Sequence[Words]) -> list[Canvas]
 
 def _merged(names: Words, counts: NDArray[np.intp], least: int) -> Words:
     """What each colour becomes so that `least` remain. names: without alpha."""
-    rgb = names[:, None] >> np.array([0, 8, 16], np.uint32) & np.uint32(255)
-    rgb = rgb.astype(np.int64)
+    rgb = (names[:, None] >> np.array([0, 8, 16], np.uint32) & np.uint32(255)).astype(np.int64)
     kept = np.argsort(-counts, kind="stable")[:MOST_COLOURS]
     weight, never = counts[kept].astype(np.int64), np.iinfo(np.int64).max
     apart = _distances(rgb[kept], rgb[kept])
@@ -157,7 +161,8 @@ def _merged(names: Words, counts: NDArray[np.intp], least: int) -> Words:
         cost[other], cost[:, other] = never, never
     kept = kept[weight > 0]
     nearest = np.argmin(_distances(rgb, rgb[kept]), axis=1)
-    return names[kept[nearest]]
+    merged: Words = names[kept[nearest]]
+    return merged
 
 
 def _distances(ones: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -134,7 +134,9 @@ class Style:
             yield from map(draw_scene, scenes)
             return
         first = next((n for n, step in enumerate(steps) if step.over_time), len(steps))
-        canvases = ((scene, self._canvas(scene, draw_scene, steps[:first])) for scene in scenes)
+        canvases: Iterator[tuple[Scene, Canvas]] = (
+            (scene, self._canvas(scene, draw_scene, steps[:first])) for scene in scenes
+        )
         if first < len(steps):
             canvases = self._together(canvases, steps[first:])
         for scene, canvas in canvases:
