@@ -14,7 +14,7 @@ from drapery.settings import Settings
 from drapery.studio import exports
 from drapery.studio.exports import Export, ExportSlots, count_frames, make, stem_of
 from drapery.studio.session import Session
-from drapery.studio.snippets import KINDS, Order, file_name
+from drapery.studio.snippets import KINDS, ExportRequest, file_name
 
 BANNER = Banner("red", (Layer("creeper", "lime"), Layer("gradient", "blue")))
 PICTURE = Settings(size=(40, 48), wind=5.0, samples=4, pixel=2, background="#302050", view="hero")
@@ -33,24 +33,24 @@ COMMANDS = {
 }
 
 
-def order_of(kind: str) -> Order:
-    return Order(BANNER, PICTURE, kind, seconds=0.5, fps=10.0, scale=5)
+def request_of(kind: str) -> ExportRequest:
+    return ExportRequest(BANNER, PICTURE, kind, seconds=0.5, fps=10.0, scale=5)
 
 
 @pytest.mark.parametrize("kind", COMMANDS)
 def test_the_bytes_are_those_of_the_command(kind: str, tmp_path: Path, drapery) -> None:
-    order = order_of(kind)
+    wanted = request_of(kind)
     for name in ("page", "line"):
         (tmp_path / name).mkdir()
-    make(order, tmp_path / "page" / file_name(order))
-    code, _, err = drapery(*COMMANDS[kind], "-o", tmp_path / "line" / file_name(order))
+    make(wanted, tmp_path / "page" / file_name(wanted))
+    code, _, err = drapery(*COMMANDS[kind], "-o", tmp_path / "line" / file_name(wanted))
     assert code == 0, err
-    page, line = ((tmp_path / name / file_name(order)).read_bytes() for name in ("page", "line"))
+    page, line = ((tmp_path / name / file_name(wanted)).read_bytes() for name in ("page", "line"))
     assert page == line
 
 
 def test_the_design_is_what_show_writes(tmp_path: Path, drapery) -> None:
-    make(order_of("json"), tmp_path / "banner.json")
+    make(request_of("json"), tmp_path / "banner.json")
     assert (tmp_path / "banner.json").read_text() == drapery("show", TEXT, "--as", "json")[1]
 
 
@@ -60,9 +60,9 @@ def test_every_kind_is_tested() -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_progress_goes_to_the_end(kind: str, tmp_path: Path) -> None:
-    order, events = order_of(kind), []
-    make(order, tmp_path / file_name(order), lambda done, total: events.append((done, total)))
-    total = count_frames(order)
+    wanted, events = request_of(kind), []
+    make(wanted, tmp_path / file_name(wanted), lambda done, total: events.append((done, total)))
+    total = count_frames(wanted)
     assert events[-1] == (total, total)
     assert [done for done, _ in events] == sorted(done for done, _ in events)
 
@@ -77,23 +77,23 @@ def stop_after(frames: int) -> Callable[[int, int], None]:
 
 @pytest.mark.parametrize("kind", ["png", "face", "gif", "apng", "webp", "mp4", "glb"])
 def test_what_is_stopped_leaves_nothing(kind: str, tmp_path: Path) -> None:
-    order = order_of(kind)
-    target = tmp_path / file_name(order)
+    wanted = request_of(kind)
+    target = tmp_path / file_name(wanted)
     with pytest.raises(exports.StoppedError):
-        make(order, target, stop_after(1))
+        make(wanted, target, stop_after(1))
     assert [*tmp_path.iterdir()] == []
     target.write_text("older")
     with pytest.raises(exports.StoppedError):
-        make(order, target, stop_after(0))
+        make(wanted, target, stop_after(0))
     assert target.read_text() == "older" and len([*tmp_path.iterdir()]) == 1
 
 
-def export(order: Order, folder: Path) -> Export:
-    return Export(order, folder / file_name(order), file_name(order))
+def export(wanted: ExportRequest, folder: Path) -> Export:
+    return Export(wanted, folder / file_name(wanted), file_name(wanted))
 
 
 def test_a_thread_makes_it_and_reports_progress(tmp_path: Path) -> None:
-    work = export(order_of("gif"), tmp_path)
+    work = export(request_of("gif"), tmp_path)
     work.start()
     assert work.wait(30)
     assert (work.state, work.done, work.total, work.fault) == ("done", 5, 5, "")
@@ -101,7 +101,7 @@ def test_a_thread_makes_it_and_reports_progress(tmp_path: Path) -> None:
 
 
 def test_a_thread_stops_and_leaves_nothing(tmp_path: Path) -> None:
-    work = export(Order(BANNER, Settings(size=(256, 256)), "apng", seconds=60.0), tmp_path)
+    work = export(ExportRequest(BANNER, Settings(size=(256, 256)), "apng", seconds=60.0), tmp_path)
     work.start()
     start = time.monotonic()
     while work.done < 2 and time.monotonic() < start + 30:
@@ -114,7 +114,7 @@ def test_a_thread_stops_and_leaves_nothing(tmp_path: Path) -> None:
 
 
 def test_a_fault_is_one_line(tmp_path: Path) -> None:
-    work = export(Order(BANNER, Settings(packs=(tmp_path / "none.zip",))), tmp_path)
+    work = export(ExportRequest(BANNER, Settings(packs=(tmp_path / "none.zip",))), tmp_path)
     work.start()
     assert work.wait(30)
     assert work.state == "failed" and "does not exist" in work.fault
@@ -124,7 +124,7 @@ def test_a_fault_is_one_line(tmp_path: Path) -> None:
 def test_an_unforeseen_error_ends_it_with_a_line_and_a_traceback_in_the_log(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    work = Export(7, tmp_path / "x.png", "x.png")  # not an order: no typed caller does this
+    work = Export(7, tmp_path / "x.png", "x.png")  # not a request: no typed caller does this
     work.start()
     assert work.wait(30)
     assert work.state == "failed" and re.search(r"\(\w+Error\); see the studio's log", work.fault)
@@ -133,21 +133,21 @@ def test_an_unforeseen_error_ends_it_with_a_line_and_a_traceback_in_the_log(
 
 
 @pytest.mark.parametrize(
-    "order",
+    "wanted",
     [
-        Order(BANNER, PICTURE, "exe"),
-        Order(BANNER, PICTURE, "../../x"),
-        Order(BANNER, Settings(), "gif", fps=0.0),
-        Order(BANNER, Settings(), "gif", seconds=float("nan")),
-        Order(BANNER, Settings(size=(8192, 8192)), "gif", seconds=60.0),
-        Order(BANNER, Settings(), "glb", seconds=1e9),
-        Order(BANNER, Settings(), "face", scale=9999),
-        Order(None, Settings(), "json"),
+        ExportRequest(BANNER, PICTURE, "exe"),
+        ExportRequest(BANNER, PICTURE, "../../x"),
+        ExportRequest(BANNER, Settings(), "gif", fps=0.0),
+        ExportRequest(BANNER, Settings(), "gif", seconds=float("nan")),
+        ExportRequest(BANNER, Settings(size=(8192, 8192)), "gif", seconds=60.0),
+        ExportRequest(BANNER, Settings(), "glb", seconds=1e9),
+        ExportRequest(BANNER, Settings(), "face", scale=9999),
+        ExportRequest(None, Settings(), "json"),
     ],
 )
-def test_orders_out_of_bounds_are_refused(order: Order, tmp_path: Path) -> None:
+def test_requests_out_of_bounds_are_refused(wanted: ExportRequest, tmp_path: Path) -> None:
     with pytest.raises((OptionError, DraperyError)) as fault:
-        make(order, tmp_path / "x.png")
+        make(wanted, tmp_path / "x.png")
     assert "\n" not in str(fault.value)
     assert [*tmp_path.iterdir()] == []
 
@@ -159,18 +159,18 @@ def session() -> Iterator[Session]:
     opened.close()
 
 
-LONG = Order(BANNER, Settings(size=(128, 128)), "apng", seconds=60.0)
+LONG = ExportRequest(BANNER, Settings(size=(128, 128)), "apng", seconds=60.0)
 
 
 def test_a_second_export_takes_the_place_of_the_first(session: Session) -> None:
     own = session.exports
     first = own.start(LONG)
-    second = own.start(order_of("json"), "flag")
+    second = own.start(request_of("json"), "flag")
     assert first.wait(20) and second.wait(20)
     assert (first.state, second.state, second.name) == ("stopped", "done", "flag.json")
     assert own.finished(2) is second and own.finished(1) is None
     assert [path.name for path in session.folder.iterdir()] == ["export-2.json"]
-    own.start(order_of("face")).wait(20)
+    own.start(request_of("face")).wait(20)
     assert [path.name for path in session.folder.iterdir()] == ["export-3.png"]
 
 
@@ -187,20 +187,20 @@ def test_the_tabs_of_a_studio_share_its_slots() -> None:
     others = [Session(slots=slots) for _ in range(exports.MAX_RUNNING)]
     work = [other.exports.start(LONG) for other in others]
     with pytest.raises(OptionError, match="under way"):
-        session.exports.start(order_of("json"))
+        session.exports.start(request_of("json"))
     # A tab that has one may replace it.
     work.append(others[0].exports.start(LONG))
     for other in others:
         other.close()
     assert all(each.wait(20) for each in work)
-    assert session.exports.start(order_of("json")).wait(20)
+    assert session.exports.start(request_of("json")).wait(20)
     session.close()
 
 
 @pytest.mark.parametrize("kind", ["exe", "../x", "png/../../x", ""])
 def test_no_order_names_a_file(session: Session, kind: str) -> None:
     with pytest.raises(OptionError):
-        session.exports.start(Order(BANNER, PICTURE, kind))
+        session.exports.start(ExportRequest(BANNER, PICTURE, kind))
     assert session.exports.current is None
 
 

@@ -20,7 +20,7 @@ from drapery.commands import animate, flat, model, render
 from drapery.settings import Settings
 from drapery.studio import snippets
 from drapery.studio.exports import make
-from drapery.studio.snippets import Order, as_command, as_python
+from drapery.studio.snippets import ExportRequest, as_command, as_python
 
 BANNER = Banner("white", (Layer("creeper", "lime"), Layer("border", "black")))
 SMALL = Settings(size=(48, 64), view="iso", background="#204080", wind=6.5, shadow=True)
@@ -43,12 +43,14 @@ def pack(tmp_path: Path) -> Path:
 
 
 ORDERS = {
-    "png": Order(BANNER, SMALL),
-    "shield": Order(Banner("red", (Layer("flow", "blue"),), "shield"), Settings(size=(32, 32))),
-    "face": Order(BANNER, SMALL, "face", scale=3),
-    "gif": Order(BANNER, SMALL, "gif", seconds=0.5, fps=8.0),
-    "glb": Order(BANNER, SMALL, "glb", seconds=0.5, fps=8.0),
-    "json": Order(BANNER, SMALL, "json"),
+    "png": ExportRequest(BANNER, SMALL),
+    "shield": ExportRequest(
+        Banner("red", (Layer("flow", "blue"),), "shield"), Settings(size=(32, 32))
+    ),
+    "face": ExportRequest(BANNER, SMALL, "face", scale=3),
+    "gif": ExportRequest(BANNER, SMALL, "gif", seconds=0.5, fps=8.0),
+    "glb": ExportRequest(BANNER, SMALL, "glb", seconds=0.5, fps=8.0),
+    "json": ExportRequest(BANNER, SMALL, "json"),
 }
 
 
@@ -75,12 +77,12 @@ def test_both_make_what_the_page_makes(name: str, folder: Path) -> None:
 def test_a_pack_is_called_as_its_owner_calls_it(pack: Path, tmp_path: Path) -> None:
     hidden = tmp_path / "upload-1"
     pack.rename(hidden)
-    order = Order(BANNER, Settings(packs=(hidden,), size=(32, 32)))
+    wanted = ExportRequest(BANNER, Settings(packs=(hidden,), size=(32, 32)))
     called = {str(hidden): pack.name}
-    command, lines = as_command(order, called), as_python(order, called)
+    command, lines = as_command(wanted, called), as_python(wanted, called)
     assert str(hidden) not in command + lines
     with pytest.warns(UserWarning, match="our own art"):
-        make(order, tmp_path / "banner.png")
+        make(wanted, tmp_path / "banner.png")
     folder = tmp_path / "elsewhere"
     folder.mkdir()
     hidden.rename(folder / pack.name)
@@ -91,13 +93,13 @@ def test_a_pack_is_called_as_its_owner_calls_it(pack: Path, tmp_path: Path) -> N
 
 
 def test_only_what_is_off_its_default_is_said() -> None:
-    assert as_command(Order(BANNER, Settings())) == (
+    assert as_command(ExportRequest(BANNER, Settings())) == (
         'drapery render "white creeper:lime border:black" -o banner.png'
     )
-    assert as_command(Order(Banner("red"), Settings(pbr=True, size=(64, 64)), "apng")) == (
+    assert as_command(ExportRequest(Banner("red"), Settings(pbr=True, size=(64, 64)), "apng")) == (
         "drapery animate red -o banner.apng --size 64x64 --pbr"
     )
-    assert as_python(Order(Banner("red"), Settings(view="iso"))) == (
+    assert as_python(ExportRequest(Banner("red"), Settings(view="iso"))) == (
         "from drapery import Banner, draw\n\n"
         'banner = Banner.parse("red")\ndraw(banner, view="iso").save("banner.png")\n'
     )
@@ -123,9 +125,9 @@ paths = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"
 
 @given(paths)
 def test_no_name_of_a_pack_breaks_out(name: str) -> None:
-    order = Order(BANNER, Settings(packs=(name,)))
-    assert shlex.split(as_command(order))[-2:] == ["--pack", name]
-    calls = [node for node in ast.walk(ast.parse(as_python(order))) if isinstance(node, ast.Call)]
+    wanted = ExportRequest(BANNER, Settings(packs=(name,)))
+    assert shlex.split(as_command(wanted))[-2:] == ["--pack", name]
+    calls = [node for node in ast.walk(ast.parse(as_python(wanted))) if isinstance(node, ast.Call)]
     given_packs = [word.value for call in calls for word in call.keywords if word.arg == "packs"]
     assert [ast.literal_eval(packs) for packs in given_packs] == [[name]]
 
@@ -133,6 +135,6 @@ def test_no_name_of_a_pack_breaks_out(name: str) -> None:
 @given(st.sampled_from(("white", "red")), st.sampled_from(("acme:x.json", "creeper", "a:b/c")))
 def test_a_design_reads_back(base: str, pattern: str) -> None:
     banner = Banner(base, (Layer(pattern, "lime"),))
-    command = as_command(Order(banner, Settings()))
+    command = as_command(ExportRequest(banner, Settings()))
     assert parse_banner(shlex.split(command)[2]) == banner
     assert write(banner) in command

@@ -14,7 +14,7 @@ from drapery import Banner, DraperyError, OptionError
 from drapery.option import one_of
 from drapery.settings import frame_count
 from drapery.studio.document import Document
-from drapery.studio.snippets import KINDS, LOOPS, SCALE, Order, file_name, options_for
+from drapery.studio.snippets import KINDS, LOOPS, SCALE, ExportRequest, file_name, options_for
 
 MAX_PIXELS = 1 << 31
 """The most pixels of all frames together: 512 x 512 for six minutes at 20 frames/s."""
@@ -33,91 +33,93 @@ class StoppedError(DraperyError):
     """The user stopped the export."""
 
 
-def make(order: Order, path: Path, progress: Progress | None = None) -> None:
+def make(request: ExportRequest, path: Path, progress: Progress | None = None) -> None:
     """Write the file, as the command of `snippets.as_command` does.
 
     If progress raises, the work stops and no file remains. Raises OptionError, PackError,
     BackendError or OutputError.
     """
-    check(order)
+    check(request)
     on_progress = progress or (lambda done, total: None)
-    if order.kind in LOOPS:
-        _loop(order, path, on_progress)
+    if request.kind in LOOPS:
+        _loop(request, path, on_progress)
         return
-    _ONCE[order.kind](order, path, on_progress)
+    _ONCE[request.kind](request, path, on_progress)
 
 
-def count_frames(order: Order) -> int:
+def count_frames(request: ExportRequest) -> int:
     """The number of frames in the file; 1 for a file without motion. Raises OptionError."""
-    return frame_count(order.seconds, order.fps) if order.kind in (*LOOPS, "glb") else 1
+    return frame_count(request.seconds, request.fps) if request.kind in (*LOOPS, "glb") else 1
 
 
-def check(order: Order) -> None:
-    """Raise OptionError for an order that exceeds the limits; called before drawing starts."""
-    one_of("kind", order.kind, KINDS)
-    SCALE.check(order.scale)
-    width, height = order.settings.size
-    frames = count_frames(order)
-    if order.kind in LOOPS and width * height * frames > MAX_PIXELS:
+def check(request: ExportRequest) -> None:
+    """Raise OptionError for a request that exceeds the limits; called before drawing starts."""
+    one_of("kind", request.kind, KINDS)
+    SCALE.check(request.scale)
+    width, height = request.settings.size
+    frames = count_frames(request)
+    if request.kind in LOOPS and width * height * frames > MAX_PIXELS:
         raise OptionError(
             f"{frames} frames of {width}x{height} are over {MAX_PIXELS >> 20} million pixels;"
             " use fewer or smaller ones"
         )
 
 
-def _still(order: Order, path: Path, on_progress: Progress) -> None:
+def _still(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery import draw
 
     on_progress(0, 1)
-    frame = draw(order.banner, options_for(order))
+    frame = draw(request.banner, options_for(request))
     on_progress(1, 1)
     frame.save(path)
 
 
-def _face(order: Order, path: Path, on_progress: Progress) -> None:
+def _face(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery import draw_face
 
     on_progress(0, 1)
-    settings = options_for(order)
-    banner = _banner(order)
-    face = draw_face(banner, packs=settings.packs, format=settings.format, scale=order.scale)
+    settings = options_for(request)
+    banner = _banner(request)
+    face = draw_face(banner, packs=settings.packs, format=settings.format, scale=request.scale)
     on_progress(1, 1)
     face.save(path)
 
 
-def _loop(order: Order, path: Path, on_progress: Progress) -> None:
+def _loop(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery import iter_frames
     from drapery.render import check_animation_target, save_animation
 
-    total = count_frames(order)
+    total = count_frames(request)
     on_progress(0, total)
     check_animation_target(path)
-    drawn = iter_frames(order.banner, options_for(order), seconds=order.seconds, fps=order.fps)
-    save_animation(_counted(drawn, total, on_progress), order.fps, path, total=total)
+    drawn = iter_frames(
+        request.banner, options_for(request), seconds=request.seconds, fps=request.fps
+    )
+    save_animation(_counted(drawn, total, on_progress), request.fps, path, total=total)
 
 
-def _model(order: Order, path: Path, on_progress: Progress) -> None:
+def _model(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery.packs import open_packs
     from drapery.render import check_model_target, save_model
     from drapery.scenes import loop
 
-    total, settings = count_frames(order), options_for(order)
+    total, settings = count_frames(request), options_for(request)
     on_progress(0, total)
     check_model_target(path)
     packs = open_packs(settings.packs, format=settings.format)
-    scenes = loop(order.banner, packs, replace(settings, ground="none"), total, order.fps)
-    save_model(_counted(scenes, total, on_progress), path, fps=order.fps)
+    scenes = loop(request.banner, packs, replace(settings, ground="none"), total, request.fps)
+    save_model(_counted(scenes, total, on_progress), path, fps=request.fps)
 
 
-def _design(order: Order, path: Path, on_progress: Progress) -> None:
+def _design(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery.banner import write_banner
 
-    text = write_banner(_banner(order)) + "\n"
+    text = write_banner(_banner(request)) + "\n"
     on_progress(1, 1)
     path.write_bytes(text.encode())
 
 
-_ONCE: dict[str, Callable[[Order, Path, Progress], None]] = {
+_ONCE: dict[str, Callable[[ExportRequest, Path, Progress], None]] = {
     "png": _still,
     "face": _face,
     "glb": _model,
@@ -125,10 +127,10 @@ _ONCE: dict[str, Callable[[Order, Path, Progress], None]] = {
 }
 
 
-def _banner(order: Order) -> Banner:
-    if order.banner is None:
-        raise OptionError(f"a {order.kind} is of a design; give one")
-    return order.banner
+def _banner(request: ExportRequest) -> Banner:
+    if request.banner is None:
+        raise OptionError(f"a {request.kind} is of a design; give one")
+    return request.banner
 
 
 def _counted(items: Iterable[Item], total: int, on_progress: Progress) -> Iterator[Item]:
@@ -144,7 +146,7 @@ class Export:
     path: the place of the file once `state` is "done". fault: the reason if `state` is "failed".
     """
 
-    order: Order
+    request: ExportRequest
     path: Path
     name: str
     done: int = 0
@@ -177,7 +179,7 @@ class Export:
     def _run(self) -> None:
         _lower_priority()
         try:
-            make(self.order, self.path, self._progress)
+            make(self.request, self.path, self._progress)
         except StoppedError:
             self.state = "stopped"
         except DraperyError as error:
@@ -231,16 +233,16 @@ class Exports:
         """Identifies the current export."""
         return self._number
 
-    def start(self, order: Order, stem: str = "banner") -> Export:
+    def start(self, request: ExportRequest, stem: str = "banner") -> Export:
         """Start another export; stops the previous one and removes its file.
 
-        Raises OptionError for an order that exceeds the limits, or while too many exports run.
+        Raises OptionError for a request that exceeds the limits, or while too many exports run.
         """
-        check(order)
-        # The order determines only the file name's ending.
-        suffix = Path(file_name(order)).suffix
+        check(request)
+        # The request determines only the file name's ending.
+        suffix = Path(file_name(request)).suffix
         path = self._document.folder / f"export-{self._number + 1}{suffix}"
-        export = Export(order, path, file_name(order, stem))
+        export = Export(request, path, file_name(request, stem))
         self._slots.take(export, self.current)
         self.clear()
         self.current, self._number = export, self._number + 1

@@ -19,7 +19,7 @@ from drapery.render import Camera, Model
 from drapery.scenes import STEP, Stager, cloth_spec, floor_under
 from drapery.settings import Settings
 from drapery.studio.live_cloth import LiveCloth, new_live_cloth
-from drapery.studio.panes import Pane, Shown
+from drapery.studio.panes import Pane, ViewerState
 from drapery.studio.wind_controls import (
     WindControls,
     carried_on,
@@ -185,7 +185,7 @@ class Live:
         """The particles of each cloth, in the cloth's frame [m], shape [N, 3]."""
         return [cloth.positions for cloth in self._cloths]
 
-    def shown(self) -> Shown:
+    def shown(self) -> ViewerState:
         """What the viewer shows at this moment."""
         stager, settings = self._stager, self._stager.settings
         meshes = stager.meshes()
@@ -203,7 +203,7 @@ class Live:
         controls = self.wind_controls
         wind = (controls.speed, controls.heading - settings.turned, controls.on) if grip else None
         cut = (settings.view, settings.kind, settings.placement, len(stager.parts), self._cuts)
-        return Shown(tuple(panes), len(panes), grip, True, wind, cut, self.time)
+        return ViewerState(tuple(panes), len(panes), grip, True, wind, cut, self.time)
 
     @property
     def _cloths(self) -> list[LiveCloth]:

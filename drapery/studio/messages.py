@@ -28,7 +28,7 @@ from drapery.render import (
     composite_layers,
     make_topology,
 )
-from drapery.studio.panes import Pane, Shown
+from drapery.studio.panes import Pane, ViewerState
 
 TYPES = {"float32": "<f4", "uint32": "<u4", "int32": "<i4", "uint8": "|u1"}
 Run = tuple[int, int]
@@ -87,7 +87,7 @@ class MessageEncoder:
         if shape != self.shape:
             self.shape, self._cut = shape, None
 
-    def messages(self, shown: Shown) -> list[bytes]:
+    def messages(self, shown: ViewerState) -> list[bytes]:
         """The messages for this moment; they include the scene if it differs from the last one.
 
         Raises OptionError for what cannot be drawn.
@@ -117,7 +117,7 @@ class MessageEncoder:
         shapes = [model.mesh.positions.shape for model in models]
         return self._recent.get(arrays, shapes, lambda: make_topology(models))
 
-    def _knows(self, topology: Topology, shown: Shown, counts: list[int]) -> bool:
+    def _knows(self, topology: Topology, shown: ViewerState, counts: list[int]) -> bool:
         labels = [(pane.label, pane.flat, pane.scene.background) for pane in shown.panes]
         samples = max(pane.scene.samples for pane in shown.panes)
         layout = (counts, labels, shown.columns, shown.grip, samples)
@@ -127,7 +127,7 @@ class MessageEncoder:
             self._topology = topology
         return known
 
-    def _scene(self, topology: Topology, shown: Shown, panes: list["_DrawnPane"]) -> bytes:
+    def _scene(self, topology: Topology, shown: ViewerState, panes: list["_DrawnPane"]) -> bytes:
         starts, materials = topology.vertex_start, np.zeros(len(topology.uvs), np.int32)
         materials[topology.triangles] = topology.triangle_material[:, None]
         tables = composite_layers(topology.material_tables)
@@ -155,7 +155,7 @@ class MessageEncoder:
         }
         return pack(header, arrays)
 
-    def _moment(self, constant: Topology, shown: Shown, panes: list["_DrawnPane"]) -> bytes:
+    def _moment(self, constant: Topology, shown: ViewerState, panes: list["_DrawnPane"]) -> bytes:
         models = [(model, pane.pane.scene.light) for pane in panes for model in pane.models]
         states = [(model.mesh.positions, model.mesh.normals, light) for model, light in models]
         new = [number for number, state in enumerate(states) if not self._is_known(number, state)]
@@ -205,7 +205,7 @@ class MessageEncoder:
         old = self._moved[number]
         return old[0] is state[0] and old[1] is state[1] and old[2] == state[2]
 
-    def _views(self, shown: Shown) -> dict[str, Any] | None:
+    def _views(self, shown: ViewerState) -> dict[str, Any] | None:
         """The cameras if they have changed. `cut`: whether the viewer resets the user's view."""
         cut = self._cut is None or self._cut != (shown.cut,)
         self._cut = (shown.cut,)
@@ -221,7 +221,7 @@ class MessageEncoder:
         return {"cut": cut, "list": [astuple(camera) for camera in cameras]}
 
 
-def _arranged(shown: Shown, which: str, shape: tuple[int, int]) -> Shown:
+def _arranged(shown: ViewerState, which: str, shape: tuple[int, int]) -> ViewerState:
     """The panes that a viewer shows; a portrait viewer shows a row of scenes as a column."""
     count = len(shown.panes)
     if which != "all" and count > 1:

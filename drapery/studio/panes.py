@@ -26,7 +26,7 @@ class Pane:
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
+class ViewerState:
     """Everything that the viewer shows.
 
     columns: panes in a row. grip: the models of each pane that can be grabbed. live: whether it
@@ -43,12 +43,12 @@ class Shown:
     time: float = 0.0
 
 
-def shown_picture(picture: Picture) -> Shown:
+def shown_picture(picture: Picture) -> ViewerState:
     """A picture of a ready-made scene."""
     if isinstance(picture, PictureGrid):
         panes = map(_pane, picture.pictures, picture.labels)
-        return Shown(tuple(panes), picture.columns)
-    return Shown((_pane(picture),))
+        return ViewerState(tuple(panes), picture.columns)
+    return ViewerState((_pane(picture),))
 
 
 def _pane(picture: Scene | Frame, label: str = "") -> Pane:

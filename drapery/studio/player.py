@@ -6,7 +6,7 @@ from typing import Any
 
 from drapery.render import Scene
 from drapery.scenes import Clip, Picture, PictureGrid, SceneEntry, find_scene
-from drapery.studio.panes import Shown, shown_picture
+from drapery.studio.panes import ViewerState, shown_picture
 
 MAX_CACHED = 96 << 20
 """The most memory for cached moments of a scene [bytes]; cached moments are simulated once."""
@@ -27,18 +27,18 @@ class Player:
         self.entry: SceneEntry = find_scene(name)
         self.parameters = self.entry.parameters(REDUCED.get(name, {}))
         self._clip: Clip = replace(self.entry.clip, size=_framed_size(size))
-        self._cache: list[Shown] | None = []
+        self._cache: list[ViewerState] | None = []
         self._free = MAX_CACHED
         self._counted: set[int] = set()
-        self._upcoming: Iterator[Shown] = iter(())
-        self.now: Shown | None = None
+        self._upcoming: Iterator[ViewerState] = iter(())
+        self.now: ViewerState | None = None
 
     @property
     def fps(self) -> float:
         """Moments per second."""
         return self._clip.fps
 
-    def step(self) -> Shown:
+    def step(self) -> ViewerState:
         """The next moment; after the last moment comes the first."""
         shown = next(self._upcoming, None)
         if shown is None:
@@ -52,7 +52,7 @@ class Player:
         whole = self._cache is not None and len(self._cache) == self._clip.count
         self._upcoming = iter(self._cache or ()) if whole else self._simulated()
 
-    def _simulated(self) -> Iterator[Shown]:
+    def _simulated(self) -> Iterator[ViewerState]:
         """Simulate all moments; caches them unless they exceed the cache's limit."""
         self._cache, self._free = ([], MAX_CACHED) if self._cache is not None else (None, 0)
         self._counted = set()
@@ -61,7 +61,7 @@ class Player:
             self._add_to_cache(shown, picture)
             yield shown
 
-    def _add_to_cache(self, shown: Shown, picture: Picture) -> None:
+    def _add_to_cache(self, shown: ViewerState, picture: Picture) -> None:
         if self._cache is None:
             return
         self._free -= self._new_bytes(picture)

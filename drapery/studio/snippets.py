@@ -31,7 +31,7 @@ _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ012345678
 
 
 @dataclass(frozen=True)
-class Order:
+class ExportRequest:
     """The description of a file to make.
 
     kind: one of KINDS. seconds, fps: for a loop. scale: pixels per texel, for a face.
@@ -45,40 +45,44 @@ class Order:
     scale: int = SCALE.default
 
 
-def file_name(order: Order, stem: str = "banner") -> str:
+def file_name(request: ExportRequest, stem: str = "banner") -> str:
     """The name of the file, for example `banner.png`."""
-    return f"{stem}.{'png' if order.kind == 'face' else order.kind}"
+    return f"{stem}.{'png' if request.kind == 'face' else request.kind}"
 
 
-def options_for(order: Order) -> Settings:
+def options_for(request: ExportRequest) -> Settings:
     """The options of this kind of file; the others have their default."""
-    settings = order.settings
-    return Settings(**{name: getattr(settings, name) for name in _names(order)})
+    settings = request.settings
+    return Settings(**{name: getattr(settings, name) for name in _names(request)})
 
 
-def as_command(order: Order, called: Mapping[str, str] | None = None, stem: str = "banner") -> str:
+def as_command(
+    request: ExportRequest, called: Mapping[str, str] | None = None, stem: str = "banner"
+) -> str:
     """The command that writes the file, quoted for a shell.
 
     called: the user's names of packs, by path.
     """
-    design = [] if order.banner is None else [_quoted(write_banner(order.banner, "text"))]
-    out = _quoted(file_name(order, stem))
-    if order.kind == "json":
+    design = [] if request.banner is None else [_quoted(write_banner(request.banner, "text"))]
+    out = _quoted(file_name(request, stem))
+    if request.kind == "json":
         return " ".join(["drapery show", *design, "--as json", ">", out])
-    words = [f"drapery {_COMMANDS.get(order.kind, 'animate')}", *design, "-o", out]
-    words += [_quoted(word) for word in _flags(order, called or {})]
+    words = [f"drapery {_COMMANDS.get(request.kind, 'animate')}", *design, "-o", out]
+    words += [_quoted(word) for word in _flags(request, called or {})]
     return " ".join(words)
 
 
-def as_python(order: Order, called: Mapping[str, str] | None = None, stem: str = "banner") -> str:
+def as_python(
+    request: ExportRequest, called: Mapping[str, str] | None = None, stem: str = "banner"
+) -> str:
     """Lines of Python that write the file."""
-    banner = [] if order.banner is None else ["banner"]
-    out = _text(file_name(order, stem))
-    named = _named(order, called or {})
-    names, lines = _PYTHON.get(order.kind, _loop)(order, banner, named, out)
-    if banner and order.banner is not None:
+    banner = [] if request.banner is None else ["banner"]
+    out = _text(file_name(request, stem))
+    named = _named(request, called or {})
+    names, lines = _PYTHON.get(request.kind, _loop)(request, banner, named, out)
+    if banner and request.banner is not None:
         names = [*names, "drapery.Banner"]
-        text = _text(write_banner(order.banner, "text"))
+        text = _text(write_banner(request.banner, "text"))
         lines = [f"banner = Banner.parse({text})", *lines]
     return "\n".join([*_imports(names), "", *lines, ""])
 
@@ -86,15 +90,15 @@ def as_python(order: Order, called: Mapping[str, str] | None = None, stem: str =
 _COMMANDS = {"png": "render", "face": "flat", "glb": "model"}
 
 
-def _names(order: Order) -> tuple[str, ...]:
-    if order.kind == "json":
+def _names(request: ExportRequest) -> tuple[str, ...]:
+    if request.kind == "json":
         return ()
-    return {"glb": MODEL_OPTIONS, "face": FACE_OPTIONS}.get(order.kind, PICTURE_OPTIONS)
+    return {"glb": MODEL_OPTIONS, "face": FACE_OPTIONS}.get(request.kind, PICTURE_OPTIONS)
 
 
-def _changed(order: Order, called: Mapping[str, str]) -> dict[str, Any]:
+def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any]:
     """This kind's options that differ from their default; packs have the user's names."""
-    values = {name: getattr(order.settings, name) for name in _names(order)}
+    values = {name: getattr(request.settings, name) for name in _names(request)}
     changed = {
         name: value for name, value in values.items() if value != NAMED_OPTIONS[name].default
     }
@@ -105,17 +109,17 @@ def _changed(order: Order, called: Mapping[str, str]) -> dict[str, Any]:
     return changed
 
 
-def _timing(order: Order) -> dict[str, Any]:
-    if order.kind == "face":
-        return {} if order.scale == SCALE.default else {"scale": order.scale}
-    if order.kind in STILLS:
+def _timing(request: ExportRequest) -> dict[str, Any]:
+    if request.kind == "face":
+        return {} if request.scale == SCALE.default else {"scale": request.scale}
+    if request.kind in STILLS:
         return {}
-    chosen = {"seconds": order.seconds, "fps": order.fps}
+    chosen = {"seconds": request.seconds, "fps": request.fps}
     return {name: value for name, value in chosen.items() if value != LOOP_OPTIONS[name].default}
 
 
-def _flags(order: Order, called: Mapping[str, str]) -> Iterator[str]:
-    for name, value in (_timing(order) | _changed(order, called)).items():
+def _flags(request: ExportRequest, called: Mapping[str, str]) -> Iterator[str]:
+    for name, value in (_timing(request) | _changed(request, called)).items():
         option = {**NAMED_OPTIONS, **LOOP_OPTIONS, "scale": SCALE}[name]
         flag = option.command_flag
         if option.several:
@@ -144,9 +148,9 @@ def _text(value: object) -> str:
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)
 
 
-def _named(order: Order, called: Mapping[str, str]) -> list[str]:
+def _named(request: ExportRequest, called: Mapping[str, str]) -> list[str]:
     """Keyword arguments as Python code, for example `view="iso"`."""
-    changed = _changed(order, called)
+    changed = _changed(request, called)
     if "packs" in changed:
         changed["packs"] = _Listed(changed["packs"])
     return [f"{name}={_text(value)}" for name, value in changed.items()]
@@ -172,31 +176,31 @@ _Code = tuple[list[str], list[str]]
 """The full names to import, and the lines that use them."""
 
 
-def _still(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
+def _still(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
     return ["drapery.draw"], [f"{_call('draw', banner, named)}.save({out})"]
 
 
-def _loop(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
-    return ["drapery.animate"], [f"{_call('animate', banner, _times(order) + named)}.save({out})"]
+def _loop(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
+    return ["drapery.animate"], [f"{_call('animate', banner, _times(request) + named)}.save({out})"]
 
 
-def _face(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
-    drawn = _call("draw_face", banner, _times(order) + named)
+def _face(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
+    drawn = _call("draw_face", banner, _times(request) + named)
     return ["drapery.draw_face"], [f"{drawn}.save({out})"]
 
 
-def _design(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
+def _design(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
     names = ["drapery.banner.write_banner", "pathlib.Path"]
     return names, [f'Path({out}).write_text(write_banner(banner) + "\\n")']
 
 
-def _model(order: Order, banner: list[str], named: list[str], out: str) -> _Code:
+def _model(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
     arguments = [*(banner or ["None"]), out]
-    return ["drapery.save_model"], [_call("save_model", arguments, _times(order) + named)]
+    return ["drapery.save_model"], [_call("save_model", arguments, _times(request) + named)]
 
 
-def _times(order: Order) -> list[str]:
-    return [f"{name}={_text(value)}" for name, value in _timing(order).items()]
+def _times(request: ExportRequest) -> list[str]:
+    return [f"{name}={_text(value)}" for name, value in _timing(request).items()]
 
 
 def _call(function: str, arguments: list[str], named: list[str]) -> str:

@@ -21,7 +21,7 @@ from drapery.scenes import STEP
 from drapery.studio.document import Document
 from drapery.studio.live import Live
 from drapery.studio.pack_store import PackStore
-from drapery.studio.panes import Shown
+from drapery.studio.panes import ViewerState
 from drapery.studio.player import Player
 from drapery.studio.sketch import banner_of
 from drapery.studio.wind_controls import wind_controls_of
@@ -101,7 +101,7 @@ class Viewport:
         self._owed = 0.0
         self._turning = threading.Lock()
         self._swapping = threading.Lock()  # guards what both the event loop and the thread change
-        self._picture: tuple[int, Shown | None] = (-1, None)
+        self._picture: tuple[int, ViewerState | None] = (-1, None)
         self._beside: tuple[object, Packs] | None = None
         for event in ("sketch", "settings", "packs"):
             document.listen(event, self._mark_stale)
@@ -180,7 +180,7 @@ class Viewport:
         while self.version <= version:
             await self._pulse.wait()
 
-    def shown(self) -> Shown | None:
+    def shown(self) -> ViewerState | None:
         """What is visible now; None before the first picture, and while a turn takes long.
 
         It blocks, so call it in a thread.
@@ -201,7 +201,7 @@ class Viewport:
             self._player.restart()
             self._player.step()
 
-    def _content(self) -> Shown | None:
+    def _content(self) -> ViewerState | None:
         if self._player is not None:
             return self._player.now
         return self._live.shown() if self._live is not None else None

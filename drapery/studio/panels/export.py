@@ -8,7 +8,7 @@ from drapery import DraperyError
 from drapery.studio.exports import Export, stem_of
 from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.panels.fields import copy_field
-from drapery.studio.panels.file_options import FileChoice, build_options, order_of
+from drapery.studio.panels.file_options import FileChoice, build_options, request_of
 from drapery.studio.session import Session
 from drapery.studio.share import write_link
 from drapery.studio.snippets import as_command, as_python
@@ -78,8 +78,8 @@ class _ExportForm:
 
     def _start(self) -> None:
         with errors_shown():
-            order = order_of(self._session, self._choice)
-            self._own.start(order, stem_of(self._session.sketch.title))
+            request = request_of(self._session, self._choice)
+            self._own.start(request, stem_of(self._session.sketch.title))
             self._link.set_visibility(False)
             self._timer.activate()
             self._follow()
@@ -129,13 +129,13 @@ def _copies(session: Session, choice: FileChoice) -> Callable[[], None]:
     def show() -> None:
         names, stem = session.pack_store.names, stem_of(session.sketch.title)
         try:
-            order = order_of(session, choice)
+            request = request_of(session, choice)
         except DraperyError as error:
             show_notice(str(error), "fault")
             return
         link(f"{base}?d={write_link(session.sketch, session.settings)}")
-        command(as_command(order, names, stem))
-        python(as_python(order, names, stem))
+        command(as_command(request, names, stem))
+        python(as_python(request, names, stem))
 
     return show
 

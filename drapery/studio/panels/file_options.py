@@ -15,7 +15,7 @@ from drapery.studio.descriptions import view_title
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
-from drapery.studio.snippets import LOOPS, SCALE, Order
+from drapery.studio.snippets import LOOPS, SCALE, ExportRequest
 from drapery.studio.viewport import ViewportRequest
 from drapery.studio.widgets import text_element
 
@@ -60,14 +60,14 @@ class FileChoice:
             call()
 
 
-def order_of(session: Session, choice: FileChoice) -> Order:
-    """The order for the current state of the page. Raises DesignError."""
+def request_of(session: Session, choice: FileChoice) -> ExportRequest:
+    """The export request for the current state of the page. Raises DesignError."""
     # A cape or elytra has a texture instead of a design.
     banner = None if session.settings.texture is not None else banner_of(session.sketch)
     settings = session.settings
     if not session.viewport.request.on:
         settings = replace(settings, wind=0.0)
-    return Order(banner, settings, choice.kind, choice.seconds, choice.fps, choice.scale)
+    return ExportRequest(banner, settings, choice.kind, choice.seconds, choice.fps, choice.scale)
 
 
 BY_VIEW = {"": "by the view"}
