@@ -127,7 +127,7 @@ class Settings:
     packs: PackLike | Sequence[PackLike] = _option(
         (),
         Path,
-        "Resource packs (folder, zip or jar) laid over our own art; later ones win",
+        "Resource packs (folder, zip or jar); where several have a file, the last one counts",
         several=True,
         takes=_is_pack,
         flag="--pack",
@@ -286,7 +286,7 @@ class Settings:
     seed: int = _option(
         0,
         int,
-        "Which gusts blow",
+        "Number that selects a sequence of gusts",
         bounds=(0, 2**32 - 1),
         audience="anyone",
     )

@@ -16,7 +16,7 @@ def run(
         list[Path],
         typer.Argument(
             metavar="PATH...",
-            help="Resource packs (folders, zips, jars); later ones win.",
+            help="Resource packs (folders, zips, jars); where several have a file, the last one counts.",
             show_default=False,
         ),
     ],

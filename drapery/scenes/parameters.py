@@ -53,7 +53,7 @@ def thickness_in_metres(default: float) -> Any:
 
 def seed_parameter() -> Any:
     """The seed of a scene's random numbers."""
-    return parameter(0, "Which gusts blow", (0, 2**32 - 1))
+    return parameter(0, "Number that selects a sequence of gusts", (0, 2**32 - 1))
 
 
 @dataclass(frozen=True)
