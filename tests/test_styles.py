@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
+from importlib.resources import files
 from pathlib import Path
 from typing import Annotated
 
@@ -74,6 +75,14 @@ def test_a_preset_is_what_its_description_says(name: str, tmp_path: Path) -> Non
     path.write_text(style.describe(), encoding="utf-8")
     assert Style.load(path) == style
     assert style.description
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_the_gallery_shows_a_preset_with_its_file(name: str) -> None:
+    docs = Path(__file__).parent.parent / "docs"
+    text = (files("drapery.styles") / "presets" / f"{name}.toml").read_text(encoding="utf-8")
+    assert f"```toml\n{text}```" in (docs / "gallery-styles.md").read_text(encoding="utf-8")
+    assert (docs / "gallery" / "styles" / f"{name}.png").is_file()
 
 
 @pytest.mark.parametrize(
