@@ -12,8 +12,8 @@ from drapery.errors import OptionError
 from drapery.packs import open_packs
 from drapery.style import flag_material
 from drapery.styles import STEPS, Style, find_style
-from drapery.styles.blue_noise import LEVELS, SIDE, blue_noise
 from drapery.styles.palette_files import read_palette
+from drapery.styles.void_and_cluster import LEVELS, SIDE, blue_noise
 
 PICTURE, SHAPE, MATERIAL = STEPS["picture"], STEPS["shape"], STEPS["material"]
 

@@ -13,10 +13,10 @@ from pydantic import Field
 from drapery.mesh import Array
 from drapery.render.buffers import Buffers
 from drapery.render.pixels import Pixels
-from drapery.styles.blue_noise import blue_noise
 from drapery.styles.canvas import Canvas, Words, as_pixels, laid_over
 from drapery.styles.palette_files import MAX_COLOURS
 from drapery.styles.step import COLOUR_PATTERN
+from drapery.styles.void_and_cluster import blue_noise
 
 Colour = Annotated[str, Field(pattern=COLOUR_PATTERN)]
 DitherPattern = Literal["bayer", "blue-noise"]
