@@ -294,17 +294,19 @@ def mark_edges(
     model: Whole,
     limits: Singles,
     contrast: np.uint8,
-    room: Levels,
+    flags: Levels,
+    eights: NDArray[np.uint64],
+    apart: Levels,
 ) -> None:
-    """Mark the pixels at edges of models. marks: uint8 [H, W], zeros.
+    """Mark the pixels at edges of models. marks: uint8 [H, W or more], zeros.
 
     levels: `words` as bytes, [H, 4 W]. depth, normal, model: see `Buffers`, normal as [H, 3 W].
     limits: step in depth [m] and cosine of a crease, float32 [2].
-    contrast: between neighbouring colours, uint8, 0 for none. room: uint8 [5, W].
+    contrast: between neighbouring colours, 0 for none. flags: zeros, as long as a row of marks.
+    eights: the same memory, eight flags a number. apart: room for a row of levels.
     """
     height, width = words.shape
     limit, cosine = limits[0], limits[1]
-    flags, apart = room[0], room[1:].reshape(-1)
     for y in range(height):
         first, last = 0, width
         below = min(y + 1, height - 1)
@@ -334,32 +336,41 @@ def mark_edges(
             if contrast:
                 row, next_row = levels[y, 4 * one : 4 * end], levels[v, 4 * other : 4 * stop]
                 _flag_colours(here, row, next_row, apart, contrast)
-            for x in range(one, end):
-                if flags[x]:
-                    _mark(marks, flags[x], y, x, down, right, words, depth, model, limit)
+            for eight in range(one // 8, (end + 7) // 8):
+                if eights[eight] == 0:
+                    continue
+                for x in range(8 * eight, 8 * eight + 8):
+                    if flags[x]:
+                        _mark(marks, flags[x], y, x, down, right, words, depth, model, limit)
+                        flags[x] = 0
 
 
 @entry_point
 def draw_marks(
-    words: Words, source: Words, marks: Levels, reach: NDArray[np.int64], table: Levels
+    words: Words, source: Words, eights: NDArray[np.uint64], reach: NDArray[np.int64], table: Levels
 ) -> None:
     """Draw a disc around each marked pixel, on visible and invisible pixels.
 
-    source: `words` before. reach: how far a disc goes to each side in each row from its top to its
-    foot, int64 [2 R + 1]. table: what each level of a channel becomes, uint8 [3, 256].
+    source: `words` before. eights: the marks, eight bytes a number.
+    reach: how far a disc goes to each side in each row from its top to its foot, int64 [2 R + 1].
+    table: what each level of a channel becomes, uint8 [3, 256].
     """
     height, width = words.shape
     radius = len(reach) // 2
     for y in range(height):
-        for x in range(width):
-            if marks[y, x] == 0:
+        for eight in range(eights.shape[1]):
+            if eights[y, eight] == 0:
                 continue
-            for row in range(max(0, y - radius), min(height, y + radius + 1)):
-                side = reach[row - y + radius]
-                for column in range(max(0, x - side), min(width, x + side + 1)):
-                    red, green, blue = _bytes(source[row, column])
-                    drawn = table[0, red] | np.int64(table[1, green]) << 8
-                    words[row, column] = 0xFF000000 | drawn | np.int64(table[2, blue]) << 16
+            for place in range(8):
+                x = 8 * eight + place
+                if (eights[y, eight] >> np.uint64(8 * place)) & np.uint64(255) == 0:
+                    continue
+                for row in range(max(0, y - radius), min(height, y + radius + 1)):
+                    side = reach[row - y + radius]
+                    for column in range(max(0, x - side), min(width, x + side + 1)):
+                        red, green, blue = _bytes(source[row, column])
+                        drawn = table[0, red] | np.int64(table[1, green]) << 8
+                        words[row, column] = 0xFF000000 | drawn | np.int64(table[2, blue]) << 16
 
 
 @kernel

@@ -78,7 +78,7 @@ def outline(
     # A line of one pixel is as it is; others grow by discs.
     reach, table = _disc((width * canvas.grid - 1) / 2), np.rint(levels).astype(np.uint8)
     limits = np.array([depth, np.cos(np.radians(crease))], np.float32)
-    source, drawn = canvas.words(), canvas.words()
+    source, drawn = _own_words(canvas), canvas.words()
     draw_marks(drawn, source, _edges(source, canvas.buffers, limits, contrast), reach, table)
     return canvas.painted(as_pixels(drawn))
 
@@ -212,18 +212,30 @@ def paper(
     return canvas.painted(as_pixels(laid_over(canvas.words(), behind)))
 
 
+def _own_words(canvas: Canvas) -> Words:
+    """The pixels of a canvas as words to read, if it can be without a copy."""
+    pixels = canvas.pixels
+    # A kernel would be compiled again for arrays that are read-only or not contiguous.
+    if not (pixels.flags.writeable and pixels.flags.c_contiguous):
+        return canvas.words()
+    words: Words = pixels.view(np.uint32)[..., 0]
+    return words
+
+
 def _edges(
     words: Words, found: Buffers, limits: NDArray[np.float32], contrast: int
-) -> NDArray[np.uint8]:
-    """The pixels at edges; see `mark_edges`."""
+) -> NDArray[np.uint64]:
+    """The pixels at edges, a byte each, eight in a number; see `mark_edges`."""
     from drapery.styles.kernels import mark_edges
 
     height, width = words.shape
-    marks, room = np.zeros((height, width), np.uint8), np.empty((5, width), np.uint8)
+    eights = np.zeros((height + 1, -(-width // 8)), np.uint64)
+    marks, flags = eights.view(np.uint8), eights[-1].view(np.uint8)
+    apart = np.empty(4 * width, np.uint8)
     levels, normal = words.view(np.uint8), found.normal.reshape(height, -1)
-    depth, model, least = found.depth, found.model, np.uint8(contrast)
-    mark_edges(marks, words, levels, depth, normal, model, limits, least, room)
-    return marks
+    given = levels, found.depth, normal, found.model, limits
+    mark_edges(marks, words, *given, np.uint8(contrast), flags, eights[-1], apart)
+    return eights[:-1]
 
 
 def _laid_under(
