@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
+from itertools import chain
 
 import numpy as np
 
@@ -28,14 +29,27 @@ def styled_pictures(
     scenes; frames that a scene draws itself stay. Motion steps, and picture steps over time, need
     all pictures at once.
     """
-    if style.has("motion"):
+    pictures = iter(pictures)
+    first = next(pictures, None)
+    if first is None:
+        return iter(())
+    pictures = chain((first,), pictures)
+    if style.has("motion") and any(map(_sheets, _scenes(first))):
         pictures = _moved([*pictures], style)
     shaped = (_each(picture, partial(_dressed, style=style)) for picture in pictures)
     if not style.has("picture"):
         return shaped
     if not any(step.over_time for step in style.steps):
         return (_each(picture, partial(style.draw, draw_scene=draw_scene)) for picture in shaped)
+    if isinstance(first, Scene):  # each is forgotten when it is drawn
+        return style.draw_loop((scene for scene in shaped if isinstance(scene, Scene)), draw_scene)
     return _together([*shaped], style, draw_scene)
+
+
+def _sheets(scene: Scene) -> list[ClothSheet]:
+    """The rectangles of cloth in a scene."""
+    models = (model for model in scene.models if isinstance(model, ClothModel))
+    return [model.sheet for model in models if model.sheet is not None]
 
 
 def _each(picture: Picture, change: Callable[[Scene], Scene | Frame]) -> Picture:

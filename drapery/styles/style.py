@@ -168,7 +168,8 @@ class Style:
         scenes: list[Scene] = []
         canvases: list[Canvas] = []
         for scene, canvas in drawn:
-            scenes.append(scene)
+            # Meshes of all frames would fill the memory.
+            scenes.append(replace(scene, models=()))
             canvases.append(canvas.alone())
             self._check_samples(canvas.pixels[..., 0].size * len(canvases), "all frames together")
         for step in steps:
