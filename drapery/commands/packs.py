@@ -16,7 +16,7 @@ def run(
         list[Path],
         typer.Argument(
             metavar="PATH...",
-            help="Resource packs (folders, zips, jars); where several have a file, the last one counts.",
+            help="Resource packs (folders, zips, jars); the last one with a file counts.",
             show_default=False,
         ),
     ],
