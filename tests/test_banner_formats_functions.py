@@ -190,3 +190,11 @@ def test_a_line_of_many_dollars_is_refused(count: int):
     give = 'give @s red_banner[banner_patterns=[{pattern:"creeper",color:"lime"}]]'
     with pytest.raises(DesignError, match="holds a design; give a /give command"):
         parse_banners("$" * count + give, form="function")
+
+
+def test_a_line_that_cannot_be_read_is_warned_of_once() -> None:
+    wrong = GIVE.replace("creeper", "zzz")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        found = parse_banners(f"{GIVE}\n{wrong}\nwhite creeper:lime\nred border:black\n")
+    assert len(found) == 3 and len(told) == 1 and "zzz" in str(told[0].message)

@@ -167,6 +167,32 @@ def test_every_form_of_a_program_is_recognised_and_read(form: str, text: str):
     assert parse_banner(text) == CREEPER
 
 
+def test_a_variable_has_the_value_that_it_had_last():
+    other = TAG.replace("cre", "flo")
+    item = "Item.of('white_banner', nbt)"
+    first, second = parse_banners(f"let nbt = {TAG}\n{item}\nnbt = {other}\n{item}")
+    assert first.banner == CREEPER and second.banner.layers[0].pattern == "flower"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "Item.of('white_banner').withNBT(makeNbt('creeper'))",
+        "Item.of('white_banner', 2, design)",
+        "Item.of('white_banner', design)",
+        "Item.of('white_banner', Object.assign({}, base))",
+    ],
+)
+def test_a_tag_that_a_script_makes_is_not_a_plain_banner(call: str):
+    with pytest.raises(DesignError, match="is not in the text; write it into the call"):
+        parse_banner(call)
+
+
+@pytest.mark.parametrize("amount", ["2", "2 * 3", "count", "n", "stackSize"])
+def test_an_amount_is_not_a_tag(amount: str):
+    assert parse_banner(f"Item.of('white_banner', {amount})") == Banner.parse("white")
+
+
 @pytest.mark.parametrize("form", ["bukkit", "crafttweaker", "kubejs", "loom-assistant"])
 def test_patterns_of_data_packs_are_written_where_the_program_reads_them(form: str):
     assert parse_banner(write_banner(ACME, form)) == ACME

@@ -6,8 +6,9 @@ after an amount or not; components may also be in an object, or in calls of `set
 """
 
 import re
+from bisect import bisect
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import give
@@ -46,8 +47,12 @@ _DEFINED = re.compile(r"([A-Za-z_$][\w$]{0,60})\s*=\s*(?=[{\[])")
 _TAG_NAME = re.compile("nbt|tag|component|pattern|data", re.IGNORECASE)
 _COMPONENTS = frozenset({"banner_patterns", "base_color"})
 
+_AMOUNT_NAME = re.compile("count|amount|number|size|stack|total|quantity|^.{1,2}$", re.IGNORECASE)
+_NUMBER = re.compile(r"[\d\s.+*/()-]+")
+
 _ValueOf = Callable[[str], str | None]
-"""Gives the object or list that is a variable's value, or None if it is not in the text."""
+"""Gives the object or list that is a variable's value at an item, or None if it is not in the
+text before it."""
 
 
 def recognises(text: str) -> bool:
@@ -73,19 +78,24 @@ def read(text: str) -> list[FoundBanner]:
         else:
             end = _end_of_quote(text, match.start(), at)
             inner, calls = [text[match.start() : end]], []
-        one = _read_item(inner, calls, value_of, at)
+        one = _read_item(inner, calls, partial(value_of, before=match.start()), at)
         found += [one] if one else []
     if not found:
         raise DesignError(f"no banner in the script: write it as {EXAMPLE}")
     return found
 
 
-def _values(text: str) -> _ValueOf:
-    starts = {match[1]: match.end() for match in _DEFINED.finditer(text)}
+def _values(text: str) -> Callable[[str, int], str | None]:
+    """Gives the latest value of a variable before a place in the text."""
+    starts: dict[str, list[int]] = {}
+    for match in _DEFINED.finditer(text):
+        starts.setdefault(match[1], []).append(match.end())
+    value_from = cache(partial(bracketed, text))
 
-    @cache
-    def value_of(name: str) -> str | None:
-        return bracketed(text, starts[name]) if name in starts else None
+    def value_of(name: str, before: int) -> str | None:
+        known = starts.get(name, [])
+        number = bisect(known, before)
+        return value_from(known[number - 1]) if number else None
 
     return value_of
 
@@ -125,8 +135,9 @@ def _read_item(
     if not (is_banner_id(name) or is_shield_id(name)):
         return None
     at = f"{at} {bare(name)}"
-    others = [*inner[1:], *(call[1][0] for call in calls if call[0] == "withNBT" and call[1])]
-    tag = tag or next(filter(None, (_tag(word, value_of, at) for word in others)), "")
+    tags = [*inner[2:], *(call[1][0] for call in calls if call[0] == "withNBT" and call[1])]
+    tags = [word for word in inner[1:2] if not _is_amount(word)] + tags
+    tag = tag or next((_tag(word, value_of, at) for word in tags), "")
     components = {
         literal(call[1][0]) or call[1][0]: _tree(call[1][1], value_of, at)
         for call in calls
@@ -149,21 +160,31 @@ def _banner(name: str, tag: str, components: dict[str, DataTree], at: str) -> Ba
     return banner_of(name, tag or None, at)
 
 
+def _is_amount(argument: str) -> bool:
+    """Whether the second argument of `Item.of` is an amount, not a tag."""
+    text = literal(argument) or argument
+    if _VARIABLE.fullmatch(text):
+        return _AMOUNT_NAME.search(text) is not None and _TAG_NAME.search(text) is None
+    return _NUMBER.fullmatch(text) is not None
+
+
 def _tag(argument: str, value_of: _ValueOf, at: str) -> str:
-    """The tag or components that an argument is; empty for another argument, such as an amount."""
+    """The tag or components that an argument is. Raises DesignError if it cannot be read."""
     text = literal(argument) or argument
     if _VARIABLE.fullmatch(text):
         text = value_of(text) or ""
-        if not text and _TAG_NAME.search(argument):
-            raise DesignError(
-                f"{at}: the value of {argument} is not in the text; write it into the call"
-            )
-    return text if text.startswith(("{", "[")) else ""
+    if not text.startswith(("{", "[")):
+        raise DesignError(
+            f"{at}: the value of {argument[:40]} is not in the text; write it into the call"
+        )
+    return text
 
 
 def _tree(argument: str, value_of: _ValueOf, at: str) -> DataTree:
+    name = literal(argument) or argument
     try:
-        return parse_snbt(_tag(argument, value_of, at) or argument)
+        is_value = name.startswith(("{", "[")) or _VARIABLE.fullmatch(name) is not None
+        return parse_snbt(_tag(argument, value_of, at) if is_value else argument)
     except DesignError as error:
         raise error if str(error).startswith(at) else DesignError(f"{at}: {error}") from None
 

@@ -157,9 +157,14 @@ def parse_all(text: str, form: str | None, errors: list[DesignError]) -> list[Fo
     if not text.strip():
         raise DesignError(f"the text is empty: give a banner, such as {shorthand.EXAMPLE!r}")
     if form == functions.NAME or (form is None and _is_function(text)):
-        found = some_of(functions.find(text, errors.append), errors, functions.NOTHING)
-        is_function = form is not None or functions.has_only_commands(text)
-        return found if is_function else _in_lines_if_more(text, found, errors)
+        own: list[DesignError] = []
+        found = some_of(functions.find(text, own.append), own, functions.NOTHING)
+        if form is None and not functions.has_only_commands(text):
+            faults: list[DesignError] = []
+            lines = _in_lines_if_more(text, found, faults)
+            found, own = (lines, faults) if lines is not found else (found, own)
+        errors += own
+        return found
     return _any_form(unwrap(text), errors) if form is None else _named(form).read(text)
 
 
