@@ -3,10 +3,11 @@
 import re
 import subprocess
 import sys
+import tracemalloc
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import pytest
@@ -416,7 +417,53 @@ def test_a_limit_of_colours_holds_for_a_whole_loop() -> None:
     assert drawn == [[10, 10, 10, 200], [10, 10, 200, 200]]
 
 
+def test_a_limit_of_many_colours_takes_little_memory() -> None:
+    pixels = np.random.default_rng(0).integers(0, 256, (250, 240, 4), np.uint8)
+    pixels[..., 3] = 255
+    tracemalloc.start()
+    (drawn,) = STEPS["picture"]["limit"]([Canvas(pixels, no_buffers)], colours=128)
+    assert tracemalloc.get_traced_memory()[1] < 100e6
+    tracemalloc.stop()
+    assert len(np.unique(drawn.words())) == 128
+
+
+def test_a_loop_without_frames_stays_so() -> None:
+    style = Style("calm", (StyleStep("picture", STEPS["picture"]["steady"]),))
+    assert list(style.draw_loop([], draw_scene)) == []
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda pixels: pixels[::2].copy(),
+        lambda pixels: pixels[..., :3].copy(),
+        lambda pixels: pixels.astype(float),
+    ],
+)
+def test_a_picture_step_that_changes_the_size_or_type_is_refused(change: Any) -> None:
+    with pytest.raises(OptionError, match="a picture step"):
+        STEPS["picture"]["shade"](canvas().painted(change(canvas().pixels)))
+
+
+def test_large_pixels_of_large_pixels_stay_in_their_place() -> None:
+    given = replace(canvas(), corner=(1, 2))
+    assert given.coarse(2).coarse(2).corner == (1, 2)
+
+
+def test_a_style_is_shown_as_it_reads_back(tmp_path: Path) -> None:
+    (tmp_path / "my.toml").write_text(
+        'description = "a \\"quoted\\" style"\n[[picture]]\nstep = "outline"\nwidth = 1.23456789\n',
+        encoding="utf-8",
+    )
+    style = Style.load(tmp_path / "my.toml")
+    (tmp_path / "again.toml").write_text(style.describe(), encoding="utf-8")
+    again = Style.load(tmp_path / "again.toml")
+    assert (again.description, again.steps) == (style.description, style.steps)
+
+
 def test_a_clean_picture_has_no_orphans() -> None:
+    edge = STEPS["picture"]["clean"](flat_canvas([[9, 8, 8, 8], [8, 8, 8, 8], [8, 8, 8, 7]]))
+    assert (edge.pixels[..., 0] == 8).all()
     speck = STEPS["picture"]["clean"](flat_canvas([[8, 8, 8, 8], [8, 9, 8, 7], [8, 8, 8, 7]]))
     assert speck.pixels[..., 0].tolist() == [[8, 8, 8, 8], [8, 8, 8, 7], [8, 8, 8, 7]]
 

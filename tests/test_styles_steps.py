@@ -13,6 +13,7 @@ from drapery.packs import open_packs
 from drapery.style import flag_material
 from drapery.styles import STEPS, Style, find_style
 from drapery.styles.palette_files import read_palette
+from drapery.styles.sheet import grid_lattice
 from drapery.styles.void_and_cluster import LEVELS, SIDE, blue_noise
 
 PICTURE, SHAPE, MATERIAL = STEPS["picture"], STEPS["shape"], STEPS["material"]
@@ -41,6 +42,15 @@ def test_parchment_turns_white_into_its_own_colour_and_keeps_patterns_darker() -
     scale = layer.texels.shape[1] // 64
     white, black = (layer.texels[10 * scale, x * scale, :3].astype(int) for x in (2, 11))
     assert np.abs(white - [0xE6, 0xD3, 0xA3]).max() < 24 and (black < white - 60).all()
+
+
+def test_tears_stay_within_a_low_sheet() -> None:
+    lattice = grid_lattice(9, 9)
+    flat = np.zeros((81, 3))
+    flat[:, 0], flat[:, 1] = lattice.uvs[:, 0] * 0.5, -lattice.uvs[:, 1] * 0.5
+    low = replace(rippled(), positions=flat, lattice=lattice, size=(0.5, 0.5), texel=1 / 16)
+    for seed in range(40):
+        assert len(SHAPE["tear"](low, depth=0.9, holes=40, seed=seed).lattice.triangles)
 
 
 def test_scanlines_darken_every_third_row() -> None:
@@ -106,6 +116,7 @@ def test_palettes_come_from_files_beside_the_style(tmp_path: Path) -> None:
         ("a.hex", "00000\n", "line 1: '00000' is not a colour; use six hexadecimal digits"),
         ("a.hex", "000000\n", "has 1 colours; use 2 to 256"),
         ("a.gpl", "0 0 0\n", "line 1: it is not 'GIMP Palette'"),
+        ("a.gpl", "GIMP Palette\nred: 1 2 3\n", "line 2: 'red: 1 2 3' is not a colour"),
         ("a.gpl", "GIMP Palette\n0 0 256\n", "line 2: '0 0 256' is not a colour"),
         ("a.hex", "f" * 70_000, "over 65536 bytes; a palette is shorter"),
     ],

@@ -7,6 +7,7 @@ from itertools import chain
 
 import numpy as np
 
+from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.frame import Frame
 from drapery.render.light import STUDIO_LIGHT, UNLIT
@@ -42,8 +43,14 @@ def styled_pictures(
     if not any(step.over_time for step in style.steps):
         return (_each(picture, partial(style.draw, draw_scene=draw_scene)) for picture in shaped)
     if isinstance(first, Scene):  # each is forgotten when it is drawn
-        return style.draw_loop((scene for scene in shaped if isinstance(scene, Scene)), draw_scene)
+        return style.draw_loop(map(_scene, shaped), draw_scene)
     return _together([*shaped], style, draw_scene)
+
+
+def _scene(picture: Picture) -> Scene:
+    if not isinstance(picture, Scene):
+        raise OptionError("a clip mixes scenes with other pictures; a style over time needs scenes")
+    return picture
 
 
 def _sheets(scene: Scene) -> list[ClothSheet]:

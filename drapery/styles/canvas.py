@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.errors import OptionError
 from drapery.render.buffers import Buffers, middles
 from drapery.render.flatten import lay_over
 from drapery.render.pixels import Pixels
@@ -36,11 +37,23 @@ class Canvas:
 
     @cached_property
     def buffers(self) -> Buffers:
-        """Depth, normal, model and texture coordinates of each pixel."""
-        return self.make_buffers()
+        """Depth, normal, model and texture coordinates of each pixel. Raises OptionError."""
+        found = self.make_buffers()
+        if found.model.shape != self.pixels.shape[:2]:
+            height, width = found.model.shape
+            raise OptionError(
+                f"a picture step changed the size of {width} x {height} pixels;"
+                " keep it, or use Canvas.coarse"
+            )
+        return found
 
     def painted(self, pixels: Pixels) -> "Canvas":
-        """The same canvas with other colours. pixels: shape [H, W, 4], uint8."""
+        """The same canvas with other colours, [H, W, 4], uint8. Raises OptionError."""
+        if pixels.ndim != 3 or pixels.shape[2] != 4 or pixels.dtype != np.uint8:
+            raise OptionError(
+                f"a picture step made pixels of shape {pixels.shape} and type {pixels.dtype};"
+                " make [H, W, 4] of uint8"
+            )
         return replace(self, pixels=pixels, make_buffers=lambda: self.buffers)
 
     def words(self) -> Words:
@@ -57,7 +70,9 @@ class Canvas:
         """The colour in the middle of each square of `size` x `size` pixels of the result."""
         step = size * self.grid
         at = np.ix_(*(middles(side, step) for side in self.pixels.shape[:2]))
-        return Canvas(self.pixels[at], lambda: self.buffers.every(step), 1, size * self.pixel)
+        return Canvas(
+            self.pixels[at], lambda: self.buffers.every(step), 1, size * self.pixel, self.corner
+        )
 
     def finished(self, size: tuple[int, int]) -> Pixels:
         """The picture of this width and height: averaged over `grid`, then enlarged."""

@@ -429,6 +429,8 @@ def lay_under(words: Words, below: Whole, colour: int, scale: float) -> None:
                 continue
             own = (word >> 24) / 255
             under = min(1.0, below[y, x] * scale) * (1 - own)
+            if under == 0.0:
+                continue
             red, green, blue = _bytes(word)
             total = own + under
             red = np.int64((red * own + r * under) / total + 0.5)

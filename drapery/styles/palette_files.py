@@ -12,6 +12,7 @@ MAX_COLOURS = 256
 """The most colours of a palette."""
 
 ENDINGS = (".gpl", ".hex")
+"""How the names of palettes end."""
 
 
 def read_palette(path: str | Path) -> tuple[str, ...]:
@@ -42,7 +43,7 @@ def _gpl(lines: list[str], path: str | Path) -> tuple[str, ...]:
         raise OptionError(f"palette {path} line 1: it is not 'GIMP Palette'; export it as .gpl")
     colours = []
     for number, line in enumerate(lines[1:], 2):
-        if not line.strip() or line.lstrip().startswith("#") or re.match(r"\s*[A-Za-z]+:", line):
+        if re.match(r"\s*(#|$|(Name|Columns|Channels):)", line):
             continue
         found = re.match(r"\s*(\d{1,3})\s+(\d{1,3})\s+(\d{1,3})(?:\s|$)", line)
         levels = [int(text) for text in found.groups()] if found else [256]

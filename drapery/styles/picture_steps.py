@@ -171,7 +171,8 @@ def scanlines(
     table = np.rint(np.arange(256) * (1 - strength)).astype(np.uint8)
     rows = np.arange(len(canvas.pixels)) // canvas.grid % every < width
     drawn = canvas.pixels.copy()
-    drawn[rows, :, :3] = table[drawn[rows, :, :3]]
+    at = rows[:, None] & (drawn[..., 3] > 0)
+    drawn[at, :3] = table[drawn[at, :3]]
     return canvas.painted(drawn)
 
 
@@ -278,7 +279,7 @@ def _thresholds(dither: float, pattern: DitherPattern) -> tuple[Array, NDArray[n
     """Offsets of a dither, -0.5..0.5, and the tile of their indices; without it one 0."""
     if not dither:
         return np.zeros(1), np.zeros((1, 1), np.int32)
-    tile = BAYER.astype(np.int32) if pattern == "bayer" else blue_noise()
+    tile = BAYER.astype(np.int32) if pattern == "bayer" else blue_noise().copy()
     count = int(tile.max()) + 1
     return (np.arange(count) + 0.5) / count - 0.5, tile
 

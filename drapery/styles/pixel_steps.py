@@ -22,6 +22,7 @@ PASSES = 4
 Item = TypeVar("Item", bound=np.generic)
 
 AROUND = [(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column]
+"""Offsets of the eight pixels around one."""
 
 
 def pixels(
@@ -63,9 +64,9 @@ def clean(canvas: Canvas) -> Canvas:
     words[words < VISIBLE] = 0
     framed = np.pad(words, 1, mode="edge")
     height, width = words.shape
-    alike = np.zeros(words.shape, np.bool_)
+    alike, outside = np.zeros(words.shape, np.bool_), np.pad(words, 1)
     for row, column in AROUND:
-        alike |= framed[1 + row : 1 + row + height, 1 + column : 1 + column + width] == words
+        alike |= outside[1 + row : 1 + row + height, 1 + column : 1 + column + width] == words
     y, x = np.nonzero(~alike & (words != 0))
     near = np.stack([framed[1 + y + row, 1 + x + column] for row, column in AROUND], axis=-1)
     # The most frequent one; of several the one with the least number.
@@ -141,15 +142,15 @@ def _painted(canvases: Sequence[Canvas], drawn: Sequence[Words]) -> list[Canvas]
     return [canvas.painted(as_pixels(words)) for canvas, words in zip(canvases, drawn, strict=True)]
 
 
-def _merged(names: Words, counts: NDArray[np.intp], least: int) -> Words:
-    """What each colour becomes so that `least` remain. names: without alpha."""
+def _merged(names: Words, counts: NDArray[np.intp], most: int) -> Words:
+    """What each colour becomes so that at most `most` remain. names: without alpha."""
     rgb = (names[:, None] >> np.array([0, 8, 16], np.uint32) & np.uint32(255)).astype(np.int64)
     kept = np.argsort(-counts, kind="stable")[:MOST_COLOURS]
     weight, never = counts[kept].astype(np.int64), np.iinfo(np.int64).max
     apart = _distances(rgb[kept], rgb[kept])
     cost = apart * np.minimum(weight[:, None], weight[None, :])
     np.fill_diagonal(cost, never)
-    for _ in range(len(kept) - least):
+    for _ in range(len(kept) - most):
         one, other = divmod(int(np.argmin(cost)), len(kept))
         if weight[one] < weight[other]:
             one, other = other, one
@@ -160,13 +161,14 @@ def _merged(names: Words, counts: NDArray[np.intp], least: int) -> Words:
         cost[one], cost[:, one] = row, row
         cost[other], cost[:, other] = never, never
     kept = kept[weight > 0]
-    nearest = np.argmin(_distances(rgb, rgb[kept]), axis=1)
+    parts = np.array_split(rgb, -(-len(rgb) // 4096))  # all distances at once would fill memory
+    nearest = np.concatenate([np.argmin(_distances(part, rgb[kept]), axis=1) for part in parts])
     merged: Words = names[kept[nearest]]
     return merged
 
 
 def _distances(ones: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Squares of distances, green counting double, shape [len(ones), len(others)]."""
+    """Squares of distances, weighted by how bright a channel is, shape [len(ones), len(others)]."""
     apart = ones[:, None] - others[None]
     squares: NDArray[np.int64] = (apart * apart * np.array([2, 4, 3])).sum(axis=-1)
     return squares

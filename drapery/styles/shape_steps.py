@@ -177,7 +177,7 @@ def tear(
         column = int(across * (0.1 + 0.8 * chance.random()))
         height, width = 1 + int(4 * chance.random()), 1 + int(2 * chance.random())
         kept[row : row + height, column : column + width] = False
-        kept[row + height // 2, column + width : column + width + 1] = False
+        kept[min(row + height // 2, down - 1), column + width : column + width + 1] = False
     return _cut(sheet, _held(kept))
 
 

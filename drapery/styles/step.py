@@ -1,5 +1,6 @@
 """One step of a style: a plain function and its checked parameters."""
 
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -134,7 +135,13 @@ def parameter_limits(field: "FieldInfo") -> str:
         return ("whole numbers " if kind is int else "") + limits(bounds["ge"], bounds["le"])
     if any(getattr(rule, "pattern", None) == COLOUR_PATTERN for rule in field.metadata):
         return "a colour like #5a3c1e"
-    return _KINDS.get(kind, "a list of colours like #5a3c1e")
+    if kind in _KINDS:
+        return _KINDS[kind]
+    sides = [getattr(rule, "min_length", None) for rule in field.metadata]
+    sides += [getattr(rule, "max_length", None) for rule in field.metadata]
+    counts = [side for side in sides if side is not None]
+    many = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else "a list of"
+    return f"{many} colours like #5a3c1e"
 
 
 _KINDS: dict[object, str] = {
@@ -149,17 +156,17 @@ def parameter_lines(step: StyleStep) -> list[str]:
     """The parameters of a step, one a line: name, value, meaning and limits."""
     model = parameter_model(step.function)
     return [
-        f"{name} = {_as_toml(value)}  # {model.model_fields[name].description or name}"
+        f"{name} = {as_toml(value)}  # {model.model_fields[name].description or name}"
         f" ({parameter_limits(model.model_fields[name])})"
         for name, value in dict(step.parameters).items()
     ]
 
 
-def _as_toml(value: Any) -> str:
+def as_toml(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
-        return f'"{value}"'
+        return json.dumps(value, ensure_ascii=False)
     if isinstance(value, tuple):
-        return f"[{', '.join(map(_as_toml, value))}]"
-    return f"{value:g}" if isinstance(value, float) else str(value)
+        return f"[{', '.join(map(as_toml, value))}]"
+    return repr(value)

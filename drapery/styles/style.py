@@ -19,7 +19,7 @@ from drapery.styles.canvas import Canvas, as_pixels, laid_over
 from drapery.styles.loading import read_style_file
 from drapery.styles.pixel_steps import pixels
 from drapery.styles.sheet import Sheet
-from drapery.styles.step import StepKind, StyleStep, parameter_lines
+from drapery.styles.step import StepKind, StyleStep, as_toml, parameter_lines
 
 CLEAR = (0, 0, 0, 0)
 MAX_SAMPLES = 1 << 25
@@ -79,7 +79,7 @@ class Style:
 
     def describe(self) -> str:
         """The style as TOML, with every parameter, its meaning and its limits as comments."""
-        lines = [f'description = "{self.description}"'] if self.description else []
+        lines = [f"description = {as_toml(self.description)}"] if self.description else []
         lines += [f'light = "{self.light}"'] if self.light else []
         lines += [f"samples = {self.samples}"] if self.samples else []
         for step in self.steps:
@@ -172,6 +172,8 @@ class Style:
             scenes.append(replace(scene, models=()))
             canvases.append(canvas.alone())
             self._check_samples(canvas.pixels[..., 0].size * len(canvases), "all frames together")
+        if not canvases:
+            return iter(())
         for step in steps:
             each = step.over_time
             canvases = step.apply(canvases) if each else [step.apply(one) for one in canvases]
