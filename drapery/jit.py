@@ -5,6 +5,7 @@ from typing import Any, TypeVar, cast
 
 from llvmlite import ir
 from numba import njit, types
+from numba.core.cgutils import if_unlikely
 from numba.extending import intrinsic
 
 from drapery.jit_cache import cache_on_disk
@@ -42,9 +43,11 @@ def call_by_address(result: Any, parameters: Sequence[Any]) -> Any:
             given = [builder.extract_value(values[1], i) for i in range(len(parameters))]
             shape = context.call_conv.get_function_type(result, parameters)
             function = builder.inttoptr(values[0], ir.PointerType(shape))
-            _status, value = context.call_conv.call_function(
+            status, value = context.call_conv.call_function(
                 builder, function, result, parameters, given
             )
+            with if_unlikely(builder, status.is_error):
+                context.call_conv.return_status_propagate(builder, status)
             return value
 
         if arguments != wanted:

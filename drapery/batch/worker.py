@@ -40,15 +40,21 @@ def run(pipe: Any, work: Callable[[Any], Any], memory: int, threads: int) -> Non
     # Import what draws now, so that its memory is the worker's, not the first job's.
     _ = drapery.draw
 
-    _limit(memory)
-    with suppress(EOFError, ConnectionError), _reported_compiling(pipe):
-        pipe.send(memory_of("self", RESIDENT))
+    lock = threading.Lock()
+
+    def send(message: Any) -> None:
+        with lock:  # kernels are also compiled in other threads
+            pipe.send(message)
+
+    with suppress(EOFError, ConnectionError), _reported_compiling(send):
+        _limit(memory)
+        send(memory_of("self", RESIDENT))
         while True:
-            pipe.send(_result(work, pipe.recv()))
+            send(_result(work, pipe.recv()))
 
 
 @contextmanager
-def _reported_compiling(pipe: Any) -> Iterator[None]:
+def _reported_compiling(send: Callable[[Any], None]) -> Iterator[None]:
     """Report when kernels are compiled. A kernel that another one calls is compiled within it."""
     from numba.core import event
 
@@ -58,12 +64,12 @@ def _reported_compiling(pipe: Any) -> Iterator[None]:
         def on_start(self, event: Any) -> None:
             self.depth += 1
             if self.depth == 1:
-                pipe.send(Compiling.BEGINS)
+                send(Compiling.BEGINS)
 
         def on_end(self, event: Any) -> None:
             self.depth -= 1
             if self.depth == 0:
-                pipe.send(Compiling.ENDS)
+                send(Compiling.ENDS)
 
     with event.install_listener("numba:compile", Reporter()):
         yield

@@ -237,7 +237,7 @@ def batch_of(
         lanes.block_width(len(cloth.inv_mass), x, threads),
         np.zeros(x.shape[1]),
         NO_CONTACT if boxes is None else boxes,
-        0 if boxes is None else resolve_address(),
+        0 if boxes is None or not len(boxes.halves) else resolve_address(),
         contact_work(0, NO_CONTACT),
         solver_state.often,
         len(state.positions),
