@@ -1,7 +1,9 @@
 """What all tests share: strict numerics, a real pack, the command line."""
 
 import os
+import signal
 import sys
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -22,6 +24,15 @@ __all__ = ["chromium", "compiled_kernels", "studio"]
 # How long one example takes is the machine's business on a shared machine, not the example's.
 settings.register_profile("shared machine", deadline=None)
 settings.load_profile("shared machine")
+
+
+def pytest_configure() -> None:
+    """A suite that a shell starts in the background ignores SIGINT, and so would the programs that
+    tests start and interrupt."""
+    in_main_thread = threading.current_thread() is threading.main_thread()
+    if in_main_thread and signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
 
 GIVE = (
     '/give @p minecraft:white_banner[banner_patterns=[{pattern:"creeper",color:"lime"},'

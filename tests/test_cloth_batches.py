@@ -92,20 +92,18 @@ PROGRAM = """
 import sys
 sys.path.insert(0, {tests!r})
 from test_cloth_batches import *
-for cloth, count in CLOTHS:
-    for solver in (SolverDesbrun(threads=1), SolverXPBD(threads=1)):
-        print(digest(moved(cloth, solver, blown(slice(count)), count)))
+for solver, cloth, count in CASES:
+    print(digest(moved(cloth, solver(threads=1), blown(slice(count)), count)))
 """
-CLOTHS = [(grid(5, 9, 0.8, 1.6), COUNT), (grid(18, 9, 0.8, 1.6), 1)]
-"""A batch, and one laid out as a sheet."""
+CASES = [
+    (SolverDesbrun, grid(5, 9, 0.8, 1.6), COUNT),
+    (SolverXPBD, grid(18, 9, 0.8, 1.6), 1),
+]
+"""A batch, and a cloth laid out as a sheet; `benchmarks.same_bits` compares all solvers."""
 
 
 def test_another_processors_code_gives_the_same_bits():
-    here = [
-        digest(moved(cloth, solver(), blown(slice(count)), count))
-        for cloth, count in CLOTHS
-        for solver in SOLVERS.values()
-    ]
+    here = [digest(moved(cloth, solver(), blown(slice(n)), n)) for solver, cloth, n in CASES]
     plain = os.environ | {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
     program = PROGRAM.format(tests=str(Path(__file__).parent))
     there = subprocess.run(
