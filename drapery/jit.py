@@ -15,6 +15,7 @@ Function = TypeVar("Function", bound=Callable[..., object])
 _njit: Any = njit  # its type stubs lack the wrapper options
 _types: Any = types
 _intrinsic: Any = intrinsic
+_if_unlikely: Any = if_unlikely
 INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 OUTER = {"error_model": "numpy", "nogil": True}
 
@@ -46,7 +47,7 @@ def call_by_address(result: Any, parameters: Sequence[Any]) -> Any:
             status, value = context.call_conv.call_function(
                 builder, function, result, parameters, given
             )
-            with if_unlikely(builder, status.is_error):
+            with _if_unlikely(builder, status.is_error):
                 context.call_conv.return_status_propagate(builder, status)
             return value
 

@@ -131,7 +131,7 @@ def open_page(driver: Any, studio: Studio, query: str = "") -> None:
     wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
 
 
-def wait_until(condition: Callable[[], T], seconds: float = 20.0) -> T:
+def wait_until(condition: Callable[[], T], seconds: float = 60.0) -> T:
     """The first true value of the condition. Raises AssertionError after this time [s]."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:

@@ -104,7 +104,7 @@ def downloads(chromium: Any, tmp_path: Path) -> Path:
 
 
 def landed(downloads: Path, name: str) -> bytes:
-    wait_until(lambda: (downloads / name).exists(), 40)
+    wait_until(lambda: (downloads / name).exists())
     return (downloads / name).read_bytes()
 
 
@@ -157,8 +157,8 @@ def test_an_animation_shows_progress_and_can_be_stopped(page: Page, downloads: P
     wait_until(lambda: "--seconds 40" in page.text("#as-command"))
     page.click("export", "Export the file")
     shown = "return document.querySelector('#panel-export progress').value"
-    first = wait_until(lambda: page.run(shown), 20)
-    assert wait_until(lambda: page.run(shown) > first, 20)
+    first = wait_until(lambda: page.run(shown))
+    assert wait_until(lambda: page.run(shown) > first)
     page.click("export", "Stop the export")
     page.notice("Stopped; no file was made")
     assert wait_until(lambda: not lying(page.studio.folder, "drapery-studio-*/*export*"))
@@ -287,7 +287,7 @@ def test_two_tabs_have_their_own_packs(page: Page) -> None:
         page.driver.close()
         page.driver.switch_to.window(page.driver.window_handles[0])
     # A tab that is closed takes its files along.
-    wait_until(lambda: not (others & sent(page)), 15)
+    wait_until(lambda: not (others & sent(page)))
     assert mine <= sent(page)
 
 

@@ -178,7 +178,7 @@ def choose(page: Any, label: str, text: str) -> None:
 def test_scenes_are_played_and_left_again(page: Any) -> None:
     panes = "return document.querySelectorAll('.viewer-labels > div').length"
     choose(page, "Scene", "fold")
-    wait_until(lambda: page.execute_script(panes) == 2, 20)
+    wait_until(lambda: page.execute_script(panes) == 2)
     assert shows(page, "as printed") and shows(page, "right sign")
     before = positions(page)
     wait_until(lambda: np.abs(positions(page) - before).max() > 1e-3)

@@ -66,7 +66,7 @@ def recognises(text: str) -> bool:
 
 def read(text: str) -> list[FoundBanner]:
     """All banners of the script. Raises DesignError with the place."""
-    place_of, value_of = places(text), _values(text)
+    place_of, values_before = places(text), _values(text)
     found: list[FoundBanner] = []
     end = 0
     for match in _ITEM.finditer(text):
@@ -78,26 +78,29 @@ def read(text: str) -> list[FoundBanner]:
         else:
             end = _end_of_quote(text, match.start(), at)
             inner, calls = [text[match.start() : end]], []
-        one = _read_item(inner, calls, partial(value_of, before=match.start()), at)
+        one = _read_item(inner, calls, values_before(match.start()), at)
         found += [one] if one else []
     if not found:
         raise DesignError(f"no banner in the script: write it as {EXAMPLE}")
     return found
 
 
-def _values(text: str) -> Callable[[str, int], str | None]:
-    """Gives the latest value of a variable before a place in the text."""
+def _values(text: str) -> Callable[[int], _ValueOf]:
+    """Gives the latest values of variables before a place in the text."""
     starts: dict[str, list[int]] = {}
     for match in _DEFINED.finditer(text):
         starts.setdefault(match[1], []).append(match.end())
     value_from = cache(partial(bracketed, text))
 
-    def value_of(name: str, before: int) -> str | None:
-        known = starts.get(name, [])
-        number = bisect(known, before)
-        return value_from(known[number - 1]) if number else None
+    def values_before(place: int) -> _ValueOf:
+        def value_of(name: str) -> str | None:
+            known = starts.get(name, [])
+            number = bisect(known, place)
+            return value_from(known[number - 1]) if number else None
 
-    return value_of
+        return value_of
+
+    return values_before
 
 
 def _end_of_quote(text: str, start: int, at: str) -> int:
