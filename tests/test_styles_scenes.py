@@ -7,8 +7,9 @@ import pytest
 from conftest import Run
 from PIL import Image
 
-from drapery.render import Scene
+from drapery.render import Camera, Frame, Scene, draw_scene
 from drapery.scenes import Clip, find_scene, scene_frames
+from drapery.scenes.picture_grid import Picture
 from drapery.scenes.styling import styled_pictures
 from drapery.style.tailoring import ClothModel
 from drapery.styles import STEPS, Style, StyleStep, find_style
@@ -83,3 +84,15 @@ def test_a_comparison_draws_each_style(drapery: Run, tmp_path: Path) -> None:
     assert (tmp_path / "both.png").is_file()
     code, _, said = drapery("compare", "white", "red", "--style", "game", "--style", "cel")
     assert code == 2 and "designs and styles would vary" in said
+
+
+@pytest.mark.parametrize(
+    ("picture", "style", "said"),
+    [
+        (Frame(np.zeros((2, 2, 4), np.uint8)), "ink", "ink changes nothing: the scene draws its"),
+        (Scene((), Camera((0, 0, 3), (0, 0, 0)), (8, 8)), "boards", "no rectangle of cloth"),
+    ],
+)
+def test_steps_that_change_nothing_are_told(picture: Picture, style: str, said: str) -> None:
+    with pytest.warns(UserWarning, match=said):
+        list(styled_pictures([picture], find_style(style), draw_scene))

@@ -1,5 +1,6 @@
 """Styles on the pictures of ready-made scenes."""
 
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
@@ -34,6 +35,7 @@ def styled_pictures(
     first = next(pictures, None)
     if first is None:
         return iter(())
+    _warn_of_idle_steps(first, style)
     pictures = chain((first,), pictures)
     if style.has("motion") and any(map(_sheets, _scenes(first))):
         pictures = _moved([*pictures], style)
@@ -45,6 +47,22 @@ def styled_pictures(
     if isinstance(first, Scene):  # each is forgotten when it is drawn
         return style.draw_loop(map(_scene, shaped), draw_scene)
     return _together([*shaped], style, draw_scene)
+
+
+def _warn_of_idle_steps(first: Picture, style: Style) -> None:
+    """Say which steps change nothing in a clip that begins with this picture."""
+    scenes = _scenes(first)
+    if not scenes and style.steps:
+        warnings.warn(
+            f"style {style.name} changes nothing: the scene draws its own frames", stacklevel=3
+        )
+    shapes = style.has("shape") or style.has("motion")
+    if scenes and shapes and not any(map(_sheets, scenes)):
+        warnings.warn(
+            f"style {style.name}: its motion and shape steps change nothing, since the scene has no"
+            " rectangle of cloth",
+            stacklevel=3,
+        )
 
 
 def _scene(picture: Picture) -> Scene:
