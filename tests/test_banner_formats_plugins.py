@@ -181,11 +181,17 @@ def test_a_variable_has_the_value_that_it_had_last():
         "Item.of('white_banner', 2, design)",
         "Item.of('white_banner', design)",
         "Item.of('white_banner', Object.assign({}, base))",
+        "Item.of('white_banner').set('banner_patterns', layers)",
     ],
 )
 def test_a_tag_that_a_script_makes_is_not_a_plain_banner(call: str):
     with pytest.raises(DesignError, match="is not in the text; write it into the call"):
         parse_banner(call)
+
+
+def test_other_components_may_be_anything():
+    text = "Item.of('shield').set('custom_name', name).set('lore', f(1)).set('base_color', 'red')"
+    assert parse_banner(text) == Banner.parse("red shield")
 
 
 @pytest.mark.parametrize("amount", ["2", "2 * 3", "count", "n", "stackSize"])

@@ -141,20 +141,21 @@ def _read_item(
     tags = [*inner[2:], *(call[1][0] for call in calls if call[0] == "withNBT" and call[1])]
     tags = [word for word in inner[1:2] if not _is_amount(word)] + tags
     tag = tag or next((_tag(word, value_of, at) for word in tags), "")
+    sets = (call[1] for call in calls if call[0] == "set" and len(call[1]) == 2)
+    named = [(literal(words[0]) or words[0], words[1]) for words in sets]
     components = {
-        literal(call[1][0]) or call[1][0]: _tree(call[1][1], value_of, at)
-        for call in calls
-        if call[0] == "set" and len(call[1]) == 2
+        component: _tree(value, value_of, at)
+        for component, value in named
+        if bare(component) in _COMPONENTS
     }
     banner = _banner(name, tag, components, at)
     return FoundBanner(banner, at) if banner else None
 
 
 def _banner(name: str, tag: str, components: dict[str, DataTree], at: str) -> Banner | None:
-    set_design = _COMPONENTS.intersection(map(bare, components))
-    if set_design and tag:
+    if components and tag:
         raise DesignError(f"{at}: it has a tag and calls of set(); write the components in one")
-    if set_design:
+    if components:
         return banner_from_components(name, components, at)
     if tag.startswith("{"):
         tree = _tree(tag, lambda name: None, at)
@@ -173,9 +174,9 @@ def _is_amount(argument: str) -> bool:
 
 def _tag(argument: str, value_of: _ValueOf, at: str) -> str:
     """The tag or components that an argument is. Raises DesignError if it cannot be read."""
-    text = literal(argument) or argument
-    if _VARIABLE.fullmatch(text):
-        text = value_of(text) or ""
+    text = literal(argument)
+    if text is None:
+        text = (value_of(argument) or "") if _VARIABLE.fullmatch(argument) else argument
     if not text.startswith(("{", "[")):
         raise DesignError(
             f"{at}: the value of {argument[:40]} is not in the text; write it into the call"
@@ -184,9 +185,10 @@ def _tag(argument: str, value_of: _ValueOf, at: str) -> str:
 
 
 def _tree(argument: str, value_of: _ValueOf, at: str) -> DataTree:
-    name = literal(argument) or argument
+    quoted = literal(argument)
+    is_name = quoted is None and _VARIABLE.fullmatch(argument) is not None
     try:
-        is_value = name.startswith(("{", "[")) or _VARIABLE.fullmatch(name) is not None
+        is_value = is_name or (quoted or argument).startswith(("{", "["))
         return parse_snbt(_tag(argument, value_of, at) if is_value else argument)
     except DesignError as error:
         raise error if str(error).startswith(at) else DesignError(f"{at}: {error}") from None
