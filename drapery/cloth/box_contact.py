@@ -155,7 +155,7 @@ class Candidates(NamedTuple):
     counts: NDArray[np.int64]
 
 
-def no_candidates(contact: BoxContact) -> Candidates:
+def candidate_arrays(contact: BoxContact) -> Candidates:
     """Arrays for the cloth and the boxes of a contact."""
     boxes = len(contact.halves)
     return Candidates(
@@ -166,7 +166,7 @@ def no_candidates(contact: BoxContact) -> Candidates:
     )
 
 
-empty_candidates = kernel(no_candidates)
+empty_candidates = kernel(candidate_arrays)
 
 
 @kernel

@@ -16,8 +16,8 @@ from drapery.cloth.box_contact import (
     NO_CONTACT,
     BoxContact,
     Candidates,
+    candidate_arrays,
     find_boxes,
-    no_candidates,
     put,
     solve_boxes,
 )
@@ -52,7 +52,7 @@ def contact_work(cloths: int, contact: BoxContact) -> ContactWork:
         np.empty((particles, 3)),
         np.empty((particles, 3)),
         np.empty((particles, COLUMNS)),
-        no_candidates(contact),
+        candidate_arrays(contact),
     )
 
 
