@@ -3,13 +3,15 @@
 numba's own cache checks only the file of a cached function, so an edit of a function that it calls
 from another file gives stale results. Here the key has a hash of all source files of the function's
 top-level package (such as all of `drapery.cloth`): kernels call only functions of it and of
-`drapery.jit`, and a test checks that. A damaged file is compiled again. If no folder can be
+`drapery.jit`, and a test checks that. Each hash has a folder of its own, so that installations
+with the same sources share their kernels. A damaged file is compiled again. If no folder can be
 written, kernels are compiled in every process, and a warning says so once.
 """
 
 import hashlib
 import os
 import pickle
+import shutil
 import stat
 import sys
 import tempfile
@@ -21,11 +23,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
 
+import numba
 from numba import config
 from numba.core import caching
 from numba.misc.appdirs import AppDirs
 
 REMEDY = "set NUMBA_CACHE_DIR to a folder that can be written"
+MAX_SOURCES = 24
+"""The most folders of kernels that are kept, each for one state of the sources."""
 
 _caching: Any = caching
 _config: Any = config
@@ -60,16 +65,14 @@ def cache_folders() -> Iterator[tuple[Path, bool]]:
     They are in NUMBA_CACHE_DIR if it is set, else beside the sources and in the user's cache
     folder; the last one is a private folder for temporary files.
     """
-    package = Path(__file__).parent
-    own = f"drapery-{hashlib.sha256(os.fsencode(package)).hexdigest()[:16]}"
     if _config.CACHE_DIR:
-        yield Path(_config.CACHE_DIR) / own, False
+        yield Path(_config.CACHE_DIR) / "drapery", False
     else:
-        yield package / "__pycache__" / "kernels", False
-        yield Path(_AppDirs(appname="numba", appauthor=False).user_cache_dir) / own, False
+        yield Path(__file__).parent / "__pycache__" / "kernels", False
+        yield Path(_AppDirs(appname="numba", appauthor=False).user_cache_dir) / "drapery", False
     user = os.getuid() if hasattr(os, "getuid") else "user"
     with suppress(OSError):  # there may be no folder for temporary files
-        yield Path(tempfile.gettempdir()) / f"{own}-{user}", True
+        yield Path(tempfile.gettempdir()) / f"drapery-kernels-{user}", True
 
 
 def _try_folder(folder: Path, private: bool) -> None:
@@ -132,6 +135,30 @@ def _hash_of(files: tuple[Path, ...]) -> str:
     return total.hexdigest()
 
 
+@cache
+def folder_for(source: str) -> Path:
+    """The folder for kernels of sources with this hash; it is made, and the oldest one deleted.
+
+    Raises OSError.
+    """
+    folder = kernel_cache_status().folder
+    assert folder is not None
+    own = folder / hashlib.sha256(f"{source} {numba.__version__}".encode()).hexdigest()[:16]
+    if not own.is_dir():
+        own.mkdir(exist_ok=True)
+        _delete_oldest(folder)
+    return own
+
+
+def _delete_oldest(folder: Path) -> None:
+    """Keep the folders that were written to last. Another process may delete the same ones."""
+    with suppress(OSError):
+        folders = [each for each in folder.iterdir() if each.is_dir()]
+        folders.sort(key=lambda each: each.stat().st_mtime)
+        for each in folders[:-MAX_SOURCES]:
+            shutil.rmtree(each, ignore_errors=True)
+
+
 class _Locator(_caching._CacheLocator):  # type: ignore[misc]
     """Where numba stores one function, and the stamp that its files must have."""
 
@@ -140,7 +167,9 @@ class _Locator(_caching._CacheLocator):  # type: ignore[misc]
         self._py_file = function.__code__.co_filename  # numba's warnings name it
 
     def get_cache_path(self) -> str:
-        return str(kernel_cache_status().folder)
+        if self._function.__module__.startswith("drapery."):
+            return str(folder_for(source_hash(self._function)))
+        return str(kernel_cache_status().folder)  # a user's function, whose file is often edited
 
     def get_source_stamp(self) -> str:
         return source_hash(self._function)

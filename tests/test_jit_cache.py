@@ -2,6 +2,7 @@
 
 import ast
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 from test_import_contract import imports_of, modules
 
+from drapery import jit_cache
 from drapery.jit_cache import source_files
 
 CALLEE = "from drapery.jit import kernel\n\n@kernel\ndef part(x):\n    return x + {number}\n"
@@ -78,6 +80,25 @@ def test_an_edited_callee_in_another_file_is_compiled_again(package):
     assert package() == ["12.0", "True"]
 
 
+def test_equal_sources_in_two_folders_share_their_kernels(package, tmp_path):
+    assert package() == ["4.0", "False"]
+    copied = tmp_path / "other" / "scratch_kernels"
+    shutil.copytree(package.callee.parent, copied, ignore=shutil.ignore_patterns("__pycache__"))
+    program = USE.format(root=str(copied.parent))
+    assert run_program(program, package.cache).stdout.split() == ["4.0", "True"]
+
+
+def test_kernels_of_a_few_states_of_the_sources_are_kept(tmp_path, monkeypatch):
+    status = jit_cache.KernelCacheStatus(tmp_path)
+    monkeypatch.setattr(jit_cache, "kernel_cache_status", lambda: status)
+    monkeypatch.setattr(jit_cache, "MAX_SOURCES", 3)
+    for number in range(5):
+        folder = jit_cache.folder_for.__wrapped__(f"sources {number}")
+        os.utime(folder, (number, number))
+    kept = [jit_cache.folder_for.__wrapped__(f"sources {number}") for number in (2, 3, 4)]
+    assert sorted(tmp_path.iterdir()) == sorted(kept)
+
+
 @pytest.mark.parametrize("kind", ["*.nbi", "*.nbc"])
 @pytest.mark.parametrize("damage", ["empty", "half", "noise"])
 def test_a_damaged_cache_file_is_rebuilt(package, kind, damage):
@@ -107,8 +128,6 @@ def test_kernels_are_stored_with_temporary_files_if_no_other_folder_is_writable(
 
 
 def test_a_shared_folder_of_temporary_files_is_not_trusted(tmp_path, monkeypatch):
-    from drapery import jit_cache
-
     open_to_all = tmp_path / "kernels"
     open_to_all.mkdir()
     open_to_all.chmod(0o777)
