@@ -53,6 +53,7 @@ class LibraryPanel:
         self._limit = PAGE
         # Searches started so far.
         self._asked = 0
+        self._shown: list[Design] = []
         self._form()
         self._search()
         self._undo = ui.element("div").classes("line undo").props("role=status")
@@ -182,13 +183,20 @@ class LibraryPanel:
         if names != self._names:
             self._names = names
             self._tag_choice.refresh()
+        self._show(designs)
+        self._count.set_text(_counted(count, bool(wanted or tag)))
+        self._more.set_visibility(count > len(designs))
+
+    def _show(self, designs: "list[Design]") -> None:
+        # Cards that are already there stay, because a click on a replaced card is lost.
+        if designs == self._shown:
+            return
+        self._shown = designs
         self._found.clear()
         with self._found:
             for design in designs:
                 with ui.element("li").classes("design").props(f"data-design={design.number}"):
                     self._card(design)
-        self._count.set_text(_counted(count, bool(wanted or tag)))
-        self._more.set_visibility(count > len(designs))
 
     def _card(self, design: "Design") -> None:
         name = design.title or "Untitled"
