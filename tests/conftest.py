@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 from studio_browser import chromium, compiled_kernels, studio
+from untraced_compiler import trace_no_compiler
 
 from drapery import cli
 
@@ -30,6 +31,7 @@ def pytest_configure() -> None:
     """A suite that a shell starts in the background ignores SIGINT, and so would the programs that
     tests start and interrupt."""
     in_main_thread = threading.current_thread() is threading.main_thread()
+    trace_no_compiler()
     if in_main_thread and signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
