@@ -7,16 +7,103 @@ import numpy as np
 import pytest
 from test_styles import canvas, rippled
 
-from drapery import Banner
+from drapery import Banner, Settings
+from drapery.cloth import grid
 from drapery.errors import OptionError
 from drapery.packs import open_packs
-from drapery.style import flag_material
-from drapery.styles import STEPS, Style, find_style
+from drapery.scenes import still
+from drapery.style import FLAG_SIZE, flag_material
+from drapery.styles import STEPS, Sheet, Style, StyleStep, find_style
 from drapery.styles.palette_files import read_palette
 from drapery.styles.sheet import grid_lattice
 from drapery.styles.void_and_cluster import LEVELS, SIDE, blue_noise
 
-PICTURE, SHAPE, MATERIAL = STEPS["picture"], STEPS["shape"], STEPS["material"]
+MOTION, PICTURE, SHAPE, MATERIAL = (
+    STEPS["motion"],
+    STEPS["picture"],
+    STEPS["shape"],
+    STEPS["material"],
+)
+
+
+def swaying(sideways: bool = False, count: int = 12) -> Sheet:
+    """A flag that swings about its top edge, or its left one, and waves; a loop of `count`."""
+    sheet = rippled()
+    turn, waves = 2 * np.pi * np.arange(count) / count, sheet.positions[:, 2] - 0.02
+    far = sheet.lattice.uvs[:, 0 if sideways else 1]
+    ahead = 0.8 * np.sin(turn)[:, None] * far + np.cos(turn)[:, None] * far * waves
+    flat = grid(sheet.lattice.columns, sheet.lattice.rows, *FLAG_SIZE).rest_positions
+    moving = flat + ahead[..., None] * [0.0, 0.0, 1.0]
+    return replace(sheet, positions=moving)
+
+
+def chain_angles(sheet: Sheet, sideways: bool) -> np.ndarray:
+    """The mean angle of each row to its rest position [degrees], shape [F, rows - 1]."""
+    rows = sheet.grid.swapaxes(1, 2) if sideways else sheet.grid
+    x, y, z = np.moveaxis(np.diff(rows, axis=1).mean(axis=2), -1, 0)
+    return np.degrees(np.arctan2(z, x if sideways else -y))
+
+
+@pytest.mark.parametrize("sideways", [False, True])
+def test_snapped_angles_are_multiples_and_keep_lengths_and_the_held_edge(sideways: bool) -> None:
+    given = swaying(sideways)
+    snapped = MOTION["snap-angles"](given, degrees=12.0)
+    steps = chain_angles(snapped, sideways) / 12
+    np.testing.assert_allclose(steps, np.round(steps), atol=1e-9)
+    assert np.abs(12 * steps - chain_angles(given, sideways)).max() < 0.7 * 12 + 1e-9
+    axis = 2 if sideways else 1
+    pieces = [np.diff(sheet.grid, axis=axis) for sheet in (given, snapped)]
+    np.testing.assert_allclose(*(np.linalg.norm(each, axis=-1) for each in pieces), atol=1e-12)
+    held = (slice(None), slice(None), 0) if sideways else (slice(None), 0)
+    assert np.array_equal(snapped.grid[held], given.grid[held])
+
+
+def test_a_snapped_angle_does_not_flicker_between_two_neighbours() -> None:
+    angles = np.radians(7.5 + 0.8 * np.array([1, -1, 1, -1, 1, -1]))[:, None]
+    flat = grid(5, 9, *FLAG_SIZE).rest_positions
+    x, down = flat[:, 0] + 0 * angles, flat[0, 1] - flat[:, 1]
+    tilted = np.stack([x, flat[0, 1] - np.cos(angles) * down, np.sin(angles) * down], axis=-1)
+    sheet = replace(rippled(), positions=tilted)
+    snapped = MOTION["snap-angles"](sheet, degrees=15.0).positions
+    np.testing.assert_allclose(snapped, np.broadcast_to(snapped[:1], snapped.shape), atol=1e-12)
+
+
+@pytest.mark.parametrize("sideways", [False, True])
+def test_squash_stretches_along_the_velocity_and_keeps_the_volume(sideways: bool) -> None:
+    given = swaying(sideways)
+    moved = MOTION["squash"](given, strength=0.5)
+    first = (slice(None), slice(None), 0) if sideways else (slice(None), 0)
+    assert np.array_equal(moved.grid[first], given.grid[first])
+    same = MOTION["squash"](given, strength=0.0)
+    assert np.array_equal(same.positions, given.positions)
+    # At the fastest moment the flag swings ahead: it is narrower and shorter by the same factor.
+    size = [np.ptp(sheet.positions[0], axis=0)[:2] for sheet in (moved, given)]
+    free = [
+        sheet.grid[0, -1, :, 0] if not sideways else sheet.grid[0, :, -1, 1]
+        for sheet in (moved, given)
+    ]
+    np.testing.assert_allclose(np.ptp(free[0]) / np.ptp(free[1]), 1.5**-0.5, rtol=2e-3)
+    along = 0 if sideways else 1
+    np.testing.assert_allclose(size[0][along] / size[1][along], 1.5**-0.5, rtol=2e-2)
+
+
+@pytest.mark.parametrize("name", ["snap-angles", "squash"])
+def test_a_motion_step_has_no_seam(name: str) -> None:
+    given = swaying(count=12)
+    later = replace(given, positions=np.roll(given.positions, 5, axis=0))
+    one, other = (MOTION[name](sheet).positions for sheet in (given, later))
+    np.testing.assert_allclose(np.roll(one, 5, axis=0), other, atol=1e-12)
+
+
+def test_a_still_has_snapped_angles_too() -> None:
+    style = Style("puppet", (StyleStep("motion", MOTION["snap-angles"], {"degrees": 30.0}),))
+    settings = Settings(style=(style,), grid=(3, 5), size=(40, 50))
+    banner, packs = Banner.parse("red"), open_packs(())
+    (snapped, plain) = (
+        still(banner, packs, each).models[-1].mesh.positions
+        for each in (settings, replace(settings, style=()))
+    )
+    assert np.abs(snapped - plain).max() > 0.01
 
 
 def cells(name: str, **parameters: object) -> np.ndarray:

@@ -283,8 +283,10 @@ def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
     if settings.pose == "cloth":
         dt = settings.time / steps if steps else STEP
         at = Moments(dt, steps or 1, min(steps, 1), 1)
-        sheets = [_recorded(spec, settings, at)[0].positions[0] for spec in _specs(body, settings)]
-        meshes = stager.soft(sheets)
+        moments = [
+            _recorded(spec, settings, at)[0].positions[:1] for spec in _specs(body, settings)
+        ]
+        meshes = stager.soft([motion[0] for motion in stager.moved(moments)])
     else:
         meshes = stager.stiff([_phase(panel, settings.time) for panel in body.panels])
     return next(_scenes(stager, [meshes], [settings.time]))

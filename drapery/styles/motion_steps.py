@@ -1,12 +1,21 @@
 """Steps that change how cloth moves: the positions of all moments of a picture or loop."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
+from drapery.mesh import Array
 from drapery.styles.sheet import Sheet
+
+LOOSE = 0.7
+"""A snapped angle stays until the angle of the cloth is so many steps away, so it does not flicker
+between two neighbours."""
+ROUNDS = 3
+"""How often `snap_angles` goes around a loop: after that the end leads to the start."""
+SEAM = 3.0
+"""A motion whose end is so many times as far from its start as its frames are apart is no loop."""
 
 
 def hold(
@@ -17,3 +26,115 @@ def hold(
     """Show each pose for several frames, as hand-drawn animation does. A still does not change."""
     at = np.arange(len(sheet.positions)) // every * every
     return replace(sheet, positions=sheet.positions[at])
+
+
+def snap_angles(
+    sheet: Sheet,
+    *,
+    degrees: Annotated[float, Field(ge=1, le=90, description="between two angles")] = 15.0,
+) -> Sheet:
+    """Move in whole angles, as a jointed puppet in a stop-motion film does.
+
+    The cloth is a chain of rows from its held edge on. Each row turns about that edge until its
+    mean angle to the rest position is a multiple of `degrees`, and stays there until the simulated
+    angle is 0.7 steps away. Lengths along the chain and the folds across it stay, which is what
+    the shape step `boards` flattens.
+    """
+    chain = _chain(sheet)
+    pieces = np.diff(chain.rows, axis=1)
+    ahead = np.cross(chain.hinge, -chain.rest)
+    rest, middle = np.cross(chain.hinge, ahead), pieces.mean(axis=2)
+    angles = np.arctan2(*(np.sum(middle * axis[:, None], axis=-1) for axis in (ahead, rest)))
+    turns = _kept_angles(angles, np.radians(degrees)) - angles
+    turned = _turned(pieces, -chain.hinge[:, None, None], turns[..., None])
+    below = chain.rows[:, :1] + np.cumsum(turned, axis=1)
+    return chain.sheet(np.concatenate([chain.rows[:, :1], below], axis=1))
+
+
+def squash(
+    sheet: Sheet,
+    *,
+    strength: Annotated[float, Field(ge=0, le=1, description="stretch at the fastest")] = 0.3,
+) -> Sheet:
+    """Squash and stretch: the faster cloth moves, the longer it is that way, and the narrower.
+
+    At the fastest moment of a loop it is 1 + strength times as long along its mean velocity, which
+    counts from its held edge; across, it is narrower by the square root of that, so that the
+    volume stays (Johnston and Thomas, "The illusion of life", 1981). The held edge stays.
+    """
+    chain = _chain(sheet)
+    edge = chain.rows[:, :1]
+    velocity = _velocity((chain.rows - edge.mean(axis=2, keepdims=True)).mean(axis=(1, 2)))
+    squares = np.sum(velocity * velocity, axis=-1)[:, None, None]
+    most = max(float(squares.max()), 1e-18)
+    length = (1 + strength) ** (squares / most)
+    outer = velocity[:, :, None] * velocity[:, None, :] / np.maximum(squares, 1e-18)
+    change = (length**-0.5 - 1) * np.eye(3) + (length - length**-0.5) * outer
+    # The far end changes as a whole; at the held edge each particle stays in its place.
+    share = np.linspace(0, 1, chain.rows.shape[1])[:, None, None]
+    offsets = chain.rows - edge + share * (edge - edge.mean(axis=2, keepdims=True))
+    moved = sum(offsets[..., k, None] * change[:, None, None, :, k] for k in range(3))
+    return chain.sheet(chain.rows + moved)
+
+
+@dataclass(frozen=True, eq=False)
+class ClothChain:
+    """The motion of a sheet as rows that follow each other from its held edge on.
+
+    whole: the sheet. rows: shape [F, R, C, 3]; the first row is held. hinge: unit vector along that
+    row at each moment, shape [F, 3]. rest: where the chain goes to at rest. sideways: whether the
+    left edge is held, as on a flag, and not the top.
+    """
+
+    whole: Sheet
+    rows: Array
+    hinge: Array
+    rest: Array
+    sideways: bool
+
+    def sheet(self, rows: Array) -> Sheet:
+        """The sheet with other positions."""
+        grid = rows.swapaxes(1, 2) if self.sideways else rows
+        return replace(self.whole, positions=grid.reshape(self.whole.positions.shape))
+
+
+def _chain(sheet: Sheet) -> ClothChain:
+    """The sheet from its held edge on: the left one if it moves less than the top one."""
+    grid = sheet.grid
+    top, left = (edge - edge[:1] for edge in (grid[:, 0], grid[:, :, 0]))
+    sideways = float(np.abs(left).mean()) < float(np.abs(top).mean())
+    rows = grid.swapaxes(1, 2) if sideways else grid
+    across = rows[:, 0, 0] - rows[:, 0, -1] if sideways else rows[:, 0, -1] - rows[:, 0, 0]
+    length = np.sqrt(np.sum(across * across, axis=-1, keepdims=True))
+    rest = np.array([1.0, 0.0, 0.0] if sideways else [0.0, -1.0, 0.0])
+    return ClothChain(sheet, rows, across / np.maximum(length, 1e-12), rest, sideways)
+
+
+def _kept_angles(angles: Array, step: float) -> Array:
+    """Multiples of a step for each row over a loop, shape [F, R]; each stays while it is near."""
+    snapped = np.round(angles / step) * step
+    kept = snapped[0]
+    for _ in range(ROUNDS):
+        for frame, angle in enumerate(angles):
+            away = np.abs((angle - kept + np.pi) % (2 * np.pi) - np.pi)
+            kept = np.where(away > LOOSE * step, np.round(angle / step) * step, kept)
+            snapped[frame] = kept
+    return snapped
+
+
+def _turned(vectors: Array, axes: Array, angles: Array) -> Array:
+    """Vectors turned about unit axes, by Rodrigues' formula."""
+    cosine, sine = np.cos(angles)[..., None], np.sin(angles)[..., None]
+    along = np.sum(vectors * axes, axis=-1, keepdims=True) * axes
+    turned: Array = along + cosine * (vectors - along) + sine * np.cross(axes, vectors)
+    return turned
+
+
+def _velocity(middles: Array) -> Array:
+    """The velocity of a point over a loop [m a frame], shape [F, 3]."""
+    steps = np.roll(middles, -1, axis=0) - middles
+    lengths = np.sqrt(np.sum(steps * steps, axis=-1))
+    if len(steps) > 2 and lengths[-1] > SEAM * lengths[:-1].max():
+        steps[-1] = 0.0
+    velocity: Array = (steps + np.roll(steps, 1, axis=0)) / 2
+    return velocity
