@@ -131,6 +131,29 @@ def test_parchment_turns_white_into_its_own_colour_and_keeps_patterns_darker() -
     assert np.abs(white - [0xE6, 0xD3, 0xA3]).max() < 24 and (black < white - 60).all()
 
 
+def test_level_texels_are_flat_on_levels_and_leave_no_gap() -> None:
+    sheet = replace(rippled(), thickness=0.5 / 24)
+    mesh = SHAPE["level-texels"](sheet, step=0.5)
+    faces = mesh.positions.reshape(40, 20, 6, 4, 3)
+    right, down = np.array([1.0, 0, 0]), (sheet.grid[-1] - sheet.grid[0]).mean(axis=0)
+    ahead = mesh.normals.reshape(40, 20, 6, 4, 3)[0, 0, 0, 0]
+    assert abs(ahead @ right) < 0.05 and abs(ahead @ down) < 1e-9
+    np.testing.assert_allclose(mesh.normals.reshape(faces.shape)[:, :, 0] @ ahead, 1)
+    height = (faces @ ahead)[:, :, :2]
+    np.testing.assert_allclose(np.ptp(height, axis=-1), 0, atol=1e-12)
+    front, back = np.moveaxis(height.mean(axis=-1), -1, 0)
+    levels = (front - front[0, 0]) * 24 / 0.5
+    np.testing.assert_allclose(levels, np.round(levels), atol=1e-9)
+    assert len(np.unique(np.round(levels))) > 4
+    # Neighbours have common corners on the plane, and their depths overlap by the thickness.
+    top = faces[:, :, 0] - front[..., None, None] * ahead
+    np.testing.assert_allclose(top[:, :-1, [1, 3]], top[:, 1:, [0, 2]], atol=1e-12)
+    np.testing.assert_allclose(top[:-1, :, [2, 3]], top[1:, :, [0, 1]], atol=1e-12)
+    for one, other in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
+        shared = np.minimum(front[one], front[other]) - np.maximum(back[one], back[other])
+        assert shared.min() > 0.5 / 24 - 1e-12
+
+
 def test_tears_stay_within_a_low_sheet() -> None:
     lattice = grid_lattice(9, 9)
     flat = np.zeros((81, 3))

@@ -14,6 +14,12 @@ from drapery.styles.sheet import Sheet, grid_lattice, without_cells
 
 MAX_PARTICLES = 257
 """The most particles along one side of a sheet after a step."""
+THINNEST = 0.02
+"""Level texels are at least this thick [texels]."""
+BLOCK_FACES = np.array(
+    [[0, 1, 2, 3], [5, 4, 7, 6], [4, 0, 6, 2], [1, 5, 3, 7], [4, 5, 0, 1], [2, 3, 6, 7]]
+)
+"""The corners of the six faces of a block, from its front's four and its back's; see `_blocks`."""
 
 
 def thickness(
@@ -110,6 +116,42 @@ def voxels(sheet: Sheet) -> Mesh:
         (cube.triangles + firsts).reshape(-1, 3),
         _texel_uvs((across, down), sheet.uv_mapping).reshape(-1, 2),
     )
+
+
+def level_texels(
+    sheet: Sheet,
+    *,
+    step: Annotated[float, Field(ge=0, le=4, description="between levels [texels]; 0: any")] = 0.5,
+) -> Mesh:
+    """Level texels: each is flat and parallel to the plane in which the sheet lies on average.
+
+    Seen along that plane's normal, the texels stay where the cloth is. Ahead they stand on levels,
+    which are `step` texels apart. Each reaches back to the farthest of its four neighbours, so
+    that there are walls between levels and no gaps.
+    """
+    across, down = _texels(sheet)
+    rows = sheet.grid
+    axes = _mean_axes(rows)
+    low, high = (np.arange(count + 1) / count for count in (down, across))
+    corners = _at(rows, low, high) - rows[0, 0]
+    flat, ahead = corners @ axes[:2].T, _middles(rows, (across, down)) - rows[0, 0]
+    height = ahead @ axes[2]
+    if step:
+        height = np.round(height / (step * sheet.texel)) * step * sheet.texel
+    thick = max(sheet.thickness, THINNEST * sheet.texel)
+    framed = np.pad(height, 1, mode="edge")
+    lowest = np.minimum.reduce(
+        [framed[1:-1, :-2], framed[1:-1, 2:], framed[:-2, 1:-1], framed[2:, 1:-1], height]
+    )
+    # Each texel's corners: upper left, upper right, lower left, lower right.
+    places = np.stack([flat[:-1, :-1], flat[:-1, 1:], flat[1:, :-1], flat[1:, 1:]], axis=2)
+    sides = [height + thick / 2, lowest - thick / 2]
+    blocks = [
+        np.concatenate([places, np.broadcast_to(side[..., None, None], (*places.shape[:3], 1))], -1)
+        for side in sides
+    ]
+    front, back = ((block @ axes + rows[0, 0]).reshape(-1, 4, 3) for block in blocks)
+    return _blocks(front, back, _texel_uvs((across, down), sheet.uv_mapping))
 
 
 def swallow_tail(
@@ -249,6 +291,34 @@ def _along(points: Array, count: int, axis: int, curved: bool) -> Array:
     return result
 
 
+def _mean_axes(rows: Array) -> Array:
+    """Unit vectors to the right of a grid [R, C, 3], down and ahead, on average, shape [3, 3]."""
+    right, down = (rows[:, -1] - rows[:, 0]).mean(axis=0), (rows[-1] - rows[0]).mean(axis=0)
+    right /= max(float(np.sqrt((right * right).sum())), 1e-12)
+    down = down - (down * right).sum() * right
+    down /= max(float(np.sqrt((down * down).sum())), 1e-12)
+    return np.stack([right, down, np.cross(down, right)])
+
+
+def _blocks(front: Array, back: Array, uvs: Array) -> Mesh:
+    """Blocks with four corners in front and four behind, each row by row, shape [M, 4, 3].
+
+    uvs: of the corners of each block's front, back, left, right, top and bottom, shape [M, 24, 2].
+    """
+    corners = np.concatenate([front, back], axis=1)[:, BLOCK_FACES]
+    one, two = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
+    normals = np.cross(two, one)
+    normals /= np.maximum(np.sqrt((normals * normals).sum(axis=-1, keepdims=True)), 1e-18)
+    squares = 4 * np.arange(6 * len(front), dtype=np.int32)
+    triangles = squares[:, None, None] + np.array([[0, 2, 1], [1, 2, 3]], np.int32)
+    return Mesh(
+        corners.reshape(-1, 3),
+        normals.reshape(-1, 3).repeat(4, axis=0),
+        triangles.reshape(-1, 3),
+        uvs.reshape(-1, 2),
+    )
+
+
 def _texels(sheet: Sheet) -> tuple[int, int]:
     """How many texels the sheet has across and down."""
     across, down = (max(1, round(side / sheet.texel)) for side in sheet.size)
@@ -263,8 +333,14 @@ def _snapped(angles: Array, steps: int) -> Array:
 
 def _middles(rows: Array, size: tuple[int, int]) -> Array:
     """The middles of the texels of a grid [R, C, 3], shape [size[1], size[0], 3]."""
-    for axis, count in ((0, size[1]), (1, size[0])):
-        at = (np.arange(count) + 0.5) / count * (rows.shape[axis] - 1)
+    down, across = ((np.arange(count) + 0.5) / count for count in (size[1], size[0]))
+    return _at(rows, down, across)
+
+
+def _at(rows: Array, down: Array, across: Array) -> Array:
+    """A grid [R, C, 3] at shares 0..1 of its height and width, on straight lines."""
+    for axis, share in ((0, down), (1, across)):
+        at = share * (rows.shape[axis] - 1)
         low = np.minimum(at.astype(int), rows.shape[axis] - 2)
         part = (at - low).reshape(-1, 1, 1) if axis == 0 else (at - low).reshape(1, -1, 1)
         rows = (1 - part) * rows.take(low, axis) + part * rows.take(low + 1, axis)

@@ -15,6 +15,7 @@ _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
         shape_steps.facets,
         shape_steps.boards,
         shape_steps.voxels,
+        shape_steps.level_texels,
         shape_steps.swallow_tail,
         shape_steps.rounded_hem,
         shape_steps.fringe,
