@@ -5,14 +5,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.render.buffers import Buffers, middles
 from drapery.render.flatten import lay_over
 from drapery.render.pixels import Pixels
-
-Words = NDArray[np.uint32]
+from drapery.styles.colours import Words, as_pixels
 
 VISIBLE, OPAQUE = np.uint32(1 << 24), np.uint32(255 << 24)
 """The least words of pixels that are visible at all, and wholly."""
@@ -80,11 +78,6 @@ class Canvas:
         large = pixels.repeat(self.pixel, axis=0).repeat(self.pixel, axis=1)
         top, left = self.corner
         return np.ascontiguousarray(large[top : top + size[1], left : left + size[0]])
-
-
-def as_pixels(words: Words) -> Pixels:
-    """Words, shape [H, W], as pixels, shape [H, W, 4]; no copy."""
-    return words.view(np.uint8).reshape(*words.shape, 4)
 
 
 def laid_over(words: Words, behind: Words) -> Words:

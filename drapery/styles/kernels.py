@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.jit import entry_point, kernel
+from drapery.styles.colours import Words
 
-Words = NDArray[np.uint32]
 Levels = NDArray[np.uint8]
 Whole = NDArray[np.int32]
 Singles = NDArray[np.float32]

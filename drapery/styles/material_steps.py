@@ -15,12 +15,11 @@ from drapery.banner.dyes import DYES
 from drapery.mesh import Array
 from drapery.render.flatten import lay_over
 from drapery.render.scene import Material, Texels, TextureLayer
-from drapery.styles.step import COLOUR_PATTERN
+from drapery.styles.colours import Colour, rgb_of
 
 SHEET = 64
 """Width of a sheet [texels]."""
 
-Colour = Annotated[str, Field(pattern=COLOUR_PATTERN)]
 Numbers = NDArray[np.intp]
 
 
@@ -115,7 +114,7 @@ def hatch(
     for number, name in enumerate(DYES):
         for mark in _HATCHING[name]:
             drawn |= (dyes == number) & lines[mark]
-    colours = np.where(drawn[..., None], _rgb(ink), _rgb(paper)).astype(np.uint8)
+    colours = np.where(drawn[..., None], rgb_of(ink), rgb_of(paper)).astype(np.uint8)
     return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
 
 
@@ -175,7 +174,7 @@ def parchment(
 ) -> Material:
     """Old parchment, on which the colours are thin inks."""
     texels, fine = _enlarged(material, 4)
-    shape, skin = texels.shape[:2], np.array(_rgb(colour), float)
+    shape, skin = texels.shape[:2], np.array(rgb_of(colour), float)
     clouds = 0.65 * _smooth_noise(shape, 6 * fine, seed) + 0.35 * _smooth_noise(shape, fine, seed)
     fibres = 0.97 + 0.06 * _blurred(_noise(shape, seed + 1), (1, 0))
     inked = 1 - ink * (1 - texels[..., :3] / 255)
@@ -313,7 +312,3 @@ def _shaded(texels: Texels, light: Array) -> Texels:
 def _bytes(colours: Array) -> Texels:
     clipped: Texels = np.clip(np.rint(colours), 0, 255).astype(np.uint8)
     return clipped
-
-
-def _rgb(colour: str) -> tuple[int, ...]:
-    return tuple(bytes.fromhex(colour.removeprefix("#")))

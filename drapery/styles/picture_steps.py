@@ -13,12 +13,11 @@ from pydantic import Field
 from drapery.mesh import Array
 from drapery.render.buffers import Buffers
 from drapery.render.pixels import Pixels
-from drapery.styles.canvas import Canvas, Words, as_pixels, laid_over
+from drapery.styles.canvas import Canvas, laid_over
+from drapery.styles.colours import Colour, Words, as_pixels, rgb_of, word_of
 from drapery.styles.palette_files import MAX_COLOURS
-from drapery.styles.step import COLOUR_PATTERN
 from drapery.styles.void_and_cluster import blue_noise
 
-Colour = Annotated[str, Field(pattern=COLOUR_PATTERN)]
 DitherPattern = Literal["bayer", "blue-noise"]
 
 DARK, BRIGHT = 0.1, 0.5
@@ -74,7 +73,7 @@ def outline(
     """
     from drapery.styles.kernels import draw_marks
 
-    levels = np.arange(256)[None] * (1 - darken) + np.array(_rgb(colour))[:, None] * darken
+    levels = np.arange(256)[None] * (1 - darken) + np.array(rgb_of(colour))[:, None] * darken
     # A line of one pixel is as it is; others grow by discs.
     reach, table = _disc((width * canvas.grid - 1) / 2), np.rint(levels).astype(np.uint8)
     limits = np.array([depth, np.cos(np.radians(crease))], np.float32)
@@ -114,7 +113,7 @@ def palette(
     """
     from drapery.styles.kernels import nearest
 
-    table = np.array([_rgb(colour) for colour in colours], np.float64)
+    table = np.array([rgb_of(colour) for colour in colours], np.float64)
     drawn, (offsets, tile) = canvas.words(), _thresholds(dither, pattern)
     nearest(drawn, table, np.asarray(dither * 48 * offsets, np.float64), tile)
     return canvas.painted(as_pixels(drawn))
@@ -131,7 +130,7 @@ def tones(
     from drapery.styles.kernels import tone
 
     drawn = canvas.words()
-    tone(drawn, np.array(_rgb(dark), np.float64), np.array(_rgb(light), np.float64), gamma)
+    tone(drawn, np.array(rgb_of(dark), np.float64), np.array(rgb_of(light), np.float64), gamma)
     return canvas.painted(as_pixels(drawn))
 
 
@@ -156,7 +155,7 @@ def hatching(
     strokes = np.stack([np.cos(angles), np.sin(angles), least], axis=-1)
     pen = np.array([spacing, width, strength, SOLID])
     drawn, model = canvas.words(), canvas.buffers.model
-    hatch(drawn, model, strokes, canvas.grid, pen, _word(colour), _word(paper))
+    hatch(drawn, model, strokes, canvas.grid, pen, word_of(colour), word_of(paper))
     return canvas.painted(as_pixels(drawn))
 
 
@@ -252,7 +251,7 @@ def _laid_under(
     if radius:
         row = np.zeros(below.shape[1] + 2 * radius + 1, np.int32)
         blur(below, np.empty_like(below), row, radius)
-    lay_under(drawn, below, _word(colour), strength / (FINE * 255))
+    lay_under(drawn, below, word_of(colour), strength / (FINE * 255))
     return canvas.painted(as_pixels(drawn))
 
 
@@ -303,17 +302,8 @@ def _sheet_of_paper(
 ) -> Words:
     y, x = (axis // grid for axis in np.indices(shape))
     ruled = (x % spacing == 0) | (y % spacing == 0) if spacing else np.zeros(shape, np.bool_)
-    sheet = np.where(ruled[..., None], _rgb(lines), _rgb(colour)).astype(float)
+    sheet = np.where(ruled[..., None], rgb_of(lines), rgb_of(colour)).astype(float)
     sheet *= 1 + grain * (np.random.default_rng(0).random(shape)[..., None] - 0.5) * 0.2
     pixels = np.full((*shape, 4), 255, np.uint8)
     pixels[..., :3] = np.rint(np.clip(sheet, 0, 255))
     return pixels.view(np.uint32)[..., 0]
-
-
-def _rgb(colour: str) -> tuple[int, ...]:
-    return tuple(bytes.fromhex(colour.removeprefix("#")))
-
-
-def _word(colour: str) -> int:
-    """A colour as the lower bytes of a pixel's word."""
-    return int.from_bytes(bytes(_rgb(colour)), "little")

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.render.buffers import Buffers
-from drapery.styles.canvas import VISIBLE, Canvas, Words, as_pixels
+from drapery.styles.canvas import VISIBLE, Canvas
+from drapery.styles.colours import Words, as_pixels
 from drapery.styles.step import over_time
 
 COLOUR = np.uint32(0xFFFFFF)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args, get_origin, g
 
 from drapery.errors import OptionError
 from drapery.option import limits, one_of, shown
+from drapery.styles.colours import COLOUR_PATTERN
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -20,9 +21,6 @@ STEP_KINDS: tuple[StepKind, ...] = get_args(StepKind)
 
 StepFunction = Callable[..., Any]
 Function = TypeVar("Function", bound=StepFunction)
-
-COLOUR_PATTERN = r"^#[0-9a-fA-F]{6}$"
-"""A colour in a style, such as `#5a3c1e`."""
 
 
 def over_time(function: Function) -> Function:

@@ -15,7 +15,8 @@ from drapery.render.frame import Frame
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
 from drapery.settings import Lighting, Settings
-from drapery.styles.canvas import Canvas, as_pixels, laid_over
+from drapery.styles.canvas import Canvas, laid_over
+from drapery.styles.colours import as_pixels
 from drapery.styles.loading import read_style_file
 from drapery.styles.pixel_steps import pixels
 from drapery.styles.sheet import Sheet
