@@ -154,6 +154,26 @@ def test_level_texels_are_flat_on_levels_and_leave_no_gap() -> None:
         assert shared.min() > 0.5 / 24 - 1e-12
 
 
+def test_a_palette_of_a_material_is_that_of_a_picture(tmp_path: Path) -> None:
+    material = flag_material(Banner.parse("white stripe_center:black gradient:red"), open_packs(()))
+    colours = ("#f0f0f0", "#101010", "#b02020")
+    for given in ({}, {"dither": 0.8}):
+        (layer,) = MATERIAL["palette"](material, colours=colours, **given).layers
+        assert layer.tint == (255, 255, 255) and layer.texels.shape == (64, 64, 4)
+        found = {bytes(texel).hex() for texel in layer.texels[..., :3].reshape(-1, 3)}
+        assert found == {colour[1:] for colour in colours}
+    sheet = MATERIAL["age"](material, fade=0.0, dirt=0.0).layers[0].texels
+    flat = replace(material, layers=(replace(material.layers[0], texels=sheet),))
+    drawn = PICTURE["palette"](replace(canvas(), pixels=sheet), colours=colours, dither=0.4).pixels
+    (layer,) = MATERIAL["palette"](flat, colours=colours, dither=0.4).layers
+    assert np.array_equal(layer.texels, drawn)
+    (tmp_path / "two.hex").write_text("000000\nff8000\n", encoding="utf-8")
+    text = '[[material]]\nstep = "palette"\nfile = "two.hex"\n'
+    (tmp_path / "my.toml").write_text(text, encoding="utf-8")
+    (step,) = Style.load(tmp_path / "my.toml").steps
+    assert (step.kind, dict(step.parameters)["colours"]) == ("material", ("#000000", "#ff8000"))
+
+
 def test_tears_stay_within_a_low_sheet() -> None:
     lattice = grid_lattice(9, 9)
     flat = np.zeros((81, 3))

@@ -11,7 +11,6 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from drapery.errors import OptionError
 from drapery.option import shown
 from drapery.styles.palette_files import read_palette
-from drapery.styles.picture_steps import palette
 from drapery.styles.step import STEP_KINDS, StyleStep, parameter_faults
 from drapery.styles.steps import STEPS
 
@@ -77,7 +76,7 @@ def _steps(parsed: StyleFile, path: str | Path, text: str) -> Iterator[StyleStep
                 where = _where(path, text, (kind, number, "step"))
                 said = f"step {shown(name)} is not known" if "step" in table else "step is missing"
                 raise OptionError(f"{where}: {said}; use one of: {', '.join(known)}")
-            if known[name] is palette and "file" in given:
+            if name == "palette" and "file" in given:
                 where = _where(path, text, (kind, number, "file"))
                 given = _with_palette(given, Path(path).parent, where)
             for field, fault in parameter_faults(known[name], given).items():

@@ -15,7 +15,14 @@ from drapery.banner.dyes import DYES
 from drapery.mesh import Array
 from drapery.render.flatten import lay_over
 from drapery.render.scene import Material, Texels, TextureLayer
-from drapery.styles.colours import Colour, rgb_of
+from drapery.styles.colours import Colour, as_pixels, rgb_of
+from drapery.styles.palettes import (
+    DARK_AND_LIGHT,
+    DitherPattern,
+    DitherStrength,
+    PaletteColours,
+    use_palette,
+)
 
 SHEET = 64
 """Width of a sheet [texels]."""
@@ -140,6 +147,23 @@ def stained_glass(
     metal = np.where(core[..., None], 92.0, 38.0) * np.array([0.95, 1.0, 1.05])
     colours = np.clip(np.where(came[..., None], metal, glass), 0, 255).astype(np.uint8)
     return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
+
+
+def palette(
+    material: Material,
+    *,
+    colours: PaletteColours = DARK_AND_LIGHT,
+    dither: DitherStrength = 0.0,
+    pattern: DitherPattern = "bayer",
+) -> Material:
+    """Only these colours in the texture: the nearest to each texel, as the picture step does.
+
+    The light still shades them. In a file of a style, `file` may name a palette, .gpl or .hex.
+    """
+    texels, _ = _enlarged(material, 1)
+    words = texels.view(np.uint32)[..., 0]
+    use_palette(words, colours, dither, pattern)
+    return _sheet(material, as_pixels(words))
 
 
 def age(

@@ -4,21 +4,24 @@ Invisible pixels stay as they are. The kernels are imported when a step first ru
 """
 
 from functools import lru_cache
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from drapery.mesh import Array
 from drapery.render.buffers import Buffers
 from drapery.render.pixels import Pixels
 from drapery.styles.canvas import Canvas, laid_over
 from drapery.styles.colours import Colour, Words, as_pixels, rgb_of, word_of
-from drapery.styles.palette_files import MAX_COLOURS
-from drapery.styles.void_and_cluster import blue_noise
-
-DitherPattern = Literal["bayer", "blue-noise"]
+from drapery.styles.palettes import (
+    DARK_AND_LIGHT,
+    DitherPattern,
+    DitherStrength,
+    PaletteColours,
+    thresholds,
+    use_palette,
+)
 
 DARK, BRIGHT = 0.1, 0.5
 """Cosines to the light between which cel shading divides its steps: a cloth's folds are shallow."""
@@ -28,9 +31,6 @@ FINE = 16
 
 SOLID = 0.985
 """A place darker than this is ink alone."""
-
-BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
-"""Order of the thresholds of a 4 x 4 ordered dither (Bayer 1973)."""
 
 
 def shade(
@@ -86,8 +86,8 @@ def posterize(
     canvas: Canvas,
     *,
     levels: Annotated[int, Field(ge=2, le=64, description="of brightness")] = 6,
-    dither: Annotated[float, Field(ge=0, le=1, description="strength of the dither")] = 0.0,
-    pattern: Annotated[DitherPattern, Field(description="of the dither")] = "bayer",
+    dither: DitherStrength = 0.0,
+    pattern: DitherPattern = "bayer",
 ) -> Canvas:
     """A few levels of brightness, dithered if wanted; hues stay."""
     from drapery.styles.kernels import level_out
@@ -100,22 +100,16 @@ def posterize(
 def palette(
     canvas: Canvas,
     *,
-    colours: Annotated[
-        tuple[Colour, ...],
-        Field(min_length=2, max_length=MAX_COLOURS, description="the colours to use"),
-    ] = ("#1a1620", "#f4f0e8"),
-    dither: Annotated[float, Field(ge=0, le=1, description="strength of the dither")] = 0.0,
-    pattern: Annotated[DitherPattern, Field(description="of the dither")] = "bayer",
+    colours: PaletteColours = DARK_AND_LIGHT,
+    dither: DitherStrength = 0.0,
+    pattern: DitherPattern = "bayer",
 ) -> Canvas:
     """Only these colours: the nearest to each, by a weighted distance in sRGB.
 
     In a file of a style, `file` may name a palette in place of `colours`: .gpl or .hex.
     """
-    from drapery.styles.kernels import nearest
-
-    table = np.array([rgb_of(colour) for colour in colours], np.float64)
-    drawn, (offsets, tile) = canvas.words(), _thresholds(dither, pattern)
-    nearest(drawn, table, np.asarray(dither * 48 * offsets, np.float64), tile)
+    drawn = canvas.words()
+    use_palette(drawn, colours, dither, pattern)
     return canvas.painted(as_pixels(drawn))
 
 
@@ -274,22 +268,13 @@ def _disc(radius: float) -> NDArray[np.int64]:
     return sides
 
 
-def _thresholds(dither: float, pattern: DitherPattern) -> tuple[Array, NDArray[np.int32]]:
-    """Offsets of a dither, -0.5..0.5, and the tile of their indices; without it one 0."""
-    if not dither:
-        return np.zeros(1), np.zeros((1, 1), np.int32)
-    tile = BAYER.astype(np.int32) if pattern == "bayer" else blue_noise().copy()
-    count = int(tile.max()) + 1
-    return (np.arange(count) + 0.5) / count - 0.5, tile
-
-
 @lru_cache(maxsize=8)
 def _level_table(
     levels: int, dither: float, pattern: DitherPattern
 ) -> tuple[Pixels, NDArray[np.int32]]:
     """What becomes of each level of a channel, and the tile of dither; see `level_out`."""
     step = 255 / (levels - 1)
-    offsets, tile = _thresholds(dither, pattern)
+    offsets, tile = thresholds(dither, pattern)
     bright = np.arange(256.0)
     raised = bright + dither * step * offsets[:, None]
     factors = np.rint(raised / step) * step / np.maximum(bright, 1)

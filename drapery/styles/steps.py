@@ -27,6 +27,7 @@ _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
         material_steps.embroider,
         material_steps.hatch,
         material_steps.stained_glass,
+        material_steps.palette,
         material_steps.age,
         material_steps.parchment,
     ),
