@@ -17,6 +17,7 @@ from drapery.errors import DesignError
 from drapery.settings import OPTIONS, Settings
 from drapery.studio.share import MAX_JSON, MAX_LINK, VERSION, opened_link, read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
+from drapery.styles import find_style, style_names
 
 patterns = st.one_of(
     st.sampled_from(PATTERN_NAMES), st.sampled_from(("acme:x", "a_b:c/d.e", "x-y.z:_"))
@@ -50,6 +51,7 @@ all_settings = st.builds(
     block_light=st.integers(0, 15),
     daylight=st.floats(0, 1),
     shadow=st.booleans(),
+    style=st.lists(st.sampled_from(style_names()), max_size=3).map(tuple),
 )
 FULL = Sketch(
     "red", tuple(Stroke(n, PATTERN_NAMES[n + 3], DYE_NAMES[n]) for n in range(16)), "banner", "Flag"
@@ -82,6 +84,23 @@ def test_files_stay_behind(tmp_path: Path) -> None:
     assert read_link(link)[1] == Settings(wind=3.0)
 
 
+def test_a_link_without_styles_reads_as_before_and_leaves_styles_that_it_cannot_name() -> None:
+    link = made(GOOD | {"options": {"wind": 3.0}})
+    assert read_link(link)[1] == Settings(wind=3.0)
+    mine, cel = Path("my.toml"), find_style("cel")
+    assert opened_link(Settings(style=(mine, "ink", cel)), link)[0].style == (mine, cel)
+    written = write_link(FULL, Settings(style=(mine, "ink", cel, "other.toml")))
+    assert read_link(written)[1].style == ("ink",)
+    assert opened_link(Settings(style=(mine,)), written)[0].style == ("ink",)
+
+
+def test_a_style_that_is_not_installed_is_left_out_with_a_warning() -> None:
+    link = made(GOOD | {"options": {"style": ["sparkle", "cel"]}})
+    with pytest.warns(UserWarning, match="'sparkle' of the link is not installed here"):
+        _, settings = read_link(link)
+    assert settings.style == ("cel",)
+
+
 def test_a_link_is_laid_over_what_the_studio_was_started_with() -> None:
     own = Settings(packs=("a.zip",), format=46, wind=9.0, backend="soft")
     link = write_link(FULL, Settings(view="iso"))
@@ -107,6 +126,10 @@ GOOD: dict[str, Any] = {"base": "red", "layers": [{"pattern": "creeper", "color"
         {"texture": "/etc/passwd"},
         {"kind": "cape"},
         {"backend": "os"},
+        {"style": ["/etc/my.toml"]},
+        {"style": "cel"},
+        {"style": [["cel"]]},
+        {"style": ["cel"] * 17},
         {"__class__": 1},
         {"view": "../../x"},
         {"view": 5},

@@ -29,6 +29,7 @@ from drapery.studio.panels import (
 from drapery.studio.session import Session, Sessions
 from drapery.studio.share import opened_link, write_link
 from drapery.studio.sketch import Sketch
+from drapery.studio.warning_log import collected_warnings
 from drapery.studio.widgets import text_element
 
 Place = Literal["left", "viewport", "under", "side"]
@@ -86,14 +87,16 @@ def add_page(sessions: Sessions) -> None:
 
 
 def opened(base: Settings, request: Request | None) -> tuple[Settings, Sketch | None, str]:
-    """The page's initial state: the design of a link, or the error in that link."""
+    """The page's initial state: the design of a link, and the error or warning about the link."""
     link = request.query_params.get("d") if request is not None else None
     if not link:
         return base, None, ""
-    try:
-        return *opened_link(base, link), ""
-    except DraperyError as error:
-        return base, None, str(error)
+    with collected_warnings() as notes:
+        try:
+            settings, sketch = opened_link(base, link)
+        except DraperyError as error:
+            return base, None, str(error)
+    return settings, sketch, " ".join(notes)
 
 
 def build(session: Session) -> None:

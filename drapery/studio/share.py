@@ -2,10 +2,11 @@
 
 The first character is the version. The rest is the JSON of `as_tree`, compressed as a zlib stream
 and encoded as URL-safe base64 (RFC 4648, section 5) without padding. A link never names a file: it
-leaves out packs and textures.
+leaves out packs, textures, and styles that are not names.
 """
 
 import json
+import warnings
 import zlib
 from base64 import urlsafe_b64decode, urlsafe_b64encode
 from dataclasses import replace
@@ -14,9 +15,11 @@ from typing import Any
 
 from drapery import Banner, DesignError, Settings
 from drapery.banner import parse_banner, write_banner
+from drapery.option import shown
 from drapery.options import check_options
 from drapery.settings import NAMED_OPTIONS
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
+from drapery.styles import style_names
 
 VERSION = "a"
 MAX_LINK = 4096
@@ -24,8 +27,10 @@ MAX_LINK = 4096
 MAX_JSON = 16 << 10
 """The largest size of a link's data after it is decompressed [bytes]."""
 
-LOCAL_OPTIONS = frozenset({"packs", "texture", "kind", "style", "backend"})
+LOCAL_OPTIONS = frozenset({"packs", "texture", "kind", "backend"})
 """Options that a link leaves out: they name or need a file, or depend on installed software."""
+MAX_STYLES = 16
+"""The most styles in a link."""
 SHARED = tuple(name for name in NAMED_OPTIONS if name not in LOCAL_OPTIONS)
 
 _LETTERS = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_")
@@ -35,7 +40,7 @@ _REMEDY = "copy the whole link again"
 def write_link(sketch: Sketch, settings: Settings) -> str:
     """The sketch and the options that differ from their default, as part of an address.
 
-    settings: the link leaves out its packs, texture and backend.
+    settings: the link leaves out its packs, texture, backend, and styles that are not names.
     """
     text = json.dumps(as_tree(sketch, settings), separators=(",", ":"), ensure_ascii=False)
     squeezed = zlib.compress(text.encode(), 9)
@@ -66,10 +71,16 @@ def opened_link(base: Settings, link: str) -> tuple[Settings, Sketch]:
 
 
 def with_shared(base: Settings, settings: Settings) -> Settings:
-    """`base` with the shared options of `settings`; a format of None leaves that of `base`."""
+    """`base` with the shared options of `settings`.
+
+    A format of None leaves that of `base`, and no style leaves those of `base` that a link cannot
+    name.
+    """
     chosen = {name: getattr(settings, name) for name in SHARED}
     if settings.format is None:
         chosen["format"] = base.format
+    if not settings.style:
+        chosen["style"] = tuple(style for style in _styles(base) if not _is_name(style))
     return replace(base, **chosen)
 
 
@@ -89,6 +100,7 @@ def as_tree(sketch: Sketch, settings: Settings) -> dict[str, Any]:
 def options_of(settings: Settings) -> dict[str, Any]:
     """The shared options that differ from their default, by name, as JSON."""
     chosen = {name: getattr(settings, name) for name in SHARED}
+    chosen["style"] = tuple(filter(_is_name, _styles(settings)))
     return {
         name: list(value) if isinstance(value, tuple) else value
         for name, value in chosen.items()
@@ -114,10 +126,39 @@ def settings_of(words: object) -> Settings:
     for name in words:
         if name not in SHARED:
             raise DesignError(f"options: {str(name)[:40]!r} is not an option of a link; {_REMEDY}")
+    if "style" in words:
+        words = words | {"style": _known_styles(words["style"])}
     checked = check_options(words, Path())
     if isinstance(checked, list):
         raise DesignError(f"options: {checked[0]}")
     return checked
+
+
+def _known_styles(names: object) -> list[str]:
+    """The styles of a link that are installed here; a warning names the others.
+
+    Raises DesignError for anything but names.
+    """
+    if not isinstance(names, list) or not all(map(_is_name, names)) or len(names) > MAX_STYLES:
+        raise DesignError(f"options: style is not a list of at most {MAX_STYLES} names; {_REMEDY}")
+    known = style_names()
+    for name in names:
+        if name not in known:
+            warnings.warn(
+                f"style {shown(name)} of the link is not installed here; it was left out",
+                stacklevel=2,
+            )
+    return [name for name in names if name in known]
+
+
+def _styles(settings: Settings) -> tuple[Any, ...]:
+    style = settings.style
+    return style if isinstance(style, tuple) else (style,)
+
+
+def _is_name(style: object) -> bool:
+    """Whether a style is a name, not a file or an object."""
+    return isinstance(style, str) and not NAMED_OPTIONS["style"].is_path(style)
 
 
 def checked_title(title: object) -> str:
