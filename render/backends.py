@@ -13,19 +13,27 @@ and in my_package/drawing.py:
 The frame has the scene's size, and straight alpha over the scene's background. The function raises
 OptionError for a scene that it cannot draw and BackendError if a library or device is missing. It
 may cache the scene's arrays but holds no other reference to them, and any thread may call it.
+
+What a renderer knows of each pixel beside its colour is in `Buffers`. A backend that makes these
+itself has an attribute `with_buffers`: a function from a `Scene` to its frame and a function that
+makes its buffers when a style asks for them. For others `soft` makes them.
+
 It cannot have the name of a built-in backend. `drapery doctor` draws a triangle with it.
 """
 
 from collections.abc import Callable
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
+from typing import Any
 
 from drapery.errors import BackendError
+from drapery.render.buffers import Buffers
 from drapery.render.frame import Frame
 from drapery.render.scene import Scene
 
 DrawScene = Callable[[Scene], Frame]
 """A backend."""
+MakeBuffers = Callable[[], Buffers]
 
 GROUP = "drapery.backends"
 
@@ -48,7 +56,8 @@ def backend(name: str | DrawScene = "auto") -> DrawScene:
         return name
     chosen = DEFAULT if name == "auto" else name
     if chosen in BUILT_IN:
-        return _load(BUILT_IN[chosen])
+        built_in: DrawScene = _load(BUILT_IN[chosen])
+        return built_in
     added = _added()
     if chosen not in added:
         known = ", ".join(["auto", *BUILT_IN, *added])
@@ -61,6 +70,16 @@ def backend(name: str | DrawScene = "auto") -> DrawScene:
             " repair or remove the package that adds it"
         ) from fault
     return found
+
+
+def draw_with_buffers(scene: Scene, draw_scene: DrawScene) -> tuple[Frame, MakeBuffers]:
+    """A scene drawn by a backend, and a function that makes the buffers of the picture."""
+    both = getattr(draw_scene, "with_buffers", None)
+    if both is not None:
+        found: tuple[Frame, MakeBuffers] = both(scene)
+        return found
+    make_buffers = _load("drapery.render.soft:draw_buffers")
+    return draw_scene(scene), lambda: make_buffers(scene)
 
 
 def backend_names() -> list[str]:
@@ -78,7 +97,6 @@ def _added() -> dict[str, EntryPoint]:
     return {point.name: point for point in points if point.name not in BUILT_IN}
 
 
-def _load(path: str) -> DrawScene:
+def _load(path: str) -> Any:
     module, _, function = path.partition(":")
-    found: DrawScene = getattr(import_module(module), function)
-    return found
+    return getattr(import_module(module), function)

@@ -1,12 +1,12 @@
 """What a renderer knows of each pixel beside its colour."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
 
 BACKGROUND = -1
-"""The model of a pixel that shows no model."""
+"""The model, and the material, of a pixel that shows none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,12 +21,16 @@ class Buffers:
         background.
     model: number of the model in `Scene.models`, shape [H, W], int32; -1 on the background.
     uv: texture coordinates, shape [H, W, 2], float32; zero on the background.
+    material: number of the material, shape [H, W], int32; -1 on the background. The materials of
+        `Scene.models` are numbered from 0 in their order; those with the same textures, tints, use
+        of alpha and light have one number.
     """
 
     depth: NDArray[np.float32]
     normal: NDArray[np.float32]
     model: NDArray[np.int32]
     uv: NDArray[np.float32]
+    material: NDArray[np.int32]
 
     @property
     def coverage(self) -> NDArray[np.bool_]:
@@ -37,7 +41,19 @@ class Buffers:
     def every(self, step: int) -> "Buffers":
         """The buffers in the middle of each square of `step` x `step` pixels."""
         at = np.ix_(*(middles(side, step) for side in self.model.shape))
-        return Buffers(self.depth[at], self.normal[at], self.model[at], self.uv[at])
+        return Buffers(*(getattr(self, each.name)[at] for each in fields(self)))
+
+    @classmethod
+    def empty(cls, size: tuple[int, int]) -> "Buffers":
+        """Those of a background of this width and height."""
+        shape = size[1], size[0]
+        return cls(
+            np.full(shape, np.inf, np.float32),
+            np.zeros((*shape, 3), np.float32),
+            np.full(shape, BACKGROUND, np.int32),
+            np.zeros((*shape, 2), np.float32),
+            np.full(shape, BACKGROUND, np.int32),
+        )
 
 
 def middles(side: int, step: int) -> NDArray[np.intp]:

@@ -54,6 +54,19 @@ def make_material_tables(materials: Sequence[Material]) -> MaterialTables:
     return _cache.get(arrays, plain, lambda: _make(materials))
 
 
+def material_numbers(tables: MaterialTables) -> NDArray[np.int32]:
+    """The number of each material from 0 on; equal ones have one number, see `Buffers.material`."""
+    known: dict[tuple[object, ...], int] = {}
+    numbers = []
+    for (first, count), alpha, lit in zip(
+        tables.material_layers, tables.material_alpha, tables.material_lit, strict=True
+    ):
+        own = slice(first, first + count)
+        rects, tints = tables.layer_rects[own].tobytes(), tables.layer_tints[own].tobytes()
+        numbers.append(known.setdefault((rects, tints, int(alpha), bool(lit)), len(known)))
+    return np.array(numbers, np.int32)
+
+
 def _make(materials: Sequence[Material]) -> MaterialTables:
     layers = [layer for material in materials for layer in material.layers]
     counts = [len(material.layers) for material in materials]

@@ -66,7 +66,7 @@ def canvas(height: int = 30, width: int = 40) -> Canvas:
     normal = np.where(shown[..., None], np.float32([0, 0, 1]), np.float32(0))
     depth = np.where(shown, np.float32(3), np.float32(np.inf))
     model, uv = np.where(shown, 0, -1).astype(np.int32), np.zeros((height, width, 2), np.float32)
-    return Canvas(pixels, lambda: Buffers(depth, normal, model, uv))
+    return Canvas(pixels, lambda: Buffers(depth, normal, model, uv, model))
 
 
 @pytest.mark.parametrize("name", PRESETS)
@@ -394,9 +394,8 @@ def flat_canvas(colours: list[list[int]]) -> Canvas:
     pixels = np.zeros((*red.shape, 4), np.uint8)
     pixels[..., 0], pixels[..., 3] = red, 255
     normal = np.zeros((*red.shape, 3), np.float32)
-    buffers = Buffers(
-        red.astype(np.float32), normal, np.zeros(red.shape, np.int32), normal[..., :2]
-    )
+    shown = np.zeros(red.shape, np.int32)
+    buffers = Buffers(red.astype(np.float32), normal, shown, normal[..., :2], shown)
     return Canvas(pixels, lambda: buffers)
 
 

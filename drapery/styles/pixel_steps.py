@@ -1,7 +1,7 @@
 """Picture steps for pixel art: large pixels, few colours, and edges that do not creep."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Annotated, TypeVar
 
 import numpy as np
@@ -120,12 +120,8 @@ def _taken(canvases: Sequence[Canvas], source: NDArray[np.intp]) -> Canvas:
 
     def make_buffers() -> Buffers:
         every = [canvas.buffers for canvas in canvases]
-        return Buffers(
-            _chosen([one.depth for one in every], source),
-            _chosen([one.normal for one in every], source),
-            _chosen([one.model for one in every], source),
-            _chosen([one.uv for one in every], source),
-        )
+        names = [each.name for each in fields(Buffers)]
+        return Buffers(*(_chosen([getattr(one, name) for one in every], source) for name in names))
 
     pixels = _chosen([canvas.pixels for canvas in canvases], source)
     return replace(canvases[0], pixels=pixels, make_buffers=make_buffers)

@@ -1,6 +1,6 @@
 """A style: a named chain of steps that change motion, shape, material and picture."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -10,7 +10,7 @@ import numpy as np
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.option import one_of
-from drapery.render.buffers import Buffers
+from drapery.render.backends import DrawScene, draw_with_buffers
 from drapery.render.frame import Frame
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
@@ -25,8 +25,6 @@ from drapery.styles.step import StepKind, StyleStep, as_toml, parameter_lines
 CLEAR = (0, 0, 0, 0)
 MAX_SAMPLES = 1 << 25
 """The most samples of a picture that steps change; they take about 1 GiB."""
-
-DrawScene = Callable[[Scene], Frame]
 
 _materials: IdentityCache[Material] = IdentityCache(32)
 
@@ -157,7 +155,8 @@ class Style:
         else:
             large = scene.size[0] * grid, scene.size[1] * grid
             sharp = replace(scene, size=large, samples=1, background=CLEAR)
-            canvas = Canvas(draw_scene(sharp).pixels, lambda: _buffers(sharp), grid)
+            frame, make_buffers = draw_with_buffers(sharp, draw_scene)
+            canvas = Canvas(frame.pixels, make_buffers, grid)
         for step in steps:
             canvas = step.apply(canvas)
         return canvas
@@ -211,10 +210,5 @@ def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
         camera = replace(camera, fov=float(2 * np.degrees(np.arctan(half))))
     coarse = replace(scene, camera=camera, size=(across, down), samples=1, background=CLEAR)
     corner = (down * size - scene.size[1]) // 2, (across * size - scene.size[0]) // 2
-    return Canvas(draw_scene(coarse).pixels, lambda: _buffers(coarse), 1, size, corner)
-
-
-def _buffers(scene: Scene) -> Buffers:
-    from drapery.render.soft import draw_buffers
-
-    return draw_buffers(scene)
+    frame, make_buffers = draw_with_buffers(coarse, draw_scene)
+    return Canvas(frame.pixels, make_buffers, 1, size, corner)

@@ -5,7 +5,7 @@ sort triangles into tiles, draw the tiles. Every step is divided among threads i
 not change its result.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.mesh import Mesh, Triangles
-from drapery.render.buffers import BACKGROUND, Buffers
+from drapery.render.buffers import Buffers
 from drapery.render.camera import Camera, Matrix, clip_matrix
 from drapery.render.drawlist import Float32, Topology, make_topology
 from drapery.render.flatten import composite_layers
 from drapery.render.frame import Frame
 from drapery.render.light import Light
-from drapery.render.materials import BLEND, MaterialTables
+from drapery.render.materials import BLEND, MaterialTables, material_numbers
 from drapery.render.relief import bake_normal_maps
 from drapery.render.scene import Scene
 from drapery.render.soft.bins import RECORD, TILE, sort_into_tiles
@@ -91,14 +91,51 @@ class KernelTables:
     atlas: NDArray[np.uint32]
 
 
+TileRange = tuple[int, NDArray[np.int64], NDArray[np.int32]]
+"""The first tile of a range, and the lists of all its tiles; see `_tile_lists`."""
+
+SharedSurface = tuple[Raster, Topology, KernelTables, TileRange]
+"""What the buffers of a picture share with it; see `_draw_surface`."""
+
+
 def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
     """Draw a scene; the picture has the same bits for any number of threads.
 
     Raises OptionError for sizes, textures or meshes that cannot be drawn.
     """
-    scene = bake_normal_maps(scene)
-    grid = _grid(scene)
+    return _draw_picture(scene, threads or worker_count())[0]
+
+
+def draw_with_buffers(
+    scene: Scene, *, threads: int | None = None
+) -> tuple[Frame, Callable[[], Buffers]]:
+    """The picture of `draw_scene`, and a function that gives what `draw_buffers` does.
+
+    With one sample a pixel the buffers need no second projection and sorting of the triangles.
+    Raises OptionError for sizes, textures or meshes that cannot be drawn.
+    """
     workers = threads or worker_count()
+    frame, shared = _draw_picture(scene, workers)
+    if shared is None:
+        return frame, partial(draw_buffers, scene, threads=workers)
+    raster, constant, *more = shared
+
+    def make_buffers() -> Buffers:
+        marked = replace(raster, receivers=_marks(scene, constant))
+        return _draw_surface(scene, marked, constant, *more, workers)
+
+    return frame, make_buffers
+
+
+vars(draw_scene)["with_buffers"] = draw_with_buffers  # see `drapery.render.backends`
+
+
+def _draw_picture(scene: Scene, workers: int) -> tuple[Frame, SharedSurface | None]:
+    """The picture, and what its buffers share with it, if they can."""
+    baked = bake_normal_maps(scene)
+    is_shared = baked is scene and scene.samples == 1
+    scene = baked
+    grid = _grid(scene)
     constant = make_topology(scene.models)
     matrix = clip_matrix(scene.camera, scene.size)
     raster, union = _project(scene, constant, matrix, grid, workers)
@@ -110,8 +147,11 @@ def draw_scene(scene: Scene, *, threads: int | None = None) -> Frame:
         raster = _clipped(scene, raster, matrix, grid)
     raster = _blends_last(raster, constant.material_tables.material_alpha)
     picture = np.full((scene.size[1], scene.size[0]), _background(scene), np.uint32)
-    _draw(scene, tables, raster, shadows, grid, workers, picture)
-    return Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
+    tiles = _draw(scene, tables, raster, shadows, grid, workers, picture)
+    frame = Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
+    if not is_shared or union or tiles is None:
+        return frame, None
+    return frame, (raster, constant, tables, tiles)
 
 
 def draw_buffers(scene: Scene, *, threads: int | None = None) -> Buffers:
@@ -128,32 +168,36 @@ def draw_buffers(scene: Scene, *, threads: int | None = None) -> Buffers:
     raster = replace(raster, receivers=_marks(scene, constant))
     if union:
         raster = _clipped(scene, raster, matrix, grid)
-    solid = constant.material_tables.material_alpha[raster.triangle_material] != BLEND
-    if not solid.all():
-        triangles, materials = raster.triangles[solid], raster.triangle_material[solid]
-        raster = replace(raster, triangles=triangles, triangle_material=materials)
-    shape = scene.size[1], scene.size[0]
-    depth, model = np.full(shape, np.inf, np.float32), np.full(shape, BACKGROUND, np.int32)
-    normal, uv = np.zeros((*shape, 3), np.float32), np.zeros((*shape, 2), np.float32)
-    _draw_surface(scene, raster, constant, workers, (depth, normal, model, uv))
-    return Buffers(depth, normal, model, uv)
+    raster = _blends_last(raster, constant.material_tables.material_alpha)
+    tables = _tables(composite_layers(constant.material_tables))
+    return _draw_surface(scene, raster, constant, tables, None, workers)
 
 
 def _draw_surface(
-    scene: Scene, raster: Raster, constant: Topology, workers: int, buffers: tuple[Any, ...]
-) -> None:
-    tables = _tables(composite_layers(constant.material_tables))
+    scene: Scene,
+    raster: Raster,
+    constant: Topology,
+    tables: KernelTables,
+    tiles: TileRange | None,
+    workers: int,
+) -> Buffers:
+    """The buffers of a scene. raster: with `_marks`. tiles: the lists of all tiles, if known."""
     camera, mesh = scene.camera, (raster.vertices, raster.triangles, raster.triangle_material)
     lens = float(camera.near), float(camera.far), camera.height is not None
-    given = mesh, _kernel_tables(tables), raster.receivers, lens, scene.size, buffers
-    tiles_x, tiles_y = (-(-side // TILE) for side in scene.size)
+    found = Buffers.empty(scene.size)
+    results = found.depth, found.normal, found.model, found.uv, found.material
+    numbers = material_numbers(constant.material_tables)
+    given = mesh, _kernel_tables(tables), raster.receivers, numbers, lens, scene.size, results
+    across, down = (-(-side // TILE) for side in scene.size)
+    parts = PARTS * workers if workers > 1 else 1
+    for lists in [tiles] if tiles else _tile_ranges(raster, tables, (across, down), workers):
+        every = across, *lists, *given
+        run_parts(partial(_surface_part, parts, every), parts, workers)
+    return found
 
-    def draw(first: int, starts: NDArray[np.int64], records: NDArray[np.int32]) -> None:
-        parts = PARTS * workers if workers > 1 else 1
-        every = tiles_x, first, starts, records, *given
-        run_parts(lambda part: surface_tiles(part, parts, *every), parts, workers)
 
-    _over_tiles(raster, tables, (tiles_x, tiles_y), workers, draw)
+def _surface_part(parts: int, given: tuple[Any, ...], part: int) -> None:
+    surface_tiles(part, parts, *given)
 
 
 def _marks(scene: Scene, constant: Topology) -> Float32:
@@ -212,14 +256,15 @@ def _draw_depths(
 ) -> None:
     """Fill a shadow map; see `depth_tiles`."""
     tiles = side // TILE
+    mesh = raster.vertices, raster.triangles, raster.triangle_material
+    parts = PARTS * workers if workers > 1 else 1
+    for lists in _tile_ranges(raster, tables, (tiles, tiles), workers):
+        given = tiles, *lists, mesh, _kernel_tables(tables), depths
+        run_parts(partial(_depth_part, parts, given), parts, workers)
 
-    def draw(first: int, starts: NDArray[np.int64], records: NDArray[np.int32]) -> None:
-        mesh = raster.vertices, raster.triangles, raster.triangle_material
-        given = (tiles, first, starts, records, mesh, _kernel_tables(tables), depths)
-        parts = PARTS * workers if workers > 1 else 1
-        run_parts(lambda part: depth_tiles(part, parts, *given), parts, workers)
 
-    _over_tiles(raster, tables, (tiles, tiles), workers, draw)
+def _depth_part(parts: int, given: tuple[Any, ...], part: int) -> None:
+    depth_tiles(part, parts, *given)
 
 
 def _tables(tables: MaterialTables) -> KernelTables:
@@ -401,7 +446,8 @@ def _draw(
     grid: int,
     workers: int,
     picture: NDArray[np.uint32],
-) -> None:
+) -> TileRange | None:
+    """Draw the picture; the lists of its tiles, if they fit in memory at one time."""
     constant = (
         (raster.vertices, raster.triangles, raster.triangle_material),
         _kernel_tables(tables),
@@ -413,14 +459,13 @@ def _draw(
         scene.size,
         picture.reshape(-1),
     )
-    tiles_x, tiles_y = (-(-side * grid // TILE) for side in scene.size)
-
-    def draw(first: int, starts: NDArray[np.int64], records: NDArray[np.int32]) -> None:
-        parts = PARTS * workers if workers > 1 else 1
-        given = (tiles_x, first, starts, records, *constant)
-        run_parts(partial(_draw_part, parts, given), parts, workers)
-
-    _over_tiles(raster, tables, (tiles_x, tiles_y), workers, draw)
+    across, down = (-(-side * grid // TILE) for side in scene.size)
+    parts = PARTS * workers if workers > 1 else 1
+    count = 0
+    for lists in _tile_ranges(raster, tables, (across, down), workers):
+        run_parts(partial(_draw_part, parts, (across, *lists, *constant)), parts, workers)
+        count += 1
+    return lists if count == 1 else None
 
 
 def _kernel_shadows(raster: Raster, shadows: ShadowMap) -> tuple[Any, ...]:
@@ -435,17 +480,10 @@ def _kernel_tables(tables: KernelTables) -> tuple[Any, ...]:
     return tables.materials, tables.layers, tables.atlas.reshape(-1), tables.atlas.shape[1]
 
 
-def _over_tiles(
-    raster: Raster,
-    tables: KernelTables,
-    tiles: tuple[int, int],
-    workers: int,
-    draw: Callable[[int, NDArray[np.int64], NDArray[np.int32]], None],
-) -> None:
-    """Sort triangles into tiles across and down, and draw them in as many ranges as fit in memory.
-
-    draw: takes the first tile of a range and its lists; see `_tile_lists`.
-    """
+def _tile_ranges(
+    raster: Raster, tables: KernelTables, tiles: tuple[int, int], workers: int
+) -> Iterator[TileRange]:
+    """Sort triangles into tiles across and down, in as many ranges as fit in memory."""
     across, down = tiles
     ranges = [(0, across * down)]
     while ranges:
@@ -455,7 +493,7 @@ def _over_tiles(
             middle = (first + end) // 2
             ranges += [(middle, end), (first, middle)]
         else:
-            draw(first, starts, records)
+            yield first, starts, records
 
 
 def _draw_part(parts: int, given: tuple[Any, ...], part: int) -> None:

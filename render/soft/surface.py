@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 from drapery.jit import entry_point
-from drapery.render.soft.bins import ID_MASK, TILE, TILE_BITS
+from drapery.render.soft.bins import ID_MASK, TILE
 from drapery.render.soft.projection import NEAREST
-from drapery.render.soft.tiles import KEY_BITS, LAYER, STRIDE, _cover_tile, _weights
+from drapery.render.soft.tiles import KEY_BITS, LAYER, STRIDE, _weights, cover_solid
 
 
 @entry_point
@@ -21,6 +21,7 @@ def surface_tiles(
     mesh: Any,
     tables: Any,
     marks: Any,
+    numbers: Any,
     lens: Any,
     size: Any,
     buffers: Any,
@@ -28,31 +29,19 @@ def surface_tiles(
     """Write the surface at the pixels of every parts-th tile, beginning with number `part`.
 
     marks: normal and number of the model at each vertex, shape [V, 4], float32.
+    numbers: of the materials, see `Buffers`, shape [L], int32.
     lens: near plane, far plane [m], and whether the picture is orthographic.
-    size: of the picture [pixels]. buffers: the results, `depth`, `normal`, `model` and `uv` as in
-    `Buffers`, filled with those of the background. All else: see `draw_tiles`.
+    size: of the picture [pixels]. buffers: the results, `depth`, `normal`, `model`, `uv` and
+    `material` as in `Buffers`, filled with those of the background. All else: see `draw_tiles`.
     """
     vertices, triangles, triangle_material = mesh
     (near, far, flat), (across, down) = lens, size
-    depths, normals, models, uvs = buffers
+    depths, normals, models, uvs, materials = buffers
     keys = np.empty(2 * LAYER, np.int64)
     for tile in range(part, len(starts) - 1, parts):
         if starts[tile] == starts[tile + 1]:
             continue
-        x0, y0 = ((first + tile) % tiles_x) << TILE_BITS, ((first + tile) // tiles_x) << TILE_BITS
-        keys[:LAYER] = 0
-        _cover_tile(
-            starts[tile],
-            starts[tile + 1],
-            x0,
-            y0,
-            records,
-            vertices,
-            triangles,
-            triangle_material,
-            tables,
-            keys,
-        )
+        x0, y0 = cover_solid(tile, tiles_x, first, starts, records, mesh, tables, keys)
         for row in range(min(TILE, down - y0)):
             for k in range(min(TILE, across - x0)):
                 key = keys[row * STRIDE + k]
@@ -77,5 +66,6 @@ def surface_tiles(
                 normals[y, x, 1] = ny / length
                 normals[y, x, 2] = nz / length
                 models[y, x] = np.int32(np.rint(marks[i, 3]))
+                materials[y, x] = numbers[triangle_material[t]]
                 uvs[y, x, 0] = (wa * a.u + wb * b.u + wc * c.u) * w
                 uvs[y, x, 1] = (wa * a.v + wb * b.v + wc * c.v) * w

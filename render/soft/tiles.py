@@ -206,6 +206,32 @@ def _cover_tile(
 
 
 @kernel
+def cover_solid(
+    tile: Any,
+    tiles_x: Any,
+    first: Any,
+    starts: Any,
+    records: Any,
+    mesh: Any,
+    tables: Any,
+    keys: Any,
+) -> Any:
+    """Write the keys of a tile's triangles that do not blend; its first sample across and down.
+
+    All parameters: see `draw_tiles`.
+    """
+    vertices, triangles, triangle_material = mesh
+    column, line = (first + tile) % tiles_x, (first + tile) // tiles_x
+    x0, y0 = column << TILE_BITS, line << TILE_BITS
+    entry, end = starts[tile], starts[tile + 1]
+    while end > entry and records[end - 1, 9] >> ID_BITS == BLEND:
+        end -= 1
+    keys[:LAYER] = 0
+    _cover_tile(entry, end, x0, y0, records, vertices, triangles, triangle_material, tables, keys)
+    return x0, y0
+
+
+@kernel
 def _weights(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     """Edge functions over w of triangle t's corners at a sample, and their steps to the right."""
     a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]
@@ -584,27 +610,12 @@ def depth_tiles(
 
     depths: shape [(TILE * tiles_x)^2], int32, filled with 0. All else: see `draw_tiles`.
     """
-    vertices, triangles, triangle_material = mesh
     keys = np.empty(2 * LAYER, np.int64)
     across = tiles_x << TILE_BITS
     for tile in range(part, len(starts) - 1, parts):
         if starts[tile] == starts[tile + 1]:
             continue
-        column, line = (first + tile) % tiles_x, (first + tile) // tiles_x
-        x0, y0 = column << TILE_BITS, line << TILE_BITS
-        keys[:LAYER] = 0
-        _cover_tile(
-            starts[tile],
-            starts[tile + 1],
-            x0,
-            y0,
-            records,
-            vertices,
-            triangles,
-            triangle_material,
-            tables,
-            keys,
-        )
+        x0, y0 = cover_solid(tile, tiles_x, first, starts, records, mesh, tables, keys)
         for row in range(TILE):
             for k in range(TILE):
                 depths[(y0 + row) * across + x0 + k] = keys[row * STRIDE + k] >> KEY_BITS
