@@ -6,19 +6,23 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from drapery import Banner, Settings
 from drapery.errors import BackendError, OptionError
 from drapery.mesh import Mesh, vertex_normals
-from drapery.render import doctor, gl, soft
+from drapery.packs import open_packs
+from drapery.render import Buffers, doctor, gl, soft
+from drapery.render.backends import draw_with_buffers
 from drapery.render.camera import Camera
 from drapery.render.gl import platform as gl_platform
 from drapery.render.light import Light
 from drapery.render.scene import Material, Model, Scene, TextureLayer
+from drapery.scenes import still
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -128,6 +132,37 @@ def test_opengl_draws_what_our_rasteriser_draws(name: str, stacked: bool) -> Non
     assert (covered != (theirs[..., 3] > 0)).mean() <= 0.001
     off = np.abs(weighed[0] - weighed[1]).max(axis=-1) > 2.5
     assert off.mean() <= 0.001 * SCENES[name].samples
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_opengl_has_the_buffers_of_our_rasteriser(name: str) -> None:
+    """The same surface but for 0.1 % of the pixels, and there the same to the precision."""
+    assert_alike(SCENES[name])
+
+
+def test_opengl_has_the_buffers_of_a_banner_on_its_block() -> None:
+    settings = Settings(size=(160, 200), view="hero", light="game")
+    scene = still(Banner.parse("white creeper:lime border:black"), open_packs(()), settings)
+    found = assert_alike(scene)
+    assert len(np.unique(found.material)) > 3
+    frame, make_buffers = draw_with_buffers(scene, gl.draw_scene)
+    assert np.array_equal(make_buffers().depth, found.depth)
+    assert np.array_equal(frame.pixels, gl.draw_scene(scene).pixels)
+
+
+def assert_alike(scene: Scene) -> Buffers:
+    ours, theirs = soft.draw_buffers(scene), gl.draw_buffers(scene)
+    for each in fields(Buffers):
+        one, other = getattr(ours, each.name), getattr(theirs, each.name)
+        assert one.shape == other.shape and one.dtype == other.dtype, each.name
+    same = (ours.model == theirs.model) & (ours.material == theirs.material)
+    assert (~same).mean() <= 0.001
+    seen = same & ours.coverage
+    assert np.isinf(theirs.depth[~theirs.coverage]).all()
+    for name, tolerance in (("depth", 1e-3), ("normal", 2e-2), ("uv", 2e-3)):
+        apart = np.abs(getattr(ours, name)[seen] - getattr(theirs, name)[seen])
+        assert (apart > tolerance).mean() <= 0.001 if len(apart) else True, name
+    return theirs
 
 
 def test_edges_on_pixel_centres_belong_to_the_same_pixels() -> None:

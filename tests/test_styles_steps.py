@@ -196,6 +196,17 @@ def square() -> np.ndarray:
     return pixels
 
 
+def test_outlines_between_materials_of_one_model_are_drawn_if_wanted() -> None:
+    given = canvas()
+    material = np.where(np.arange(40) < 10, 0, 1).astype(np.int32) + 0 * given.buffers.model
+    material[~given.buffers.coverage] = -1
+    found = replace(given.buffers, material=material)
+    given = replace(given, make_buffers=lambda: found)
+    without, drawn = (PICTURE["outline"](given, materials=each).pixels for each in (False, True))
+    changed = np.flatnonzero((without != drawn).any(axis=(0, 2)))
+    assert changed.tolist() == [9]
+
+
 def test_a_drop_shadow_is_moved_and_lies_below() -> None:
     given = replace(canvas(), pixels=square())
     drawn = PICTURE["drop-shadow"](given, right=4, down=6, blur=0, strength=0.5).pixels

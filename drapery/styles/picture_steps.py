@@ -3,6 +3,7 @@
 Invisible pixels stay as they are. The kernels are imported when a step first runs.
 """
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated
 
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from drapery.render.buffers import Buffers
+from drapery.render.buffers import BACKGROUND, Buffers
 from drapery.render.pixels import Pixels
 from drapery.styles.canvas import Canvas, laid_over
 from drapery.styles.colours import Colour, Words, as_pixels, rgb_of, word_of
@@ -66,6 +67,7 @@ def outline(
     crease: Annotated[float, Field(ge=1, le=180, description="angle of a crease [degrees]")] = 60,
     contrast: Annotated[int, Field(ge=0, le=255, description="between colours; 0 for none")] = 0,
     darken: Annotated[float, Field(ge=0, le=1, description="1 is `colour`, 0 the own")] = 1.0,
+    materials: Annotated[bool, Field(description="whether also between materials")] = False,
 ) -> Canvas:
     """Lines along silhouettes, between models, along steps in depth, creases and colours.
 
@@ -77,8 +79,10 @@ def outline(
     # A line of one pixel is as it is; others grow by discs.
     reach, table = _disc((width * canvas.grid - 1) / 2), np.rint(levels).astype(np.uint8)
     limits = np.array([depth, np.cos(np.radians(crease))], np.float32)
-    source, drawn = _own_words(canvas), canvas.words()
-    draw_marks(drawn, source, _edges(source, canvas.buffers, limits, contrast), reach, table)
+    source, drawn, found = _own_words(canvas), canvas.words(), canvas.buffers
+    if materials:
+        found = replace(found, model=_surface_numbers(found))
+    draw_marks(drawn, source, _edges(source, found, limits, contrast), reach, table)
     return canvas.painted(as_pixels(drawn))
 
 
@@ -214,6 +218,13 @@ def _own_words(canvas: Canvas) -> Words:
         return canvas.words()
     words: Words = pixels.view(np.uint32)[..., 0]
     return words
+
+
+def _surface_numbers(found: Buffers) -> NDArray[np.int32]:
+    """A number for each pair of model and material, shape [H, W]; -1 on the background."""
+    count = int(found.material.max(initial=0)) + 1
+    numbers = np.where(found.coverage, found.model * count + found.material, BACKGROUND)
+    return np.ascontiguousarray(numbers, np.int32)
 
 
 def _edges(

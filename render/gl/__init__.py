@@ -8,10 +8,10 @@ only positions and light.
 import atexit
 import os
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from functools import cache
+from dataclasses import dataclass, field, replace
+from functools import cache, partial
 from threading import Lock
 from typing import Any, NamedTuple
 
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from drapery.errors import BackendError, OptionError
 from drapery.mesh import Triangles
+from drapery.render.buffers import Buffers
 from drapery.render.camera import Matrix, clip_matrix
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
 from drapery.render.flatten import composite_layers
@@ -75,6 +76,28 @@ def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
             _set_up(context, drawing.topology, stacked)
         samples = _draw(context, scene, drawing)
     return Frame(resolved(samples, round(scene.samples**0.5)))
+
+
+def draw_buffers(scene: Scene) -> Buffers:
+    """Depth, normal, model, texture coordinates and material in the middle of each pixel.
+
+    Raises OptionError for a scene that cannot be drawn, BackendError without OpenGL.
+    """
+    scene = replace(scene, samples=1)
+    drawing = draw_list(scene.models)
+    with _current() as context:
+        _check(context, scene, drawing)
+        from drapery.render.gl.surface import draw_surface
+
+        return draw_surface(context.renderer.programs, scene, drawing)
+
+
+def draw_with_buffers(scene: Scene) -> tuple[Frame, Callable[[], Buffers]]:
+    """The picture of `draw_scene`, and a function that gives what `draw_buffers` does."""
+    return draw_scene(scene), partial(draw_buffers, scene)
+
+
+vars(draw_scene)["with_buffers"] = draw_with_buffers  # see `drapery.render.backends`
 
 
 def _draw_materials(context: OffscreenContext, scene: Scene) -> Frame:

@@ -122,6 +122,11 @@ class LayeredRenderer(pyrender.Renderer):  # type: ignore[misc]
         super().__init__(1, 1)
         self._program_cache = ShaderProgramCache(str(SHADERS))
 
+    @property
+    def programs(self) -> ShaderProgramCache:
+        """The programs of the folder of shaders."""
+        return self._program_cache
+
     def _get_camera_matrices(self, scene: Any) -> tuple[Any, Any]:
         return np.eye(4), self.matrix  # the shader uses only the product
 
