@@ -72,7 +72,7 @@ class Raster:
     flags: see `drapery.render.soft.projection`, shape [V], uint8.
     triangles, triangle_material: as in `Topology`.
     receivers: more numbers of each vertex, shape [V, 4] or none: where it lies on the shadow map
-        (see `draw_tiles`), or its normal and model (see `surface_tiles`).
+        (see `draw_tiles`), or its normal and model while it is clipped.
     """
 
     vertices: NDArray[np.void]
@@ -121,8 +121,7 @@ def draw_with_buffers(
     raster, constant, *more = shared
 
     def make_buffers() -> Buffers:
-        marked = replace(raster, receivers=_marks(scene, constant))
-        return _draw_surface(scene, marked, constant, *more, workers)
+        return _draw_surface(scene, raster, _owners(scene, constant), constant, *more, workers)
 
     return frame, make_buffers
 
@@ -165,29 +164,33 @@ def draw_buffers(scene: Scene, *, threads: int | None = None) -> Buffers:
     constant = make_topology(scene.models)
     matrix = clip_matrix(scene.camera, scene.size)
     raster, union = _project(scene, constant, matrix, grid, workers)
-    raster = replace(raster, receivers=_marks(scene, constant))
+    owners = normals, models = _owners(scene, constant)
     if union:
+        receivers = np.concatenate([normals, models[:, None]], axis=1, dtype=np.float32)
+        raster = replace(raster, receivers=receivers)
         raster = _clipped(scene, raster, matrix, grid)
+        owners = raster.receivers[:, :3].copy(), np.rint(raster.receivers[:, 3]).astype(np.int32)
     raster = _blends_last(raster, constant.material_tables.material_alpha)
     tables = _tables(composite_layers(constant.material_tables))
-    return _draw_surface(scene, raster, constant, tables, None, workers)
+    return _draw_surface(scene, raster, owners, constant, tables, None, workers)
 
 
 def _draw_surface(
     scene: Scene,
     raster: Raster,
+    owners: tuple[Float32, NDArray[np.int32]],
     constant: Topology,
     tables: KernelTables,
     tiles: TileRange | None,
     workers: int,
 ) -> Buffers:
-    """The buffers of a scene. raster: with `_marks`. tiles: the lists of all tiles, if known."""
+    """The buffers of a scene. owners: see `_owners`. tiles: the lists of all tiles, if known."""
     camera, mesh = scene.camera, (raster.vertices, raster.triangles, raster.triangle_material)
     lens = float(camera.near), float(camera.far), camera.height is not None
     found = Buffers.empty(scene.size)
     results = found.depth, found.normal, found.model, found.uv, found.material
     numbers = material_numbers(constant.material_tables)
-    given = mesh, _kernel_tables(tables), raster.receivers, numbers, lens, scene.size, results
+    given = mesh, _kernel_tables(tables), *owners, numbers, lens, scene.size, results
     across, down = (-(-side // TILE) for side in scene.size)
     parts = PARTS * workers if workers > 1 else 1
     for lists in [tiles] if tiles else _tile_ranges(raster, tables, (across, down), workers):
@@ -200,13 +203,11 @@ def _surface_part(parts: int, given: tuple[Any, ...], part: int) -> None:
     surface_tiles(part, parts, *given)
 
 
-def _marks(scene: Scene, constant: Topology) -> Float32:
-    """Normal and number of the model at each vertex, shape [V, 4]."""
-    marks = np.zeros((int(constant.vertex_start[-1]), 4), np.float32)
-    for number, model in enumerate(scene.models):
-        part = slice(*constant.vertex_start[number : number + 2])
-        marks[part, :3], marks[part, 3] = _vectors(model.mesh.normals), number
-    return marks
+def _owners(scene: Scene, constant: Topology) -> tuple[Float32, NDArray[np.int32]]:
+    """The normal at each vertex, shape [V, 3], and the number of its model, shape [V]."""
+    parts = [np.zeros((0, 3)), *(model.mesh.normals.reshape(-1, 3) for model in scene.models)]
+    models = np.arange(len(scene.models), dtype=np.int32)
+    return np.concatenate(parts, dtype=np.float32), models.repeat(np.diff(constant.vertex_start))
 
 
 def _shadowed(

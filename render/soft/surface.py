@@ -20,7 +20,8 @@ def surface_tiles(
     records: Any,
     mesh: Any,
     tables: Any,
-    marks: Any,
+    directions: Any,
+    owners: Any,
     numbers: Any,
     lens: Any,
     size: Any,
@@ -28,7 +29,8 @@ def surface_tiles(
 ) -> Any:
     """Write the surface at the pixels of every parts-th tile, beginning with number `part`.
 
-    marks: normal and number of the model at each vertex, shape [V, 4], float32.
+    directions: the normal at each vertex, shape [V, 3], float32.
+    owners: the number of its model, shape [V], int32.
     numbers: of the materials, see `Buffers`, shape [L], int32.
     lens: near plane, far plane [m], and whether the picture is orthographic.
     size: of the picture [pixels]. buffers: the results, `depth`, `normal`, `model`, `uv` and
@@ -58,14 +60,14 @@ def surface_tiles(
                     depths[y, x] = near + (1.0 - nearness) * (far - near)
                 else:
                     depths[y, x] = near * far / (near + nearness * (far - near))
-                nx = (wa * marks[i, 0] + wb * marks[j, 0] + wc * marks[m, 0]) * w
-                ny = (wa * marks[i, 1] + wb * marks[j, 1] + wc * marks[m, 1]) * w
-                nz = (wa * marks[i, 2] + wb * marks[j, 2] + wc * marks[m, 2]) * w
+                nx = (wa * directions[i, 0] + wb * directions[j, 0] + wc * directions[m, 0]) * w
+                ny = (wa * directions[i, 1] + wb * directions[j, 1] + wc * directions[m, 1]) * w
+                nz = (wa * directions[i, 2] + wb * directions[j, 2] + wc * directions[m, 2]) * w
                 length = max(np.sqrt(nx * nx + ny * ny + nz * nz), 1e-12)
                 normals[y, x, 0] = nx / length
                 normals[y, x, 1] = ny / length
                 normals[y, x, 2] = nz / length
-                models[y, x] = np.int32(np.rint(marks[i, 3]))
+                models[y, x] = owners[i]
                 materials[y, x] = numbers[triangle_material[t]]
                 uvs[y, x, 0] = (wa * a.u + wb * b.u + wc * c.u) * w
                 uvs[y, x, 1] = (wa * a.v + wb * b.v + wc * c.v) * w
