@@ -230,16 +230,18 @@ def _flag_creases(
 
 
 @kernel
-def _flag_colours(
-    flags: Levels, row: Levels, other: Levels, apart: Levels, contrast: np.uint8
-) -> None:
-    """Flag 4: two neighbours have other colours. row, other: bytes. apart: room for as many."""
-    for byte in range(len(row)):
-        one, two = row[byte], other[byte]
-        apart[byte] = one - two if one > two else two - one
+def _flag_colours(flags: Levels, row: Words, other: Words, mask: np.uint32) -> None:
+    """Flag 4: two neighbours may have other colours: they differ in a bit of a mask."""
     for x in range(len(flags)):
-        most = max(apart[4 * x], apart[4 * x + 1], apart[4 * x + 2])
-        flags[x] |= 4 if most >= contrast else 0
+        flags[x] |= 4 if (row[x] ^ other[x]) & mask else 0
+
+
+@kernel
+def _apart(one: Any, other: Any) -> Any:
+    """The largest difference between two colours in red, green or blue."""
+    red, green, blue = _bytes(one)
+    r, g, b = _bytes(other)
+    return max(abs(red - r), abs(green - g), abs(blue - b))
 
 
 @kernel
@@ -267,6 +269,7 @@ def _mark(
     depth: Singles,
     model: Whole,
     limit: float,
+    contrast: int,
 ) -> None:
     """Mark the nearer of two neighbours at an edge, or the first of those at a crease."""
     v, u = y + down, x + right
@@ -280,7 +283,8 @@ def _mark(
         marks[y, x] |= one >= 0
     elif flag & 2 and one >= 0 and other >= 0:
         marks[y, x] = 1
-    if flag & 4 and words[y, x] >= 0x1000000 and words[v, u] >= 0x1000000:
+    one, other = words[y, x], words[v, u]
+    if flag & 4 and one >= 0x1000000 and other >= 0x1000000 and _apart(one, other) >= contrast:
         marks[y, x] = 1
 
 
@@ -288,24 +292,27 @@ def _mark(
 def mark_edges(
     marks: Levels,
     words: Words,
-    levels: Levels,
     depth: Singles,
     normal: Singles,
     model: Whole,
     limits: Singles,
-    contrast: np.uint8,
+    contrast: int,
     flags: Levels,
     eights: NDArray[np.uint64],
-    apart: Levels,
 ) -> None:
     """Mark the pixels at edges of models. marks: uint8 [H, W or more], zeros.
 
-    levels: `words` as bytes, [H, 4 W]. depth, normal, model: see `Buffers`, normal as [H, 3 W].
+    depth, normal, model: see `Buffers`, normal as [H, 3 W].
     limits: step in depth [m] and cosine of a crease, float32 [2].
     contrast: between neighbouring colours, 0 for none. flags: zeros, as long as a row of marks.
-    eights: the same memory, eight flags a number. apart: room for a row of levels.
+    eights: the same memory, eight flags a number.
     """
     height, width = words.shape
+    # Levels that are 2^k or more apart differ in a bit from k on.
+    bit = 1
+    while 2 * bit <= contrast:
+        bit *= 2
+    mask = np.uint32((256 - bit) * 0x10101)
     limit, cosine = limits[0], limits[1]
     for y in range(height):
         first, last = 0, width
@@ -334,14 +341,14 @@ def mark_edges(
                 this, that = normal[y, 3 * one : 3 * end], normal[v, 3 * other : 3 * stop]
                 _flag_creases(here, this, that, model[y, one:end], cosine)
             if contrast:
-                row, next_row = levels[y, 4 * one : 4 * end], levels[v, 4 * other : 4 * stop]
-                _flag_colours(here, row, next_row, apart, contrast)
+                _flag_colours(here, words[y, one:end], words[v, other:stop], mask)
             for eight in range(one // 8, (end + 7) // 8):
                 if eights[eight] == 0:
                     continue
                 for x in range(8 * eight, 8 * eight + 8):
                     if flags[x]:
-                        _mark(marks, flags[x], y, x, down, right, words, depth, model, limit)
+                        flag = flags[x]
+                        _mark(marks, flag, y, x, down, right, words, depth, model, limit, contrast)
                         flags[x] = 0
 
 

@@ -236,10 +236,8 @@ def _edges(
     height, width = words.shape
     eights = np.zeros((height + 1, -(-width // 8)), np.uint64)
     marks, flags = eights.view(np.uint8), eights[-1].view(np.uint8)
-    apart = np.empty(4 * width, np.uint8)
-    levels, normal = words.view(np.uint8), found.normal.reshape(height, -1)
-    given = levels, found.depth, normal, found.model, limits
-    mark_edges(marks, words, *given, np.uint8(contrast), flags, eights[-1], apart)
+    given = found.depth, found.normal.reshape(height, -1), found.model, limits
+    mark_edges(marks, words, *given, contrast, flags, eights[-1])
     return eights[:-1]
 
 
