@@ -86,10 +86,27 @@ def test_a_comparison_draws_each_style(drapery: Run, tmp_path: Path) -> None:
     assert code == 2 and "designs and styles would vary" in said
 
 
+@pytest.mark.parametrize("name", ["julia", "cape-pixel"])
+def test_frames_that_a_scene_draws_itself_take_picture_steps(name: str) -> None:
+    def step(name: str, **given: object) -> StyleStep:
+        return StyleStep("picture", STEPS["picture"][name], given)
+
+    entry, clip = find_scene(name), Clip((96, 64), 3)
+    style = Style("few", (step("pixels", size=4), step("shade"), step("limit", colours=4)))
+    plain, drawn = (
+        [frame.pixels for frame in scene_frames(entry, entry.parameters({}), clip, "soft", style=s)]
+        for s in ((), style)
+    )
+    assert [each.shape for each in drawn] == [each.shape for each in plain]
+    if name == "julia":  # the other scene is a grid, whose parts change one by one
+        assert len({bytes(pixel) for each in drawn for pixel in each.reshape(-1, 4)}) <= 4
+    assert not np.array_equal(drawn[-1], plain[-1])
+
+
 @pytest.mark.parametrize(
     ("picture", "style", "said"),
     [
-        (Frame(np.zeros((2, 2, 4), np.uint8)), "ink", "ink changes nothing: the scene draws its"),
+        (Frame(np.zeros((2, 2, 4), np.uint8)), "ink", "ink: only its picture steps change some"),
         (Scene((), Camera((0, 0, 3), (0, 0, 0)), (8, 8)), "boards", "no rectangle of cloth"),
     ],
 )

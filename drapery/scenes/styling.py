@@ -27,9 +27,9 @@ def styled_pictures(
 ) -> Iterator[Picture]:
     """The pictures of a clip in a style, one by one.
 
-    Motion and shape steps change rectangles of cloth, material steps all cloth, picture steps all
-    scenes; frames that a scene draws itself stay. Motion steps, and picture steps over time, need
-    all pictures at once.
+    Motion and shape steps change rectangles of cloth, material steps all cloth, and picture steps
+    all pictures, also frames that a scene draws itself. Motion steps, and picture steps over time,
+    need all pictures at once.
     """
     pictures = iter(pictures)
     first = next(pictures, None)
@@ -43,18 +43,21 @@ def styled_pictures(
     if not style.has("picture"):
         return shaped
     if not any(step.over_time for step in style.steps):
-        return (_each(picture, partial(style.draw, draw_scene=draw_scene)) for picture in shaped)
-    if isinstance(first, Scene):  # each is forgotten when it is drawn
-        return style.draw_loop(map(_scene, shaped), draw_scene)
+        draw = partial(style.draw, draw_scene=draw_scene)
+        return (_every(picture, draw) for picture in shaped)
+    if not isinstance(first, PictureGrid):  # each is forgotten when it is drawn
+        return style.draw_loop(map(_single, shaped), draw_scene)
     return _together([*shaped], style, draw_scene)
 
 
 def _warn_of_idle_steps(first: Picture, style: Style) -> None:
     """Say which steps change nothing in a clip that begins with this picture."""
     scenes = _scenes(first)
-    if not scenes and style.steps:
+    if not scenes and any(step.kind != "picture" for step in style.steps):
         warnings.warn(
-            f"style {style.name} changes nothing: the scene draws its own frames", stacklevel=3
+            f"style {style.name}: only its picture steps change something, since the scene draws"
+            " its own frames",
+            stacklevel=3,
         )
     shapes = style.has("shape") or style.has("motion")
     if scenes and shapes and not any(map(_sheets, scenes)):
@@ -65,9 +68,9 @@ def _warn_of_idle_steps(first: Picture, style: Style) -> None:
         )
 
 
-def _scene(picture: Picture) -> Scene:
-    if not isinstance(picture, Scene):
-        raise OptionError("a clip mixes scenes with other pictures; a style over time needs scenes")
+def _single(picture: Picture) -> Scene | Frame:
+    if isinstance(picture, PictureGrid):
+        raise OptionError("a clip mixes grids and pictures; a style over time needs one kind")
     return picture
 
 
@@ -85,19 +88,30 @@ def _each(picture: Picture, change: Callable[[Scene], Scene | Frame]) -> Picture
     return picture if isinstance(picture, Frame) else change(picture)
 
 
+def _every(picture: Picture, draw: Callable[[Scene | Frame], Frame]) -> Picture:
+    """The picture with all of its scenes and frames drawn."""
+    if isinstance(picture, PictureGrid):
+        return replace(picture, pictures=tuple(map(draw, picture.pictures)))
+    return draw(picture)
+
+
+def _parts(picture: Picture) -> tuple[Scene | Frame, ...]:
+    """The pictures in a grid, or the one picture."""
+    return picture.pictures if isinstance(picture, PictureGrid) else (picture,)
+
+
 def _scenes(picture: Picture) -> list[Scene]:
     """The scenes in a picture, in the order in which `_each` changes them."""
-    parts = picture.pictures if isinstance(picture, PictureGrid) else (picture,)
-    return [part for part in parts if isinstance(part, Scene)]
+    return [part for part in _parts(picture) if isinstance(part, Scene)]
 
 
 def _together(pictures: list[Picture], style: Style, draw_scene: DrawScene) -> Iterator[Picture]:
     """Each place of a grid of pictures is a loop."""
-    loops = zip(*map(_scenes, pictures), strict=True)
+    loops = zip(*map(_parts, pictures), strict=True)
     drawn = [style.draw_loop(scenes, draw_scene) for scenes in loops]
     for picture in pictures:
         frames = iter([next(loop) for loop in drawn])
-        yield _each(picture, lambda _, frames=frames: next(frames))  # type: ignore[misc]
+        yield _every(picture, lambda _, frames=frames: next(frames))  # type: ignore[misc]
 
 
 def _dressed(scene: Scene, style: Style) -> Scene:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -11,6 +12,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.option import one_of
 from drapery.render.backends import DrawScene, draw_with_buffers
+from drapery.render.buffers import Buffers
 from drapery.render.frame import Frame
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
@@ -23,6 +25,8 @@ from drapery.styles.sheet import Sheet
 from drapery.styles.step import StepKind, StyleStep, as_toml, parameter_lines
 
 CLEAR = (0, 0, 0, 0)
+Page = tuple[tuple[int, int], tuple[int, int, int, int]]
+"""Size and background of a picture; see `Scene`."""
 MAX_SAMPLES = 1 << 25
 """The most samples of a picture that steps change; they take about 1 GiB."""
 
@@ -115,45 +119,51 @@ class Style:
             return material
         return _materials.get((material,), self, lambda: self._applied("material", material))
 
-    def draw(self, scene: Scene, draw_scene: DrawScene) -> Frame:
+    def draw(self, scene: Scene | Frame, draw_scene: DrawScene) -> Frame:
         """A scene drawn by a backend, and the picture steps applied to all but its background.
 
         Edges are smoothed after the steps: the scene is drawn larger, with one sample a pixel.
+        A finished frame is changed as a flat picture: all that is visible is one model.
         Raises OptionError for over MAX_SAMPLES samples.
         """
         return next(self.draw_loop((scene,), draw_scene))
 
-    def draw_loop(self, scenes: Iterable[Scene], draw_scene: DrawScene) -> Iterator[Frame]:
-        """The scenes of a loop, all of one size, drawn as by `draw`.
+    def draw_loop(self, scenes: Iterable[Scene | Frame], draw_scene: DrawScene) -> Iterator[Frame]:
+        """The scenes or frames of a loop, all of one size, drawn as by `draw`.
 
         Each is drawn when the iterator reaches it, or all at once for steps that are `over_time`.
         """
         steps = [*self._of("picture")]
         if not steps:
-            yield from map(draw_scene, scenes)
+            yield from (one if isinstance(one, Frame) else draw_scene(one) for one in scenes)
             return
         first = next((n for n, step in enumerate(steps) if step.over_time), len(steps))
-        canvases: Iterator[tuple[Scene, Canvas]] = (
-            (scene, self._canvas(scene, draw_scene, steps[:first])) for scene in scenes
+        canvases: Iterator[tuple[Page, Canvas]] = (
+            (_page(scene), self._canvas(scene, draw_scene, steps[:first])) for scene in scenes
         )
         if first < len(steps):
             canvases = self._together(canvases, steps[first:])
-        for scene, canvas in canvases:
-            pixels = canvas.finished(scene.size)
-            if scene.background[3]:
-                behind = np.array([scene.background], np.uint8).view(np.uint32)
+        for (size, background), canvas in canvases:
+            pixels = canvas.finished(size)
+            if background[3]:
+                behind = np.array([background], np.uint8).view(np.uint32)
                 pixels = as_pixels(laid_over(pixels.view(np.uint32)[..., 0], behind))
             yield Frame(pixels)
 
-    def _canvas(self, scene: Scene, draw_scene: DrawScene, steps: Sequence[StyleStep]) -> Canvas:
+    def _canvas(
+        self, scene: Scene | Frame, draw_scene: DrawScene, steps: Sequence[StyleStep]
+    ) -> Canvas:
         """A scene after some picture steps; large pixels at first are drawn as such."""
-        grid = int(scene.samples**0.5)
-        self._check_samples(scene.size[0] * scene.size[1] * scene.samples)
-        if steps and steps[0].function is pixels:
+        samples = 1 if isinstance(scene, Frame) else scene.samples
+        (width, height), grid = _page(scene)[0], int(samples**0.5)
+        self._check_samples(width * height * samples)
+        if isinstance(scene, Frame):
+            canvas = Canvas(scene.pixels, partial(_flat_buffers, scene))
+        elif steps and steps[0].function is pixels:
             canvas = _large_pixels(scene, dict(steps[0].parameters)["size"], draw_scene)
             steps = steps[1:]
         else:
-            large = scene.size[0] * grid, scene.size[1] * grid
+            large = width * grid, height * grid
             sharp = replace(scene, size=large, samples=1, background=CLEAR)
             frame, make_buffers = draw_with_buffers(sharp, draw_scene)
             canvas = Canvas(frame.pixels, make_buffers, grid)
@@ -162,14 +172,13 @@ class Style:
         return canvas
 
     def _together(
-        self, drawn: Iterable[tuple[Scene, Canvas]], steps: Iterable[StyleStep]
-    ) -> Iterator[tuple[Scene, Canvas]]:
+        self, drawn: Iterable[tuple[Page, Canvas]], steps: Iterable[StyleStep]
+    ) -> Iterator[tuple[Page, Canvas]]:
         """All scenes after some more steps, of which at least one is over time."""
-        scenes: list[Scene] = []
+        pages: list[Page] = []
         canvases: list[Canvas] = []
-        for scene, canvas in drawn:
-            # Meshes of all frames would fill the memory.
-            scenes.append(replace(scene, models=()))
+        for page, canvas in drawn:
+            pages.append(page)
             canvases.append(canvas.alone())
             self._check_samples(canvas.pixels[..., 0].size * len(canvases), "all frames together")
         if not canvases:
@@ -177,7 +186,7 @@ class Style:
         for step in steps:
             each = step.over_time
             canvases = step.apply(canvases) if each else [step.apply(one) for one in canvases]
-        return zip(scenes, canvases, strict=True)
+        return zip(pages, canvases, strict=True)
 
     def _check_samples(self, count: int, of: str = "pictures") -> None:
         if count > MAX_SAMPLES:
@@ -193,6 +202,23 @@ class Style:
         for step in self._of(kind):
             value = step.apply(value)
         return value
+
+
+def _page(picture: Scene | Frame) -> Page:
+    if isinstance(picture, Scene):
+        return picture.size, picture.background
+    return (picture.pixels.shape[1], picture.pixels.shape[0]), CLEAR
+
+
+def _flat_buffers(frame: Frame) -> Buffers:
+    """Those of a picture on paper: what is visible looks to the viewer from one distance [m]."""
+    shown, (size, _) = frame.pixels[..., 3] > 0, _page(frame)
+    found = Buffers.empty(size)
+    found.depth[shown], found.normal[shown] = 1.0, (0.0, 0.0, 1.0)
+    found.model[shown] = found.material[shown] = 0
+    found.uv[..., 0] = np.where(shown, (np.arange(size[0]) + 0.5) / size[0], 0)
+    found.uv[..., 1] = np.where(shown, (np.arange(size[1])[:, None] + 0.5) / size[1], 0)
+    return found
 
 
 def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
