@@ -5,14 +5,13 @@ Import this module only after `platform.load_pyrender`.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from OpenGL import GL
 from pyrender.shader_program import ShaderProgramCache
 
-from drapery.mesh import Array
 from drapery.render.buffers import BACKGROUND, Buffers
 from drapery.render.camera import Matrix, clip_matrix, view_matrix
 from drapery.render.drawlist import DrawList, Topology
@@ -20,6 +19,8 @@ from drapery.render.gl.passes import Vertices, attribute, filled, whole_attribut
 from drapery.render.materials import BLEND, CUTOUT, MaterialTables, material_numbers
 from drapery.render.scene import Scene
 from drapery.render.vectors import dots
+
+Number = TypeVar("Number", np.float32, np.int32)
 
 ATTACHMENTS = (GL.GL_RGBA32F, GL.GL_RG32F, GL.GL_RG32I)
 """Normal and depth; texture coordinates; model and material."""
@@ -130,17 +131,21 @@ def _read(size: tuple[int, int]) -> Buffers:
     normal_depth = _attachment(0, GL.GL_RGBA, np.zeros((size[1], size[0], 4), np.float32))
     uv = _attachment(1, GL.GL_RG, np.zeros((size[1], size[0], 2), np.float32))
     owner = _attachment(2, GL.GL_RG_INTEGER, np.zeros((size[1], size[0], 2), np.int32))
-    parts = normal_depth[..., 3], normal_depth[..., :3], owner[..., 0], uv, owner[..., 1]
-    return Buffers(*(np.ascontiguousarray(part) for part in parts))
+    return Buffers(
+        np.ascontiguousarray(normal_depth[..., 3]),
+        np.ascontiguousarray(normal_depth[..., :3]),
+        np.ascontiguousarray(owner[..., 0]),
+        np.ascontiguousarray(uv),
+        np.ascontiguousarray(owner[..., 1]),
+    )
 
 
-def _attachment(number: int, channels: int, values: Array) -> Array:
+def _attachment(number: int, channels: int, values: NDArray[Number]) -> NDArray[Number]:
     """The values of an attachment, filled in and with the top row first."""
     GL.glReadBuffer(GL.GL_COLOR_ATTACHMENT0 + number)
     kind = GL.GL_INT if values.dtype == np.int32 else GL.GL_FLOAT
     GL.glReadPixels(0, 0, values.shape[1], values.shape[0], channels, kind, values)
-    flipped: Array = values[::-1]
-    return flipped
+    return values[::-1]
 
 
 def _texture(tables: MaterialTables) -> int:

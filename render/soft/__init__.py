@@ -118,10 +118,11 @@ def draw_with_buffers(
     frame, shared = _draw_picture(scene, workers)
     if shared is None:
         return frame, partial(draw_buffers, scene, threads=workers)
-    raster, constant, *more = shared
+    raster, constant, tables, tiles = shared
 
     def make_buffers() -> Buffers:
-        return _draw_surface(scene, raster, _owners(scene, constant), constant, *more, workers)
+        owners = _owners(scene, constant)
+        return _draw_surface(scene, raster, owners, constant, tables, tiles, workers)
 
     return frame, make_buffers
 
