@@ -1,5 +1,6 @@
 """Flat and blocky scenes: the tutorial's curtain, the pixel cape, bends in steps, level texels."""
 
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
@@ -164,6 +165,18 @@ def test_steps_bend_only_by_whole_angles_and_keep_lengths(steps) -> None:
 def test_a_hanging_sheet_needs_no_steps() -> None:
     flat = crumpled(flat=True)
     np.testing.assert_allclose(boards(flat, steps=4).positions, flat.positions, atol=1e-12)
+
+
+def test_texels_of_a_steep_sheet_reach_back_to_their_neighbours() -> None:
+    sheet = crumpled()
+    steep = replace(sheet, positions=sheet.positions * [1, 1, 5])
+    blocks = voxels(steep).positions.reshape(40, 20, 24, 3)
+    front, back = blocks[..., 2].max(axis=2), blocks[..., 2].min(axis=2)
+    assert (np.abs(np.diff(front, axis=0)) / SCALE).max() > 2.5
+    for one, other in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
+        apart = np.maximum(back[one], back[other]) - np.minimum(front[one], front[other])
+        assert apart.max() < 1e-9
+    np.testing.assert_allclose(np.ptp(blocks, axis=2)[..., :2], SCALE)
 
 
 def test_snapped_texels_are_level_cubes_on_one_lattice() -> None:

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.mesh import Array, Mesh
-from drapery.style.boxes import ModelBox, box_mesh, upright
 from drapery.style.uv_mapping import UVMapping
 from drapery.styles.sheet import Sheet, grid_lattice, without_cells
 
@@ -16,6 +15,8 @@ MAX_PARTICLES = 257
 """The most particles along one side of a sheet after a step."""
 THINNEST = 0.02
 """Level texels are at least this thick [texels]."""
+CUBE_FRONT = np.array([[-1.0, 1, 1], [1, 1, 1], [-1, -1, 1], [1, -1, 1]])
+"""The four front corners of a cube of edge 2."""
 BLOCK_FACES = np.array(
     [[0, 1, 2, 3], [5, 4, 7, 6], [4, 0, 6, 2], [1, 5, 3, 7], [4, 5, 0, 1], [2, 3, 6, 7]]
 )
@@ -96,8 +97,9 @@ def voxels(sheet: Sheet) -> Mesh:
     """Upright cubes, one for each texel, on a lattice of texels; the rows of the sheet run along x.
 
     A row of texels moves sideways and down as one, so that it has no holes; each texel moves
-    forwards and backwards alone. A cube shows its texel of the back on its back, and its texel of
-    the front on its other sides.
+    forwards and backwards alone. Where a neighbour is over a texel behind, a cube reaches back to
+    it. A cube shows its texel of the back on its back, and its texel of the front on its other
+    sides.
     """
     texel, corner = sheet.texel, sheet.positions[0]
     across, down = _texels(sheet)
@@ -106,16 +108,12 @@ def voxels(sheet: Sheet) -> Mesh:
     lattice = first + np.stack([column, -row, 0 * row], axis=-1) * texel
     shift = _middles(sheet.grid, (across, down)) - lattice
     shift[..., :2] = shift[..., :2].mean(axis=1, keepdims=True)
-    snapped = (lattice + np.round(shift / texel) * texel).reshape(-1, 3)
-    cube = upright(box_mesh(ModelBox((-0.5, -0.5, -0.5), (1, 1, 1), (0, 0))), texel, (0, 0, 0))
-    count = len(snapped)
-    firsts = len(cube.positions) * np.arange(count, dtype=np.int32)[:, None, None]
-    return Mesh(
-        (snapped[:, None] + cube.positions).reshape(-1, 3),
-        np.tile(cube.normals, (count, 1)),
-        (cube.triangles + firsts).reshape(-1, 3),
-        _texel_uvs((across, down), sheet.uv_mapping).reshape(-1, 2),
-    )
+    cells = np.round(shift / texel)
+    deep = np.minimum(cells[..., 2], _least_beside(cells[..., 2], cells[:, 0, 0]) + 1)
+    front = (lattice + cells * texel)[:, :, None] + texel / 2 * CUBE_FRONT
+    back = front - np.array([0.0, 0.0, texel]) * (cells[..., 2] - deep + 1)[..., None, None]
+    uvs = _texel_uvs((across, down), sheet.uv_mapping)
+    return _blocks(front.reshape(-1, 4, 3), back.reshape(-1, 4, 3), uvs)
 
 
 def level_texels(
@@ -317,6 +315,22 @@ def _blocks(front: Array, back: Array, uvs: Array) -> Mesh:
         triangles.reshape(-1, 3),
         uvs.reshape(-1, 2),
     )
+
+
+def _least_beside(depths: Array, shifts: Array) -> Array:
+    """The least depth of the four neighbours of each texel, shape [R, C].
+
+    shifts: how many texels each row has moved to the right, shape [R].
+    """
+    rows, columns = depths.shape
+    row, column = np.indices(depths.shape)
+    least = depths.copy()
+    for up, right in ((0, -1), (0, 1), (-1, 0), (1, 0)):
+        other = np.clip(row + up, 0, rows - 1)
+        place = column + right + (shifts[row] - shifts[other]).astype(int)
+        beside = depths[other, np.clip(place, 0, columns - 1)]
+        least = np.where((place >= 0) & (place < columns), np.minimum(least, beside), least)
+    return least
 
 
 def _texels(sheet: Sheet) -> tuple[int, int]:
