@@ -314,6 +314,12 @@ def test_commands_list_and_show_styles(drapery: Run, tmp_path: Path) -> None:
     code, shown, _ = drapery("style", "show", "ink")
     assert code == 0
     assert shown == find_style("ink").describe()
+    code, shown, _ = drapery("style", "show", "palette")
+    assert code == 0
+    assert [line for line in shown.splitlines() if line.startswith("[[")] == [
+        "[[material]]",
+        "[[picture]]",
+    ]
 
 
 def test_a_sheet_of_styles_has_a_row_for_each_of_several_moments(tmp_path: Path) -> None:

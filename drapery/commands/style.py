@@ -21,10 +21,17 @@ def list_styles() -> None:
 @app.command("show")
 def show_style(
     name: Annotated[
-        str, typer.Argument(metavar="NAME|FILE", help="A style, or a file that ends with .toml.")
+        str,
+        typer.Argument(
+            metavar="NAME|FILE", help="A style, a step, or a file that ends with .toml."
+        ),
     ],
 ) -> None:
-    """One style as TOML, with every parameter, its meaning and its limits."""
-    from drapery.styles import find_style
+    """One style or step as TOML, with every parameter, its meaning and its limits."""
+    from drapery.styles import STEPS, Style, StyleStep, find_style, style_names
 
-    print(find_style(name).describe(), end="")
+    known = [(kind, steps[name]) for kind, steps in STEPS.items() if name in steps]
+    if known and name not in style_names():
+        print(Style(name, tuple(StyleStep(*step) for step in known)).describe(), end="")
+    else:
+        print(find_style(name).describe(), end="")
