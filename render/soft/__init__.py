@@ -206,9 +206,12 @@ def _surface_part(parts: int, given: tuple[Any, ...], part: int) -> None:
 
 def _owners(scene: Scene, constant: Topology) -> tuple[Float32, NDArray[np.int32]]:
     """The normal at each vertex, shape [V, 3], and the number of its model, shape [V]."""
-    parts = [np.zeros((0, 3)), *(model.mesh.normals.reshape(-1, 3) for model in scene.models)]
+    none = np.zeros((0, 3), np.float32)
+    parts = [_vectors(model.mesh.normals) for model in scene.models] or [none]
+    # The normals of a crowd, which is one model, are not copied.
+    normals = np.concatenate(parts) if len(parts) > 1 else parts[0]
     models = np.arange(len(scene.models), dtype=np.int32)
-    return np.concatenate(parts, dtype=np.float32), models.repeat(np.diff(constant.vertex_start))
+    return normals, models.repeat(np.diff(constant.vertex_start))
 
 
 def _shadowed(
