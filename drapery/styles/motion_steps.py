@@ -14,6 +14,8 @@ LOOSE = 0.7
 between two neighbours."""
 ROUNDS = 3
 """How often `snap_angles` goes around a loop: after that the end leads to the start."""
+UPRIGHT = 0.7
+"""A held row whose unit vector has a larger upward part stands upright, as at a flag's pole."""
 SEAM = 3.0
 """A motion whose end is so many times as far from its start as its frames are apart is no loop."""
 
@@ -36,9 +38,9 @@ def snap_angles(
     """Move in whole angles, as a jointed puppet in a stop-motion film does.
 
     The cloth is a chain of rows from its held edge on. Each row turns about that edge until its
-    mean angle to the rest position is a multiple of `degrees`, and stays there until the simulated
-    angle is 0.7 steps away. Lengths along the chain and the folds across it stay, which is what
-    the shape step `boards` flattens.
+    mean angle from below, or from the mean direction of a flag at an upright pole, is a multiple of
+    `degrees`, and stays there until the simulated angle is 0.7 steps away. Lengths along the chain
+    and the folds across it stay; the shape step `boards` makes the rows straight.
     """
     chain = _chain(sheet)
     pieces = np.diff(chain.rows, axis=1)
@@ -82,8 +84,9 @@ class ClothChain:
     """The motion of a sheet as rows that follow each other from its held edge on.
 
     whole: the sheet. rows: shape [F, R, C, 3]; the first row is held. hinge: unit vector along that
-    row at each moment, shape [F, 3]. rest: where the chain goes to at rest. sideways: whether the
-    left edge is held, as on a flag, and not the top.
+    row at each moment, shape [F, 3]. rest: unit vector from which angles count: down, or where the
+    chain goes to on average if the held row stands upright. sideways: whether the left edge is
+    held, and not the top.
     """
 
     whole: Sheet
@@ -104,10 +107,17 @@ def _chain(sheet: Sheet) -> ClothChain:
     top, left = (edge - edge[:1] for edge in (grid[:, 0], grid[:, :, 0]))
     sideways = float(np.abs(left).mean()) < float(np.abs(top).mean())
     rows = grid.swapaxes(1, 2) if sideways else grid
-    across = rows[:, 0, 0] - rows[:, 0, -1] if sideways else rows[:, 0, -1] - rows[:, 0, 0]
-    length = np.sqrt(np.sum(across * across, axis=-1, keepdims=True))
-    rest = np.array([1.0, 0.0, 0.0] if sideways else [0.0, -1.0, 0.0])
-    return ClothChain(sheet, rows, across / np.maximum(length, 1e-12), rest, sideways)
+    hinge = _unit(rows[:, 0, -1] - rows[:, 0, 0])
+    if abs(float(hinge[:, 1].mean())) < UPRIGHT:
+        rest = np.array([0.0, -1.0, 0.0])
+    else:
+        rest = _unit((rows[:, -1] - rows[:, 0]).mean(axis=(0, 1)) * [1.0, 0.0, 1.0])
+    return ClothChain(sheet, rows, hinge, rest, sideways)
+
+
+def _unit(vectors: Array) -> Array:
+    lengths = np.sqrt(np.sum(vectors * vectors, axis=-1, keepdims=True))
+    return vectors / np.maximum(lengths, 1e-12)
 
 
 def _kept_angles(angles: Array, step: float) -> Array:
