@@ -117,7 +117,8 @@ def _chain(sheet: Sheet) -> ClothChain:
 
 def _unit(vectors: Array) -> Array:
     lengths = np.sqrt(np.sum(vectors * vectors, axis=-1, keepdims=True))
-    return vectors / np.maximum(lengths, 1e-12)
+    unit: Array = vectors / np.maximum(lengths, 1e-12)
+    return unit
 
 
 def _kept_angles(angles: Array, step: float) -> Array:
