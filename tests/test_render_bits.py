@@ -1,8 +1,10 @@
 """The same bits whatever kernels the BLAS chooses for its processor."""
 
+import ast
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -70,3 +72,21 @@ def results(folder: object, kernels: str) -> dict[str, str]:
 def test_the_blas_reaches_no_result(tmp_path: object, kernels: str, usual: dict[str, str]) -> None:
     assert len(usual) == 8
     assert results(tmp_path, kernels) == usual
+
+
+EXACT_PRODUCTS = {
+    "drapery/cloth/colliders/check.py": 1,  # compared with a tolerance
+    "drapery/cloth/colliders/meshes.py": 3,  # of whole numbers
+    "drapery/cloth/filters.py": 1,  # of whole numbers
+    "render/encode/palette.py": 1,  # of whole numbers
+}
+
+
+def test_sources_use_no_other_matrix_products() -> None:
+    root = Path(__file__).parents[1]
+    found = {}
+    for path in [*root.glob("drapery/**/*.py"), *root.glob("render/**/*.py")]:
+        nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if count := sum(isinstance(node, ast.MatMult) for node in nodes):
+            found[path.relative_to(root).as_posix()] = count
+    assert found == EXACT_PRODUCTS

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.mesh import Array, Mesh
+from drapery.render.vectors import dots
 from drapery.style.uv_mapping import UVMapping
 from drapery.styles.sheet import Sheet, grid_lattice, without_cells
 
@@ -132,8 +133,8 @@ def level_texels(
     axes = _mean_axes(rows)
     low, high = (np.arange(count + 1) / count for count in (down, across))
     corners = _at(rows, low, high) - rows[0, 0]
-    flat, ahead = corners @ axes[:2].T, _middles(rows, (across, down)) - rows[0, 0]
-    height = ahead @ axes[2]
+    flat = dots(corners[:, :, None], axes[:2])
+    height = dots(_middles(rows, (across, down)) - rows[0, 0], axes[2])
     if step:
         height = np.round(height / (step * sheet.texel)) * step * sheet.texel
     thick = max(sheet.thickness, THINNEST * sheet.texel)
@@ -148,7 +149,8 @@ def level_texels(
         np.concatenate([places, np.broadcast_to(side[..., None, None], (*places.shape[:3], 1))], -1)
         for side in sides
     ]
-    front, back = ((block @ axes + rows[0, 0]).reshape(-1, 4, 3) for block in blocks)
+    turned = [dots(block[..., None, :], axes.T) + rows[0, 0] for block in blocks]
+    front, back = (block.reshape(-1, 4, 3) for block in turned)
     return _blocks(front, back, _texel_uvs((across, down), sheet.uv_mapping))
 
 
