@@ -26,13 +26,15 @@ from fuzz_targets import Target
 from drapery.errors import DraperyError
 
 
-def run(name: str, target: Target, count: float, seed: int, seconds: float) -> fuzzing.FuzzReport:
+def run(
+    name: str, target: Target, count: float, seed: int, seconds: float, slowest: float
+) -> fuzzing.FuzzReport:
     """Fuzz one reader and print the result."""
     for sample in target.samples:  # exclude what is loaded only once from the inputs' memory
         with contextlib.suppress(DraperyError):
             list(target.read(sample))
     start = time.perf_counter()
-    report = fuzzing.fuzz(target.read, target.samples, target.mutate, count, seed, seconds)
+    report = fuzzing.fuzz(target.read, target.samples, target.mutate, count, seed, seconds, slowest)
     taken = time.perf_counter() - start
     print(
         f"{name}: {report.count} inputs in {taken:.0f} s, slowest {report.slowest:.3f} s,"
@@ -81,6 +83,12 @@ def main() -> int:
     parser.add_argument("--minutes", type=float, default=10.0, help="of all readers together")
     parser.add_argument("--count", type=int, help="inputs of a reader, in place of minutes")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument(
+        "--slowest",
+        type=float,
+        default=fuzzing.MAX_SECONDS,
+        help="processor time that one input may take [s]; other work on the machine adds to it",
+    )
     parser.add_argument("--save", type=Path, help="folder for the inputs that failed")
     parser.add_argument("--atheris", action="store_true", help="drive one reader by coverage")
     options, rest = parser.parse_known_args()
@@ -94,7 +102,8 @@ def main() -> int:
     seconds = math.inf if options.count else options.minutes * 60 / len(names)
     failed = False
     for name in names:
-        report = run(name, known[name], options.count or math.inf, options.seed, seconds)
+        count = options.count or math.inf
+        report = run(name, known[name], count, options.seed, seconds, options.slowest)
         for _, reason in report.failures[:5]:
             print(f"  FAILURE {reason}")
         if options.save and report.failures:

@@ -66,19 +66,26 @@ def fuzz(
     count: float = math.inf,
     seed: int = 0,
     seconds: float = math.inf,
+    slowest: float = MAX_SECONDS,
 ) -> FuzzReport:
     """Read mutated samples and report the outcomes.
 
-    count: of the samples. seconds: after which no other is read, where fewer were.
+    count: of the samples. seconds: after which no other is read, where fewer were. slowest: the
+    longest that one may take [s].
     """
     rng = random.Random(seed)
     report, end = FuzzReport(), time.monotonic() + seconds
     while report.count < count and time.monotonic() < end:
-        judge(read, mutate(rng, samples), report)
+        judge(read, mutate(rng, samples), report, slowest)
     return report
 
 
-def judge(read: Callable[[Any], Iterable[Any]], given: Any, report: FuzzReport) -> None:
+def judge(
+    read: Callable[[Any], Iterable[Any]],
+    given: Any,
+    report: FuzzReport,
+    slowest: float = MAX_SECONDS,
+) -> None:
     """Read one input and note how it ended."""
     before, start = _memory("VmRSS"), time.process_time()
     _forget_peak()
@@ -93,7 +100,7 @@ def judge(read: Callable[[Any], Iterable[Any]], given: Any, report: FuzzReport) 
         outcome = f"FAILED {type(error).__name__}"
         report.failures.append((given, repr(error)))
     seconds = time.process_time() - start
-    if seconds > MAX_SECONDS:
+    if seconds > slowest:
         report.failures.append((given, f"took {seconds:.2f} s"))
     grown = _memory("VmHWM") - before
     if grown > MAX_MEMORY:
