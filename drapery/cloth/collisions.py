@@ -15,7 +15,8 @@ from drapery.cloth.colliders.pose import still
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.colliders.shapes import Box, Plane
 from drapery.cloth.lanes import run_blocks, thread_count
-from drapery.cloth.self_contact import SelfContact, make_self_contact, meet_all
+from drapery.cloth.self_contact import meet_all
+from drapery.cloth.self_contact_data import SelfContact, make_self_contact
 from drapery.cloth.solvers.driver import check_limit
 from drapery.cloth.state import State
 from drapery.errors import OptionError

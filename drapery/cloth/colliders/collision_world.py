@@ -28,7 +28,8 @@ from drapery.cloth.colliders.sampling import SamplePoints
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, ContactParams, RigidSweep, sweep_point
 from drapery.cloth.colliders.vectors import Vector, add_scaled, norm, row, scale, subtract
 from drapery.cloth.lanes import run_blocks, thread_count
-from drapery.cloth.self_contact import SelfContact, meet_all
+from drapery.cloth.self_contact import meet_all
+from drapery.cloth.self_contact_data import SelfContact
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel
