@@ -20,7 +20,7 @@ NOT_INSTALLED = ROOT / "assets" / "drawing"
 
 FOUNDATION = {
     *("errors", "mesh", "option", "options", "settings", "yaml_text", "jit", "jit_cache"),
-    "lazy",
+    *("lazy", "toml_text"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets"}
@@ -39,6 +39,7 @@ ALLOWED: dict[str, set[str]] = {
     "settings": {"errors", "option"},
     "options": {"errors", "option", "settings"},
     "yaml_text": {"errors"},
+    "toml_text": {"errors"},
     "assets": set(),
     "banner": {"assets"},
     "packs": {"banner"},

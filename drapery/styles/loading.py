@@ -1,7 +1,5 @@
 """Files of styles: TOML, checked as a whole."""
 
-import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -13,6 +11,7 @@ from drapery.option import shown
 from drapery.styles.palette_files import read_palette
 from drapery.styles.step import STEP_KINDS, StyleStep, parameter_faults
 from drapery.styles.steps import STEPS
+from drapery.toml_text import locate, read_toml
 
 MAX_BYTES = 1 << 16
 """The longest file of a style [bytes]."""
@@ -41,27 +40,13 @@ def read_style_file(path: str | Path) -> tuple[StyleFile, tuple[StyleStep, ...]]
 
     Raises OptionError that names the file, the line, the field and the remedy.
     """
-    target = Path(path)
-    try:
-        with target.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        raise OptionError(f"{path} cannot be read: {error.strerror}; check the path") from None
-    if len(data) > MAX_BYTES:
-        raise OptionError(f"{path} has over {MAX_BYTES} bytes; a style is shorter")
-    try:
-        text = data.decode("utf-8")
-        tree = tomllib.loads(text)
-    except UnicodeDecodeError:
-        raise OptionError(f"{path} is not text in UTF-8; save it as UTF-8") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise OptionError(f"{path} is not TOML: {error}; correct that line") from None
+    tree, text = read_toml(path, MAX_BYTES, "a style")
     try:
         parsed = StyleFile.model_validate(tree)
     except ValidationError as error:
         fault = error.errors()[0]
         place = tuple(fault["loc"])
-        raise OptionError(f"{_where(path, text, place)}: {_complaint(fault, place)}") from None
+        raise OptionError(f"{locate(path, text, place)}: {_complaint(fault, place)}") from None
     return parsed, tuple(_steps(parsed, path, text))
 
 
@@ -73,14 +58,14 @@ def _steps(parsed: StyleFile, path: str | Path, text: str) -> Iterator[StyleStep
             name = given.pop("step", None)
             known = STEPS[kind]
             if not isinstance(name, str) or name not in known:
-                where = _where(path, text, (kind, number, "step"))
+                where = locate(path, text, (kind, number, "step"))
                 said = f"step {shown(name)} is not known" if "step" in table else "step is missing"
                 raise OptionError(f"{where}: {said}; use one of: {', '.join(known)}")
             if name == "palette" and "file" in given:
-                where = _where(path, text, (kind, number, "file"))
+                where = locate(path, text, (kind, number, "file"))
                 given = _with_palette(given, Path(path).parent, where)
             for field, fault in parameter_faults(known[name], given).items():
-                raise OptionError(f"{_where(path, text, (kind, number, field))}: {name}: {fault}")
+                raise OptionError(f"{locate(path, text, (kind, number, field))}: {name}: {fault}")
             yield StyleStep(kind, known[name], given)
 
 
@@ -105,28 +90,3 @@ def _complaint(fault: Mapping[str, Any], place: tuple[int | str, ...]) -> str:
     remedy |= {"light": "game, flat or studio"}
     tables = f"at most {MAX_STEPS} tables like [[{place[0]}]]"
     return f"{name} {shown(fault['input'])} cannot be used; use {remedy.get(name, tables)}"
-
-
-def _where(path: str | Path, text: str, place: tuple[int | str, ...]) -> str:
-    """The file and the line of a field; only the file if the line is not found."""
-    line = _line(text.splitlines(), place)
-    return f"{path}" if line is None else f"{path} line {line}"
-
-
-def _line(lines: list[str], place: tuple[int | str, ...]) -> int | None:
-    start = 0
-    if len(place) > 1 and isinstance(place[1], int):
-        heads = [n for n, line in enumerate(lines) if _is_head(line, str(place[0]))]
-        if place[1] >= len(heads):
-            return None
-        start = heads[place[1]]
-    for number in range(start, len(lines)):
-        if number > start and lines[number].lstrip().startswith("["):
-            break
-        if re.match(rf"\s*[\"']?{re.escape(str(place[-1]))}[\"']?\s*=", lines[number]):
-            return number + 1
-    return start + 1 if len(place) > 1 else None
-
-
-def _is_head(line: str, kind: str) -> bool:
-    return re.match(rf"\s*\[\[\s*{kind}\s*\]\]", line) is not None
