@@ -4,7 +4,7 @@ import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal, Unpack
+from typing import TYPE_CHECKING, Literal, Unpack
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
@@ -13,30 +13,34 @@ from drapery.errors import DesignError, OptionError
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
-from drapery.settings import Options, Settings, check_format, frame_count
+from drapery.settings import OPTIONS, Options, Settings, check_format, frame_count
+
+if TYPE_CHECKING:
+    from drapery.garments.model import Garment
 
 __all__ = ["animate", "draw", "draw_face", "draw_scenes", "iter_frames", "save_model"]
 
 
 def draw(
-    banner: Banner | None = None, settings: Settings | None = None, **options: Unpack[Options]
+    banner: "Banner | Garment | None" = None,
+    settings: Settings | None = None,
+    **options: Unpack[Options],
 ) -> Frame:
     """Draw a banner as cloth.
 
-    banner: a banner or shield; None for a cape or elytra, whose texture is an option.
+    banner: a banner, shield or `Garment`; None for a cape or elytra, whose texture is an option.
     settings, options: options of the picture, see `Settings`; `options` override `settings`.
-    Raises DesignError if `banner` is not a Banner, OptionError, PackError or BackendError.
+    Without `settings` those of a garment's file count where `options` do not give others.
+    Raises DesignError if `banner` is something else, OptionError, PackError or BackendError.
     """
-    from drapery.scenes.stager import still
-
     design, chosen = _checked(banner, settings, options)
     packs = open_packs(chosen.packs, format=chosen.format)
-    (frame,) = draw_scenes([still(design, packs, chosen)], packs, chosen)
+    (frame,) = draw_scenes([_still(design, packs, chosen)], packs, chosen)
     return frame
 
 
 def animate(
-    banner: Banner | None = None,
+    banner: "Banner | Garment | None" = None,
     settings: Settings | None = None,
     *,
     seconds: float = 4.0,
@@ -47,14 +51,14 @@ def animate(
 
     banner, settings, options: see `draw`. A model that does not wave is shown from all sides.
     seconds, fps: length of the loop [s] and its frames per second.
-    Raises DesignError if `banner` is not a Banner, OptionError, PackError or BackendError.
+    Raises DesignError if `banner` is something else, OptionError, PackError or BackendError.
     """
     frames = iter_frames(banner, settings, seconds=seconds, fps=fps, **options)
     return Animation(tuple(frames), fps)
 
 
 def iter_frames(
-    banner: Banner | None = None,
+    banner: "Banner | Garment | None" = None,
     settings: Settings | None = None,
     *,
     seconds: float = 4.0,
@@ -73,7 +77,7 @@ def iter_frames(
 
 
 def save_model(
-    banner: Banner | None,
+    banner: "Banner | Garment | None",
     path: str | Path,
     settings: Settings | None = None,
     *,
@@ -85,11 +89,10 @@ def save_model(
 
     banner, settings, options: see `draw`; the ground is not written.
     seconds: length of the loop [s]; 0 for one pose. fps: its frames per second.
-    Raises DesignError if `banner` is not a Banner, OptionError, PackError or OutputError.
+    Raises DesignError if `banner` is something else, OptionError, PackError or OutputError.
     """
     from drapery.render.export import check_model_target
     from drapery.render.export import save_model as save_scenes
-    from drapery.scenes.stager import still
 
     design, chosen = _checked(banner, settings, options)
     chosen = replace(chosen, ground="none")
@@ -98,7 +101,7 @@ def save_model(
     if moves:
         save_scenes(_loop(design, packs, chosen, seconds, fps), path, fps=fps)
     else:
-        save_scenes(still(design, packs, chosen), path)
+        save_scenes(_still(design, packs, chosen), path)
     _warn_of(packs)
 
 
@@ -164,24 +167,55 @@ def _drawn(frames: Iterable[Frame], packs: Packs, settings: Settings) -> Iterato
             _warn_of(packs)
 
 
+def _still(design: "Banner | Garment | None", packs: Packs, settings: Settings) -> Scene:
+    if design is None or isinstance(design, Banner):
+        from drapery.scenes.stager import still
+
+        return still(design, packs, settings)
+    from drapery.scenes.dressing import garment_still
+
+    return garment_still(design, packs, settings)
+
+
 def _loop(
-    design: Banner | None, packs: Packs, settings: Settings, seconds: float, fps: float
+    design: "Banner | Garment | None", packs: Packs, settings: Settings, seconds: float, fps: float
 ) -> Iterator[Scene]:
-    from drapery.scenes.stager import loop
+    count = frame_count(seconds, fps)
+    if design is None or isinstance(design, Banner):
+        from drapery.scenes.stager import loop
 
-    return loop(design, packs, settings, frame_count(seconds, fps), fps)
+        return loop(design, packs, settings, count, fps)
+    from drapery.scenes.dressing import garment_loop
+
+    return garment_loop(design, packs, settings, count, fps)
 
 
-def _checked(banner: object, settings: object, options: Options) -> tuple[Banner | None, Settings]:
-    if not (banner is None or isinstance(banner, Banner)):
+def _checked(
+    banner: object, settings: object, options: Options
+) -> tuple["Banner | Garment | None", Settings]:
+    if not (settings is None or isinstance(settings, Settings)):
+        raise OptionError(f"settings {str(settings)[:40]!r} are not Settings; give options by name")
+    if banner is None or isinstance(banner, Banner):
+        return banner, _settled(settings, options)
+    # Imported here: pictures of banners need no pydantic.
+    from drapery.garments.model import UNUSED_OPTIONS, Garment
+
+    if not isinstance(banner, Garment):
         raise DesignError(
             f"{str(banner)[:40]!r} is not a Banner; read a text with Banner.parse(text)"
         )
+    chosen = _settled(settings, options if settings else banner.picture | options)  # type: ignore[arg-type]
+    for name in UNUSED_OPTIONS:
+        if getattr(chosen, name) != OPTIONS[name].default:
+            raise OptionError(f"{name} does not apply to a garment; set it in the garment's file")
+    texture = chosen.texture_path
+    return banner if texture is None else banner.with_texture(texture), chosen
+
+
+def _settled(settings: Settings | None, options: Options) -> Settings:
     if settings is None:
-        return banner, Settings(**options)
-    if not isinstance(settings, Settings):
-        raise OptionError(f"settings {str(settings)[:40]!r} are not Settings; give options by name")
-    return banner, replace(settings, **options) if options else settings
+        return Settings(**options)
+    return replace(settings, **options) if options else settings
 
 
 def _warn_of(packs: Packs) -> None:

@@ -22,7 +22,7 @@ FOUNDATION = {
     *("errors", "mesh", "option", "options", "settings", "yaml_text", "jit", "jit_cache"),
     *("lazy", "toml_text"),
 }
-CORE = {"cloth", "banner", "packs", "render", "style", "styles", "assets"}
+CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets"}
 APPLICATIONS = {"commands", "testing", "batch", "serve", "studio", "beet", "cli", "__main__"}
 RINGS = (FOUNDATION, CORE, PICTURES, APPLICATIONS)
@@ -47,6 +47,7 @@ ALLOWED: dict[str, set[str]] = {
     "render": set(),
     "style": {"banner", "render"},
     "styles": {"style", "render", "banner", "cloth"},
+    "garments": {"style", "render", "banner", "cloth"},
     "scenes": set(),
     "pictures": {"scenes"},
     "comparison": {"pictures", "scenes"},
@@ -66,6 +67,7 @@ KNOWS_NO_SETTINGS = {"cloth", "banner", "packs", "render", "assets"}
 PUBLIC = {
     *("drapery", "drapery.cloth", "drapery.cloth.colliders", "drapery.banner", "drapery.packs"),
     *("drapery.render", "drapery.style", "drapery.styles", "drapery.scenes", "drapery.pictures"),
+    "drapery.garments",
     *("drapery.comparison", "drapery.sheets", "drapery.testing", "drapery.batch"),
     *(f"drapery.{name}" for name in FOUNDATION),
 }

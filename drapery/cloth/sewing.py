@@ -39,8 +39,8 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
         raise OptionError(
             f"sewn cloths have drags of {drags[0]:g} and {drags[-1]:g} 1/s; give all the same drag"
         )
-    starts = np.cumsum([0, *(len(cloth.inv_mass) for cloth in cloths)])
-    number = _merged(int(starts[-1]), _pairs(cloths, starts, seams))
+    starts = _starts(cloths)
+    number = np.concatenate(sewn_particles(cloths, seams))
     count = int(number.max()) + 1
     places = np.concatenate([cloth.rest_positions for cloth in cloths])
     rest = np.zeros((count, 3))
@@ -61,6 +61,20 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
         uvs=np.concatenate([cloth.uvs for cloth in cloths])[first],
         drag=drags[0],
     )
+
+
+def sewn_particles(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> list[NDArray[np.int64]]:
+    """The particle of the sewn cloth that each particle of each cloth becomes. Raises OptionError.
+
+    cloths, seams: those of `sew`.
+    """
+    starts = _starts(cloths)
+    number = _merged(int(starts[-1]), _pairs(cloths, starts, seams))
+    return np.split(number, starts[1:-1])
+
+
+def _starts(cloths: Sequence[Cloth]) -> NDArray[np.int64]:
+    return np.cumsum([0, *(len(cloth.inv_mass) for cloth in cloths)])
 
 
 def _pairs(

@@ -4,6 +4,7 @@ In the figure's own frame the air comes from ahead at the speed of the walk, so 
 as on a figure that walks through still air.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -14,7 +15,8 @@ from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders import Box, Collider, Path, Pose, rotation_about
 from drapery.cloth.exact import sine_of_turns
 from drapery.mesh import Array
-from drapery.style.figure import PARTS, TEXEL, Placed, to_metres
+from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed, to_metres
+from drapery.style.horse import HORSE_PARTS
 
 MAX_WALK = 10.0
 """The fastest walk [m/s]."""
@@ -24,14 +26,25 @@ LEG, HALF_FOOT = 12 * TEXEL, 2 * TEXEL
 """Length of a leg, and half the length of its foot [m]."""
 ARM_SHARE = 0.6
 """The swing of an arm over that of a leg."""
+FIGURES: Mapping[str, Mapping[str, FigurePart]] = {"player": PARTS, "horse": HORSE_PARTS}
+"""Who walks, by name."""
 
 
 @dataclass(frozen=True)
 class Gait:
-    """A steady walk. speed: over the ground [m/s]. period: of a stride, which is two steps [s]."""
+    """A steady walk. speed: over the ground [m/s]. period: of a stride, which is two steps [s].
+
+    figure: who walks, of FIGURES; the arms of a horse are its front legs.
+    """
 
     speed: float = 2.5
     period: float = 0.8
+    figure: str = "player"
+
+    @property
+    def parts(self) -> Mapping[str, FigurePart]:
+        """The parts of the figure by name."""
+        return FIGURES[self.figure]
 
     @property
     def swing(self) -> float:
@@ -61,7 +74,7 @@ class Gait:
     def colliders(self, names: tuple[str, ...]) -> tuple[Collider, ...]:
         """The figure's parts of these names as moving boxes."""
         return tuple(
-            Collider(Box(PARTS[name].centre, PARTS[name].extent), self._path(name))
+            Collider(Box(self.parts[name].centre, self.parts[name].extent), self._path(name))
             for name in names
         )
 
@@ -78,19 +91,21 @@ class Gait:
 def _poses(gait: Gait, time: float) -> dict[str, Placed]:
     """Cached, since every part asks for the poses at the beginning and the end of a step."""
     angle = gait.turn(time)
+    arms = ARM_SHARE if gait.figure == "player" else 1.0
     angles = {
         "head": 0.0,
         "body": 0.0,
         "right_leg": angle,
         "left_leg": -angle,
-        "right_arm": -ARM_SHARE * angle,
-        "left_arm": ARM_SHARE * angle,
+        "right_arm": -arms * angle,
+        "left_arm": arms * angle,
     }
     lift = np.array([0.0, gait.lift(time), 0.0])
-    return {name: _about_joint(name, degrees, lift) for name, degrees in angles.items()}
+    parts = gait.parts
+    return {name: _about_joint(parts[name], turned, lift) for name, turned in angles.items()}
 
 
-def _about_joint(name: str, degrees: float, lift: Array) -> Placed:
+def _about_joint(part: FigurePart, degrees: float, lift: Array) -> Placed:
     rotation = rotation_about((1, 0, 0), degrees)
-    joint = to_metres(np.array(PARTS[name].joint))
+    joint = to_metres(np.array(part.joint))
     return joint - (rotation * joint).sum(axis=1) + lift, rotation

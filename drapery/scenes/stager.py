@@ -154,7 +154,7 @@ class Stager:
         self.settings = settings = self.style.settle(settings)
         self.wind = wind_of(settings)
         self.steps = 0
-        self.parts = [self._turned(part.mesh) for part in body.parts]
+        self.parts = [self.turned(part.mesh) for part in body.parts]
         self.ground = [self._grounded(part) for part in body.ground]
         if cloths is None:
             moves = settings.pose == "cloth"
@@ -194,7 +194,7 @@ class Stager:
         """The stiff parts, then each panel as the game draws it, at a phase 0..1 of its sway."""
         panels, thickness = zip(self.body.panels, phases, strict=True), self.settings.thickness
         boards = (panel.board(phase, thickness) for panel, phase in panels)
-        return [*self.parts, *map(self._turned, boards)]
+        return [*self.parts, *map(self.turned, boards)]
 
     def camera(self, points: Sequence[Array], aspect: float) -> Camera:
         """The body's own camera, or one that frames points [m], each [..., 3], in the view."""
@@ -225,7 +225,13 @@ class Stager:
     def contact(self, models: Sequence[Model], floor: float) -> Model:
         """The contact shadow of models on a floor [m], or on the block below them."""
         has_block = self.ground and self.settings.placement == "standing"
-        return contact_shadow(models, floor, within=(0, 0, 1, 1) if has_block else None)
+        return contact_shadow(models, floor, within=self._ground_extent() if has_block else None)
+
+    def _ground_extent(self) -> tuple[float, float, float, float]:
+        """Lowest x and z of the block below, then the highest [m]."""
+        points = np.concatenate([model.mesh.positions for model in self.ground])[:, [0, 2]]
+        (x0, z0), (x1, z1) = points.min(axis=0), points.max(axis=0)
+        return float(x0), float(z0), float(x1), float(z1)
 
     def scene(self, models: Sequence[Model], camera: Camera, shadow: Model | None = None) -> Scene:
         """The models in the body's light. shadow: that of the settings, made here unless given."""
@@ -259,17 +265,18 @@ class Stager:
 
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
         if self.style.has("shape"):
-            return self._turned(self.style.mesh(self._sheet(panel, sheet + panel.origin)))
+            return self.turned(self.style.mesh(self._sheet(panel, sheet + panel.origin)))
         shell = _grid_shell(self.settings.grid, panel.uv_mapping)
         thickness = self.settings.thickness * panel.texel
-        return self._turned(thicken(shell, sheet + panel.origin, thickness))
+        return self.turned(thicken(shell, sheet + panel.origin, thickness))
 
     def _grounded(self, part: Part) -> Model:
         """A part of the ground: a wall turns with its banner, the block below does not."""
-        mesh = self._turned(part.mesh) if self.settings.placement == "wall" else part.mesh
+        mesh = self.turned(part.mesh) if self.settings.placement == "wall" else part.mesh
         return Model(mesh, (part.material_at(0.0),))
 
-    def _turned(self, mesh: Mesh) -> Mesh:
+    def turned(self, mesh: Mesh) -> Mesh:
+        """A mesh turned by the rotation or facing of the settings."""
         return turn(mesh, self.settings.turned) if self.settings.turned else mesh
 
 

@@ -120,7 +120,7 @@ def _dressed(scene: Scene, style: Style) -> Scene:
     return replace(
         scene,
         models=tuple(
-            _tailored(model, style) if isinstance(model, ClothModel) else model
+            tailored(model, style) if isinstance(model, ClothModel) else model
             for model in scene.models
         ),
         light=lights.get(style.light or "", scene.light),
@@ -128,7 +128,8 @@ def _dressed(scene: Scene, style: Style) -> Scene:
     )
 
 
-def _tailored(model: ClothModel, style: Style) -> ClothModel:
+def tailored(model: ClothModel, style: Style) -> ClothModel:
+    """A model with the style's material, and its shape if it is a rectangle of cloth."""
     materials = tuple(style.material(material) for material in model.materials)
     mesh, sheet = model.mesh, model.sheet
     lattice = None if sheet is None else _lattice(sheet.shell)
@@ -174,7 +175,18 @@ def _moved(pictures: list[Picture], style: Style) -> Iterator[Picture]:
 
 
 def _move_models(scenes: Sequence[Scene], style: Style) -> list[Scene]:
-    models = [[*scene.models] for scene in scenes]
+    models = moved_by_style([scene.models for scene in scenes], style)
+    return [replace(scene, models=tuple(m)) for scene, m in zip(scenes, models, strict=True)]
+
+
+def moved_by_style(frames: Sequence[Sequence[Model]], style: Style) -> list[list[Model]]:
+    """The models of each frame with the motion steps applied to each rectangle of cloth.
+
+    frames: each has the same models in the same order.
+    """
+    models = [[*frame] for frame in frames]
+    if not style.has("motion"):
+        return models
     for place in range(min(map(len, models))):
         cloth = [frame[place] for frame in models]
         sheets = [model.sheet for model in cloth if isinstance(model, ClothModel) and model.sheet]
@@ -183,7 +195,7 @@ def _move_models(scenes: Sequence[Scene], style: Style) -> list[Scene]:
             motion = _moved_positions(sheets, lattice, style)
             for frame, model, positions in zip(models, cloth, motion, strict=True):
                 frame[place] = _with_positions(model, positions)
-    return [replace(scene, models=tuple(m)) for scene, m in zip(scenes, models, strict=True)]
+    return models
 
 
 def _moved_positions(sheets: Sequence[ClothSheet], lattice: Lattice, style: Style) -> Array:

@@ -71,7 +71,7 @@ PARTS: dict[str, FigurePart] = {
 
 def figure_mesh(poses: Mapping[str, Placed]) -> Mesh:
     """The figure with each part in its pose; a part without one is at rest."""
-    return join([_posed(mesh, poses.get(name)) for name, mesh in _REST.items()])
+    return join([posed(mesh, poses.get(name)) for name, mesh in _REST.items()])
 
 
 def figure_material(skin: str, packs: Packs) -> Material:
@@ -79,7 +79,8 @@ def figure_material(skin: str, packs: Packs) -> Material:
     return Material((TextureLayer(packs.texture(f"entity/player/{skin}")),))
 
 
-def _posed(mesh: Mesh, pose: Placed | None) -> Mesh:
+def posed(mesh: Mesh, pose: Placed | None) -> Mesh:
+    """A mesh at rest moved to a pose; as it is without one."""
     if pose is None:
         return mesh
     position, rotation = pose

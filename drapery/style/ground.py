@@ -1,5 +1,7 @@
 """The block below a standing body and the wall behind a banner on it."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from drapery.banner.dyes import DYES
@@ -18,10 +20,13 @@ _BELOW: tuple[Cell, ...] = ((0, -1, 0),)
 _BEHIND: tuple[Cell, ...] = tuple((x, y, -1) for x in range(-3, 4) for y in range(-3, 3))
 
 
-def ground_of(block: str, packs: Packs, placement: Placement) -> tuple[Part, ...]:
+def ground_of(
+    block: str, packs: Packs, placement: Placement, cells: Iterable[Cell] = ()
+) -> tuple[Part, ...]:
     """One block below the space of a standing body, or a wall seven wide and six high behind it.
 
     block: the name of a texture under `block/`, of a dye for its wool, or `grass`.
+    cells: other places of blocks; none for those above.
     Raises OptionError for a block without texture, and PackError.
     """
     top = FACES.get(block, (block,))[0]
@@ -31,7 +36,8 @@ def ground_of(block: str, packs: Packs, placement: Placement) -> tuple[Part, ...
             " grass, stone or another block"
         )
     is_wall = placement == "wall"
-    models = blocks(dict.fromkeys(_BEHIND if is_wall else _BELOW, block), packs)
+    places = tuple(cells) or (_BEHIND if is_wall else _BELOW)
+    models = blocks(dict.fromkeys(places, block), packs)
     pieces = PIECES[placement]
     facing = np.array([0.0, 0.0, 1.0] if is_wall else [0.0, 1.0, 0.0])
     return tuple(

@@ -56,6 +56,27 @@ def post(foot: Array, height: float, packs: Packs, half: float = 0.06) -> Model:
     return Model(mesh, (wood_material(packs),))
 
 
+def pole(start: Array, end: Array, packs: Packs, half: float = 0.06) -> Model:
+    """A square pole between two places. start, end: [m], shape [3]. half: its half width [m]."""
+    along, rotation = pole_frame(start, end)
+    upright_post = post(np.zeros(3), along, packs, half)
+    mesh = upright_post.mesh
+    positions = np.einsum("ij,vj->vi", rotation, mesh.positions) + start
+    normals = np.einsum("ij,vj->vi", rotation, mesh.normals)
+    return replace(upright_post, mesh=replace(mesh, positions=positions, normals=normals))
+
+
+def pole_frame(start: Array, end: Array) -> tuple[float, Array]:
+    """The length of a pole [m], and the rotation of an upright one, shape [3, 3]."""
+    away = end - start
+    length = float(np.sqrt((away * away).sum()))
+    up = away / length
+    level = np.array([up[1], -up[0], 0.0]) if abs(up[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    right = level - (level * up).sum() * up
+    right /= np.sqrt((right * right).sum())
+    return length, np.stack([right, up, np.cross(right, up)], axis=1)
+
+
 def beam(start: Array, length: float, packs: Packs) -> Model:
     """A pole along x. start: [m], shape [3]. length: [m]."""
     upright_post = post(np.zeros(3), length, packs)

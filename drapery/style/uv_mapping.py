@@ -46,6 +46,24 @@ SHEET_MAPPING = SheetMapping()
 
 
 @dataclass(frozen=True)
+class RegionMapping:
+    """Front and back on a rectangle of the texture each, as fractions of it; the rim repeats the
+    border of the front. From behind the back is seen the right way round. See `UVMapping`."""
+
+    front_rect: Rect
+    back_rect: Rect
+
+    def front(self, uvs: Array) -> Array:
+        return _place(uvs, self.front_rect)
+
+    def back(self, uvs: Array) -> Array:
+        return _place(np.stack([1 - uvs[:, 0], uvs[:, 1]], axis=-1), self.back_rect)
+
+    def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
+        return self.front(uvs)[np.tile(edges, 2).reshape(-1)]
+
+
+@dataclass(frozen=True)
 class BoxMapping:
     """The unfolded box of the game's models: a rectangle for each of the six sides.
 

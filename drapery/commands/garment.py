@@ -1,0 +1,108 @@
+"""`drapery garment`: a garment of a file as a picture, an animation or a 3-D file."""
+
+from typing import Annotated, Any
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice, progress
+
+UNUSED = (
+    *("kind", "pose", "placement", "facing", "grid", "fabric", "pins", "contact"),
+    *("layers", "pbr", "thickness", "form", "number", "design"),
+)
+"""Options of banners that a garment does not use."""
+
+
+@o.pictured(*UNUSED)
+def run(
+    context: typer.Context,
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="NAME|FILE",
+            help="A garment, or a file that ends with .toml.",
+            show_default=False,
+        ),
+    ] = None,
+    out: Annotated[
+        str | None,
+        typer.Option(
+            "-o", "--out", metavar="TARGET", help="A picture, animation, folder or 3-D file."
+        ),
+    ] = None,
+    show_list: Annotated[bool, typer.Option("--list", help="List all garments.")] = False,
+    banner: Annotated[
+        str | None,
+        typer.Option(
+            "--design", metavar="DESIGN", help="A banner for the pieces that show a design."
+        ),
+    ] = None,
+    seconds: o.SecondsOption = 4.0,
+    fps: o.FpsOption = 20.0,
+    **words: Any,
+) -> None:
+    """Draw a garment: a cape, flag, tent or a file of your own.
+
+    Options that are not given are those of the garment's file.
+    """
+    from drapery.errors import OptionError
+    from drapery.garments import find_garment
+    from drapery.settings import Settings
+
+    if show_list:
+        _show_list()
+        return
+    if name is None:
+        raise OptionError("no garment is given; `drapery garment --list` lists them all")
+    garment = find_garment(name)
+    if out is None:
+        print(garment.description or garment.name)
+        return
+    if banner is not None:
+        from drapery.banner import read_design
+
+        garment = garment.with_design(read_design(banner))
+    given = {key: words[key] for key in words if _is_given(context, key)}
+    settings = Settings(**(garment.picture | o.options_of(given)))
+    _write(garment, out, settings, seconds, fps)
+
+
+def _is_given(context: typer.Context, name: str) -> bool:
+    source = context.get_parameter_source(name)
+    return source is not None and source.name != "DEFAULT"
+
+
+def _write(garment: Any, out: str, settings: Any, seconds: float, fps: float) -> None:
+    from drapery import draw, iter_frames, save_model
+    from drapery.render import (
+        MODEL_ENDINGS,
+        check_animation_target,
+        check_still_target,
+        save_animation,
+    )
+    from drapery.settings import frame_count
+
+    target = out.lower()
+    if target.endswith(MODEL_ENDINGS):
+        with compile_notice():
+            save_model(garment, out, settings, seconds=seconds, fps=fps)
+    elif target.endswith(".png") and not target.endswith(".sheet.png"):
+        check_still_target(out)
+        with compile_notice():
+            draw(garment, settings).save(out)
+    else:
+        check_animation_target(out)
+        total = frame_count(seconds, fps)
+        with compile_notice(), progress("frames", total) as tick:
+            frames = iter_frames(garment, settings, seconds=seconds, fps=fps)
+            save_animation(frames, fps, out, total=total, progress=tick)
+
+
+def _show_list() -> None:
+    from drapery.garments import find_garment, garment_names
+
+    names = garment_names()
+    width = max(map(len, names))
+    for name in names:
+        print(f"{name:{width}}  {find_garment(name).description}".rstrip())

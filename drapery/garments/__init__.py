@@ -1,0 +1,76 @@
+"""Cloth as data: garments, flags, sails and tents as files of TOML or objects of Python.
+
+```python
+from drapery import draw
+from drapery.garments import find_garment
+
+draw(find_garment("cape"), size=(320, 480)).save("cape.png")
+```
+
+A `Garment` has pieces of cloth, seams, pins and a wearer; `Garment.load` reads a file. See
+`docs/garments.md`. Names are imported when they are first used.
+"""
+
+from typing import TYPE_CHECKING
+
+from drapery.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from drapery.garments.catalogue import find_garment, garment_names
+    from drapery.garments.model import (
+        ClothTexture,
+        DiscPiece,
+        Garment,
+        GarmentBlock,
+        GarmentPin,
+        GarmentPole,
+        GarmentSeam,
+        GarmentWearer,
+        GridPiece,
+        PolygonPiece,
+        RingPiece,
+        StripPiece,
+    )
+    from drapery.garments.tailor import SewnCloth, SewnPiece, tailor
+
+__all__ = [
+    "ClothTexture",
+    "DiscPiece",
+    "Garment",
+    "GarmentBlock",
+    "GarmentPin",
+    "GarmentPole",
+    "GarmentSeam",
+    "GarmentWearer",
+    "GridPiece",
+    "PolygonPiece",
+    "RingPiece",
+    "SewnCloth",
+    "SewnPiece",
+    "StripPiece",
+    "find_garment",
+    "garment_names",
+    "tailor",
+]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "garments.catalogue": ("find_garment", "garment_names"),
+        "garments.model": (
+            "ClothTexture",
+            "DiscPiece",
+            "Garment",
+            "GarmentBlock",
+            "GarmentPin",
+            "GarmentPole",
+            "GarmentSeam",
+            "GarmentWearer",
+            "GridPiece",
+            "PolygonPiece",
+            "RingPiece",
+            "StripPiece",
+        ),
+        "garments.tailor": ("SewnCloth", "SewnPiece", "tailor"),
+    },
+)

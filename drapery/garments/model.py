@@ -1,0 +1,483 @@
+"""Cloth as data: the pieces of a garment, its seams, pins, fabric and wearer.
+
+A file of TOML and a program in Python make the same objects. Lengths are in texels: 1/16 m, and
+15/16 of that on a wearer, as the game draws its players. A piece is made in a frame of its own, x
+to the right, y up, its front towards +z; `turn` and `place` then move it. A wearer stands at the
+origin, its feet on y = 0, and looks to +z.
+"""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    field_validator,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
+
+from drapery.banner.design import Banner
+from drapery.banner.dyes import DYE_NAMES
+from drapery.cloth import FABRICS, Fabric
+from drapery.errors import DraperyError, OptionError
+from drapery.garments.loading import load_tables
+from drapery.option import shown
+from drapery.options import unknown_names
+from drapery.settings import NAMED_OPTIONS
+from drapery.toml_text import Place
+
+MAX_LENGTH = 1024
+"""The longest length and the farthest place [texels]."""
+MAX_PIECES = 64
+"""The most pieces, pins, seams, poles and blocks of a garment, each."""
+MAX_PARTICLES = 65
+"""The most particles along one side of a piece."""
+MAX_SPEED = 10.0
+"""The fastest walk of a wearer [m/s]."""
+UNUSED_OPTIONS = (
+    *("kind", "pose", "placement", "facing", "grid", "fabric", "pins", "contact"),
+    *("layers", "pbr", "thickness"),
+)
+"""Options of pictures that do not apply to garments, whose files describe their cloth."""
+NO_BONE = "fixed"
+"""What a pin is fastened to if it does not move."""
+
+BONES = {
+    "player": ("head", "body", "right_arm", "left_arm", "right_leg", "left_leg"),
+    "horse": ("head", "body", "right_arm", "left_arm", "right_leg", "left_leg"),
+}
+"""The bones of each wearer. The arms of a horse are its front legs."""
+
+Length = Annotated[float, Field(strict=True, ge=-MAX_LENGTH, le=MAX_LENGTH)]
+Extent = Annotated[float, Field(strict=True, ge=0.01, le=MAX_LENGTH)]
+Angle = Annotated[float, Field(strict=True, ge=-360, le=360)]
+Count = Annotated[int, Field(strict=True, ge=2, le=MAX_PARTICLES)]
+Spot = tuple[Length, Length]
+Point = tuple[Length, Length, Length]
+Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_-]{0,31}$")]
+DyeName = Literal[DYE_NAMES]  # type: ignore[valid-type]
+Area = tuple[Length, Length, Extent, Extent]
+
+
+def _said(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """A function whose errors pydantic reports with the place of the value."""
+
+    def checked(value: Any) -> Any:
+        try:
+            return make(value)
+        except DraperyError as error:
+            raise ValueError(str(error)) from None
+        except TypeError:
+            raise ValueError(f"{shown(value)} cannot be used; give numbers") from None
+
+    return checked
+
+
+def _as_banner(value: str | Banner) -> Banner:
+    return value if isinstance(value, Banner) else Banner.parse(value)
+
+
+def _as_fabric(value: Any) -> Fabric:
+    """A fabric, the name of a preset, or a mapping of its fields. Raises OptionError."""
+    if isinstance(value, Fabric):
+        return value
+    if isinstance(value, str):
+        if value not in FABRICS:
+            known = ", ".join(FABRICS)
+            raise OptionError(f"fabric {shown(value)} is not known; use one of: {known}")
+        return FABRICS[value]
+    names = Fabric.__dataclass_fields__
+    if unknown := sorted(set(value) - set(names)):
+        raise OptionError(f"fabric has no {unknown[0]}; use some of: {', '.join(names)}")
+    return Fabric(**value)
+
+
+def _as_options(given: Any) -> dict[str, Any]:
+    """Options of pictures by name, checked. Raises OptionError."""
+    if not isinstance(given, dict):
+        raise OptionError(f"picture {shown(given)} is not a table; write picture = {{ wind = 3 }}")
+    usable = frozenset(NAMED_OPTIONS) - set(UNUSED_OPTIONS) - {"texture"}
+    if strange := unknown_names(given, usable):
+        raise OptionError(strange[0])
+    return {name: NAMED_OPTIONS[name].parse(value) for name, value in given.items()}
+
+
+class GarmentTable(BaseModel):
+    """A table of a garment's file; it has no other fields, and never changes."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+class ClothTexture(GarmentTable):
+    """What is drawn on a piece: a block, a banner's design, a file or a texture of the packs.
+
+    block: the name of a block's texture, tiled. dye: multiplies it; None leaves it as it is.
+    stripes, bands: dyes that follow `dye` in turn, from left to right or downwards, each `width`
+    texels wide. trim: the dye of the lowest texels, `trim_width` high.
+    design: of a banner, as a text. file: a PNG file, relative to the garment's file. pack: the name
+    of a texture of the packs, such as `entity/player/cape`.
+    box: where a model's box lies on the texture, unfolded: left, top, width, height, depth.
+    front, back: the part on each side: left, top, width, height; the whole unless given, and the
+    front on both sides. sheet: width and height of the texture in these units [texels].
+    """
+
+    block: Annotated[str, Field(pattern=r"^[a-z0-9_/.-]{1,64}$")] | None = None
+    dye: DyeName | None = None
+    stripes: tuple[DyeName, ...] = ()
+    bands: tuple[DyeName, ...] = ()
+    width: Annotated[int, Field(strict=True, ge=1, le=64)] = 4
+    trim: DyeName | None = None
+    trim_width: Annotated[int, Field(strict=True, ge=1, le=64)] = 1
+    design: Annotated[Banner, BeforeValidator(_said(_as_banner))] | None = None
+    file: Path | None = None
+    pack: Annotated[str, Field(pattern=r"^[a-z0-9_/.:-]{1,64}$")] | None = None
+    box: tuple[Length, Length, Extent, Extent, Extent] | None = None
+    front: Area | None = None
+    back: Area | None = None
+    sheet: tuple[Extent, Extent] | None = None
+
+    @property
+    def source(self) -> Literal["block", "design", "file", "pack"]:
+        """Which of the four it is; `block` if none is named."""
+        given = [name for name in ("design", "file", "pack") if getattr(self, name) is not None]
+        return given[0] if given else "block"  # type: ignore[return-value]
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        names = ("block", "design", "file", "pack")
+        given = [name for name in names if getattr(self, name) is not None]
+        if len(given) > 1:
+            raise ValueError(f"texture has both {given[0]} and {given[1]}; leave one out")
+        if self.box and (self.front or self.back):
+            raise ValueError("texture has both box and front or back; leave one out")
+        return self
+
+
+class GarmentPiece(GarmentTable):
+    """What all pieces have.
+
+    name: by which seams and pins name it. place: where its origin is [texels]. turn: angles about
+    x, then y, then z through its origin [degrees]. mirror: the name of a second piece, this one
+    mirrored at x = 0. layer: cloth of a higher layer stays outside that of lower ones.
+    texture: that of the garment unless given.
+    """
+
+    name: Name
+    place: Point = (0.0, 0.0, 0.0)
+    turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
+    mirror: Name | None = None
+    layer: Annotated[int, Field(strict=True, ge=0, le=8)] = 0
+    texture: ClothTexture | None = None
+
+
+class GridPiece(GarmentPiece):
+    """A rectangle or trapezoid that hangs down from the middle of its upper edge.
+
+    size: width and height [texels]. points: particles across and down. hem: the width of its lower
+    edge, if another. slack: the part of its size between its places at rest; below 1 it is loose.
+    Edges: top, bottom, left, right, the corners of two of them such as top-left, and corners.
+    """
+
+    shape: Literal["grid"] = "grid"
+    size: tuple[Extent, Extent]
+    points: tuple[Count, Count]
+    hem: Extent | None = None
+    slack: Annotated[float, Field(strict=True, ge=0.1, le=1)] = 1.0
+
+
+class StripPiece(GarmentPiece):
+    """A rope or ribbon from one place to another.
+
+    ends: where it starts and ends [texels]. length: at least their distance; longer ones sag.
+    width: across [texels]. points: particles along it. Edges: start, end.
+    """
+
+    shape: Literal["strip"]
+    ends: tuple[Point, Point]
+    length: Extent
+    width: Extent = 1.0
+    points: Count
+
+    @model_validator(mode="after")
+    def _reaches(self) -> Self:
+        (a, b), square = self.ends, 0.0
+        for start, end in zip(a, b, strict=True):
+            square += (end - start) ** 2
+        if square == 0:
+            raise ValueError("strip has both ends at one place; move one of them")
+        if square**0.5 > self.length * (1 + 1e-9):
+            raise ValueError(
+                f"strip is {self.length:g} texels long, its ends are {square**0.5:g} apart;"
+                " make it longer"
+            )
+        return self
+
+
+class RingPiece(GarmentPiece):
+    """A tube about the y axis, such as a skirt, coat or tent.
+
+    profile: of rings from the top down: height, half width, half depth [texels]. points: particles
+    around and down. square: 2 is an ellipse, higher numbers are squarer. open: the angle of a gap
+    at its front [degrees]; 0 closes it. Edges: top, bottom, and of open ones left, right.
+    """
+
+    shape: Literal["ring"]
+    profile: Annotated[
+        tuple[tuple[Length, Extent, Extent], ...], Field(min_length=2, max_length=16)
+    ]
+    points: tuple[Annotated[int, Field(strict=True, ge=4, le=MAX_PARTICLES)], Count]
+    square: Annotated[float, Field(strict=True, ge=1, le=16)] = 2.0
+    open: Annotated[float, Field(strict=True, ge=0, le=300)] = 0.0
+
+
+class DiscPiece(GarmentPiece):
+    """A round cloth that lies level and faces up. radius: [texels]. rings: of particles.
+
+    Edges: rim, middle.
+    """
+
+    shape: Literal["disc"]
+    radius: Extent
+    rings: Annotated[int, Field(strict=True, ge=1, le=32)]
+
+
+class PolygonPiece(GarmentPiece):
+    """A flat piece of any outline.
+
+    corners: x and y of each, counter-clockwise seen from the front [texels]. spacing: between
+    particles [texels]. Edges: rim, top, bottom, left, right, and side-1, side-2 and so on, the
+    first from corner 1 to corner 2.
+    """
+
+    shape: Literal["polygon"]
+    corners: Annotated[tuple[Spot, ...], Field(min_length=3, max_length=64)]
+    spacing: Extent
+
+    @field_validator("corners")
+    @classmethod
+    def _is_simple(cls, corners: tuple[Spot, ...]) -> tuple[Spot, ...]:
+        following = (*corners[1:], corners[0])
+        doubled = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(corners, following, strict=True))
+        if doubled <= 0:
+            raise ValueError("corners do not go round counter-clockwise; reverse them")
+        return corners
+
+
+def _shape_of(piece: Any) -> str:
+    if isinstance(piece, dict):
+        return str(piece.get("shape", "grid"))
+    return str(getattr(piece, "shape", "grid"))
+
+
+AnyPiece = Annotated[
+    Annotated[GridPiece, Tag("grid")]
+    | Annotated[StripPiece, Tag("strip")]
+    | Annotated[RingPiece, Tag("ring")]
+    | Annotated[DiscPiece, Tag("disc")]
+    | Annotated[PolygonPiece, Tag("polygon")],
+    Discriminator(_shape_of),
+]
+
+
+class GarmentPin(GarmentTable):
+    """Particles that are held. piece: its name. at: an edge of it, or places in its own frame
+    [texels], each of which holds the nearest particle. to: a bone of the wearer, or `fixed`."""
+
+    piece: Name
+    at: str | Annotated[tuple[Spot, ...], Field(min_length=1, max_length=64)]
+    to: str = NO_BONE
+
+
+class GarmentSeam(GarmentTable):
+    """Two edges with as many particles each, which are sewn. join: such as `front.left` twice."""
+
+    join: tuple[str, str]
+
+    @field_validator("join")
+    @classmethod
+    def _names_edges(cls, join: tuple[str, str]) -> tuple[str, str]:
+        for side in join:
+            if side.count(".") != 1:
+                raise ValueError(f"join {shown(side)} is not a piece and an edge; write front.left")
+        return join
+
+
+class GarmentPole(GarmentTable):
+    """A square pole of wood. start, end: [texels]. half: half its width [texels]."""
+
+    start: Point
+    end: Point
+    half: Annotated[float, Field(strict=True, ge=0.1, le=16)] = 1.0
+
+    @model_validator(mode="after")
+    def _has_length(self) -> Self:
+        if self.start == self.end:
+            raise ValueError("pole starts where it ends; move its end")
+        return self
+
+
+class GarmentBlock(GarmentTable):
+    """Blocks. cell: the lowest x, y and z of the first [blocks]. size: how many along x, y and z.
+
+    kind: the name of the block's texture, `grass`, or a dye for its wool.
+    """
+
+    cell: tuple[
+        Annotated[int, Field(strict=True, ge=-64, le=64)],
+        Annotated[int, Field(strict=True, ge=-64, le=64)],
+        Annotated[int, Field(strict=True, ge=-64, le=64)],
+    ]
+    size: tuple[
+        Annotated[int, Field(strict=True, ge=1, le=32)],
+        Annotated[int, Field(strict=True, ge=1, le=32)],
+        Annotated[int, Field(strict=True, ge=1, le=32)],
+    ] = (1, 1, 1)
+    kind: Annotated[str, Field(pattern=r"^[a-z0-9_/.-]{1,64}$")] = "stone"
+
+
+class GarmentWearer(GarmentTable):
+    """Who wears it. kind: player or horse. skin: of a player, `traveller` or `dancer`, or a PNG
+    file of 64 x 64, relative to the garment's file. speed: of its walk [m/s]; 0 stands.
+    solid: the bones that stop its cloth; all of them unless given."""
+
+    kind: Literal["player", "horse"] = "player"
+    skin: str = "traveller"
+    speed: Annotated[float, Field(strict=True, ge=0, le=MAX_SPEED)] = 0.0
+    solid: tuple[str, ...] | None = None
+
+    @model_validator(mode="after")
+    def _knows_its_bones(self) -> Self:
+        for bone in self.solid or ():
+            if bone not in BONES[self.kind]:
+                known = ", ".join(BONES[self.kind])
+                raise ValueError(f"solid {shown(bone)} is not a bone; use some of: {known}")
+        return self
+
+
+class Garment(GarmentTable):
+    """Cloth as data; see docs/garments.md.
+
+    name: shown in lists; the name of its file. description: one line about it.
+    fabric: the name of a preset, or a table of the fields of `Fabric`. thickness: [texels].
+    collisions: what its cloth does not pass through: `none`, `world` (wearer, poles, blocks,
+    ground), or `all` (itself too). folder: where relative paths of its textures start.
+    picture: options of its pictures by name, unless the picture gives them; see `Settings`.
+
+    A program that makes one of wrong values gets pydantic's ValidationError, `load` an OptionError.
+    """
+
+    name: str = "garment"
+    description: Annotated[str, Field(max_length=200)] = ""
+    fabric: Annotated[Fabric, BeforeValidator(_said(_as_fabric))] = FABRICS["wool"]
+    thickness: Annotated[float, Field(strict=True, ge=0.05, le=16)] = 1.0
+    collisions: Literal["none", "world", "all"] = "world"
+    texture: ClothTexture = ClothTexture()
+    folder: Path = Path()
+    picture: Annotated[dict[str, Any], BeforeValidator(_said(_as_options))] = {}
+    wearer: GarmentWearer | None = None
+    piece: Annotated[tuple[AnyPiece, ...], Field(min_length=1, max_length=MAX_PIECES)]
+    pin: Annotated[tuple[GarmentPin, ...], Field(max_length=MAX_PIECES)] = ()
+    seam: Annotated[tuple[GarmentSeam, ...], Field(max_length=MAX_PIECES)] = ()
+    pole: Annotated[tuple[GarmentPole, ...], Field(max_length=MAX_PIECES)] = ()
+    block: Annotated[tuple[GarmentBlock, ...], Field(max_length=MAX_PIECES)] = ()
+
+    @model_validator(mode="after")
+    def _names_fit(self) -> Self:
+        for place, message in self._faults():
+            raise PydanticCustomError("garment", "{said}", {"said": message, "place": place})
+        return self
+
+    def _faults(self) -> Iterator[tuple[Place, str]]:
+        """What does not fit together: where, and a message."""
+        names: list[str] = []
+        for number, piece in enumerate(self.piece):
+            for field in ("name", "mirror"):
+                name = getattr(piece, field)
+                if name is None:
+                    continue
+                if name in names:
+                    where = ("piece", number, field)
+                    yield where, f"{field} {shown(name)} is taken; give each piece its own"
+                names.append(name)
+        known = ", ".join(names)
+        for number, pin in enumerate(self.pin):
+            if pin.piece not in names:
+                message = f"piece {shown(pin.piece)} is not known; use one of: {known}"
+                yield ("pin", number, "piece"), message
+            if pin.to not in self.bones:
+                bones = ", ".join(self.bones)
+                remedy = f"use one of: {bones}" if self.wearer else "add a [wearer], or use fixed"
+                yield ("pin", number, "to"), f"to {shown(pin.to)} is not known; {remedy}"
+        for number, seam in enumerate(self.seam):
+            for side in seam.join:
+                if side.split(".")[0] not in names:
+                    message = f"join {shown(side)} names no piece; use one of: {known}"
+                    yield ("seam", number, "join"), message
+
+    @property
+    def texel(self) -> float:
+        """The length of a texel [m]."""
+        return 1 / 16 if self.wearer is None else 15 / 256
+
+    @property
+    def bones(self) -> tuple[str, ...]:
+        """What pins may be fastened to."""
+        return (NO_BONE, *(BONES[self.wearer.kind] if self.wearer else ()))
+
+    @classmethod
+    def load(cls, path: str | Path) -> "Garment":
+        """The garment of a TOML file, named after it.
+
+        Raises OptionError that names the file, the line, the field and the remedy.
+        """
+        target = Path(path)
+        given = {"name": target.stem, "folder": target.parent}
+        return load_tables(cls, target, given, TABLES)
+
+    def with_design(self, design: str | Banner) -> "Garment":
+        """The garment with another design on the pieces that have one, or on all if none has.
+
+        Raises DesignError.
+        """
+        return self._with_source("design", ClothTexture(design=_as_banner(design)))
+
+    def with_texture(self, file: str | Path) -> "Garment":
+        """The garment with another PNG file on the pieces that have a file or a texture of the
+        packs, or on all if none has; their regions stay."""
+        return self._with_source("file", ClothTexture(file=Path(file).absolute()))
+
+    def _with_source(self, source: str, new: ClothTexture) -> "Garment":
+        old = [each.texture or self.texture for each in self.piece]
+        wanted = {"design"} if source == "design" else {"file", "pack"}
+        chosen = [texture.source in wanted for texture in old]
+        regions = {"box", "front", "back", "sheet"}
+        pieces = []
+        for each, texture, fits in zip(self.piece, old, chosen, strict=True):
+            if fits:
+                same = {name: getattr(texture, name) for name in regions}
+                pieces.append(each.model_copy(update={"texture": new.model_copy(update=same)}))
+            else:
+                pieces.append(each if any(chosen) else each.model_copy(update={"texture": new}))
+        return self.model_copy(update={"piece": tuple(pieces)})
+
+
+TABLES: dict[str, type[BaseModel]] = {
+    "grid": GridPiece,
+    "strip": StripPiece,
+    "ring": RingPiece,
+    "disc": DiscPiece,
+    "polygon": PolygonPiece,
+    "texture": ClothTexture,
+    "wearer": GarmentWearer,
+    "pin": GarmentPin,
+    "seam": GarmentSeam,
+    "pole": GarmentPole,
+    "block": GarmentBlock,
+}
+"""The tables of a file by name, those of pieces by their shape."""

@@ -1,0 +1,215 @@
+"""From a garment to cloth that moves: pieces are cut, sewn and pinned."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.banner.packs import Packs
+from drapery.cloth import Cloth, PinPath, Seam, sew
+from drapery.cloth.sewing import sewn_particles
+from drapery.errors import OptionError
+from drapery.garments.model import NO_BONE, Garment, GarmentPin, GridPiece
+from drapery.garments.shapes import CutPiece, Particles, cut_pieces
+from drapery.garments.textures import texture_of
+from drapery.mesh import Array, vertex_normals
+from drapery.render.scene import Material
+from drapery.style.extrusion import Shell, make_shell
+from drapery.style.tailoring import ClothModel, ClothSheet
+
+LAYER = 2.5
+"""A layer of cloth adds so many thicknesses to the distance of the next from what it meets."""
+
+BonePose = tuple[Array, Array]
+"""Where a bone is: position [m], shape [3], and rotation, shape [3, 3], from its place at rest."""
+
+
+BonePoses = Callable[[float], Mapping[str, BonePose]]
+"""The poses of all bones, by name, at a time [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class SewnPiece:
+    """How a piece is drawn. particles: of the sewn cloth, for each vertex of the shell, shape [V].
+
+    size: width and height of a rectangle [m]; None for other shapes.
+    """
+
+    name: str
+    particles: Particles
+    shell: Shell
+    material: Material
+    size: tuple[float, float] | None
+
+
+@dataclass(frozen=True, eq=False)
+class SewnCloth:
+    """One cloth of a garment: pieces that seams join.
+
+    start: where its particles begin [m], shape [N, 3].
+    bones: what each pinned particle is fastened to, in the order of the particles.
+    distance: twice that of its particles from what it meets [m]. thickness, texel: [m].
+    """
+
+    cloth: Cloth
+    start: Array
+    pieces: tuple[SewnPiece, ...]
+    bones: tuple[str, ...]
+    distance: float
+    thickness: float
+    texel: float
+
+    def pin_path(self, poses: BonePoses) -> PinPath:
+        """Where its pins are at a time [s]. poses: of all bones at a time."""
+        rest = self.start[self.cloth.inv_mass == 0]
+        held = [
+            (name, np.flatnonzero([bone == name for bone in self.bones]))
+            for name in sorted(set(self.bones) - {NO_BONE})
+        ]
+
+        def path(time: float) -> Array:
+            places = rest.copy()
+            for name, pins in held:
+                position, rotation = poses(time)[name]
+                # einsum adds in a fixed order; BLAS may not.
+                places[pins] = np.einsum("ij,nj->ni", rotation, rest[pins]) + position
+            return places
+
+        return path
+
+    def models(self, positions: Array) -> list[ClothModel]:
+        """Its pieces, thick. positions: of the particles [m], shape [N, 3]."""
+        normals = vertex_normals(positions, self.cloth.triangles)
+        found = []
+        for piece in self.pieces:
+            sheet = positions[piece.particles]
+            thick = piece.shell.cover(sheet, normals[piece.particles], self.thickness)
+            thin = None
+            if piece.size is not None and len(self.pieces) == 1:
+                thin = ClothSheet(piece.shell, sheet, self.thickness, self.texel, piece.size)
+            found.append(ClothModel(thick, (piece.material,), None, thin))
+        return found
+
+
+def tailor(garment: Garment, packs: Packs) -> tuple[SewnCloth, ...]:
+    """The cloths of a garment, at rest on a wearer at rest.
+
+    Raises OptionError for seams and pins that do not fit, DesignError and PackError.
+    """
+    cut = cut_pieces(garment)
+    place = {each.piece.name: number for number, each in enumerate(cut)}
+    joins = [_seam(garment, seam.join, cut, place) for seam in garment.seam]
+    pinned = [_pinned(garment, pin, cut[place[pin.piece]]) for pin in garment.pin]
+    held: list[dict[int, str]] = [{} for _ in cut]
+    for pin, particles in zip(garment.pin, pinned, strict=True):
+        held[place[pin.piece]] |= dict.fromkeys(particles, pin.to)
+    groups = _groups(len(cut), joins, together=garment.collisions == "all")
+    return tuple(_sewn(garment, group, cut, joins, held, packs) for group in groups)
+
+
+def _sewn(
+    garment: Garment,
+    group: Sequence[int],
+    cut: Sequence[CutPiece],
+    joins: Sequence[Seam],
+    held: Sequence[Mapping[int, str]],
+    packs: Packs,
+) -> SewnCloth:
+    """The cloth of the pieces of a group."""
+    cloths = [cut[number].cloth for number in group]
+    own = [
+        Seam(group.index(join.first), join[1], group.index(join.second), join[3])
+        for join in joins
+        if join.first in group
+    ]
+    cloth, numbers = cloths[0], [np.arange(len(cloths[0].inv_mass))]
+    if len(group) > 1 or own:
+        cloth, numbers = sew(cloths, own), [*sewn_particles(cloths, own)]
+    bones: dict[int, str] = {}
+    for number, particles in zip(group, numbers, strict=True):
+        bones |= {int(particles[p]): bone for p, bone in held[number].items()}
+    start = np.zeros_like(cloth.rest_positions)
+    for number, particles in zip(group, numbers, strict=True):
+        np.add.at(start, particles, cut[number].start)
+    start /= np.bincount(np.concatenate(numbers))[:, None]
+    inv_mass = cloth.inv_mass.copy()
+    inv_mass[sorted(bones)] = 0.0
+    layer = max(cut[number].piece.layer for number in group)
+    thickness = garment.thickness * garment.texel
+    return SewnCloth(
+        replace(cloth, inv_mass=inv_mass),
+        start,
+        tuple(
+            _piece(garment, cut[number], particles, packs)
+            for number, particles in zip(group, numbers, strict=True)
+        ),
+        tuple(bones[particle] for particle in sorted(bones)),
+        thickness * (1 + LAYER * layer),
+        thickness,
+        garment.texel,
+    )
+
+
+def _piece(
+    garment: Garment, cut: CutPiece, particles: NDArray[np.int64], packs: Packs
+) -> SewnPiece:
+    texture = cut.piece.texture or garment.texture
+    material, mapping = texture_of(texture, cut.size, packs, garment.folder)
+    shell = make_shell(cut.triangles, cut.uvs, mapping)
+    width, height = cut.size
+    plain = isinstance(cut.piece, GridPiece) and cut.piece.hem is None
+    size = (width * garment.texel, height * garment.texel) if plain else None
+    return SewnPiece(cut.piece.name, particles[cut.drawn], shell, material, size)
+
+
+def _groups(count: int, joins: Sequence[Seam], together: bool) -> list[list[int]]:
+    """Pieces that seams join, or all of them."""
+    if together:
+        return [[*range(count)]]
+    first = [*range(count)]
+    for join in joins:
+        a, b = sorted((first[join.first], first[join.second]))
+        first = [a if number == b else number for number in first]
+    return [[n for n in range(count) if first[n] == root] for root in sorted(set(first))]
+
+
+def _edge(garment: Garment, cut: CutPiece, name: str) -> Particles:
+    if name not in cut.edges:
+        raise OptionError(
+            f"garment {garment.name}: piece {cut.piece.name} has no edge {name};"
+            f" use one of: {', '.join(cut.edges)}"
+        )
+    return cut.edges[name]
+
+
+def _pinned(garment: Garment, pin: GarmentPin, cut: CutPiece) -> list[int]:
+    if isinstance(pin.at, str):
+        return [int(particle) for particle in _edge(garment, cut, pin.at)]
+    return [cut.nearest(spot) for spot in pin.at]
+
+
+def _seam(
+    garment: Garment, join: tuple[str, str], cut: Sequence[CutPiece], place: Mapping[str, int]
+) -> Seam:
+    """The seam of two edges, in the order that brings them together.
+
+    Each particle is sewn to the nearest one of the other edge, if these are pairs; otherwise in
+    the order of the edges, or in the reverse order if that is nearer.
+    """
+    names = [side.split(".") for side in join]
+    sides = [(place[piece], _edge(garment, cut[place[piece]], edge)) for piece, edge in names]
+    (first, a), (second, b) = sides
+    if len(a) != len(b):
+        raise OptionError(
+            f"garment {garment.name}: seam of {join[0]} with {len(a)} particles and {join[1]} with"
+            f" {len(b)}; give both the same number"
+        )
+    one, other = cut[first].start[a], cut[second].start[b]
+    away = np.sqrt(((one[:, None] - other) ** 2).sum(axis=-1))
+    nearest = away.argmin(axis=1)
+    if len(set(nearest.tolist())) < len(b):
+        order = np.arange(len(b))
+        back = away[order, order].sum() > away[order, order[::-1]].sum()
+        nearest = order[::-1] if back else order
+    return Seam(first, a, second, b[nearest])

@@ -1,0 +1,268 @@
+"""Pictures of garments: the stager's camera and light, with cloth that a garment describes.
+
+A garment's origin is the middle of a block, as that of a banner. The air comes towards a wearer
+that walks at the speed of its walk, so its cloth moves as on one that walks through the wind.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import islice, product
+
+import numpy as np
+
+from drapery.banner.packs import Packs
+from drapery.cloth import Box, Collider, Collisions, Force, Gravity, Plane, State, Wind, simulate
+from drapery.cloth.solvers.registry import solver
+from drapery.garments.model import Garment, GarmentPole
+from drapery.garments.tailor import SewnCloth, tailor
+from drapery.mesh import Array
+from drapery.render.scene import Model, Scene
+from drapery.scenes.stager import (
+    FADE,
+    SETTLING,
+    STEP,
+    Moments,
+    Stager,
+    close_loop,
+    floor_under,
+    wind_of,
+)
+from drapery.scenes.styling import moved_by_style, tailored
+from drapery.scenes.wearers import Wearer, wearer_of
+from drapery.settings import Settings
+from drapery.style.block_world import Cell, blocks
+from drapery.style.board import moved
+from drapery.style.body import Body, Part
+from drapery.style.ground import ground_of
+from drapery.style.scenery import pole, pole_frame
+
+WORN_STEP = STEP / 2
+"""The longest time step of cloth on a wearer, whose legs move fast [s]."""
+MIDDLE = np.array([0.5, 0.0, 0.5])
+"""Where the origin of a garment is drawn [m]: in the middle of a block."""
+LOW = 0.25
+"""Ground is drawn under cloth that begins lower than this [m]."""
+EDGE = 0.2
+"""A garment may hang over the edge of its ground by this length [m]."""
+FRICTION = 0.6
+"""Of cloth on the ground; on all else that of its fabric counts."""
+
+
+def garment_still(garment: Garment, packs: Packs, settings: Settings) -> Scene:
+    """The scene after a garment has been in the wind for `settings.time` seconds.
+
+    Raises OptionError or PackError.
+    """
+    dressed = Dressed(garment, packs, settings)
+    steps = math.ceil(settings.time / dressed.step - 1e-9)
+    at = Moments(settings.time / steps if steps else STEP, steps or 1, min(steps, 1), 1)
+    sheets = [dressed.record(sewn, at) for sewn in dressed.cloths]
+    return next(dressed.scenes(sheets, [settings.time]))
+
+
+def garment_moments(
+    garment: Garment, packs: Packs, settings: Settings, times: Sequence[float]
+) -> Iterator[Scene]:
+    """A scene at each of some times of one motion [s], rounded to its time steps.
+
+    Raises OptionError or PackError.
+    """
+    dressed = Dressed(garment, packs, settings)
+    steps = [round(time / dressed.step) for time in times]
+    at = Moments(dressed.step, 1, 0, max(steps) + 1)
+    sheets = [dressed.record(sewn, at)[steps] for sewn in dressed.cloths]
+    return dressed.scenes(sheets, times)
+
+
+def garment_loop(
+    garment: Garment, packs: Packs, settings: Settings, count: int, fps: float
+) -> Iterator[Scene]:
+    """`count` scenes of a seamless loop of a garment in a wind that repeats after it.
+
+    Raises OptionError or PackError.
+    """
+    period = count / fps
+    dressed = Dressed(garment, packs, settings, period)
+    steps = math.ceil(1 / (fps * dressed.step) - 1e-9)
+    before = min(count, math.ceil(FADE * fps))
+    first = math.ceil(SETTLING / period) * count - before
+    at = Moments(1 / (fps * steps), steps, first, before + count, period)
+    sheets = [close_loop(dressed.record(sewn, at), before) for sewn in dressed.cloths]
+    return dressed.scenes(sheets, [frame / fps for frame in range(count)])
+
+
+@dataclass(frozen=True, eq=False)
+class Dressed:
+    """A garment with its wearer, poles and blocks, ready to be simulated and drawn.
+
+    period: of a loop [s]; None for a still picture.
+    """
+
+    garment: Garment
+    packs: Packs
+    settings: Settings
+    period: float | None = None
+
+    @cached_property
+    def cloths(self) -> tuple[SewnCloth, ...]:
+        """The cloths of the garment at rest."""
+        return tailor(self.garment, self.packs)
+
+    @cached_property
+    def wearer(self) -> Wearer | None:
+        """Who wears it."""
+        return wearer_of(self.garment, self.packs, self.period)
+
+    @cached_property
+    def fixed(self) -> tuple[Model, ...]:
+        """Its poles and blocks, which do not move."""
+        texel = self.garment.texel
+        poles = (
+            pole(*_ends(each, texel), self.packs, each.half * texel) for each in self.garment.pole
+        )
+        return (*(_shifted(m, -MIDDLE) for m in blocks(self.cells, self.packs)), *poles)
+
+    @cached_property
+    def cells(self) -> dict[Cell, str]:
+        """The garment's blocks by cell; the origin of cells is the corner of the middle block."""
+        return {
+            (x, y, z): block.kind
+            for block in self.garment.block
+            for x, y, z in product(
+                *(range(a, a + n) for a, n in zip(block.cell, block.size, strict=True))
+            )
+        }
+
+    @property
+    def step(self) -> float:
+        """The longest time step [s]."""
+        return STEP if self.wearer is None else WORN_STEP
+
+    def colliders(self) -> tuple[Collider, ...]:
+        """What the cloth meets, in the garment's own frame."""
+        friction, texel = self.garment.fabric.friction, self.garment.texel
+        found = [Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])), friction=FRICTION)]
+        for block in self.garment.block:
+            size = np.array(block.size, float)
+            middle = np.array(block.cell) + size / 2 - MIDDLE
+            found.append(Collider(Box(middle, size), friction=friction))
+        found += [Collider(_pole_box(each, texel), friction=friction) for each in self.garment.pole]
+        if self.wearer is not None:
+            found += self.wearer.colliders
+        return tuple(found)
+
+    def forces(self, period: float | None) -> tuple[Force, ...]:
+        """All forces on the cloth. The drag of a fabric is that in moving air, so it pulls cloth
+        along: drag * (wind - v) is a constant push beside the drag in still air."""
+        wind, drag = self.wind(period), self.garment.fabric.drag
+        x, y, z = wind.velocity
+        pull = (Gravity((drag * x, drag * y, drag * z)),) if drag else ()
+        return (Gravity(), wind, *pull, *self.settings.forces)
+
+    def wind(self, period: float | None) -> Wind:
+        """The wind in the garment's own frame. On a wearer it has no eddies of a pole."""
+        wind, who = wind_of(self.settings, period), self.garment.wearer
+        if who is None or isinstance(self.settings.wind, Wind):
+            return wind
+        x, y, z = wind.velocity
+        return replace(wind, velocity=(x, y, z - who.speed), ripples=0.0, vortices=0.0)
+
+    def record(self, sewn: SewnCloth, at: Moments) -> Array:
+        """The positions of a cloth at some moments [m], shape [F, N, 3]."""
+        settings, collisions = self.settings, self.garment.collisions
+        method = settings.solver
+        method = solver(method) if isinstance(method, str) else method
+        met = None
+        if collisions != "none":
+            apart = sewn.thickness if collisions == "all" else None
+            met = Collisions(self.colliders(), sewn.distance, order=3, apart=apart)
+        states = simulate(
+            sewn.cloth,
+            method,
+            self.forces(at.period),
+            at.dt,
+            start=State(sewn.start[None], np.zeros_like(sewn.start)[None]),
+            every=at.every,
+            pins=None if self.wearer is None else sewn.pin_path(self.wearer.gait.poses),
+            collisions=met,
+        )
+        moments = islice(states, at.first, at.first + at.count)
+        return np.stack([state.positions[0] for state in moments])
+
+    def scenes(self, sheets: Sequence[Array], times: Sequence[float]) -> Iterator[Scene]:
+        """A scene of each moment. sheets: of each cloth at all moments [m], each [F, N, 3].
+
+        One camera frames all of them.
+        """
+        stager = Stager(Body(ground=self._ground()), self.settings, ())
+        cloth = [
+            [
+                model
+                for sewn, sheet in zip(self.cloths, sheets, strict=True)
+                for model in sewn.models(sheet[frame])
+            ]
+            for frame in range(len(times))
+        ]
+        cloth = moved_by_style(cloth, stager.style)
+        figure = [self.wearer.models(time) if self.wearer else () for time in times]
+        moments = [
+            [
+                self._placed(stager, model)
+                for model in (*self.fixed, *who, *(tailored(each, stager.style) for each in worn))
+            ]
+            for who, worn in zip(figure, cloth, strict=True)
+        ]
+        meshes = [model.mesh for models in moments for model in models]
+        points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])
+        camera = stager.camera([points], self.settings.size[0] / self.settings.size[1])
+        floor = floor_under(meshes)
+        for models in moments:
+            shadow = stager.contact(models, floor) if self.settings.shadow else None
+            yield stager.scene(models, camera, shadow)
+
+    def _placed(self, stager: Stager, model: Model) -> Model:
+        placed = _shifted(model, MIDDLE)
+        return replace(placed, mesh=stager.turned(placed.mesh))
+
+    def _ground(self) -> tuple[Part, ...]:
+        """Blocks below a garment and its poles; none where the garment has its own."""
+        block = self.settings.ground_block
+        if block is None or any(y < 0 for _, y, _ in self.cells):
+            return ()
+        texel = self.garment.texel
+        ends = [
+            np.array(end) * texel for each in self.garment.pole for end in (each.start, each.end)
+        ]
+        low_cloth = [sewn.start[sewn.start[:, 1] < LOW] for sewn in self.cloths]
+        points = np.concatenate([np.zeros((1, 3)), *low_cloth, np.reshape(ends, (-1, 3))])
+        cells = [(np.array(cell) - MIDDLE + [0.5, 0, 0.5])[None] for cell in self.cells]
+        points = np.concatenate([points, *cells])
+        if self.wearer is not None:
+            figure = [model.mesh.positions for model in self.wearer.models(0.0)]
+            points = np.concatenate([points, *figure])
+        low = np.floor((points + MIDDLE).min(axis=0) + EDGE).astype(int)
+        high = np.ceil((points + MIDDLE).max(axis=0) - EDGE).astype(int)
+        cells = [
+            (int(x), -1, int(z))
+            for x in range(low[0], max(high[0], low[0] + 1))
+            for z in range(low[2], max(high[2], low[2] + 1))
+        ]
+        return ground_of(block, self.packs, "standing", cells)
+
+
+def _shifted(model: Model, by: Array) -> Model:
+    return replace(model, mesh=moved(model.mesh, by))
+
+
+def _ends(each: GarmentPole, texel: float) -> tuple[Array, Array]:
+    """Start and end of a pole [m]."""
+    return np.array(each.start) * texel, np.array(each.end) * texel
+
+
+def _pole_box(each: GarmentPole, texel: float) -> Box:
+    start, end = _ends(each, texel)
+    length, rotation = pole_frame(start, end)
+    side = 2 * each.half * texel
+    return Box((start + end) / 2, np.array([side, length, side]), rotation)
