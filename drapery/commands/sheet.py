@@ -135,6 +135,28 @@ def write_styles(
         styles_sheet(design, settings, moments=moments).save(out)
 
 
+@app.command("garments")
+def write_garments(
+    out: SheetOption,
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME|FILE]...", help="Some garments only.", show_default="all"),
+    ] = None,
+    size: Annotated[str, typer.Option(help="Size of each picture in pixels.")] = "192x240",
+    packs: o.PackOption = None,
+    backend: o.BackendOption = "auto",
+) -> None:
+    """Garments at four moments each, in their own view and wind."""
+    from drapery.settings import OPTIONS, Settings
+    from drapery.sheets import check_sheet_target, garments_sheet
+
+    pixels = OPTIONS["size"].parse(size)
+    settings = Settings(size=pixels, packs=tuple(packs or ()), backend=backend)
+    check_sheet_target(out)
+    with compile_notice():
+        garments_sheet(settings, names or ()).save(out)
+
+
 def _check_scale(scale: int) -> None:
     from drapery.option import within
 

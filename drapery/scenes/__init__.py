@@ -21,7 +21,7 @@ from drapery.lazy import lazy_names
 if TYPE_CHECKING:
     from drapery.scenes.catalogue import Clip, SceneEntry, find_scene, scene_names
     from drapery.scenes.drawing import scene_frames
-    from drapery.scenes.dressing import garment_loop, garment_moments, garment_still
+    from drapery.scenes.dressing import Dressed, garment_loop, garment_moments, garment_still
     from drapery.scenes.exploded import exploded_view
     from drapery.scenes.parameters import SceneParameters
     from drapery.scenes.picture_grid import Picture, PictureGrid
@@ -44,6 +44,7 @@ __all__ = [
     "WIND_AXIS",
     "Clip",
     "ClothSpec",
+    "Dressed",
     "Picture",
     "PictureGrid",
     "SceneEntry",
@@ -70,7 +71,7 @@ __getattr__, __dir__ = lazy_names(
     {
         "scenes.catalogue": ("Clip", "SceneEntry", "find_scene", "scene_names"),
         "scenes.drawing": ("scene_frames",),
-        "scenes.dressing": ("garment_loop", "garment_moments", "garment_still"),
+        "scenes.dressing": ("Dressed", "garment_loop", "garment_moments", "garment_still"),
         "scenes.exploded": ("exploded_view",),
         "scenes.parameters": ("SceneParameters",),
         "scenes.picture_grid": ("Picture", "PictureGrid"),

@@ -70,10 +70,7 @@ def garment_moments(
     Raises OptionError or PackError.
     """
     dressed = Dressed(garment, packs, settings)
-    steps = [round(time / dressed.step) for time in times]
-    at = Moments(dressed.step, 1, 0, max(steps) + 1)
-    sheets = [dressed.record(sewn, at)[steps] for sewn in dressed.cloths]
-    return dressed.scenes(sheets, times)
+    return dressed.scenes(dressed.sheets(times), times)
 
 
 def garment_loop(
@@ -97,7 +94,7 @@ def garment_loop(
 class Dressed:
     """A garment with its wearer, poles and blocks, ready to be simulated and drawn.
 
-    period: of a loop [s]; None for a still picture.
+    period: of a loop [s]; None for a still picture. Its methods raise OptionError and PackError.
     """
 
     garment: Garment
@@ -190,6 +187,15 @@ class Dressed:
         )
         moments = islice(states, at.first, at.first + at.count)
         return np.stack([state.positions[0] for state in moments])
+
+    def sheets(self, times: Sequence[float]) -> list[Array]:
+        """The positions of each cloth at some times of one motion from rest [m], each [F, N, 3].
+
+        times: [s], rounded to time steps. Raises OptionError.
+        """
+        steps = [round(time / self.step) for time in times]
+        at = Moments(self.step, 1, 0, max(steps) + 1)
+        return [self.record(sewn, at)[steps] for sewn in self.cloths]
 
     def scenes(self, sheets: Sequence[Array], times: Sequence[float]) -> Iterator[Scene]:
         """A scene of each moment. sheets: of each cloth at all moments [m], each [F, N, 3].

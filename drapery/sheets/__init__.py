@@ -1,4 +1,4 @@
-"""Sheets of many labelled pictures: patterns, rotations, packs, styles, the loom's steps.
+"""Sheets of many labelled pictures: patterns, rotations, packs, styles, garments, loom steps.
 
 Each function makes a `PictureSheet`, which is saved as a picture or as a page of HTML. Names are
 loaded when they are first used.
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from drapery.sheets.drawn import packs_sheet, rotations_sheet, styles_sheet
+    from drapery.sheets.drawn import garments_sheet, packs_sheet, rotations_sheet, styles_sheet
     from drapery.sheets.faces import contents_sheet, patterns_sheet, steps_sheet
     from drapery.sheets.sheet import PictureSheet, SheetCell, check_sheet_target
 
@@ -18,6 +18,7 @@ __all__ = [
     "SheetCell",
     "check_sheet_target",
     "contents_sheet",
+    "garments_sheet",
     "packs_sheet",
     "patterns_sheet",
     "rotations_sheet",
@@ -28,7 +29,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "sheets.drawn": ("packs_sheet", "rotations_sheet", "styles_sheet"),
+        "sheets.drawn": ("garments_sheet", "packs_sheet", "rotations_sheet", "styles_sheet"),
         "sheets.faces": ("contents_sheet", "patterns_sheet", "steps_sheet"),
         "sheets.sheet": ("PictureSheet", "SheetCell", "check_sheet_target"),
     },

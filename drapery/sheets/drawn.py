@@ -1,4 +1,4 @@
-"""Sheets of drawn pictures: all rotations of one design, one design with many packs or styles."""
+"""Sheets of drawn pictures: rotations of one design, many packs or styles, and garments."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -8,8 +8,10 @@ import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
+from drapery.garments import find_garment, garment_names
 from drapery.pictures import draw, draw_face, draw_scenes
 from drapery.render import Frame, frame_view
+from drapery.scenes.dressing import garment_moments
 from drapery.scenes.stager import still
 from drapery.settings import OPTIONS, ROTATIONS, Settings
 from drapery.sheets.sheet import PictureSheet, SheetCell
@@ -19,6 +21,9 @@ BETWEEN = 0.7
 """Time between two moments of a sheet of styles [s]."""
 
 PAPER = "#c8d0d8"
+
+GARMENT_TIMES = (1.0, 1.7, 2.4, 3.1)
+"""The moments of a sheet of garments [s]."""
 
 COMPASS = {0: "south", 4: "west", 8: "north", 12: "east"}
 
@@ -84,3 +89,26 @@ def styles_sheet(
         return PictureSheet("Styles", cells, min(len(cells), 8))
     across = tuple(f"{time:g} s" for time in times)
     return PictureSheet("Styles", cells, moments, across, tuple(c.label for c in cells[::moments]))
+
+
+def garments_sheet(
+    settings: Settings, names: Sequence[str | Path] = (), *, background: str = PAPER
+) -> PictureSheet:
+    """Each garment at GARMENT_TIMES, in its own view and wind.
+
+    settings: size, packs and backend; the rest is that of each garment. names: garments of the
+    package or files; all of the package unless given. background: as in `styles_sheet`.
+    Raises OptionError, PackError or BackendError.
+    """
+    garments = [find_garment(name) for name in names or garment_names()]
+    same = {name: getattr(settings, name) for name in ("size", "packs", "format", "backend")}
+    packs = open_packs(settings.packs, format=settings.format)
+    cells = []
+    for garment in garments:
+        chosen = Settings(**{"background": background, **garment.picture, **same})
+        scenes = garment_moments(garment, packs, chosen, GARMENT_TIMES)
+        drawn = draw_scenes(scenes, packs, chosen)
+        cells += [SheetCell(garment.name, frame.pixels) for frame in drawn]
+    across = tuple(f"{time:g} s" for time in GARMENT_TIMES)
+    down = tuple(garment.name for garment in garments)
+    return PictureSheet("Garments", tuple(cells), len(GARMENT_TIMES), across, down)

@@ -33,7 +33,7 @@ LEGS = {"right_arm": (-3, 8), "left_arm": (3, 8), "right_leg": (-3, -8), "left_l
 """Middles of the legs, x and z; the front legs are the arms."""
 
 HORSE_PARTS: dict[str, FigurePart] = {
-    "head": FigurePart(_box((-2.5, 18, 7), (2.5, 33, 14)), (0, -20, -9)),
+    "head": FigurePart(_box((-2.5, 17, 7), (2.5, 30.5, 15)), (0, -20, -9)),
     "body": FigurePart(_box((-5, 11, -11), (5, 21, 11)), (0, -16, 0)),
     **{
         bone: FigurePart(_box((x - 2, 0, z - 2), (x + 2, 12, z + 2)), (x, -12, -z))
@@ -45,14 +45,16 @@ HORSE_PARTS: dict[str, FigurePart] = {
 HORSE_BOXES = (
     HorseBox("body", HORSE_PARTS["body"].box, "brown"),
     HorseBox("body", _box((-1.5, 8, -14), (1.5, 20, -10.5)), "black"),
-    HorseBox("head", _box((-2, 18, 8), (2, 31, 13.5)), "brown"),
-    HorseBox("head", _box((-1, 19, 6), (1, 34, 8.5)), "black"),
-    HorseBox("head", _box((-3, 28, 8.5), (3, 33.5, 15.5)), "brown"),
-    HorseBox("head", _box((-2.2, 28, 15.5), (2.2, 31.6, 19)), "gray"),
-    HorseBox("head", _box((-2.8, 33.5, 9), (-1, 36, 10.5)), "brown"),
-    HorseBox("head", _box((1, 33.5, 9), (2.8, 36, 10.5)), "brown"),
-    HorseBox("head", _box((-3.1, 31, 12.6), (-2.9, 32.4, 14)), "black"),
-    HorseBox("head", _box((2.9, 31, 12.6), (3.1, 32.4, 14)), "black"),
+    HorseBox("head", _box((-2, 17, 7), (2, 25, 13)), "brown"),
+    HorseBox("head", _box((-2, 22, 9.5), (2, 29.5, 15)), "brown"),
+    HorseBox("head", _box((-1, 18, 5.5), (1, 27, 7)), "black"),
+    HorseBox("head", _box((-1, 23, 7), (1, 31, 9.5)), "black"),
+    HorseBox("head", _box((-2.5, 25.5, 11.5), (2.5, 30.5, 18)), "brown"),
+    HorseBox("head", _box((-2, 25.5, 18), (2, 29, 21.5)), "gray"),
+    HorseBox("head", _box((-2.3, 30.5, 11.5), (-0.8, 32.8, 13)), "brown"),
+    HorseBox("head", _box((0.8, 30.5, 11.5), (2.3, 32.8, 13)), "brown"),
+    HorseBox("head", _box((-2.6, 28.2, 15), (-2.4, 29.6, 16.4)), "black"),
+    HorseBox("head", _box((2.4, 28.2, 15), (2.6, 29.6, 16.4)), "black"),
     *(
         HorseBox(bone, box, dye)
         for bone, (x, z) in LEGS.items()

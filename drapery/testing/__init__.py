@@ -2,8 +2,8 @@
 
 With pytest the fixture `golden`, of the type `Golden`, compares a picture with its golden file.
 `read_cases` and `check_cases` check a TOML or YAML file of cases. `agrees` compares two pictures
-within a `Tolerance`. `check_style` tests a style of your own. Names are loaded when they are first
-used.
+within a `Tolerance`. `check_style` tests a style of your own, and `check_garment` a garment. Names
+are loaded when they are first used.
 """
 
 from typing import TYPE_CHECKING
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from drapery.testing.cases import Case, CaseFile, read_cases
     from drapery.testing.explain import LayerNote, explain_change, layer_notes
     from drapery.testing.failures import clear_report, keep_failure, write_report
+    from drapery.testing.garment_check import check_garment
     from drapery.testing.golden import (
         GoldenError,
         Tolerance,
@@ -38,6 +39,7 @@ __all__ = [
     "agrees",
     "as_frame",
     "check_cases",
+    "check_garment",
     "check_style",
     "clear_report",
     "decode",
@@ -59,6 +61,7 @@ __getattr__, __dir__ = lazy_names(
         "testing.cases": ("Case", "CaseFile", "read_cases"),
         "testing.explain": ("LayerNote", "explain_change", "layer_notes"),
         "testing.failures": ("clear_report", "keep_failure", "write_report"),
+        "testing.garment_check": ("check_garment",),
         "testing.golden": (
             "GoldenError",
             "Tolerance",
