@@ -16,7 +16,7 @@ ROOT = Path(__file__).parent.parent
 RECORD = Path(__file__).with_suffix(".txt")
 PUBLIC = (
     *("drapery", "cloth", "banner", "packs", "render", "style", "scenes", "pictures"),
-    *("comparison", "sheets", "testing", "batch"),
+    *("comparison", "garments", "sheets", "testing", "batch"),
 )
 """The package and those of its modules that others may import."""
 

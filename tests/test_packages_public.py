@@ -9,7 +9,7 @@ import pytest
 
 PACKAGES = [
     *("drapery.banner", "drapery.render", "drapery.scenes"),
-    *("drapery.comparison", "drapery.sheets", "drapery.testing"),
+    *("drapery.comparison", "drapery.garments", "drapery.sheets", "drapery.testing"),
 ]
 
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.garments.assembly import SewnCloth, SewnPiece, tailor
     from drapery.garments.catalogue import find_garment, garment_names
     from drapery.garments.model import (
         ClothTexture,
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
         RingPiece,
         StripPiece,
     )
-    from drapery.garments.tailor import SewnCloth, SewnPiece, tailor
 
 __all__ = [
     "ClothTexture",
@@ -71,6 +71,6 @@ __getattr__, __dir__ = lazy_names(
             "RingPiece",
             "StripPiece",
         ),
-        "garments.tailor": ("SewnCloth", "SewnPiece", "tailor"),
+        "garments.assembly": ("SewnCloth", "SewnPiece", "tailor"),
     },
 )

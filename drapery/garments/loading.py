@@ -42,7 +42,7 @@ def load_tables(
         field = (*place[:2], *(part for part in place[2:] if part not in tags - {"texture"}))
         inside = [part for part in place if part in tables]
         known = tables[str(inside[-1])] if inside else model
-        message = _complaint(fault, field, known, given)
+        message = _complaint(fault, field, known, given if known is model else {})
         raise OptionError(f"{locate(path, text, field)}: {message}") from None
 
 

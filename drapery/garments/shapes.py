@@ -54,7 +54,10 @@ class CutPiece:
 
     def nearest(self, spot: tuple[float, float]) -> int:
         """The particle nearest to a place that a pin names."""
-        away = (self.spots - np.array(spot)) * np.array(self.scale)
+        away = self.spots - np.array(spot)
+        if isinstance(self.piece, RingPiece):
+            away[:, 0] = (away[:, 0] + 180) % 360 - 180
+        away = away * np.array(self.scale)
         return int(np.argmin((away * away).sum(axis=1)))
 
 
@@ -246,6 +249,8 @@ def _disc(piece: DiscPiece, garment: Garment) -> CutPiece:
 
 def _polygon(piece: PolygonPiece, garment: Garment) -> CutPiece:
     corners = np.array(piece.corners)
+    if _crosses_itself(corners):
+        raise OptionError("its sides cross; move its corners")
     outline, sides = _outline(corners, piece.spacing)
     points = np.concatenate([outline, _inner_points(corners, piece.spacing)])
     triangles = _triangulated(points, corners)
@@ -266,6 +271,20 @@ def _polygon(piece: PolygonPiece, garment: Garment) -> CutPiece:
         found = np.flatnonzero(near)
         edges[name] = found[np.argsort(order[found], kind="stable")]
     return _whole(piece, cloth, edges, points, (float(extent[0]), float(extent[1])))
+
+
+def _crosses_itself(corners: Array) -> bool:
+    """Whether two sides of a polygon cross, not counting the corners that they share."""
+    ends = np.roll(corners, -1, axis=0)
+
+    def side_of(points: Array) -> Array:
+        """On which side of each side [K] each point is, [K, K]: -1, 0 or 1."""
+        along, away = (ends - corners)[:, None], points - corners[:, None]
+        cross = along[..., 0] * away[..., 1] - along[..., 1] * away[..., 0]
+        return np.where(np.abs(cross) < 1e-9, 0.0, np.sign(cross))
+
+    apart = side_of(corners) * side_of(ends) < 0
+    return bool((apart & apart.T).any())
 
 
 def _outline(corners: Array, spacing: float) -> tuple[Array, list[Particles]]:
@@ -335,7 +354,7 @@ def _triangulated(points: Array, corners: Array) -> Triangles:
     area = corners[:, 0] * next_corners[:, 1] - corners[:, 1] * next_corners[:, 0]
     covered = np.abs(doubled[_inside((a + b + c) / 3, corners) & ~thin]).sum()
     if not np.isclose(covered, area.sum(), rtol=1e-6):
-        raise OptionError("its sides cross, or its spacing is too wide; correct one of them")
+        raise OptionError("its spacing is too wide for its narrow parts; use a smaller one")
     first = np.argmin(kept, axis=1)
     ordered = np.stack([kept[np.arange(len(kept)), (first + k) % 3] for k in range(3)], axis=1)
     triangles: Triangles = ordered[np.lexsort(ordered.T[::-1])].astype(np.int32)

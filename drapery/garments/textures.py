@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from drapery.banner.dyes import DYES
+from drapery.banner.names import shown
 from drapery.banner.packs import Packs
 from drapery.banner.packs.checks import reason
 from drapery.banner.packs.png import Texels, read_png
@@ -12,7 +13,6 @@ from drapery.banner.packs.stack import MAX_PNG
 from drapery.banner.sprites import WHITE, Tint, tint
 from drapery.errors import OptionError
 from drapery.garments.model import Area, ClothTexture
-from drapery.option import shown
 from drapery.render.scene import Material, TextureLayer
 from drapery.style.block import FLAG_MAPPING
 from drapery.style.layers import flag_material
@@ -49,7 +49,7 @@ def texture_of(
 
 def read_texture(path: Path) -> Texels:
     """The texels of a PNG file. Raises OptionError."""
-    name = f"texture {shown(str(path))}"
+    name = f"texture {shown(str(path), 200)}"
     try:
         with path.open("rb") as file:
             data = file.read(MAX_PNG + 1)

@@ -15,8 +15,8 @@ import numpy as np
 from drapery.banner.packs import Packs
 from drapery.cloth import Box, Collider, Collisions, Force, Gravity, Plane, State, Wind, simulate
 from drapery.cloth.solvers.registry import solver
+from drapery.garments.assembly import SewnCloth, tailor
 from drapery.garments.model import Garment, GarmentPole
-from drapery.garments.tailor import SewnCloth, tailor
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.scenes.stager import (

@@ -1,0 +1,323 @@
+"""Garments as data: files, faults, shapes, seams, textures, and their pictures."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from pydantic import ValidationError
+
+from drapery import Banner, draw, iter_frames, save_model
+from drapery.errors import OptionError
+from drapery.garments import (
+    ClothTexture,
+    Garment,
+    GarmentPin,
+    GarmentSeam,
+    GarmentWearer,
+    GridPiece,
+    PolygonPiece,
+    RingPiece,
+    StripPiece,
+    find_garment,
+    garment_names,
+    tailor,
+)
+from drapery.garments.loading import MAX_BYTES
+from drapery.garments.shapes import cut_pieces
+from drapery.garments.textures import texture_of
+from drapery.mesh import face_normals, vertex_normals
+from drapery.packs import open_packs
+from drapery.scenes import Dressed
+from drapery.settings import Settings
+from drapery.sheets import garments_sheet
+from drapery.style.block import FLAG_MAPPING
+from drapery.style.figure import TEXEL, cape_mapping
+from drapery.testing import check_garment
+from drapery.testing.plugin import Golden
+
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "docs" / "garments.md").read_text(encoding="utf-8")
+FILES = ROOT / "drapery" / "garments" / "files"
+CAPE = """\
+description = "A cape"
+fabric = "wool"
+[wearer]
+speed = 2.5
+[[piece]]
+name = "cape"
+size = [10, 16]
+points = [6, 9]
+texture = { pack = "entity/player/cape" }
+[[pin]]
+piece = "cape"
+at = "top"
+to = "body"
+"""
+
+
+def load(text: str, folder: Path) -> Garment:
+    path = folder / "mine.toml"
+    path.write_text(text, encoding="utf-8")
+    return Garment.load(path)
+
+
+def flat(**fields: object) -> Garment:
+    """A garment of one piece, a grid unless given."""
+    piece = fields.pop("piece", GridPiece(name="cloth", size=(8, 12), points=(5, 7)))
+    pieces = piece if isinstance(piece, tuple) else (piece,)
+    return Garment(piece=pieces, **fields)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", garment_names())
+def test_a_file_of_the_package_is_short_and_complete(name: str) -> None:
+    lines = (FILES / f"{name}.toml").read_text(encoding="utf-8").splitlines()
+    assert len(lines) <= 25 and max(map(len, lines)) <= 130
+    garment = find_garment(name)
+    assert garment.name == name and garment.description and garment.picture
+    assert f"`{name}`" in PAGE
+    for sewn in tailor(garment, open_packs(())):
+        assert (sewn.cloth.inv_mass == 0).any()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "said"),
+    [
+        ("wool", "wol", 2, "fabric 'wol' is not known; use one of: wool, cotton"),
+        ('"wool"', "{ density = -1 }", 2, "fabric density -1 is out of range; use a number"),
+        ('"wool"', "{ weight = 1 }", 2, "fabric has no weight; use some of: density"),
+        ("speed = 2.5", "speed = 25", 4, "speed 25 cannot be used; it should be less than"),
+        ("speed = 2.5", 'solid = ["tail"]', 3, "solid 'tail' is not a bone; use some of: head"),
+        ('name = "cape"', 'name = "Cape"', 6, "name 'Cape' cannot be used; it should match"),
+        ("[10, 16]", "[10, true]", 7, "size True cannot be used; it should be a valid number"),
+        ("size = [10, 16]\n", "", 5, "size is missing; add it"),
+        ("size", "extent", 7, "extent is not a field here; use one of: name, place, turn"),
+        ("points = [6, 9]", 'shape = "tube"', 5, "shape 'tube' is not known; use one of: grid"),
+        ("points = [6, 9]", "points = [6, 99]", 8, "points 99 cannot be used"),
+        ("{ pack =", '{ block = "stone", pack =', 9, "texture has both block and pack"),
+        ("{ pack =", "{ packs =", 9, "packs is not a field here; use one of: block, dye"),
+        ('{ pack = "entity/player/cape" }', '{ design = "wite" }', 9, "wite"),
+        ('piece = "cape"', 'piece = "cap"', 11, "piece 'cap' is not known; use one of: cape"),
+        ('to = "body"', 'to = "tail"', 13, "to 'tail' is not known; use one of: fixed, head"),
+        ("[wearer]", "colour = 1\n[wearer]", 3, "colour is not a field here; use one of"),
+        ("[wearer]", "picture = { wnd = 3 }\n[wearer]", 3, "did you mean wind"),
+        ("[wearer]", "picture = { wind = 99 }\n[wearer]", 3, "wind 99 is out of range; use 0"),
+        ("[wearer]", "picture = { grid = '5x9' }\n[wearer]", 3, "'grid' is not an option"),
+        ("description", "name", 1, "name is taken from the file's path; leave it out"),
+    ],
+)
+def test_a_fault_names_the_line_and_the_remedy(
+    old: str, new: str, line: int, said: str, tmp_path: Path
+) -> None:
+    with pytest.raises(OptionError, match=f"mine.toml line {line}: .*{re.escape(said)}"):
+        load(CAPE.replace(old, new, 1), tmp_path)
+
+
+def test_a_file_of_a_garment_has_a_largest_size(tmp_path: Path) -> None:
+    with pytest.raises(OptionError, match="a garment is shorter"):
+        load("#" * (MAX_BYTES + 1), tmp_path)
+
+
+def test_names_of_pieces_and_garments_are_checked() -> None:
+    piece = GridPiece(name="cloth", size=(8, 12), points=(5, 7), mirror="cloth")
+    with pytest.raises(ValidationError, match="mirror 'cloth' is taken"):
+        flat(piece=piece)
+    with pytest.raises(OptionError, match=r"garment 'toga' is not known; use a file .* awning"):
+        find_garment("toga")
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"pin": (GarmentPin(piece="cloth", at="rim"),)}, "piece cloth has no edge rim; use one"),
+        ({"seam": (GarmentSeam(join=("cloth.top", "cloth.left")),)}, "with 5 particles and"),
+    ],
+)
+def test_pins_and_seams_must_fit(fields: dict[str, object], said: str) -> None:
+    with pytest.raises(OptionError, match=said):
+        tailor(flat(**fields), open_packs(()))
+
+
+def test_a_mirrored_piece_is_the_mirror_image() -> None:
+    corners = ((0.0, 0.0), (0.0, -12.0), (6.0, -9.0))
+    left = PolygonPiece(
+        name="left", shape="polygon", corners=corners, spacing=3, place=(2, 9, 1),
+        turn=(20, 30, 40), mirror="right",
+    )  # fmt: skip
+    one, other = cut_pieces(flat(piece=left))
+    mirrored = one.cloth.rest_positions * [-1, 1, 1]
+    away = np.abs(mirrored[:, None] - other.cloth.rest_positions).sum(axis=-1)
+    near = away.min(axis=1) < 1e-9
+    assert near[one.edges["rim"]].all() and other.piece.name == "right"
+    normals = [
+        face_normals(c.cloth.rest_positions, c.cloth.triangles).sum(axis=0) for c in (one, other)
+    ]
+    np.testing.assert_allclose(normals[0] * [-1, 1, 1], normals[1], atol=1e-12)
+    both = flat(piece=GridPiece(name="a", size=(4, 4), points=(3, 3), mirror="b", place=(5, 0, 0)))
+    first, second = cut_pieces(both)
+    np.testing.assert_allclose(first.uvs, second.uvs * [-1, 1] + [1, 0])
+
+
+@pytest.mark.parametrize("spacing", [1.0, 2.5, 7.0])
+def test_a_polygon_is_covered_once_and_looks_to_the_front(spacing: float) -> None:
+    corners = ((-11.0, 0.0), (-11.0, -46.0), (0.0, -32.0), (11.0, -46.0), (11.0, 0.0))
+    piece = PolygonPiece(name="tail", shape="polygon", corners=corners, spacing=spacing)
+    (cut,) = cut_pieces(flat(piece=piece))
+    areas = face_normals(cut.cloth.rest_positions, cut.cloth.triangles)[:, 2] / 2
+    assert (areas > 0).all()
+    assert np.isclose(areas.sum(), (22 * 46 - 22 * 14 / 2) / 16**2)
+    assert len(cut.edges["top"]) == round(22 / spacing) + 1
+    assert cut.uvs.min() == 0 and cut.uvs.max() == 1
+
+
+def test_a_polygon_whose_sides_cross_is_refused() -> None:
+    corners = ((0.0, 0.0), (8.0, 0.0), (2.0, 6.0), (9.0, 9.0), (0.0, 8.0), (7.0, 3.0))
+    piece = PolygonPiece(name="knot", shape="polygon", corners=corners, spacing=1)
+    with pytest.raises(OptionError, match="piece knot: its sides cross"):
+        cut_pieces(flat(piece=piece))
+
+
+def test_a_ring_is_closed_and_an_open_one_has_two_more_edges() -> None:
+    skirt = find_garment("skirt")
+    (cut,) = cut_pieces(skirt)
+    assert len(cut.drawn) == len(cut.cloth.inv_mass) + 5
+    outwards = vertex_normals(cut.cloth.rest_positions, cut.cloth.triangles)
+    assert ((outwards * cut.cloth.rest_positions * [1, 0, 1]).sum(axis=1) > 0).all()
+    ring = RingPiece(
+        name="ring", shape="ring", profile=((9, 4, 4), (0, 4, 4)), points=(8, 3), open=90
+    )
+    (cut,) = cut_pieces(flat(piece=ring))
+    left, right = (cut.cloth.rest_positions[cut.edges[side]] for side in ("left", "right"))
+    np.testing.assert_allclose(left * [-1, 1, 1], right, atol=1e-12)
+    assert (left[:, 2] > 0).all() and np.isclose(left[0, 0], left[0, 2])
+    assert cut.nearest((180, 9)) == cut.edges["top"][4]
+
+
+def test_slack_cloth_begins_with_short_springs() -> None:
+    strip = StripPiece(name="rope", shape="strip", ends=((0, 8, 0), (8, 8, 0)), length=12, points=9)
+    (cut,) = cut_pieces(flat(piece=strip))
+    assert np.isclose(np.ptp(cut.start[:, 0]) * 16, 8)
+    assert np.isclose(np.ptp(cut.cloth.rest_positions[:, 0]) * 16, 12)
+    with pytest.raises(ValidationError, match="strip is 4 texels long, its ends are 8 apart"):
+        StripPiece(name="rope", shape="strip", ends=((0, 8, 0), (8, 8, 0)), length=4, points=9)
+
+
+def test_seams_sew_the_nearest_edges_and_layers_lie_farther_out() -> None:
+    tent = find_garment("tent")
+    (sewn,) = tailor(tent, open_packs(()))
+    assert len(sewn.cloth.inv_mass) == 2 * 13 * 12 - 13
+    assert set(sewn.bones) == {"fixed"} and len(sewn.bones) == 3 * 13
+    piece = GridPiece(name="coat", size=(8, 12), points=(5, 7), layer=2)
+    under, over = (tailor(flat(piece=p), open_packs(()))[0] for p in (
+        piece.model_copy(update={"layer": 0}), piece))  # fmt: skip
+    assert under.distance == under.thickness and over.distance == 6 * under.distance
+
+
+def test_textures_lie_on_exact_texels() -> None:
+    packs = open_packs(())
+    cape = find_garment("cape")
+    assert texture_of(cape.piece[0].texture, (10, 16), packs, Path())[1] == cape_mapping((64, 64))  # type: ignore[arg-type]
+    flag = ClothTexture(design="red cross:white")
+    assert texture_of(flag, (20, 40), packs, Path())[1] == FLAG_MAPPING
+    half = ClothTexture(design="red cross:white", front=(0, 0, 10, 40))
+    mapping = texture_of(half, (10, 40), packs, Path())[1]
+    assert mapping.front(np.array([[0.0, 0], [1, 1]])).tolist() == [
+        [1 / 64, 1 / 64],
+        [11 / 64, 41 / 64],
+    ]
+    striped = ClothTexture(dye="red", stripes=("blue",), width=2, trim="lime", trim_width=3)
+    texels = texture_of(striped, (8, 9), packs, Path())[0].layers[0].texels
+    assert texels.shape == (9, 8, 4)
+    redder = texels[:6, :, 0].astype(int) > texels[:6, :, 2]
+    assert redder.all(axis=0).tolist() == [True, True, False, False] * 2
+    assert (texels[6:, :, 1] > texels[6:, :, 0]).all()
+
+
+def test_a_texture_file_lies_beside_the_garment(tmp_path: Path) -> None:
+    text = CAPE.replace('pack = "entity/player/cape"', 'file = "red.png"')
+    garment = load(text, tmp_path)
+    with pytest.raises(OptionError, match=r"texture .*red\.png.* cannot be read"):
+        tailor(garment, open_packs(()))
+    Image.new("RGBA", (64, 32), "red").save(tmp_path / "red.png")
+    (sewn,) = tailor(garment, open_packs(()))
+    assert sewn.pieces[0].material.layers[0].texels.shape == (32, 64, 4)
+
+
+def test_a_design_and_a_texture_replace_those_of_a_garment() -> None:
+    flag, cape, tent = (find_garment(name) for name in ("flag", "cape", "tent"))
+    assert (flag.with_design("black").piece[0].texture or 0).design == Banner.parse("black")  # type: ignore[union-attr]
+    worn = cape.with_texture("other.png").piece[0].texture
+    assert worn is not None and worn.box == (0, 0, 10, 16, 1) and worn.file is not None
+    assert all(piece.texture is not None for piece in tent.with_design("black").piece)
+
+
+def test_pins_move_with_their_bone() -> None:
+    garment = find_garment("leash").model_copy(update={"wearer": find_garment("cape").wearer})
+    dressed = Dressed(garment, open_packs(()), Settings(wind=0))
+    (sewn,) = dressed.cloths
+    (sheet,) = dressed.sheets([0.0, 0.2])
+    held = np.flatnonzero(sewn.cloth.inv_mass == 0)
+    moved = np.abs(sheet[1, held] - sheet[0, held]).max(axis=1)
+    by_bone = dict(zip(sewn.bones, moved.tolist(), strict=True))
+    assert by_bone["fixed"] == 0 and by_bone["left_arm"] > TEXEL
+
+
+@pytest.mark.parametrize("name", ["flag", "tent", "pennants", "hammock", "skirt"])
+def test_a_garment_passes_its_check(name: str) -> None:
+    check_garment(find_garment(name), 0.3)
+
+
+def test_the_check_names_what_is_wrong() -> None:
+    rope = StripPiece(name="rope", shape="strip", ends=((-2, 2, 3), (2, 2, 3)), length=4, points=4)
+    pins = (
+        GarmentPin(piece="rope", at="start", to="right_leg"),
+        GarmentPin(piece="rope", at="end", to="left_leg"),
+    )
+    with pytest.raises(OptionError, match=r"rope stretches by .*; use a stiffer fabric"):
+        check_garment(flat(piece=rope, pin=pins, wearer=GarmentWearer(speed=3)), 0.5)
+
+
+@pytest.mark.parametrize("name", ["tent", "skirt", "swallow-tail"])
+def test_a_garment_looks_as_it_did(name: str, golden: Golden) -> None:
+    garment = find_garment(name)
+    golden(draw(garment, size=(120, 120), time=0.2))
+
+
+def test_a_loop_of_a_garment_has_no_seam() -> None:
+    flag = find_garment("flag")
+    frames = [f.pixels.astype(float) for f in iter_frames(flag, size=(48, 48), seconds=1, fps=10)]
+    steps = [np.abs(a - b).mean() for a, b in zip(frames, [*frames[1:], frames[0]], strict=True)]
+    assert len(frames) == 10 and steps[-1] <= 2 * max(steps[:-1])
+
+
+def test_a_garment_becomes_a_model_and_takes_a_style(tmp_path: Path) -> None:
+    pennants = find_garment("pennants")
+    save_model(pennants, tmp_path / "p.glb", seconds=0.2, fps=10)
+    assert b"weights" in (tmp_path / "p.glb").read_bytes()
+    plain, inked = (draw(pennants, size=(64, 64), time=0.1, style=s) for s in ((), "woven"))
+    assert not np.array_equal(plain.pixels, inked.pixels)
+
+
+def test_an_option_that_a_garment_does_not_use_is_refused() -> None:
+    with pytest.raises(OptionError, match="grid does not apply to a garment; set it in"):
+        draw(find_garment("flag"), grid=(5, 9))
+
+
+def test_a_sheet_has_a_row_for_each_garment() -> None:
+    sheet = garments_sheet(Settings(size=(24, 24)), ("flag", "tent"))
+    assert sheet.down == ("flag", "tent") and len(sheet.cells) == 8
+
+
+def test_the_blocks_of_the_page_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    blocks = re.findall(r"```(\w+)\n(.*?)```", PAGE, re.DOTALL)
+    assert [kind for kind, _ in blocks] == ["toml", "python", "python"]
+    monkeypatch.chdir(tmp_path)
+    check_garment(load(blocks[0][1], tmp_path), 0.2)
+    with pytest.raises(OptionError) as caught:
+        load(blocks[0][1].replace('"ring"', '"tube"'), tmp_path)
+    assert str(caught.value).rpartition("/")[2].replace("mine", "shawl") in PAGE
+    for kind, code in blocks:
+        if kind == "python":
+            exec(code, {})
+    assert (tmp_path / "towel.png").exists() and (tmp_path / "flag.glb").exists()
