@@ -204,7 +204,7 @@ def _checked(
         raise DesignError(
             f"{str(banner)[:40]!r} is not a Banner; read a text with Banner.parse(text)"
         )
-    chosen = _settled(settings, options if settings else banner.picture | options)  # type: ignore[arg-type]
+    chosen = _settled(settings, options) if settings else banner.settings(**options)
     for name in UNUSED_OPTIONS:
         if getattr(chosen, name) != OPTIONS[name].default:
             raise OptionError(f"{name} does not apply to a garment; set it in the garment's file")

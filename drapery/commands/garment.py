@@ -1,11 +1,15 @@
 """`drapery garment`: a garment of a file as a picture, an animation or a 3-D file."""
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
+
+if TYPE_CHECKING:
+    from drapery.garments import Garment
+    from drapery.settings import Settings
 
 UNUSED = (
     *("kind", "pose", "placement", "facing", "grid", "fabric", "pins", "contact"),
@@ -48,7 +52,6 @@ def run(
     """
     from drapery.errors import OptionError
     from drapery.garments import find_garment
-    from drapery.settings import Settings
 
     if show_list:
         _show_list()
@@ -64,7 +67,7 @@ def run(
 
         garment = garment.with_design(read_design(banner))
     given = {key: words[key] for key in words if _is_given(context, key)}
-    settings = Settings(**(garment.picture | o.options_of(given)))
+    settings = garment.settings(**o.options_of(given))
     _write(garment, out, settings, seconds, fps)
 
 
@@ -73,7 +76,7 @@ def _is_given(context: typer.Context, name: str) -> bool:
     return source is not None and source.name != "DEFAULT"
 
 
-def _write(garment: Any, out: str, settings: Any, seconds: float, fps: float) -> None:
+def _write(garment: "Garment", out: str, settings: "Settings", seconds: float, fps: float) -> None:
     from drapery import draw, iter_frames, save_model
     from drapery.render import (
         MODEL_ENDINGS,

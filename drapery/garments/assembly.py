@@ -69,7 +69,7 @@ class SewnCloth:
         ]
 
         def path(time: float) -> Array:
-            places = rest.copy()
+            places: Array = rest.copy()
             for name, pins in held:
                 position, rotation = poses(time)[name]
                 # einsum adds in a fixed order; BLAS may not.

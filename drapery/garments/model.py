@@ -29,7 +29,7 @@ from drapery.errors import DraperyError, OptionError
 from drapery.garments.loading import load_tables
 from drapery.option import shown
 from drapery.options import unknown_names
-from drapery.settings import NAMED_OPTIONS
+from drapery.settings import NAMED_OPTIONS, Settings
 from drapery.toml_text import Place
 
 MAX_LENGTH = 1024
@@ -439,6 +439,10 @@ class Garment(GarmentTable):
         target = Path(path)
         given = {"name": target.stem, "folder": target.parent}
         return load_tables(cls, target, given, TABLES)
+
+    def settings(self, **options: Any) -> Settings:
+        """The settings of its picture. options: those that replace its own. Raises OptionError."""
+        return Settings(**{**self.picture, **options})
 
     def with_design(self, design: str | Banner) -> "Garment":
         """The garment with another design on the pieces that have one, or on all if none has.

@@ -80,7 +80,7 @@ def _cut(piece: AnyPiece, garment: Garment) -> CutPiece:
         made = cast(Callable[[Any, Garment], CutPiece], CUTTERS[type(piece)])(piece, garment)
     except OptionError as error:
         raise OptionError(f"garment {garment.name}: piece {piece.name}: {error}") from None
-    rotation = np.eye(3)
+    rotation: Array = np.eye(3)
     for axis, degrees in zip(((1, 0, 0), (0, 1, 0), (0, 0, 1)), piece.turn, strict=True):
         if degrees:
             rotation = _product(rotation_about(axis, degrees), rotation)

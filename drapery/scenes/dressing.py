@@ -211,14 +211,14 @@ class Dressed:
             ]
             for frame in range(len(times))
         ]
-        cloth = moved_by_style(cloth, stager.style)
+        moved_cloth = moved_by_style(cloth, stager.style)
         figure = [self.wearer.models(time) if self.wearer else () for time in times]
         moments = [
             [
                 self._placed(stager, model)
                 for model in (*self.fixed, *who, *(tailored(each, stager.style) for each in worn))
             ]
-            for who, worn in zip(figure, cloth, strict=True)
+            for who, worn in zip(figure, moved_cloth, strict=True)
         ]
         meshes = [model.mesh for models in moments for model in models]
         points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])

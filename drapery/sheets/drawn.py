@@ -105,7 +105,8 @@ def garments_sheet(
     packs = open_packs(settings.packs, format=settings.format)
     cells = []
     for garment in garments:
-        chosen = Settings(**{"background": background, **garment.picture, **same})
+        own = {} if "background" in garment.picture else {"background": background}
+        chosen = garment.settings(**own, **same)
         scenes = garment_moments(garment, packs, chosen, GARMENT_TIMES)
         drawn = draw_scenes(scenes, packs, chosen)
         cells += [SheetCell(garment.name, frame.pixels) for frame in drawn]

@@ -10,7 +10,6 @@ from drapery.errors import OptionError
 from drapery.garments import Garment, SewnCloth
 from drapery.packs import open_packs
 from drapery.scenes import Dressed
-from drapery.settings import Settings
 
 Points = NDArray[np.float64]
 
@@ -28,7 +27,7 @@ def check_garment(garment: Garment, seconds: float = SECONDS) -> None:
     - a spring becomes longer than at rest by over a quarter;
     - its cloth enters its wearer, a pole or a block by over 1 mm.
     """
-    packs, settings = open_packs(()), Settings(**garment.picture)
+    packs, settings = open_packs(()), garment.settings()
     times = [frame / FPS for frame in range(round(seconds * FPS) + 1)]
     dressed = Dressed(garment, packs, settings)
     sheets = dressed.sheets(times)
@@ -77,4 +76,5 @@ def _depths(points: Points, collider: Collider, time: float) -> Points:
     own = np.einsum("ij,ni->nj", pose.rotation, points - pose.position) - box.centre
     own = np.einsum("ij,ni->nj", box.rotation, own)
     outside = (np.abs(own) - np.asarray(box.size) / 2).max(axis=1)
-    return np.maximum(-outside, 0.0)
+    depths: Points = np.maximum(-outside, 0.0)
+    return depths
