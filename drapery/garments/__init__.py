@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         RingPiece,
         StripPiece,
     )
+    from drapery.garments.motions import motion_names
 
 __all__ = [
     "ClothTexture",
@@ -50,6 +51,7 @@ __all__ = [
     "StripPiece",
     "find_garment",
     "garment_names",
+    "motion_names",
     "tailor",
 ]
 
@@ -71,6 +73,7 @@ __getattr__, __dir__ = lazy_names(
             "RingPiece",
             "StripPiece",
         ),
+        "garments.motions": ("motion_names",),
         "garments.assembly": ("SewnCloth", "SewnPiece", "tailor"),
     },
 )

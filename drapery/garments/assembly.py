@@ -49,6 +49,7 @@ class SewnCloth:
 
     start: where its particles begin [m], shape [N, 3].
     bones: what each pinned particle is fastened to, in the order of the particles.
+    solid: the bones that stop it; None for all.
     distance: twice that of its particles from what it meets [m]. thickness, texel: [m].
     """
 
@@ -56,6 +57,7 @@ class SewnCloth:
     start: Array
     pieces: tuple[SewnPiece, ...]
     bones: tuple[str, ...]
+    solid: tuple[str, ...] | None
     distance: float
     thickness: float
     texel: float
@@ -93,7 +95,7 @@ class SewnCloth:
 
 
 def tailor(garment: Garment, packs: Packs) -> tuple[SewnCloth, ...]:
-    """The cloths of a garment, at rest on a wearer at rest.
+    """The cloths of a garment and of those over it, at rest on a wearer at rest.
 
     Raises OptionError for seams and pins that do not fit, DesignError and PackError.
     """
@@ -104,8 +106,9 @@ def tailor(garment: Garment, packs: Packs) -> tuple[SewnCloth, ...]:
     held: list[dict[int, str]] = [{} for _ in cut]
     for pin, particles in zip(garment.pin, pinned, strict=True):
         held[place[pin.piece]] |= dict.fromkeys(particles, pin.to)
-    groups = _groups(len(cut), joins, together=garment.collisions == "all")
-    return tuple(_sewn(garment, group, cut, joins, held, packs) for group in groups)
+    groups = _groups(len(cut), joins, together=garment.collisions == "all") if cut else []
+    sewn = [_sewn(garment, group, cut, joins, held, packs) for group in groups]
+    return (*sewn, *(each for over in garment.over for each in tailor(over, packs)))
 
 
 def _sewn(
@@ -145,6 +148,7 @@ def _sewn(
             for number, particles in zip(group, numbers, strict=True)
         ),
         tuple(bones[particle] for particle in sorted(bones)),
+        garment.wearer.solid if garment.wearer else None,
         thickness * (1 + LAYER * layer),
         thickness,
         garment.texel,

@@ -342,13 +342,24 @@ class GarmentBlock(GarmentTable):
 
 
 class GarmentWearer(GarmentTable):
-    """Who wears it. kind: player or horse. skin: of a player, `traveller` or `dancer`, or a PNG
-    file of 64 x 64, relative to the garment's file. speed: of its walk [m/s]; 0 stands.
-    solid: the bones that stop its cloth; all of them unless given."""
+    """Who wears it. kind: player or horse.
+
+    skin: of a player, `traveller` or `dancer`, or a PNG file of 64 x 64 or 64 x 32 texels, relative
+    to the garment's file. arms: slim, classic, or auto, which reads it from the skin.
+    motion: `walk`, another motion of a player, or a pose in a JSON file; see `motion_names`.
+    speed: over the ground [m/s], the speed of the air from ahead; a walk of 0 stands.
+    look: where a player's head turns: to its left and downwards [degrees].
+    solid: the bones that stop its cloth; all of them unless given.
+    shown: what the picture shows: full, bust or head.
+    """
 
     kind: Literal["player", "horse"] = "player"
     skin: str = "traveller"
     speed: Annotated[float, Field(strict=True, ge=0, le=MAX_SPEED)] = 0.0
+    arms: Literal["auto", "classic", "slim"] = "auto"
+    motion: Annotated[str, Field(min_length=1, max_length=200)] = "walk"
+    look: tuple[Angle, Angle] = (0.0, 0.0)
+    shown: Literal["full", "bust", "head"] = "full"
     solid: tuple[str, ...] | None = None
 
     @model_validator(mode="after")
@@ -357,6 +368,8 @@ class GarmentWearer(GarmentTable):
             if bone not in BONES[self.kind]:
                 known = ", ".join(BONES[self.kind])
                 raise ValueError(f"solid {shown(bone)} is not a bone; use some of: {known}")
+        if self.kind == "horse" and self.motion != "walk":
+            raise ValueError(f"motion {shown(self.motion)} is for players; a horse walks")
         return self
 
 
@@ -368,6 +381,7 @@ class Garment(GarmentTable):
     collisions: what its cloth does not pass through: `none`, `world` (wearer, poles, blocks,
     ground), or `all` (itself too). folder: where relative paths of its textures start.
     picture: options of its pictures by name, unless the picture gives them; see `Settings`.
+    over: garments that its wearer wears over it; only their cloth counts.
 
     A program that makes one of wrong values gets pydantic's ValidationError, `load` an OptionError.
     """
@@ -381,11 +395,12 @@ class Garment(GarmentTable):
     folder: Path = Path()
     picture: Annotated[dict[str, Any], BeforeValidator(_said(_as_options))] = {}
     wearer: GarmentWearer | None = None
-    piece: Annotated[tuple[AnyPiece, ...], Field(min_length=1, max_length=MAX_PIECES)]
+    piece: Annotated[tuple[AnyPiece, ...], Field(max_length=MAX_PIECES)]
     pin: Annotated[tuple[GarmentPin, ...], Field(max_length=MAX_PIECES)] = ()
     seam: Annotated[tuple[GarmentSeam, ...], Field(max_length=MAX_PIECES)] = ()
     pole: Annotated[tuple[GarmentPole, ...], Field(max_length=MAX_PIECES)] = ()
     block: Annotated[tuple[GarmentBlock, ...], Field(max_length=MAX_PIECES)] = ()
+    over: tuple["Garment", ...] = ()
 
     @model_validator(mode="after")
     def _names_fit(self) -> Self:
@@ -395,6 +410,8 @@ class Garment(GarmentTable):
 
     def _faults(self) -> Iterator[tuple[Place, str]]:
         """What does not fit together: where, and a message."""
+        if not self.piece and self.wearer is None:
+            yield ("piece",), "piece is empty; give a garment at least one, or a wearer"
         names: list[str] = []
         for number, piece in enumerate(self.piece):
             for field in ("name", "mirror"):

@@ -44,6 +44,8 @@ MIDDLE = np.array([0.5, 0.0, 0.5])
 """Where the origin of a garment is drawn [m]: in the middle of a block."""
 LOW = 0.25
 """Ground is drawn under cloth that begins lower than this [m]."""
+BUST = ("head", "body", "right_arm", "left_arm")
+"""The bones of a bust, which end at the waist."""
 EDGE = 0.2
 """A garment may hang over the edge of its ground by this length [m]."""
 FRICTION = 0.6
@@ -87,7 +89,8 @@ def garment_loop(
     first = math.ceil(SETTLING / period) * count - before
     at = Moments(1 / (fps * steps), steps, first, before + count, period)
     sheets = [close_loop(dressed.record(sewn, at), before) for sewn in dressed.cloths]
-    return dressed.scenes(sheets, [frame / fps for frame in range(count)])
+    # The figure is drawn as it is after it has settled.
+    return dressed.scenes(sheets, [(first + before + frame) / fps for frame in range(count)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +108,8 @@ class Dressed:
     @cached_property
     def cloths(self) -> tuple[SewnCloth, ...]:
         """The cloths of the garment at rest."""
-        return tailor(self.garment, self.packs)
+        who = self.garment.wearer
+        return () if who and who.shown == "head" else tailor(self.garment, self.packs)
 
     @cached_property
     def wearer(self) -> Wearer | None:
@@ -137,8 +141,8 @@ class Dressed:
         """The longest time step [s]."""
         return STEP if self.wearer is None else WORN_STEP
 
-    def colliders(self) -> tuple[Collider, ...]:
-        """What the cloth meets, in the garment's own frame."""
+    def colliders(self, sewn: SewnCloth) -> tuple[Collider, ...]:
+        """What a cloth meets, in the garment's own frame."""
         friction, texel = self.garment.fabric.friction, self.garment.texel
         found = [Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])), friction=FRICTION)]
         for block in self.garment.block:
@@ -147,13 +151,13 @@ class Dressed:
             found.append(Collider(Box(middle, size), friction=friction))
         found += [Collider(_pole_box(each, texel), friction=friction) for each in self.garment.pole]
         if self.wearer is not None:
-            found += self.wearer.colliders
+            found += self.wearer.colliders(sewn.solid)
         return tuple(found)
 
-    def forces(self, period: float | None) -> tuple[Force, ...]:
+    def forces(self, sewn: SewnCloth, period: float | None) -> tuple[Force, ...]:
         """All forces on the cloth. The drag of a fabric is that in moving air, so it pulls cloth
         along: drag * (wind - v) is a constant push beside the drag in still air."""
-        wind, drag = self.wind(period), self.garment.fabric.drag
+        wind, drag = self.wind(period), sewn.cloth.drag
         x, y, z = wind.velocity
         pull = (Gravity((drag * x, drag * y, drag * z)),) if drag else ()
         return (Gravity(), wind, *pull, *self.settings.forces)
@@ -174,15 +178,15 @@ class Dressed:
         met = None
         if collisions != "none":
             apart = sewn.thickness if collisions == "all" else None
-            met = Collisions(self.colliders(), sewn.distance, order=3, apart=apart)
+            met = Collisions(self.colliders(sewn), sewn.distance, order=3, apart=apart)
         states = simulate(
             sewn.cloth,
             method,
-            self.forces(at.period),
+            self.forces(sewn, at.period),
             at.dt,
             start=State(sewn.start[None], np.zeros_like(sewn.start)[None]),
             every=at.every,
-            pins=None if self.wearer is None else sewn.pin_path(self.wearer.gait.poses),
+            pins=None if self.wearer is None else sewn.pin_path(self.wearer.poses),
             collisions=met,
         )
         moments = islice(states, at.first, at.first + at.count)
@@ -212,7 +216,7 @@ class Dressed:
             for frame in range(len(times))
         ]
         moved_cloth = moved_by_style(cloth, stager.style)
-        figure = [self.wearer.models(time) if self.wearer else () for time in times]
+        figure = [self.wearer.models(time, self._bones) if self.wearer else () for time in times]
         moments = [
             [
                 self._placed(stager, model)
@@ -221,12 +225,28 @@ class Dressed:
             for who, worn in zip(figure, moved_cloth, strict=True)
         ]
         meshes = [model.mesh for models in moments for model in models]
+        framed = [self._placed(stager, model) for time in times for model in self._framed(time)]
         points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])
+        if framed:
+            points = np.concatenate([model.mesh.positions for model in framed])
         camera = stager.camera([points], self.settings.size[0] / self.settings.size[1])
         floor = floor_under(meshes)
         for models in moments:
             shadow = stager.contact(models, floor) if self.settings.shadow else None
             yield stager.scene(models, camera, shadow)
+
+    @property
+    def _bones(self) -> tuple[str, ...] | None:
+        """The bones that are drawn; None for all."""
+        who = self.garment.wearer
+        return ("head",) if who is not None and who.shown == "head" else None
+
+    def _framed(self, time: float) -> tuple[Model, ...]:
+        """What the camera frames instead of all that is drawn."""
+        who = self.garment.wearer
+        if who is None or self.wearer is None or who.shown == "full":
+            return ()
+        return self.wearer.models(time, BUST if who.shown == "bust" else self._bones)
 
     def _placed(self, stager: Stager, model: Model) -> Model:
         placed = _shifted(model, MIDDLE)
@@ -235,7 +255,8 @@ class Dressed:
     def _ground(self) -> tuple[Part, ...]:
         """Blocks below a garment and its poles; none where the garment has its own."""
         block = self.settings.ground_block
-        if block is None or any(y < 0 for _, y, _ in self.cells):
+        who = self.garment.wearer
+        if block is None or (who and who.shown != "full") or any(y < 0 for _, y, _ in self.cells):
             return ()
         texel = self.garment.texel
         ends = [

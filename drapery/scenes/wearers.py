@@ -1,80 +1,136 @@
 """Who wears a garment: how a player or a horse moves, is drawn, and stops cloth."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
-from drapery.cloth.colliders import Collider
+from drapery.cloth.colliders import Box, Collider, Pose, rotation_about
+from drapery.cloth.colliders import Path as PosePathOf
 from drapery.errors import OptionError
-from drapery.garments.model import Garment
+from drapery.garments.model import Garment, GarmentWearer
+from drapery.garments.motions import KeyPose, bone_poses, find_motion
 from drapery.garments.textures import read_texture
 from drapery.mesh import Mesh
 from drapery.render.scene import Material, Model, TextureLayer
 from drapery.scenes.gait import Gait
 from drapery.style.boxes import box_mesh, join, upright
-from drapery.style.figure import SKINS, TEXEL, Placed, figure_material, figure_mesh, posed
-from drapery.style.horse import HORSE_BOXES, SHEET
+from drapery.style.figure import SKINS, TEXEL, FigurePart, Placed, posed, to_metres
+from drapery.style.horse import HORSE_BOXES, HORSE_PARTS, SHEET
+from drapery.style.skins import Skin, read_skin
 
 STRIDE = 0.8
 """The period of a stride [s], unless a loop needs a whole number of them."""
+RAMP = 0.5
+"""A wearer takes its pose in this time, so that its cloth can follow [s]."""
+
+Poses = Mapping[str, Placed]
+Draw = Callable[[Poses, tuple[str, ...] | None], tuple[Model, ...]]
 
 
 @dataclass(frozen=True, eq=False)
 class Wearer:
-    """A figure that moves. gait: its motion. solid: the bones that stop cloth. draw: its models in
-    poses."""
+    """A figure that moves. parts: its boxes by bone. poses: of all bones at a time [s].
+    draw: its models in poses, of some bones or all."""
 
-    gait: Gait
-    solid: tuple[str, ...]
-    draw: Callable[[dict[str, Placed]], tuple[Model, ...]]
+    parts: Mapping[str, FigurePart]
+    poses: Callable[[float], Poses]
+    draw: Draw
 
-    def models(self, time: float) -> tuple[Model, ...]:
-        """The figure at a time [s], at the origin."""
-        return self.draw(self.gait.poses(time))
+    def models(self, time: float, bones: tuple[str, ...] | None = None) -> tuple[Model, ...]:
+        """The figure at a time [s], at the origin. bones: those that are drawn; None for all."""
+        return self.draw(self.poses(time), bones)
 
-    @property
-    def colliders(self) -> tuple[Collider, ...]:
-        """The parts that stop cloth as moving boxes."""
-        return self.gait.colliders(self.solid)
+    def colliders(self, bones: tuple[str, ...] | None = None) -> tuple[Collider, ...]:
+        """The parts of some bones, or of all, as moving boxes."""
+        return tuple(
+            Collider(Box(part.centre, part.extent), self._path(name))
+            for name, part in self.parts.items()
+            if bones is None or name in bones
+        )
+
+    def _path(self, name: str) -> PosePathOf:
+        return lambda time: Pose(*self.poses(time)[name])
 
 
 def wearer_of(garment: Garment, packs: Packs, period: float | None = None) -> Wearer | None:
     """Who wears a garment; None if nobody does.
 
     period: of a loop [s], which a whole number of strides then fills.
-    Raises OptionError for a skin that cannot be used, and PackError.
+    Raises OptionError for a skin or motion that cannot be used, and PackError.
     """
     who = garment.wearer
     if who is None:
         return None
-    strides = None if period is None else max(1, round(period / STRIDE))
-    stride = STRIDE if strides is None or period is None else period / strides
-    gait = Gait(who.speed, stride, who.kind)
-    solid = tuple(gait.parts) if who.solid is None else who.solid
     if who.kind == "horse":
-        return Wearer(gait, solid, _horse(packs))
-    skin = _skin(who.skin, garment.folder, packs)
-    return Wearer(gait, solid, lambda poses: (Model(figure_mesh(poses), (skin,)),))
+        return Wearer(HORSE_PARTS, _walk(who, period), _horse(packs))
+    skin = _skin(who, garment.folder, packs)
+    material = Material((TextureLayer(skin.texels),), "cutout")
+    poses = _poses(who, garment.folder, skin.parts, period)
+
+    def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
+        return (Model(skin.mesh(poses, bones), (material,)),)
+
+    return Wearer(skin.parts, poses, draw)
 
 
-def _skin(name: str, folder: Path, packs: Packs) -> Material:
-    if name in SKINS:
-        return figure_material(name, packs)
-    if not name.lower().endswith(".png"):
+def _walk(who: GarmentWearer, period: float | None) -> Callable[[float], Poses]:
+    return Gait(who.speed, _whole_period(STRIDE, period), who.kind).poses
+
+
+def _whole_period(period: float, loop: float | None) -> float:
+    """The period that fills a loop a whole number of times."""
+    return period if loop is None else loop / max(1, round(loop / period))
+
+
+def _poses(
+    who: GarmentWearer, folder: Path, parts: Mapping[str, FigurePart], period: float | None
+) -> Callable[[float], Poses]:
+    """The poses of a player at a time [s], its head turned by `look`."""
+    moves = _walk(who, period)
+    if who.motion != "walk":
+        motion = find_motion(who.motion, folder)
+        motion = motion.model_copy(update={"period": _whole_period(motion.period, period)})
+
+        def moves(time: float) -> Poses:
+            share = min(time / RAMP, 1.0)
+            pose = motion.key_pose(time)
+            if share < 1:
+                pose = KeyPose().mixed(pose, share * share * (3 - 2 * share))
+            return bone_poses(pose, parts, motion.grounded)
+
+    yaw, pitch = who.look
+    turn = np.einsum("ij,jk->ik", rotation_about((0, 1, 0), yaw), rotation_about((1, 0, 0), pitch))
+    joint = to_metres(np.array(parts["head"].joint))
+    offset = joint - (turn * joint).sum(axis=1)
+
+    @lru_cache(maxsize=64)
+    def looking(time: float) -> Poses:
+        poses = dict(moves(time))
+        if yaw or pitch:
+            place, rotation = poses["head"]
+            head = (rotation * offset).sum(axis=1) + place
+            poses["head"] = head, np.einsum("ij,jk->ik", rotation, turn)
+        return poses
+
+    return looking
+
+
+def _skin(who: GarmentWearer, folder: Path, packs: Packs) -> Skin:
+    arms = None if who.arms == "auto" else who.arms
+    if who.skin in SKINS:
+        return read_skin(packs.texture(f"entity/player/{who.skin}"), arms)
+    if not who.skin.lower().endswith(".png"):
         known = ", ".join(SKINS)
-        raise OptionError(f"skin {name!r} is not known; use a PNG file, or one of: {known}")
-    texels = read_texture(folder / name)
-    height, width = texels.shape[:2]
-    if height != width or height % 64:
-        raise OptionError(f"skin {name} is {width} x {height} px; use 64 x 64 px, or a multiple")
-    return Material((TextureLayer(texels),), "cutout")
+        raise OptionError(f"skin {who.skin!r} is not known; use a PNG file, or one of: {known}")
+    return read_skin(read_texture(folder / who.skin), arms, f"skin {who.skin}")
 
 
-def _horse(packs: Packs) -> Callable[[dict[str, Placed]], tuple[Model, ...]]:
+def _horse(packs: Packs) -> Draw:
     wool = packs.texture("block/white_wool")[:16, :16]
     across, down = SHEET
     coat = np.ascontiguousarray(np.tile(wool, (down // 16, across // 16, 1)))
@@ -84,10 +140,15 @@ def _horse(packs: Packs) -> Callable[[dict[str, Placed]], tuple[Model, ...]]:
         rest[each.dye].append((each.bone, upright(box_mesh(each.box, SHEET), TEXEL, (0, 0, 0))))
     materials = {dye: Material((TextureLayer(coat, DYES[dye].rgb),)) for dye in dyes}
 
-    def draw(poses: dict[str, Placed]) -> tuple[Model, ...]:
-        return tuple(
-            Model(join([posed(mesh, poses[bone]) for bone, mesh in rest[dye]]), (materials[dye],))
+    def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
+        shown = {
+            dye: [(bone, mesh) for bone, mesh in rest[dye] if bones is None or bone in bones]
             for dye in dyes
+        }
+        return tuple(
+            Model(join([posed(mesh, poses[bone]) for bone, mesh in parts]), (materials[dye],))
+            for dye, parts in shown.items()
+            if parts
         )
 
     return draw

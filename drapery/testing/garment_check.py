@@ -46,7 +46,7 @@ def check_garment(garment: Garment, seconds: float = SECONDS) -> None:
         if garment.collisions == "none":
             continue
         depth = max(
-            deepest(sewn, positions, dressed.colliders(), time)
+            deepest(sewn, positions, dressed.colliders(sewn), time)
             for time, positions in zip(times[1:], sheet[1:], strict=True)
         )
         if depth > DEPTH:
