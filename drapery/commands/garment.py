@@ -66,17 +66,21 @@ def run(
         from drapery.banner import read_design
 
         garment = garment.with_design(read_design(banner))
-    given = {key: words[key] for key in words if _is_given(context, key)}
+    given = {key: words[key] for key in words if is_given(context, key)}
     settings = garment.settings(**o.options_of(given))
-    _write(garment, out, settings, seconds, fps)
+    write_garment(garment, out, settings, seconds, fps)
 
 
-def _is_given(context: typer.Context, name: str) -> bool:
+def is_given(context: typer.Context, name: str) -> bool:
+    """Whether an option stands on the command line."""
     source = context.get_parameter_source(name)
     return source is not None and source.name != "DEFAULT"
 
 
-def _write(garment: "Garment", out: str, settings: "Settings", seconds: float, fps: float) -> None:
+def write_garment(
+    garment: "Garment", out: str, settings: "Settings", seconds: float, fps: float
+) -> None:
+    """Write a garment as a picture, an animation or a 3-D file. Raises DraperyError."""
     from drapery import draw, iter_frames, save_model
     from drapery.render import (
         MODEL_ENDINGS,

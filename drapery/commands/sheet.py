@@ -157,6 +157,39 @@ def write_garments(
         garments_sheet(settings, names or ()).save(out)
 
 
+@app.command("players")
+def write_players(
+    out: SheetOption,
+    skin: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FILE|NAME", help="A skin; several are drawn.", show_default="our own"
+        ),
+    ] = None,
+    wear: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME|FILE", help="A garment; several are worn.", show_default="cape"),
+    ] = None,
+    size: Annotated[str, typer.Option(help="Size of each picture in pixels.")] = "144x192",
+    packs: o.PackOption = None,
+    backend: o.BackendOption = "auto",
+) -> None:
+    """Players in all motions, from three sides."""
+    from drapery.settings import OPTIONS, Settings
+    from drapery.sheets import check_sheet_target, players_sheet
+
+    pixels = OPTIONS["size"].parse(size)
+    settings = Settings(size=pixels, packs=tuple(packs or ()), backend=backend)
+    check_sheet_target(out)
+    files = {"skins": [_absolute(each) for each in skin]} if skin else {}
+    with compile_notice():
+        players_sheet(settings, **files, wear=wear or ("cape",)).save(out)
+
+
+def _absolute(skin: str) -> str:
+    return str(Path(skin).absolute()) if skin.lower().endswith(".png") else skin
+
+
 def _check_scale(scale: int) -> None:
     from drapery.option import within
 

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
         StripPiece,
     )
     from drapery.garments.motions import motion_names
+    from drapery.garments.players import dressed_player, make_wearer
 
 __all__ = [
     "ClothTexture",
@@ -49,8 +50,10 @@ __all__ = [
     "SewnCloth",
     "SewnPiece",
     "StripPiece",
+    "dressed_player",
     "find_garment",
     "garment_names",
+    "make_wearer",
     "motion_names",
     "tailor",
 ]
@@ -74,6 +77,7 @@ __getattr__, __dir__ = lazy_names(
             "StripPiece",
         ),
         "garments.motions": ("motion_names",),
+        "garments.players": ("dressed_player", "make_wearer"),
         "garments.assembly": ("SewnCloth", "SewnPiece", "tailor"),
     },
 )

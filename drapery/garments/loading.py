@@ -46,6 +46,12 @@ def load_tables(
         raise OptionError(f"{locate(path, text, field)}: {message}") from None
 
 
+def complaint_of(error: ValidationError, table: type[BaseModel]) -> str:
+    """The first fault of one table in a line: the field, and what to use instead."""
+    fault = error.errors()[0]
+    return _complaint(fault, tuple(fault["loc"]), table, {})
+
+
 def _complaint(fault: Any, place: Place, table: type[BaseModel], given: Mapping[str, Any]) -> str:
     name = next((str(part) for part in reversed(place) if isinstance(part, str)), "the file")
     said = str(fault["msg"])

@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from drapery.sheets.drawn import garments_sheet, packs_sheet, rotations_sheet, styles_sheet
+    from drapery.sheets.drawn import (
+        garments_sheet,
+        packs_sheet,
+        players_sheet,
+        rotations_sheet,
+        styles_sheet,
+    )
     from drapery.sheets.faces import contents_sheet, patterns_sheet, steps_sheet
     from drapery.sheets.sheet import PictureSheet, SheetCell, check_sheet_target
 
@@ -21,6 +27,7 @@ __all__ = [
     "garments_sheet",
     "packs_sheet",
     "patterns_sheet",
+    "players_sheet",
     "rotations_sheet",
     "steps_sheet",
     "styles_sheet",
@@ -29,7 +36,13 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "sheets.drawn": ("garments_sheet", "packs_sheet", "rotations_sheet", "styles_sheet"),
+        "sheets.drawn": (
+            "garments_sheet",
+            "packs_sheet",
+            "players_sheet",
+            "rotations_sheet",
+            "styles_sheet",
+        ),
         "sheets.faces": ("contents_sheet", "patterns_sheet", "steps_sheet"),
         "sheets.sheet": ("PictureSheet", "SheetCell", "check_sheet_target"),
     },

@@ -8,13 +8,14 @@ import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
-from drapery.garments import find_garment, garment_names
+from drapery.garments import dressed_player, find_garment, garment_names, make_wearer
 from drapery.pictures import draw, draw_face, draw_scenes
 from drapery.render import Frame, frame_view
-from drapery.scenes.dressing import garment_moments
+from drapery.scenes.dressing import Dressed, garment_moments
 from drapery.scenes.stager import still
 from drapery.settings import OPTIONS, ROTATIONS, Settings
 from drapery.sheets.sheet import PictureSheet, SheetCell
+from drapery.style.figure import SKINS
 from drapery.styles import find_style, style_names
 
 BETWEEN = 0.7
@@ -24,6 +25,14 @@ PAPER = "#c8d0d8"
 
 GARMENT_TIMES = (1.0, 1.7, 2.4, 3.1)
 """The moments of a sheet of garments [s]."""
+
+MOTIONS = ("stand", "walk", "run", "sneak", "jump", "glide", "swim", "sit", "wave", "point")
+SPEEDS = {"walk": 1.5, "run": 4.0, "sneak": 0.5, "glide": 8.0, "swim": 1.5}
+"""Of the motions on a sheet of players [m/s]."""
+SIDES = {"front": 0, "hero": 6, "back": 0}
+"""The views on a sheet of players, and the rotation of each."""
+PLAYER_TIME = 2.05
+"""The moment of a sheet of players [s]."""
 
 COMPASS = {0: "south", 4: "west", 8: "north", 12: "east"}
 
@@ -113,3 +122,37 @@ def garments_sheet(
     across = tuple(f"{time:g} s" for time in GARMENT_TIMES)
     down = tuple(garment.name for garment in garments)
     return PictureSheet("Garments", tuple(cells), len(GARMENT_TIMES), across, down)
+
+
+def players_sheet(
+    settings: Settings,
+    skins: Sequence[str] = SKINS,
+    motions: Sequence[str] = MOTIONS,
+    *,
+    wear: Sequence[str | Path] = ("cape",),
+    background: str = PAPER,
+) -> PictureSheet:
+    """Players in motions, from several sides: a row for each skin and view.
+
+    settings: size, packs and backend. skins: names or PNG files. wear: garments by name or file.
+    background: as in `styles_sheet`. Raises OptionError, PackError or BackendError.
+    """
+    same = {name: getattr(settings, name) for name in ("size", "packs", "format", "backend")}
+    packs = open_packs(settings.packs, format=settings.format)
+    rows: dict[tuple[str, str], list[SheetCell]] = {(s, v): [] for s in skins for v in SIDES}
+    for skin in skins:
+        for motion in motions:
+            wearer = make_wearer(skin=skin, motion=motion, speed=SPEEDS.get(motion, 0.0))
+            player = dressed_player(wearer, wear=wear)
+            dressed = Dressed(player, packs, player.settings(background=background, **same))
+            sheets = dressed.sheets([PLAYER_TIME])
+            for view, rotation in SIDES.items():
+                seen = player.settings(
+                    view=view, rotation=rotation, ground="none", background=background, **same
+                )
+                scenes = replace(dressed, settings=seen).scenes(sheets, [PLAYER_TIME])
+                frame = next(draw_scenes(scenes, packs, seen))
+                rows[skin, view].append(SheetCell(f"{skin} {motion}", frame.pixels))
+    cells = tuple(cell for row in rows.values() for cell in row)
+    down = tuple(f"{Path(skin).stem} {view}" for skin, view in rows)
+    return PictureSheet("Players", cells, len(motions), tuple(motions), down)

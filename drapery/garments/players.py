@@ -1,0 +1,52 @@
+"""A player with what it wears, as one garment."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from drapery.errors import OptionError
+from drapery.garments.catalogue import find_garment
+from drapery.garments.loading import complaint_of
+from drapery.garments.model import ClothTexture, Garment, GarmentWearer
+
+PICTURE = {"view": "hero", "wind": 0.5, "direction": 180.0, "gusts": 0.2}
+"""Options of a player's picture unless others are given: a light wind from ahead."""
+WING = {"front": (24.0, 2.0, 10.0, 20.0), "back": (36.0, 2.0, 10.0, 20.0), "sheet": (64.0, 32.0)}
+"""Where a wing lies on the texture of a cape."""
+
+
+def make_wearer(**fields: Any) -> GarmentWearer:
+    """A wearer of these fields. Raises OptionError."""
+    try:
+        return GarmentWearer(**fields)
+    except ValidationError as error:
+        raise OptionError(complaint_of(error, GarmentWearer)) from None
+
+
+def dressed_player(
+    wearer: GarmentWearer,
+    *,
+    cape: str | Path | None = None,
+    elytra: bool = False,
+    wear: Sequence[str | Path | Garment] = (),
+) -> Garment:
+    """A player that wears garments, the first of them innermost.
+
+    cape: the PNG file of a cape, 64 x 32 or a multiple. elytra: wings of cloth in place of the
+    cape, with the texture of `cape` if that is given. wear: garments, or their names or files.
+    Raises OptionError for garments that are not found.
+    """
+    worn = [each if isinstance(each, Garment) else find_garment(each) for each in wear]
+    if elytra:
+        wings = find_garment("elytra")
+        if cape is not None:
+            texture = ClothTexture.model_validate({**WING, "file": Path(cape).absolute()})
+            pieces = [each.model_copy(update={"texture": texture}) for each in wings.piece]
+            wings = wings.model_copy(update={"piece": tuple(pieces)})
+        worn.append(wings)
+    elif cape is not None:
+        plain = find_garment("cape").with_texture(cape)
+        worn.append(plain)
+    return Garment(name="player", piece=(), wearer=wearer, picture=PICTURE, over=tuple(worn))
