@@ -101,9 +101,12 @@ def _known() -> dict[str, Motion]:
 
 def _read_pose(path: Path) -> KeyPose:
     try:
-        text = path.read_bytes()[: MAX_BYTES + 1]
+        with path.open("rb") as file:
+            text = file.read(MAX_BYTES + 1)
     except OSError as error:
         raise OptionError(f"{path} cannot be read: {error.strerror}; check the path") from None
+    if len(text) > MAX_BYTES:
+        raise OptionError(f"{path} has over {MAX_BYTES} bytes; a pose is shorter")
     try:
         return KeyPose.model_validate(json.loads(text))
     except (ValueError, RecursionError) as error:

@@ -1,0 +1,217 @@
+"""Players: skins of every layout, arms, overlays, motions and poses, and what is drawn of them."""
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drapery import animate, draw
+from drapery.errors import OptionError
+from drapery.garments import dressed_player, find_garment, make_wearer, motion_names, tailor
+from drapery.garments.motions import MAX_BYTES, KeyPose, Motion, bone_poses, find_motion
+from drapery.packs import open_packs
+from drapery.scenes import Dressed
+from drapery.settings import Settings
+from drapery.sheets import players_sheet
+from drapery.style.boxes import ModelBox
+from drapery.style.figure import PARTS, TEXEL
+from drapery.style.skins import MIRRORED, OVERLAYS, SLIM_PARTS, Skin, read_skin
+from drapery.testing import check_garment
+from drapery.testing.plugin import Golden
+
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "docs" / "players.md").read_text(encoding="utf-8")
+FACES = 6
+
+
+def marked(height: int = 64, unit: int = 1) -> np.ndarray:
+    """A skin whose texels say where they are: red is x, green is y."""
+    rows, columns = np.mgrid[0:height, 0:64]
+    texels = np.stack([columns * 4, rows * 4, 0 * rows, 255 + 0 * rows], axis=-1).astype(np.uint8)
+    return np.kron(texels, np.ones((unit, unit, 1), np.uint8))
+
+
+def faces_of(box: ModelBox) -> set[tuple[int, int, int, int]]:
+    """The rectangles of an unfolded box by the game's layout: left, top, width, height."""
+    (x, y), (w, h, d) = map(int, box.offset), map(int, box.size)
+    return {
+        (x + d, y, w, d), (x + d + w, y, w, d), (x, y + d, d, h),
+        (x + d, y + d, w, h), (x + d + w, y + d, d, h), (x + 2 * d + w, y + d, w, h),
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("arms", ["classic", "slim"])
+def test_every_face_lies_on_the_texels_of_the_format(arms) -> None:
+    parts = SLIM_PARTS if arms == "slim" else PARTS
+    skin = read_skin(marked(), arms)
+    mesh = skin.mesh({})
+    quads = mesh.uvs.reshape(-1, 4, 2) * 64
+    found = [
+        (*map(int, quad.min(axis=0)), *map(int, np.ptp(quad, axis=0))) for quad in quads.round(9)
+    ]
+    wanted = []
+    for name, part in parts.items():
+        over = ModelBox(part.box.corner, part.box.size, OVERLAYS[name][:2])
+        wanted += [*faces_of(part.box), *faces_of(over)]
+    assert sorted(found) == sorted(wanted) and len(found) == 2 * FACES * len(PARTS)
+    arm = parts["right_arm"].box
+    assert arm.size[0] == (3 if arms == "slim" else 4)
+
+
+def test_an_old_skin_mirrors_its_right_side() -> None:
+    old = marked(32)
+    skin = read_skin(old)
+    assert skin.arms == "classic" and skin.texels.shape == (64, 64, 4)
+    # The front of the left leg shows that of the right one, mirrored.
+    left, right = skin.texels[52:64, 20:24], old[20:32, 4:8]
+    assert np.array_equal(left, right[:, ::-1])
+    # Its outer side, at its left, shows the outer side of the right leg.
+    assert np.array_equal(skin.texels[52:64, 24:28], old[20:32, 0:4][:, ::-1])
+    assert len(MIRRORED) == 2 * FACES
+    assert not skin.texels[0:16, 32:64, 3].any()  # opaque, so it has no hat
+
+
+@pytest.mark.parametrize("unit", [1, 2, 4])
+def test_slim_arms_are_read_from_the_skin(unit: int) -> None:
+    texels = marked(unit=unit)
+    assert read_skin(texels).arms == "classic"
+    texels[20 * unit : 32 * unit, 54 * unit : 56 * unit, 3] = 0
+    assert read_skin(texels).arms == "slim"
+    assert read_skin(texels, "classic").arms == "classic"
+
+
+def test_the_first_layer_has_no_holes_and_an_empty_second_is_not_drawn() -> None:
+    texels = marked()
+    texels[..., 3] = 0
+    skin = read_skin(texels, "classic")
+    assert (skin.texels[8:16, 8:16, 3] == 255).all()
+    assert len(skin.mesh({}).uvs) == 4 * FACES * len(PARTS)
+    texels[8, 40, 3] = 255  # one texel of the hat
+    assert len(read_skin(texels, "classic").mesh({}).uvs) == 4 * FACES * (len(PARTS) + 1)
+    assert len(Skin(skin.texels, "classic").mesh({}, ("head",)).uvs) == 4 * FACES
+
+
+@pytest.mark.parametrize("shape", [(64, 48), (63, 63), (32, 32), (128, 32)])
+def test_a_skin_of_another_size_is_refused(shape: tuple[int, int]) -> None:
+    with pytest.raises(OptionError, match="use 64 x 64 or 64 x 32, or a multiple"):
+        read_skin(np.zeros((*shape, 4), np.uint8))
+
+
+@pytest.mark.parametrize("name", [n for n in motion_names() if n != "walk"])
+def test_a_motion_repeats_and_keeps_on_the_ground(name: str) -> None:
+    motion = find_motion(name)
+    first, again = (motion.key_pose(time) for time in (0.3, 0.3 + motion.period))
+    for field in KeyPose.model_fields:
+        np.testing.assert_allclose(getattr(first, field), getattr(again, field), atol=1e-9)
+    placed = bone_poses(first, PARTS, motion.grounded)
+    lowest = min(
+        float(((PARTS[leg].centre - [0, 6 * TEXEL, 0]) @ placed[leg][1].T + placed[leg][0])[1])
+        for leg in ("right_leg", "left_leg")
+    )
+    if motion.grounded:
+        assert 0 <= lowest < 2.1 * TEXEL
+    assert f"`{name}`" in PAGE
+
+
+def test_joints_hold_when_everything_turns() -> None:
+    pose = KeyPose(root=(40, 20, 10), right_arm=(70, 0, -30), shift=(1, 2, 3))
+    placed = bone_poses(pose, PARTS, False)
+    joint = np.array([-6, 22, 0]) * TEXEL  # the right shoulder
+    at_arm, at_body = (
+        place + turn @ joint for place, turn in (placed["right_arm"], placed["body"])
+    )
+    np.testing.assert_allclose(at_arm, at_body, atol=1e-12)
+
+
+def test_motion_between_key_poses_is_smooth() -> None:
+    motion = Motion(poses=(KeyPose(head=(0, 0, 0)), KeyPose(head=(10, 0, 0))), period=2)
+    angles = [motion.key_pose(time).head[0] for time in (0, 0.25, 0.5, 1, 1.5, 2)]
+    np.testing.assert_allclose(angles, [0, 1.4644661, 5, 10, 5, 0], atol=1e-6)
+
+
+def test_a_pose_of_a_json_file_and_its_faults(tmp_path: Path) -> None:
+    path = tmp_path / "pose.json"
+    path.write_text(json.dumps({"head": [0, 30, 0]}))
+    assert find_motion("pose.json", tmp_path).key_pose(1.0).head == (0, 30, 0)
+    path.write_text(json.dumps({"tail": [0, 30, 0]}))
+    with pytest.raises(OptionError, match=r"tail cannot be used; .* root, head"):
+        find_motion("pose.json", tmp_path)
+    path.write_text(" " * (MAX_BYTES + 1))
+    with pytest.raises(OptionError, match="a pose is shorter"):
+        find_motion("pose.json", tmp_path)
+    path.write_text("{")
+    with pytest.raises(OptionError, match="is not JSON"):
+        find_motion("pose.json", tmp_path)
+    with pytest.raises(OptionError, match=r"motion 'fly' is not known; use walk, .* stand, run"):
+        find_motion("fly")
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"arms": "wide"}, "arms 'wide' cannot be used; it should be 'auto', 'classic' or 'slim'"),
+        ({"speed": 11.0}, "speed 11 cannot be used; it should be less than or equal to 10"),
+        ({"kind": "horse", "motion": "sit"}, "motion 'sit' is for players; a horse walks"),
+    ],
+)
+def test_a_field_of_a_wearer_is_checked(fields: dict[str, object], said: str) -> None:
+    with pytest.raises(OptionError, match=re.escape(said)):
+        make_wearer(**fields)
+
+
+def test_what_is_worn_is_cloth_of_its_own() -> None:
+    player = dressed_player(make_wearer(motion="stand"), wear=("cape", "skirt"))
+    cape, skirt = tailor(player, open_packs(()))
+    assert cape.solid == find_garment("cape").wearer.solid  # type: ignore[union-attr]
+    assert {each.name for each in (*cape.pieces, *skirt.pieces)} == {"cape", "skirt"}
+    wings = dressed_player(make_wearer(), cape="cape.png", elytra=True).over[0].piece
+    assert all(piece.texture is not None and piece.texture.front for piece in wings)
+
+
+@pytest.mark.parametrize("motion", ["run", "sneak", "sit"])
+def test_a_cape_stays_outside_a_player_that_moves(motion: str) -> None:
+    cape = find_garment("cape")
+    who = make_wearer(motion=motion, speed=2.0, solid=("body", "right_leg", "left_leg"))
+    check_garment(cape.model_copy(update={"wearer": who}), 0.4)
+
+
+def test_the_head_looks_and_the_rest_stays() -> None:
+    ahead, aside = (
+        Dressed(dressed_player(make_wearer(look=look)), open_packs(()), Settings()).wearer
+        for look in ((0, 0), (90, 0))
+    )
+    assert ahead is not None and aside is not None
+    nose = np.array([0, 28, 4]) * TEXEL
+    place, turn = aside.poses(0.0)["head"]
+    np.testing.assert_allclose(turn @ nose + place, np.array([4, 28, 0]) * TEXEL, atol=1e-9)
+    assert np.array_equal(ahead.poses(0.0)["body"][0], aside.poses(0.0)["body"][0])
+
+
+@pytest.mark.parametrize("shown", ["full", "bust", "head"])
+def test_a_player_looks_as_it_did(shown: str, golden: Golden) -> None:
+    player = dressed_player(make_wearer(skin="dancer", motion="wave", shown=shown))
+    golden(draw(player, size=(96, 120), time=1.0))
+
+
+def test_a_loop_of_a_motion_has_no_seam() -> None:
+    player = dressed_player(make_wearer(motion="run", speed=4.0))
+    frames = animate(player, size=(48, 64), seconds=1, fps=10).frames
+    pixels = [frame.pixels.astype(float) for frame in frames]
+    steps = [np.abs(a - b).mean() for a, b in zip(pixels, [*pixels[1:], pixels[0]], strict=True)]
+    assert steps[-1] <= 1.2 * max(steps[:-1])
+
+
+def test_a_sheet_of_players_has_a_row_for_each_skin_and_view() -> None:
+    sheet = players_sheet(Settings(size=(24, 24)), ("dancer",), ("stand", "sit"), wear=())
+    assert sheet.down == ("dancer front", "dancer hero", "dancer back") and len(sheet.cells) == 6
+
+
+def test_the_blocks_of_the_page_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    blocks = dict(re.findall(r"```(\w+)\n(.*?)```", PAGE, re.DOTALL))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "pose.json").write_text(blocks["json"])
+    assert find_motion("pose.json").key_pose(0).shift == (0, 2, 0)
+    exec(blocks["python"], {})
+    assert (tmp_path / "player.png").exists()
