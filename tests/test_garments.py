@@ -9,6 +9,7 @@ from PIL import Image
 from pydantic import ValidationError
 
 from drapery import Banner, draw, iter_frames, save_model
+from drapery.cli import app
 from drapery.errors import OptionError
 from drapery.garments import (
     ClothTexture,
@@ -321,3 +322,35 @@ def test_the_blocks_of_the_page_work(tmp_path: Path, monkeypatch: pytest.MonkeyP
         if kind == "python":
             exec(code, {})
     assert (tmp_path / "towel.png").exists() and (tmp_path / "flag.glb").exists()
+
+
+def command(*words: object) -> None:
+    app([str(word) for word in words], standalone_mode=False)
+
+
+def test_the_command_draws_a_file_as_picture_loop_and_model(tmp_path: Path) -> None:
+    small = ("--size", "32x32", "--seconds", 0.2, "--fps", 10)
+    for target in ("pennon.png", "pennon.gif", "pennon.glb"):
+        command("garment", "pennon", "-o", tmp_path / target, "--design", "black", *small)
+        assert (tmp_path / target).stat().st_size > 100
+    command("sheet", "garments", "tent", "-o", tmp_path / "sheet.png", "--size", "24x24")
+    assert (tmp_path / "sheet.png").exists()
+
+
+def test_the_command_takes_what_is_not_given_from_the_file(tmp_path: Path) -> None:
+    command("garment", "tent", "-o", tmp_path / "own.png", "--size", "32x32", "--time", 0.1)
+    front = ("--view", "front", "--wind", 0)
+    command("garment", "tent", "-o", tmp_path / "a.png", "--size", "32x32", "--time", 0.1, *front)
+    with Image.open(tmp_path / "own.png") as own, Image.open(tmp_path / "a.png") as other:
+        drawn = draw(find_garment("tent"), size=(32, 32), time=0.1).pixels
+        assert np.array_equal(np.asarray(own.convert("RGBA")), drawn)
+        assert not np.array_equal(np.asarray(other.convert("RGBA")), drawn)
+
+
+def test_the_command_lists_and_describes(capsys: pytest.CaptureFixture[str]) -> None:
+    command("garment", "--list")
+    command("garment", "tent")
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(garment_names()) + 1 and lines[-1] == "A tent over a ridge pole"
+    with pytest.raises(OptionError, match="no garment is given"):
+        command("garment")

@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from drapery import animate, draw
+from drapery.cli import app
 from drapery.errors import OptionError
 from drapery.garments import dressed_player, find_garment, make_wearer, motion_names, tailor
 from drapery.garments.motions import MAX_BYTES, KeyPose, Motion, bone_poses, find_motion
@@ -215,3 +217,18 @@ def test_the_blocks_of_the_page_work(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert find_motion("pose.json").key_pose(0).shift == (0, 2, 0)
     exec(blocks["python"], {})
     assert (tmp_path / "player.png").exists()
+
+
+def command(*words: object) -> None:
+    app([str(word) for word in words], standalone_mode=False)
+
+
+def test_the_command_draws_a_player(tmp_path: Path) -> None:
+    Image.fromarray(marked()).save(tmp_path / "skin.png")
+    (tmp_path / "pose.json").write_text('{"head": [0, 20, 0]}')
+    own = ("--skin", tmp_path / "skin.png", "--motion", tmp_path / "pose.json", "--look", "10,5")
+    command("player", *own, "-o", tmp_path / "p.png", "--size", "32x32", "--shown", "head")
+    with Image.open(tmp_path / "p.png") as picture:
+        assert picture.size == (32, 32) and picture.getextrema()[3] == (0, 255)
+    with pytest.raises(OptionError, match=r"look 'up' is not two angles; write it like 30,10"):
+        command("player", "--look", "up", "-o", tmp_path / "p.png")

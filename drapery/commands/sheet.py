@@ -181,9 +181,9 @@ def write_players(
     pixels = OPTIONS["size"].parse(size)
     settings = Settings(size=pixels, packs=tuple(packs or ()), backend=backend)
     check_sheet_target(out)
-    files = {"skins": [_absolute(each) for each in skin]} if skin else {}
+    skins = [_absolute(each) for each in skin or ()]
     with compile_notice():
-        players_sheet(settings, **files, wear=wear or ("cape",)).save(out)
+        players_sheet(settings, skins, wear=wear or ("cape",)).save(out)
 
 
 def _absolute(skin: str) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from functools import cache, lru_cache
 from importlib.resources import as_file, files
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field, ValidationError
@@ -46,7 +46,7 @@ class KeyPose(GarmentTable):
 
     def mixed(self, other: "KeyPose", share: float) -> "KeyPose":
         """A pose between this one, at share 0, and another, at share 1."""
-        values = {
+        values: dict[str, Any] = {
             name: tuple(
                 a + (b - a) * share
                 for a, b in zip(getattr(self, name), getattr(other, name), strict=True)

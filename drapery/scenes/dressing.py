@@ -207,22 +207,9 @@ class Dressed:
         One camera frames all of them.
         """
         stager = Stager(Body(ground=self._ground()), self.settings, ())
-        cloth = [
-            [
-                model
-                for sewn, sheet in zip(self.cloths, sheets, strict=True)
-                for model in sewn.models(sheet[frame])
-            ]
-            for frame in range(len(times))
-        ]
-        moved_cloth = moved_by_style(cloth, stager.style)
-        figure = [self.wearer.models(time, self._bones) if self.wearer else () for time in times]
         moments = [
-            [
-                self._placed(stager, model)
-                for model in (*self.fixed, *who, *(tailored(each, stager.style) for each in worn))
-            ]
-            for who, worn in zip(figure, moved_cloth, strict=True)
+            [self._placed(stager, model) for model in models]
+            for models in self._moments(stager, sheets, times)
         ]
         meshes = [model.mesh for models in moments for model in models]
         framed = [self._placed(stager, model) for time in times for model in self._framed(time)]
@@ -234,6 +221,22 @@ class Dressed:
         for models in moments:
             shadow = stager.contact(models, floor) if self.settings.shadow else None
             yield stager.scene(models, camera, shadow)
+
+    def _moments(
+        self, stager: Stager, sheets: Sequence[Array], times: Sequence[float]
+    ) -> Iterator[list[Model]]:
+        """All models of each moment in the garment's own frame, the cloth in the style."""
+        cloth: list[list[Model]] = [
+            [
+                model
+                for sewn, sheet in zip(self.cloths, sheets, strict=True)
+                for model in sewn.models(sheet[frame])
+            ]
+            for frame in range(len(times))
+        ]
+        for time, worn in zip(times, moved_by_style(cloth, stager.style), strict=True):
+            figure = self.wearer.models(time, self._bones) if self.wearer else ()
+            yield [*self.fixed, *figure, *(tailored(each, stager.style) for each in worn)]
 
     @property
     def _bones(self) -> tuple[str, ...] | None:

@@ -1,18 +1,19 @@
 """A skirt moved by walking legs: a thick ring with few bend points, pinned at the waist."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drapery.banner.dyes import DYE_NAMES, DYES
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.sprites import tint
-from drapery.cloth import Cloth, Fabric, Gravity, State, Wind, from_triangles
+from drapery.cloth import Cloth, Gravity, State, Wind
 from drapery.cloth.collisions import Collisions
-from drapery.cloth.exact import sine_of_turns
 from drapery.errors import OptionError
+from drapery.garments.catalogue import find_garment
+from drapery.garments.shapes import CutPiece, cut_pieces
 from drapery.mesh import vertex_normals
 from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
 from drapery.scenes.catalogue import Clip
@@ -31,12 +32,6 @@ from drapery.style.scenery import SKY
 from drapery.style.tailoring import ClothModel
 from drapery.style.uv_mapping import BoxMapping
 
-WAIST, HEM = 13.0, 5.0
-"""Heights of its upper and lower edge [texels]."""
-WAIST_REACH, HEM_REACH = (4.9, 2.9), (8.6, 7.6)
-"""Its half widths to the side and to the front, at the waist and at the hem [texels]."""
-SQUARE = 4.0
-"""Exponent of its outline: 2 gives an ellipse, higher numbers a squarer outline."""
 BODY = ("body", "right_leg", "left_leg")
 SIDES = ("outside", "inside", "hem")
 SKIN = BoxMapping(
@@ -94,50 +89,38 @@ def skirt_states(
     )
 
 
-def skirt_cloth(parameters: SkirtParameters) -> Cloth:
-    """The ring at rest: particles row by row from the pinned waist, `panels` in each row.
+@lru_cache(maxsize=8)
+def skirt_piece(parameters: SkirtParameters) -> CutPiece:
+    """The ring of the garment `skirt` at rest, with other numbers of particles: row by row from the
+    waist, `panels` in each row."""
+    garment = find_garment("skirt")
+    points = parameters.panels, parameters.rows + 1
+    ring = garment.piece[0].model_copy(update={"points": points})
+    return cut_pieces(garment.model_copy(update={"piece": (ring,)}))[0]
 
-    Raises OptionError.
-    """
-    panels, rows = parameters.panels, parameters.rows
-    if not (4 <= panels <= 64 and 1 <= rows <= 32):
-        raise OptionError(f"skirt of {panels} panels, {rows} rows: use 4 to 64 and 1 to 32")
-    part = np.arange(rows + 1)[:, None] / rows
-    turns = np.arange(panels) / panels
-    sine, cosine = sine_of_turns(turns), sine_of_turns(turns + 0.25)
-    # |x|^n + |z|^n = 1, along the direction of each panel.
-    away = (np.abs(sine) ** SQUARE + np.abs(cosine) ** SQUARE) ** (-1 / SQUARE)
-    wide, deep = (w + (h - w) * part for w, h in zip(WAIST_REACH, HEM_REACH, strict=True))
-    high = np.broadcast_to(WAIST + (HEM - WAIST) * part, (rows + 1, panels))
-    places = np.stack([wide * away * sine, high, deep * away * cosine], axis=-1) * TEXEL
-    triangles = _ring(rows, panels)
-    return from_triangles(
-        places.reshape(-1, 3),
-        triangles,
-        pins=list(range(panels)),
-        fabric=Fabric(stretch=8.0, shear=2.0, flexion=0.6),
-    )
+
+def skirt_cloth(parameters: SkirtParameters) -> Cloth:
+    """The ring at rest, pinned at the waist."""
+    piece = skirt_piece(parameters)
+    inv_mass = piece.cloth.inv_mass.copy()
+    inv_mass[piece.edges["top"]] = 0.0
+    return replace(piece.cloth, inv_mass=inv_mass)
 
 
 def skirt_shell(parameters: SkirtParameters) -> Shell:
-    """The thick skirt: the ring is cut open at the back, where the texture begins and ends."""
-    across, down = np.meshgrid(
-        np.linspace(0, 1, parameters.panels + 1), np.linspace(0, 1, parameters.rows + 1)
-    )
-    uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
-    return make_shell(_triangles(parameters.rows, parameters.panels + 1), uvs, SKIN)
+    """The thick skirt: the ring is cut open where the texture begins and ends."""
+    piece = skirt_piece(parameters)
+    return make_shell(piece.triangles, piece.uvs, SKIN)
 
 
 def skirt_model(
     parameters: SkirtParameters, cloth: Cloth, shell: Shell, state: State, material: Material
 ) -> Model:
     """The skirt of a state, with the normals of the closed ring, so that the cut is invisible."""
-    panels = parameters.panels
-    index = np.arange((parameters.rows + 1) * panels).reshape(-1, panels)
-    opened = np.concatenate([index, index[:, :1]], axis=1).reshape(-1)
+    drawn = skirt_piece(parameters).drawn
     sheet = state.positions[0]
     normals = vertex_normals(sheet, cloth.triangles)
-    thick = shell.cover(sheet[opened], normals[opened], parameters.thickness * TEXEL)
+    thick = shell.cover(sheet[drawn], normals[drawn], parameters.thickness * TEXEL)
     return ClothModel(thick, (material,))
 
 
@@ -164,21 +147,3 @@ def _dyed(wool: Texels, dye: str) -> Texels:
     if dye not in DYES:
         raise OptionError(f"dye {dye!r} is not known; use one of: {', '.join(DYES)}")
     return tint(wool, DYES[dye].rgb)
-
-
-def _ring(rows: int, panels: int) -> NDArray[np.int32]:
-    """The triangles of a closed ring, seen from outside."""
-    opened = _triangles(rows, panels + 1)
-    row, column = np.divmod(opened, panels + 1)
-    closed: NDArray[np.int32] = (row * panels + column % panels).astype(np.int32)
-    return closed
-
-
-def _triangles(rows: int, columns: int) -> NDArray[np.int32]:
-    """Two triangles in each of `rows` x (columns - 1) cells; the diagonal alternates."""
-    index = np.arange((rows + 1) * columns, dtype=np.int32).reshape(rows + 1, columns)
-    a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
-    one = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)], axis=2)
-    two = np.stack([np.stack([a, b, d], -1), np.stack([b, c, d], -1)], axis=2)
-    even = (np.add.outer(np.arange(rows), np.arange(columns - 1)) % 2 == 0)[..., None, None]
-    return np.where(even, one, two).reshape(-1, 3)

@@ -119,17 +119,16 @@ def _dressed(scene: Scene, style: Style) -> Scene:
     lights = {"flat": UNLIT, "studio": STUDIO_LIGHT}
     return replace(
         scene,
-        models=tuple(
-            tailored(model, style) if isinstance(model, ClothModel) else model
-            for model in scene.models
-        ),
+        models=tuple(tailored(model, style) for model in scene.models),
         light=lights.get(style.light or "", scene.light),
         samples=style.samples or scene.samples,
     )
 
 
-def tailored(model: ClothModel, style: Style) -> ClothModel:
-    """A model with the style's material, and its shape if it is a rectangle of cloth."""
+def tailored(model: Model, style: Style) -> Model:
+    """A model of cloth with the style's material, and its shape if it is a rectangle."""
+    if not isinstance(model, ClothModel):
+        return model
     materials = tuple(style.material(material) for material in model.materials)
     mesh, sheet = model.mesh, model.sheet
     lattice = None if sheet is None else _lattice(sheet.shell)

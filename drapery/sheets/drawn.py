@@ -126,7 +126,7 @@ def garments_sheet(
 
 def players_sheet(
     settings: Settings,
-    skins: Sequence[str] = SKINS,
+    skins: Sequence[str] = (),
     motions: Sequence[str] = MOTIONS,
     *,
     wear: Sequence[str | Path] = ("cape",),
@@ -134,11 +134,13 @@ def players_sheet(
 ) -> PictureSheet:
     """Players in motions, from several sides: a row for each skin and view.
 
-    settings: size, packs and backend. skins: names or PNG files. wear: garments by name or file.
+    settings: size, packs and backend. skins: names or PNG files; our own unless given.
+    wear: garments by name or file.
     background: as in `styles_sheet`. Raises OptionError, PackError or BackendError.
     """
     same = {name: getattr(settings, name) for name in ("size", "packs", "format", "backend")}
     packs = open_packs(settings.packs, format=settings.format)
+    skins = skins or SKINS
     rows: dict[tuple[str, str], list[SheetCell]] = {(s, v): [] for s in skins for v in SIDES}
     for skin in skins:
         for motion in motions:
