@@ -6,6 +6,7 @@ are. Its skin is any texture of their layout, 64 x 64 texels.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -41,6 +42,11 @@ class FigurePart:
     def centre(self) -> Array:
         """Middle of the box at rest [m], shape [3]."""
         return to_metres(np.array(self.box.corner) + np.array(self.box.size) / 2)
+
+    @cached_property
+    def pivot(self) -> Array:
+        """Its joint at rest [m], shape [3]."""
+        return to_metres(np.array(self.joint))
 
     @property
     def extent(self) -> Array:
