@@ -14,6 +14,7 @@ from typer.exceptions import TyperException
 from drapery.commands import (
     animate,
     batch,
+    blazon,
     compare,
     doctor,
     flat,
@@ -46,6 +47,7 @@ for name, command in {
     "animate": animate,
     "flat": flat,
     "show": show,
+    "blazon": blazon,
     "compare": compare,
     "layers": layers,
     "scene": scene,

@@ -12,6 +12,7 @@ from drapery.banner.formats import (
     bannotation,
     bedrock,
     bentobox,
+    blazon,
     block_entity,
     bukkit,
     commandpanels,
@@ -112,6 +113,7 @@ _TABLE = (
     _form(item, trees.read),
     _form(give_legacy, commands.read_command),
     _form(give, commands.read_command),
+    _form(blazon, single(blazon.parse)),
     _form(shorthand, single(shorthand.parse)),
 )
 
