@@ -33,8 +33,8 @@ def random_banners(count: int, seed: int = 19) -> Iterator[Banner]:
             Layer(pick.choice(PATTERN_NAMES), pick.choice(DYE_NAMES))
             for _ in range(pick.randint(0, 16))
         ]
-        kind = "shield" if pick.random() < 0.5 else "banner"
-        yield Banner(pick.choice(DYE_NAMES), tuple(layers), kind)
+        base = pick.choice(DYE_NAMES)
+        yield Banner(base, tuple(layers), "shield" if pick.random() < 0.5 else "banner")
 
 
 def returned(banners: Iterator[Banner]) -> str:

@@ -32,7 +32,7 @@ def random_banner(seed: int, most: int = 16) -> Banner:
     pick = random.Random(seed)
     count = pick.randint(0, most)
     layers = (Layer(pick.choice(PATTERN_NAMES), pick.choice(DYE_NAMES)) for _ in range(count))
-    return Banner(pick.choice(DYE_NAMES), tuple(layers), pick.choice(["banner", "shield"]))  # type: ignore[arg-type]
+    return Banner(pick.choice(DYE_NAMES), tuple(layers), pick.choice(["banner", "shield"]))
 
 
 @pytest.mark.parametrize(
@@ -116,7 +116,7 @@ def test_a_blazon_has_a_largest_length() -> None:
 def test_the_words_of_one_layer_read_as_the_same_banner(pattern: str) -> None:
     for number, dye in enumerate(DYE_NAMES):
         for kind in ("banner", "shield"):
-            banner = Banner(DYE_NAMES[number * 7 % 16], (Layer(pattern, dye),), kind)  # type: ignore[arg-type]
+            banner = Banner(DYE_NAMES[number * 7 % 16], (Layer(pattern, dye),), kind)
             assert parse_blazon(write_blazon(banner)) == banner
 
 

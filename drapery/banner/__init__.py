@@ -18,6 +18,7 @@ from drapery.banner.design import use_parser
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.banner.crafting import CraftingItem, crafting_items
     from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS, Banner, Layer
     from drapery.banner.dyes import DYE_NAMES, DYES, Dye
     from drapery.banner.formats.form import BinaryForm, Form
@@ -56,6 +57,7 @@ __all__ = [
     "SHIELD_REGIONS",
     "Banner",
     "BinaryForm",
+    "CraftingItem",
     "Dye",
     "Form",
     "FoundBanner",
@@ -66,6 +68,7 @@ __all__ = [
     "binary_forms",
     "choose_banner",
     "composite",
+    "crafting_items",
     "dye_name",
     "find_banners",
     "fits_loom",
@@ -85,6 +88,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
+        "banner.crafting": ("CraftingItem", "crafting_items"),
         "banner.design": ("LOOM_LAYERS", "MAX_LAYERS", "Banner", "Layer"),
         "banner.dyes": ("DYES", "DYE_NAMES", "Dye"),
         "banner.formats.form": ("BinaryForm", "Form"),

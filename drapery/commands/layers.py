@@ -23,6 +23,9 @@ def run(
         Path | None,
         typer.Option(metavar="FILE", help="The strip of the loom's steps, as a picture."),
     ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the loom's steps and the materials as JSON.")
+    ] = False,
     form: o.FromOption = None,
     number: o.NumberOption = None,
     packs: o.PackOption = None,
@@ -32,7 +35,7 @@ def run(
     background: o.BackgroundOption = "transparent",
     backend: o.BackendOption = "auto",
 ) -> None:
-    """Show the layers of a banner: loom steps, hidden layers, and an exploded view."""
+    """Show the layers of a banner: loom steps, materials, hidden layers, an exploded view."""
     from drapery.banner import read_design
     from drapery.packs import open_packs
     from drapery.pictures import draw_scenes
@@ -52,8 +55,11 @@ def run(
         check_sheet_target(steps)
     banner = read_design(design, form=form, number=number)
     opened = open_packs(settings.packs, format=format)
-    _print_steps(banner)
-    _print_hidden(banner, opened)
+    if as_json:
+        print(_json(banner))
+    else:
+        _print_steps(banner)
+        _print_hidden(banner, opened)
     with compile_notice():
         if out is not None:
             (frame,) = draw_scenes([exploded_view(banner, opened, settings)], opened, settings)
@@ -72,6 +78,37 @@ def _print_steps(banner: "Banner") -> None:
         print(f"{number:2}. {step.layer.pattern} with {dye} dye{item}")
     if not fits_loom(banner):
         print("a loom makes six layers at most; make this design with a command")
+
+    _print_items(banner)
+
+
+def _print_items(banner: "Banner") -> None:
+    from drapery.banner import crafting_items
+
+    items = crafting_items(banner)
+    used = [f"{one.count} {one.item.replace('_', ' ')}" for one in items if one.consumed]
+    kept = [one.item.replace("_", " ") for one in items if not one.consumed]
+    print(f"takes {', '.join(used)}")
+    if kept:
+        print(f"needs, but keeps, {', '.join(kept)}")
+
+
+def _json(banner: "Banner") -> str:
+    import json
+    from dataclasses import asdict
+
+    from drapery.banner import LOOM_LAYERS, crafting_items, fits_loom, loom_steps
+
+    steps = [{"pattern": s.layer.pattern, "dye": s.layer.dye} for s in loom_steps(banner)]
+    facts = {
+        "base": banner.base,
+        "kind": banner.kind,
+        "steps": steps,
+        "survival": fits_loom(banner),
+        "most_layers": LOOM_LAYERS,
+        "materials": [asdict(one) for one in crafting_items(banner)],
+    }
+    return json.dumps(facts, indent=2)
 
 
 def _print_hidden(banner: "Banner", packs: "Packs") -> None:
