@@ -77,8 +77,8 @@ def _build() -> Any:
 
     class BlazonBuilder(Transformer[Any, Any]):
         def start(self, c: list[Any]) -> tuple[BlazonField, list[Charge]]:
-            parts = [part for part in c if isinstance(part, (BlazonField, list))]
-            return parts[0], [charge for part in parts[1:] for charge in part]
+            field = next(part for part in c if isinstance(part, BlazonField))
+            return field, self.group(c)
 
         def plain(self, c: list[Any]) -> BlazonField:
             return BlazonField(None, (c[0].value,))

@@ -8,7 +8,7 @@ import unicodedata
 from functools import cache
 from typing import NamedTuple
 
-from drapery.banner.names import dye_name, is_dye
+from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERNS
 
 
@@ -31,6 +31,13 @@ TINCTURES = {
     **{"carnation": "pink", "cendree": "light_gray", "iron": "gray", "steel": "light_gray"},
 }
 """The dye of each heraldic tincture. A fur has the dye of its ground."""
+
+_DYES = {
+    **{dye.replace("_", " "): dye for dye in DYE_NAMES},
+    **{"grey": "gray", "light grey": "light_gray", "dark gray": "gray", "dark grey": "gray"},
+    **{"dark green": "green", "light green": "lime"},
+}
+"""The names of the dyes."""
 
 DYE_WORDS = {
     **{"white": "Argent", "orange": "Tenny", "magenta": "Murrey", "light_blue": "Bleu-celeste"},
@@ -319,7 +326,7 @@ def terms() -> dict[str, Term]:
     }
     found |= {words: Term("NOUN", pattern) for words, pattern in _nouns().items()}
     found |= {words: Term("NOUN", "circle", dye) for words, dye in _plurals(ROUNDELS).items()}
-    found |= {words: Term("TINCTURE", words, dye) for words, dye in TINCTURES.items()}
+    found |= {words: Term("TINCTURE", words, dye) for words, dye in (_DYES | TINCTURES).items()}
     found |= dict(_division_terms())
     found |= dict(_place_terms())
     found |= dict(_number_terms())
@@ -328,10 +335,7 @@ def terms() -> dict[str, Term]:
 
 def term_of(words: str) -> Term | None:
     """The term that some words are, in small letters; None for others."""
-    found = terms().get(words)
-    if found is None and is_dye(words):
-        return Term("TINCTURE", words, dye_name(words))
-    return found
+    return terms().get(words)
 
 
 def _cut(text: str) -> list[str]:
