@@ -2,6 +2,7 @@
 
 import random
 import shlex
+import time
 from pathlib import Path
 
 import pytest
@@ -203,3 +204,12 @@ def test_the_page_on_blazon_tells_what_happens(drapery: Run) -> None:
             command, _, expected = part.partition("\n")
             _, out, err = drapery(*shlex.split(command))
             assert out + err == expected
+
+
+@pytest.mark.parametrize("join", [" ", ", a "])
+def test_hundreds_of_unknown_words_are_refused_soon(join: str) -> None:
+    """They are named although the charges have no tincture; few of them are compared."""
+    words = [f"chevr{chr(97 + n // 26)}{chr(97 + n % 26)}" for n in range(330)]
+    begin = time.process_time()
+    assert "a banner cannot show" in fault("Azure, a " + join.join(words))
+    assert time.process_time() - begin < 1

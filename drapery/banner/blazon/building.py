@@ -110,22 +110,32 @@ def build(
     """
     problems = [f"'{' '.join(words.split())}'" for words in unknown]
     problems += [problem for charge in charges if (problem := charge.problem)]
-    base, layers = _field(field)
-    dyes = _dyes(field, charges)
-    for charge in charges:
-        for pattern in charge.patterns:
-            found = dyes[charge.start]
-            if found is None:
-                pairs = _counterchanged(pattern, field)
-                if not pairs:
-                    problems.append(f"'{charge.words} counterchanged' (it lies on both parts)")
-                    break
-                layers += [Layer(part, dye) for part, dye in pairs]
-            else:
-                layers.append(Layer(pattern, found))
+    base, layers = "", list[Layer]()
+    try:
+        base, layers = _field(field)
+        layers += _layers(field, charges, problems)
+    except DesignError:
+        if not problems:  # what cannot be shown comes first
+            raise
     if problems:
         raise refusal(problems)
     return Banner(base, tuple(layers), kind)
+
+
+def _layers(field: BlazonField, charges: list[Charge], problems: list[str]) -> list[Layer]:
+    """The layers of the charges. What cannot be counterchanged is added to `problems`."""
+    dyes = _dyes(field, charges)
+    layers: list[Layer] = []
+    for charge in charges:
+        dye = dyes[charge.start]
+        if dye is not None:
+            layers += [Layer(pattern, dye) for pattern in charge.patterns]
+            continue
+        pairs = [_counterchanged(pattern, field) for pattern in charge.patterns]
+        if not all(pairs):
+            problems.append(f"'{charge.words} counterchanged' (it lies on both parts)")
+        layers += [Layer(pattern, dye) for some in pairs for pattern, dye in some]
+    return layers
 
 
 def _field(field: BlazonField) -> tuple[str, list[Layer]]:

@@ -6,6 +6,7 @@ from drapery.banner.blazon.vocabulary import NOT_SHOWN, normal, terms
 from drapery.errors import DesignError
 
 _MOST = 6
+_MOST_WORDS = 3
 _LONGEST = 40
 REMEDY = (
     "use ordinaries (chief, base, pale, fess, bend, cross, saltire, chevron, pile, canton,"
@@ -16,9 +17,10 @@ REMEDY = (
 
 def refusal(problems: list[str]) -> DesignError:
     """The error that names all problems, in one line."""
-    named = [problem if "(" in problem else _with_hint(problem) for problem in problems]
-    more = f" and {len(named) - _MOST} more" if len(named) > _MOST else ""
-    return DesignError(f"a banner cannot show {', '.join(named[:_MOST])}{more}; {REMEDY}")
+    first = problems[:_MOST]
+    named = [problem if "(" in problem else _with_hint(problem) for problem in first]
+    more = f" and {len(problems) - _MOST} more" if len(problems) > _MOST else ""
+    return DesignError(f"a banner cannot show {', '.join(named)}{more}; {REMEDY}")
 
 
 def _with_hint(problem: str) -> str:
@@ -26,7 +28,7 @@ def _with_hint(problem: str) -> str:
     words = normal(problem.strip("'\"")).replace("-", " ")[:200]
     short = " ".join(problem[1:-1].split())
     quoted = repr(short if len(short) <= _LONGEST else short[: _LONGEST - 1] + "…")
-    for parts in (words, *words.split()):
+    for parts in (words, *words.split()[:_MOST_WORDS]):
         singular = parts.removesuffix("s")
         near = NOT_SHOWN.get(parts) or NOT_SHOWN.get(singular)
         if near:
