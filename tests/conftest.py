@@ -28,12 +28,16 @@ settings.load_profile("shared machine")
 
 
 def pytest_configure() -> None:
-    """A suite that a shell starts in the background ignores SIGINT, and so would the programs that
-    tests start and interrupt."""
-    in_main_thread = threading.current_thread() is threading.main_thread()
+    """A suite that a shell starts in the background ignores SIGINT, and one under nohup SIGHUP; so
+    would the programs that tests start and interrupt."""
     trace_no_compiler()
-    if in_main_thread and signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    if threading.current_thread() is not threading.main_thread():
+        return
+    usual = {"SIGINT": signal.default_int_handler, "SIGHUP": signal.SIG_DFL}
+    for name, handler in usual.items():
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
+        if number is not None and signal.getsignal(number) == signal.SIG_IGN:
+            signal.signal(number, handler)
 
 
 GIVE = (

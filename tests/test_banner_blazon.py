@@ -128,6 +128,14 @@ def test_the_words_of_any_banner_read_as_the_same_banner(seed: int) -> None:
         assert parse_blazon(write_blazon(banner)) == banner
 
 
+@pytest.mark.parametrize("pattern", ["acme:5", "acme:a/b.c", "a.b-c:bend", "acme:x_y-0"])
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_patterns_of_data_packs_are_read_back(pattern: str, count: int) -> None:
+    layers = (Layer(pattern, "white"), Layer("base", "white"), Layer(pattern, "red"))
+    banner = Banner("white", layers[:count])
+    assert Banner.parse(write_blazon(banner)) == banner
+
+
 def test_every_dye_alone_is_read_back_by_the_parser_of_all_forms() -> None:
     for base in DYE_NAMES:
         for dye in ("lime", "gray", "blue"):

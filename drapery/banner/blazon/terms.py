@@ -19,7 +19,7 @@ from drapery.errors import DesignError
 MAX_BLAZON = 4000
 """Most characters of a blazon."""
 
-_WORD = re.compile(r"[a-z0-9_.-]+:[a-z0-9_./-]+(?=\s)|[^\W_]+(?:['’][^\W_]+)*|[^\s_-]")
+_WORD = re.compile(r"[a-z0-9_.-]+:[a-z0-9_./-]+(?=[\s,;]|$)|[^\W_]+(?:['’][^\W_]+)*|[^\s_-]")
 _STOPS = frozenset(",;:.!()")
 
 
