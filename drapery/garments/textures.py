@@ -7,11 +7,9 @@ import numpy as np
 from drapery.banner.dyes import DYES
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
-from drapery.banner.packs.checks import reason
-from drapery.banner.packs.png import Texels, read_png
-from drapery.banner.packs.stack import MAX_PNG
+from drapery.banner.packs.png import Texels
+from drapery.banner.packs.png_file import read_png_file
 from drapery.banner.sprites import WHITE, Tint, tint
-from drapery.errors import OptionError
 from drapery.garments.model import Area, ClothTexture
 from drapery.render.scene import Material, TextureLayer
 from drapery.style.block import FLAG_MAPPING
@@ -48,16 +46,8 @@ def texture_of(
 
 
 def read_texture(path: Path) -> Texels:
-    """The texels of a PNG file. Raises OptionError."""
-    name = f"texture {shown(str(path), 200)}"
-    try:
-        with path.open("rb") as file:
-            data = file.read(MAX_PNG + 1)
-    except (OSError, ValueError) as error:
-        raise OptionError(f"{name} cannot be read ({reason(error)}); give a PNG file") from error
-    if len(data) > MAX_PNG:
-        raise OptionError(f"{name} is over {MAX_PNG} bytes; shrink it")
-    return read_png(data, name)
+    """The texels of a PNG file. Raises OptionError or PackError."""
+    return read_png_file(path, f"texture {shown(str(path), 200)}")
 
 
 def _of_design(texture: ClothTexture) -> BoxMapping | RegionMapping:

@@ -6,9 +6,8 @@ import numpy as np
 
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
-from drapery.banner.packs.checks import reason
-from drapery.banner.packs.png import Texels, read_png
-from drapery.banner.packs.stack import MAX_PNG
+from drapery.banner.packs.png import Texels
+from drapery.banner.packs.png_file import read_png_file
 from drapery.errors import OptionError
 from drapery.settings import Settings
 from drapery.style.figure import TEXEL
@@ -46,7 +45,7 @@ def _texels(settings: Settings, packs: Packs) -> tuple[str, Texels]:
         return "elytra.png of the packs", _of_packs(settings.kind, packs)
     if isinstance(texture, str | Path):
         name = f"texture {shown(str(texture), 200)}"
-        return name, read_png(_read(Path(texture), name), name)
+        return name, read_png_file(Path(texture), name)
     if texture.dtype != np.uint8 or texture.ndim != 3 or texture.shape[2] != 4:
         raise OptionError(
             f"texture: an array of {texture.dtype} {list(texture.shape)}; use uint8 [H, W, 4]"
@@ -75,14 +74,3 @@ def _widened(texels: Texels, times: int) -> Texels:
     whole = np.zeros((SHEET[1] * times, SHEET[0] * times, 4), np.uint8)
     whole[: texels.shape[0], : texels.shape[1]] = texels
     return whole
-
-
-def _read(path: Path, name: str) -> bytes:
-    try:
-        with path.open("rb") as file:
-            data = file.read(MAX_PNG + 1)
-    except (OSError, ValueError) as error:
-        raise OptionError(f"{name} cannot be read ({reason(error)}); give a PNG file") from error
-    if len(data) > MAX_PNG:
-        raise OptionError(f"{name} is over {MAX_PNG} bytes; shrink it")
-    return data
