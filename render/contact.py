@@ -44,7 +44,10 @@ def contact_table(across: Sequence[str], down: Sequence[str], pictures: Sequence
     across, down: the headings. pictures: len(across) * len(down) of them, row by row.
     """
     width, height = _largest(pictures)
-    names, heads = [_lines(name, 2 * LEAST_LABEL) for name in down], [_lines(h, 1) for h in across]
+    names, heads = (
+        [_lines(name, 2 * LEAST_LABEL) for name in down],
+        [_lines(h, width) for h in across],
+    )
     left = max(map(_width, names)) + 2 * GAP
     top = LINE_HEIGHT * max(map(len, heads)) + 2 * GAP
     cell_w = max(width, *map(_width, heads)) + GAP
