@@ -247,14 +247,14 @@ def strings(memory: int) -> bytes:
 
 def test_the_memory_of_a_file_ends_at_its_limit():
     assert read_nbt(strings(MAX_MEMORY - 1000), "f")["a"][0] == ""
-    with pytest.raises(DesignError, match="over 64 MiB of memory by byte"):
+    with pytest.raises(DesignError, match="over 48 MiB of memory by byte"):
         read_nbt(strings(MAX_MEMORY + 1000), "f")
 
 
 def test_the_estimate_of_memory_is_cautious():
     item = {"Slot": nbtlib.Byte(300 % 128), "id": nbtlib.String("minecraft:red_banner")}
     box = nbtlib.Compound({"Items": nbtlib.List[nbtlib.Compound]([nbtlib.Compound(item)] * 27)})
-    data = encode(nbtlib.Compound({"boxes": nbtlib.List[nbtlib.Compound]([box] * 4000)}))
+    data = encode(nbtlib.Compound({"boxes": nbtlib.List[nbtlib.Compound]([box] * 3000)}))
     tracemalloc.start()
     read_nbt(data, "f")
     peak = tracemalloc.get_traced_memory()[1]

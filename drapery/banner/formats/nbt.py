@@ -23,7 +23,7 @@ from drapery.errors import DesignError
 MAX_DEPTH = 512
 """Most compounds and lists inside each other; the game has the same limit."""
 
-MAX_MEMORY = 64 * 2**20
+MAX_MEMORY = 48 * 2**20
 """Most memory of one file's tree, beside its bytes, by a cautious estimate [bytes]. Arrays and the
 blocks of structures and schematics stay bytes, so that only entities, items and names count."""
 
