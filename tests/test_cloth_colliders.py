@@ -33,7 +33,7 @@ from drapery.cloth.colliders.collision_world import CollisionWorld
 from drapery.cloth.colliders.packing import distance, pack
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.collisions import Collisions, collision_world
-from drapery.cloth.self_contact_data import make_self_contact
+from drapery.cloth.contact.self_contact_data import make_self_contact
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drapery.cloth.attachments import stretch_limits
-from drapery.cloth.box_contact import NO_CONTACT, BoxContact, boxes_of
 from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders.collider import Collider
@@ -14,9 +13,10 @@ from drapery.cloth.colliders.collision_world import THINNEST, CollisionWorld
 from drapery.cloth.colliders.pose import still
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.colliders.shapes import Box, Plane
+from drapery.cloth.contact.box_data import NO_CONTACT, BoxContact, boxes_of
+from drapery.cloth.contact.self_contact import meet_all
+from drapery.cloth.contact.self_contact_data import SelfContact, make_self_contact
 from drapery.cloth.lanes import run_blocks, thread_count
-from drapery.cloth.self_contact import meet_all
-from drapery.cloth.self_contact_data import SelfContact, make_self_contact
 from drapery.cloth.solvers.driver import check_limit
 from drapery.cloth.state import State
 from drapery.errors import OptionError

@@ -17,8 +17,8 @@ from drapery.cloth.state import State, rest_state
 from drapery.errors import OptionError
 
 if TYPE_CHECKING:
-    from drapery.cloth.box_contact import BoxContact
     from drapery.cloth.collisions import Collisions
+    from drapery.cloth.contact.box_data import BoxContact
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,16 +20,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.attachments import Attachments
-from drapery.cloth.box_contact import NO_CONTACT
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.pose import Pose
 from drapery.cloth.colliders.sampling import SamplePoints
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, ContactParams, RigidSweep, sweep_point
 from drapery.cloth.colliders.vectors import Vector, add_scaled, norm, row, scale, subtract
+from drapery.cloth.contact.box_data import NO_CONTACT
+from drapery.cloth.contact.self_contact import meet_all
+from drapery.cloth.contact.self_contact_data import SelfContact
 from drapery.cloth.lanes import run_blocks, thread_count
-from drapery.cloth.self_contact import meet_all
-from drapery.cloth.self_contact_data import SelfContact
 from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel

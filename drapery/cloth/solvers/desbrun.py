@@ -16,10 +16,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import contact_kernels, kernels, sheet_kernels, simd
+from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.checks import check_choice
 from drapery.cloth.cloth import Cloth
+from drapery.cloth.contact import lanes_contact
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.filters import (
     BandFilter,
@@ -144,7 +145,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
-        contact_kernels.begin_lanes(y, batch, start)
+        lanes_contact.begin_lanes(y, batch, start)
         for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
             kernels.frame_velocity(mean, u, body.pins)
@@ -162,7 +163,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, dt)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_lanes(y, u, batch, start, dt * substeps)
+                lanes_contact.meet_lanes(y, u, batch, start, dt * substeps)
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -179,7 +180,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
-        contact_kernels.begin_plane(y, batch, sheet)
+        lanes_contact.begin_plane(y, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
         for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
@@ -200,6 +201,6 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             )
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_plane(y, u, batch, dt * substeps, sheet)
+                lanes_contact.meet_plane(y, u, batch, dt * substeps, sheet)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from drapery.cloth import kernels, lanes, simd
 from drapery.cloth.bending import Stencils, fastest_bending, force_stencils
-from drapery.cloth.box_contact import NO_CONTACT, BoxContact
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.contact_kernels import ContactWork, contact_work, resolve_address
+from drapery.cloth.contact.box_data import NO_CONTACT, BoxContact
+from drapery.cloth.contact.lanes_contact import ContactWork, contact_work, resolve_address
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
 from drapery.cloth.pins import PinPath

@@ -18,11 +18,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import contact_kernels, kernels, simd
+from drapery.cloth import kernels, simd
 from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.bending import Stencils, force_stencils
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
+from drapery.cloth.contact import lanes_contact
 from drapery.cloth.kernels import direction
 from drapery.cloth.simd import fill, lane_count, load, maximum, sqrt, store
 from drapery.cloth.solvers.base import check_step
@@ -355,7 +356,7 @@ def _advance(
     rows, springs, bends = batch.x.shape[0], plan.body.springs, plan.bends
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        contact_kernels.begin_lanes(y, batch, start)
+        lanes_contact.begin_lanes(y, batch, start)
         lanes = y.shape[1]
         residuals = batch.residuals[start : start + lanes]
         b, dv = simd.empty_lanes(rows, lanes, batch.x), simd.empty_lanes(rows, lanes, batch.x)
@@ -385,5 +386,5 @@ def _advance(
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_lanes(y, u, batch, start, h * substeps)
+                lanes_contact.meet_lanes(y, u, batch, start, h * substeps)
         store_block(batch, y, u, start)

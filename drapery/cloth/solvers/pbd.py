@@ -18,11 +18,12 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import contact_kernels, kernels
+from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.bending import BendingStep, bending_step
 from drapery.cloth.checks import check_choice, check_count, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
+from drapery.cloth.contact import lanes_contact
 from drapery.cloth.kernels import add, direction
 from drapery.cloth.order import outwards, pin_distances, sweep_order
 from drapery.cloth.simd import fill, lane_count, load, maximum, minimum, sqrt
@@ -280,7 +281,7 @@ def _advance(
     h = dtype.type(batch.numbers[0])
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        contact_kernels.begin_lanes(y, batch, start)
+        lanes_contact.begin_lanes(y, batch, start)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -298,5 +299,5 @@ def _advance(
             shorten_too_long(y, plan.springs, sweeps, work)
             kernels.set_velocities(u, y, old, h)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_lanes(y, u, batch, start, h * substeps)
+                lanes_contact.meet_lanes(y, u, batch, start, h * substeps)
         store_block(batch, y, u, start)

@@ -16,10 +16,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import contact_kernels, kernels
+from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.checks import check_number
 from drapery.cloth.cloth import STRUCTURAL, Cloth
+from drapery.cloth.contact import lanes_contact
 from drapery.cloth.kernels import add, direction
 from drapery.cloth.simd import fill, lane_count, maximum, sqrt
 from drapery.cloth.solvers.base import check_step
@@ -119,7 +120,7 @@ def _advance(
     h, half = dtype.type(batch.numbers[0]), dtype.type(batch.numbers[0] / 2)
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        contact_kernels.begin_lanes(y, batch, start)
+        lanes_contact.begin_lanes(y, batch, start)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -132,5 +133,5 @@ def _advance(
             kernels.set_velocities(u, y, old, h)
             kick(u, y, g, body, batch, wind, half, start, work)
             if (step + 1) % substeps == 0:
-                contact_kernels.meet_lanes(y, u, batch, start, h * substeps)
+                lanes_contact.meet_lanes(y, u, batch, start, h * substeps)
         store_block(batch, y, u, start)

@@ -26,11 +26,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import contact_kernels, kernels, sheet_kernels, simd
+from drapery.cloth import kernels, sheet_kernels, simd
 from drapery.cloth.attachments import Attachments, long_range_attachments
 from drapery.cloth.bending import BendingStep, bending_step, fastest_bending
 from drapery.cloth.checks import check_flag, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
+from drapery.cloth.contact import lanes_contact
 from drapery.cloth.faces import wind_faces
 from drapery.cloth.kernels import add, direction
 from drapery.cloth.order import across_then_outwards, pin_distances
@@ -368,7 +369,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
-        contact_kernels.begin_lanes(y, batch, start)
+        lanes_contact.begin_lanes(y, batch, start)
         for step in range(steps):
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(batch.gusts.seeds.size):
@@ -390,10 +391,10 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
                 if (substeps - substep) % INTERVAL == 1:
                     apply_attachments(y, plan.attachments)
                 if batch.often:
-                    contact_kernels.meet_lanes(y, u, batch, start, h)
+                    lanes_contact.meet_lanes(y, u, batch, start, h)
             kernels.set_velocities(u, y, old, h)
             if not batch.often:
-                contact_kernels.meet_lanes(y, u, batch, start, dt)
+                lanes_contact.meet_lanes(y, u, batch, start, dt)
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -418,7 +419,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
-        contact_kernels.begin_plane(y, batch, sheet)
+        lanes_contact.begin_plane(y, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
         for step in range(steps):
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
@@ -445,7 +446,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                         y, plan.attachments, 0, last, sheet_kernels.LIMIT, work
                     )
                 if batch.often:
-                    contact_kernels.meet_plane(y, u, batch, h, sheet)
+                    lanes_contact.meet_plane(y, u, batch, h, sheet)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
@@ -455,6 +456,6 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 )
                 sheet_kernels.add_velocities(u, y, old, dt, sheet)
             if not batch.often:
-                contact_kernels.meet_plane(y, u, batch, dt, sheet)
+                lanes_contact.meet_plane(y, u, batch, dt, sheet)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

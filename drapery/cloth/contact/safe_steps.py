@@ -6,10 +6,10 @@ continuous collision detection (Li, Kaufman, Jiang, "Codimensional incremental p
 2021, section 5) finds how far they may move.
 """
 
-from drapery.cloth.box_contact import put
 from drapery.cloth.colliders.vectors import add_scaled, norm, row, scale, subtract
-from drapery.cloth.pair_distance import distance_of
-from drapery.cloth.touching_pairs import TouchingPairs, longest_relative, moved
+from drapery.cloth.contact.geometry import put
+from drapery.cloth.contact.pair_distance import distance_of
+from drapery.cloth.contact.touching_pairs import TouchingPairs, longest_relative, moved
 from drapery.jit import kernel
 from drapery.mesh import Array
 

@@ -11,17 +11,12 @@ from typing import Any, NamedTuple
 import numba
 import numpy as np
 
-from drapery.cloth.box_contact import (
-    COLUMNS,
-    NO_CONTACT,
-    BoxContact,
-    Candidates,
-    candidate_arrays,
-    find_boxes,
-    put,
-    solve_boxes,
-)
 from drapery.cloth.colliders.vectors import norm, row, scale, subtract
+from drapery.cloth.contact.box_contact import solve_boxes
+from drapery.cloth.contact.box_data import NO_CONTACT, BoxContact, Candidates, candidate_arrays
+from drapery.cloth.contact.box_frame import COLUMNS
+from drapery.cloth.contact.geometry import put
+from drapery.cloth.contact.near_boxes import find_boxes
 from drapery.cloth.sheet_kernels import lane_of
 from drapery.jit import address_of, call_by_address, entry_point, kernel
 from drapery.mesh import Array
@@ -32,7 +27,8 @@ _typeof: Any = numba.typeof
 class ContactWork(NamedTuple):
     """starts: places of each cloth of a block at the start of a step [m], [C, N, 3]; C is 0
     without contact. solved, end: of one cloth at its end, as its solver left it and as contact
-    does [m], [N, 3]. speeds: its velocities [m/s], [N, 3]. frame, near: see `box_contact`."""
+    does [m], [N, 3]. speeds: its velocities [m/s], [N, 3]. frame: see `box_frame`. near: see
+    `Candidates`."""
 
     starts: Array
     solved: Array

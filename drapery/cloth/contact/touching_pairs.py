@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth.box_contact import UP, grown, higher, lower, overlap, put
 from drapery.cloth.colliders.vectors import (
     Vector,
     add_scaled,
@@ -19,8 +18,9 @@ from drapery.cloth.colliders.vectors import (
     scale,
     subtract,
 )
-from drapery.cloth.pair_distance import nearest
-from drapery.cloth.self_contact_data import SelfContact
+from drapery.cloth.contact.geometry import UP, grown, higher, lower, overlap, put
+from drapery.cloth.contact.pair_distance import nearest
+from drapery.cloth.contact.self_contact_data import SelfContact
 from drapery.jit import kernel
 from drapery.mesh import Array
 

@@ -8,20 +8,16 @@ of a step never does.
 
 import numpy as np
 
-from drapery.cloth.box_contact import (
-    COLUMNS,
-    BoxContact,
-    Candidates,
-    empty_candidates,
-    guard_boxes,
-    meet_boxes,
-    put,
-)
 from drapery.cloth.colliders.vectors import add_scaled, dot, norm, row, scale, subtract
-from drapery.cloth.pair_distance import nearest
-from drapery.cloth.safe_steps import shorten_unsafe
-from drapery.cloth.self_contact_data import SelfContact
-from drapery.cloth.touching_pairs import REACH, TouchingPairs, find_pairs, moved
+from drapery.cloth.contact.box_contact import meet_boxes
+from drapery.cloth.contact.box_data import BoxContact, Candidates, empty_candidates
+from drapery.cloth.contact.box_frame import COLUMNS
+from drapery.cloth.contact.box_guard import guard_boxes
+from drapery.cloth.contact.geometry import put
+from drapery.cloth.contact.pair_distance import nearest
+from drapery.cloth.contact.safe_steps import shorten_unsafe
+from drapery.cloth.contact.self_contact_data import SelfContact
+from drapery.cloth.contact.touching_pairs import REACH, TouchingPairs, find_pairs, moved
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 

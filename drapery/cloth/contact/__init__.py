@@ -1,0 +1,1 @@
+"""Contact of cloth with boxes and with itself, as kernels."""

@@ -1,0 +1,120 @@
+"""The boxes that a cloth meets, as the kernels of contact read them; planes are large boxes."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.cloth.colliders.collider import Collider
+from drapery.cloth.colliders.pose import Pose
+from drapery.cloth.colliders.shapes import Box, Plane, Shape
+from drapery.jit import kernel
+from drapery.mesh import Array
+
+REACH = 1.5
+"""No edge of a cloth is longer than this many times its longest edge at rest."""
+FAR = 1e3
+"""Half the size of the box that stands for a plane [m]."""
+
+
+class BoxContact(NamedTuple):
+    """The boxes that a cloth meets, and what their kernels need of the cloth.
+
+    poses: place [m] and rotation of each box, [K, 12].
+    halves: half its edge lengths [m], [K, 3]. friction: [K].
+    radius: distance that the cloth keeps [m].
+    reach: no edge of the cloth is longer [m]. edges: [E, 2]. triangles: [T, 3]. inv_mass: [1/kg],
+    [N].
+    """
+
+    poses: Array
+    halves: Array
+    friction: Array
+    radius: float
+    reach: float
+    edges: NDArray[np.int32]
+    triangles: NDArray[np.int32]
+    inv_mass: Array
+
+
+NO_CONTACT = BoxContact(
+    np.zeros((0, 12)),
+    np.zeros((0, 3)),
+    np.zeros(0),
+    0.0,
+    0.0,
+    np.zeros((0, 2), np.int32),
+    np.zeros((0, 3), np.int32),
+    np.zeros(0),
+)
+"""The contact of cloths that meet nothing."""
+
+
+def boxes_of(
+    inv_mass: Array,
+    triangles: NDArray[np.int32],
+    rest: Array,
+    colliders: Sequence[Collider],
+    radius: float,
+) -> BoxContact:
+    """The contact with colliders whose shapes are a Box or a Plane, which rest and do not bounce.
+
+    inv_mass: [1/kg], [N]. triangles: [T, 3]. rest: places at rest [m], [N, 3]. radius: distance
+    that the cloth keeps [m].
+    """
+    pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    edges = np.unique(np.sort(pairs, axis=1), axis=0).astype(np.int32)
+    lengths = np.sqrt(np.square(rest[edges[:, 0]] - rest[edges[:, 1]]).sum(axis=1))
+    rests, halves = zip(*(_box_of(collider.shape) for collider in colliders), strict=True)
+    return BoxContact(
+        np.stack([np.append(pose.position, pose.rotation) for pose in rests]),
+        np.stack(halves),
+        np.array([collider.friction for collider in colliders], float),
+        radius,
+        REACH * float(lengths.max(initial=0.0)),
+        edges,
+        np.ascontiguousarray(triangles, np.int32),
+        np.ascontiguousarray(inv_mass, float),
+    )
+
+
+def _box_of(shape: Shape) -> tuple[Pose, Array]:
+    """The place and rotation of a box, and half its edge lengths [m]; a plane is a large box."""
+    if isinstance(shape, Box):
+        return Pose(np.asarray(shape.centre, float), np.asarray(shape.rotation, float)), (
+            np.asarray(shape.size, float) / 2
+        )
+    assert isinstance(shape, Plane)
+    normal = np.asarray(shape.normal, float)
+    normal = normal / np.sqrt(np.square(normal).sum())
+    side = np.eye(3)[np.argmin(np.abs(normal))]
+    first = side - (side * normal).sum() * normal
+    first /= np.sqrt(np.square(first).sum())
+    rotation = np.stack([first, normal, np.cross(first, normal)], axis=1)
+    centre = np.asarray(shape.point, float) - FAR * normal
+    return Pose(centre, rotation), np.full(3, FAR)
+
+
+class Candidates(NamedTuple):
+    """What of a cloth is near each box during a step: numbers of particles [K, N], edges [K, E] and
+    faces [K, T], and how many there are, [K, 3]."""
+
+    particles: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    faces: NDArray[np.int32]
+    counts: NDArray[np.int64]
+
+
+def candidate_arrays(contact: BoxContact) -> Candidates:
+    """Arrays for the cloth and the boxes of a contact."""
+    boxes = len(contact.halves)
+    return Candidates(
+        np.empty((boxes, len(contact.inv_mass)), np.int32),
+        np.empty((boxes, len(contact.edges)), np.int32),
+        np.empty((boxes, len(contact.triangles)), np.int32),
+        np.zeros((boxes, 3), np.int64),
+    )
+
+
+empty_candidates = kernel(candidate_arrays)

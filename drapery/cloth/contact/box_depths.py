@@ -1,0 +1,172 @@
+"""How deep particles, edges and faces of a cloth are in a box, in the frame of the box.
+
+A box is convex, so its signed distance is convex too. Along an edge of the cloth the distance
+therefore has one minimum, which lies inside the edge only if the distance falls at its start and
+rises at its end. Particles, edges and corners of the box against faces are tested, which are all
+features of two bodies that can touch first (Ericson, "Real-Time Collision Detection", 2005,
+section 5.1).
+"""
+
+import numpy as np
+
+from drapery.cloth.colliders.primitives import cuboid_distance
+from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, subtract
+from drapery.cloth.contact.box_data import BoxContact
+from drapery.cloth.contact.box_frame import DISTANCE, START, blend, end_of, outward_of, start_of
+from drapery.cloth.contact.geometry import UP, grown, higher, lower, overlap
+from drapery.jit import kernel
+from drapery.mesh import Array
+
+SEARCH = 16
+"""The most steps of the search for the nearest point of an edge."""
+FLAT, NEAREST = 1e-4, 1e-4
+"""That search ends where the slope of the distance is less, and where it cannot find a distance
+that is less by more than this [m]."""
+
+
+@kernel
+def particle_depth(half: Vector, radius: float, frame: Array, i: int) -> tuple[float, Vector]:
+    """How far [m] particle i must move along a direction to keep the radius; 0 or less: none."""
+    d, normal = frame[i, DISTANCE], outward_of(frame, i)
+    motion = subtract(end_of(frame, i), start_of(frame, i))
+    if d * abs(d) < dot(motion, motion):
+        # It may have passed through the box, or entered it: it stays on the side of its start.
+        start = start_of(frame, i)
+        d0, normal0 = cuboid_distance(half, start)
+        if d0 > 0.0 and (d < 0.0 or passes(half, start, motion)):
+            return radius - d0 - dot(normal0, motion), normal0
+    return radius - d, normal
+
+
+@kernel
+def passes(half: Vector, start: Vector, motion: Vector) -> bool:
+    """Whether a segment passes through a box: it lies between all three pairs of planes at once."""
+    first, last = 0.0, 1.0
+    first, last = clip(half[0], start[0], motion[0], first, last)
+    first, last = clip(half[1], start[1], motion[1], first, last)
+    first, last = clip(half[2], start[2], motion[2], first, last)
+    return first < last
+
+
+@kernel
+def clip(
+    half: float, start: float, motion: float, first: float, last: float
+) -> tuple[float, float]:
+    """The part from first to last of a motion that is between -half and half."""
+    if motion == 0.0:
+        return (first, last) if abs(start) < half else (1.0, 0.0)
+    a, b = (-half - start) / motion, (half - start) / motion
+    return max(first, min(a, b)), min(last, max(a, b))
+
+
+@kernel
+def edge_depth(
+    half: Vector, radius: float, frame: Array, i: int, j: int
+) -> tuple[float, float, Vector]:
+    """The part of an edge from i to j at which it is nearest to the box, if that is inside the
+    edge, the depth [m] to push it there, and the direction."""
+    a, along = end_of(frame, i), subtract(end_of(frame, j), end_of(frame, i))
+    none = (0.0, 0.0, UP)
+    total = frame[i, DISTANCE] + frame[j, DISTANCE] - 2.0 * radius
+    if total > 0.0 and total * total >= dot(along, along):
+        return none
+    fall, rise = dot(outward_of(frame, i), along), dot(outward_of(frame, j), along)
+    if fall >= 0.0 or rise <= 0.0:
+        return none
+    part, d, normal = nearest_of_edge(
+        half, radius, a, along, frame[i, DISTANCE], fall, frame[j, DISTANCE], rise
+    )
+    if not d < radius:
+        return none
+    if d < 0.0:
+        # The edge has entered the box: it leaves on the side on which it was at the start.
+        start = start_of(frame, i)
+        along0 = subtract(start_of(frame, j), start)
+        d0, normal0 = cuboid_distance(half, add_scaled(start, part, along0))
+        if d0 > 0.0:
+            motion = subtract(add_scaled(a, part, along), add_scaled(start, part, along0))
+            return part, radius - d0 - dot(normal0, motion), normal0
+    return part, radius - d, normal
+
+
+@kernel
+def nearest_of_edge(
+    half: Vector,
+    radius: float,
+    a: Vector,
+    along: Vector,
+    d_low: float,
+    fall: float,
+    d_high: float,
+    rise: float,
+) -> tuple[float, float, Vector]:
+    """The part of an edge at which the distance is least, that distance [m], and its direction.
+
+    The search ends early where the tangents at both ends show that it is at least the radius.
+    """
+    low, high, flat = 0.0, 1.0, FLAT * norm(along)
+    part, d, normal = 0.5, np.inf, UP
+    for number in range(SEARCH):
+        # The tangents at both ends meet where a convex function cannot be lower.
+        meeting = (d_high - d_low + fall * low - rise * high) / (fall - rise)
+        least = d_low + fall * (meeting - low)
+        if least >= radius or d - least < NEAREST:
+            break
+        part = 0.5 * (low + high) if number % 2 else min(max(meeting, low), high)
+        d, normal = cuboid_distance(half, add_scaled(a, part, along))
+        slope = dot(normal, along)
+        if abs(slope) <= flat:
+            break
+        if slope < 0.0:
+            low, d_low, fall = part, d, slope
+        else:
+            high, d_high, rise = part, d, slope
+    return part, d, normal
+
+
+@kernel
+def face_depth(
+    half: Vector, radius: float, frame: Array, face: tuple[int, int, int], corner: int
+) -> tuple[Vector, float, Vector]:
+    """The weights of the point of a face that is nearest to a corner of the box, if it is inside
+    the face, the depth [m] to push it there, and the direction."""
+    point = (
+        half[0] if corner & 1 else -half[0],
+        half[1] if corner & 2 else -half[1],
+        half[2] if corner & 4 else -half[2],
+    )
+    a, b, c = end_of(frame, face[0]), end_of(frame, face[1]), end_of(frame, face[2])
+    low, high = lower(a, lower(b, c)), higher(a, higher(b, c))
+    if not overlap(grown(low, -radius), grown(high, radius), point, point):
+        return UP, 0.0, UP
+    weights, foot = foot_on_face(a, b, c, point)
+    if not (weights[0] > 0.0 and weights[1] > 0.0 and weights[2] > 0.0):
+        return weights, 0.0, UP
+    d, normal = cuboid_distance(half, foot)
+    if d >= radius:
+        return weights, 0.0, UP
+    if d < 0.0:
+        start = blend(frame, START, face, weights)
+        d0, normal0 = cuboid_distance(half, start)
+        if d0 > 0.0:
+            return weights, radius - d0 - dot(normal0, subtract(foot, start)), normal0
+    return weights, radius - d, normal
+
+
+@kernel
+def foot_on_face(a: Vector, b: Vector, c: Vector, p: Vector) -> tuple[Vector, Vector]:
+    """Barycentric weights of the foot of p on the plane of a triangle, and the foot."""
+    ab, ac, ap = subtract(b, a), subtract(c, a), subtract(p, a)
+    bb, bc, cc = dot(ab, ab), dot(ab, ac), dot(ac, ac)
+    pb, pc = dot(ap, ab), dot(ap, ac)
+    area = bb * cc - bc * bc
+    if area <= 0.0:
+        return (-1.0, 0.0, 0.0), a
+    v, w = (cc * pb - bc * pc) / area, (bb * pc - bc * pb) / area
+    return (1.0 - v - w, v, w), add_scaled(add_scaled(a, v, ab), w, ac)
+
+
+@kernel
+def face_of(contact: BoxContact, t: int) -> tuple[int, int, int]:
+    """The particles of a face."""
+    return contact.triangles[t, 0], contact.triangles[t, 1], contact.triangles[t, 2]

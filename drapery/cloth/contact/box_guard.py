@@ -1,0 +1,75 @@
+"""The end of contact with boxes: no part of the cloth stays in one.
+
+A particle that still makes an edge or a face of the cloth cross a box returns to its place at the
+start of the step. The start is free of penetration, so this ends without one, whatever the contacts
+could not solve.
+"""
+
+from drapery.cloth.colliders.vectors import Vector, row
+from drapery.cloth.contact.box_data import BoxContact, Candidates
+from drapery.cloth.contact.box_depths import edge_depth, face_depth, face_of
+from drapery.cloth.contact.box_frame import (
+    DISTANCE,
+    END,
+    MOVED,
+    end_of,
+    enter_frame,
+    leave_frame,
+    measure,
+    start_of,
+)
+from drapery.cloth.contact.geometry import put
+from drapery.jit import kernel
+from drapery.mesh import Array
+
+GUARDS = 16
+"""The most rounds in which particles return to their places at the start of the step."""
+
+
+@kernel
+def guard_boxes(x0: Array, x: Array, contact: BoxContact, frame: Array, near: Candidates) -> None:
+    """Return particles to their start until no part of the cloth is in a box."""
+    for k in range(len(contact.halves)):
+        if near.counts[k, 0] > 0:
+            enter_frame(x0, x, contact, k, frame, near)
+            for _ in range(GUARDS):
+                if not return_some(contact, k, frame, near):
+                    break
+            leave_frame(x, contact, k, frame, near)
+
+
+@kernel
+def return_some(contact: BoxContact, k: int, frame: Array, near: Candidates) -> bool:
+    """Return the particles of edges and faces that are inside the box; whether any was moved."""
+    half, found = row(contact.halves, k), False
+    for n in range(near.counts[k, 0]):
+        i = near.particles[k, n]
+        if frame[i, DISTANCE] < 0.0:
+            found = to_start(half, contact.inv_mass, frame, i) or found
+    for n in range(near.counts[k, 1]):
+        i, j = contact.edges[near.edges[k, n], 0], contact.edges[near.edges[k, n], 1]
+        _part, depth, _normal = edge_depth(half, 0.0, frame, i, j)
+        if depth > 0.0:
+            found = to_start(half, contact.inv_mass, frame, i) or found
+            found = to_start(half, contact.inv_mass, frame, j) or found
+    for n in range(near.counts[k, 2]):
+        face = face_of(contact, near.faces[k, n])
+        for corner in range(8):
+            _weights, depth, _normal = face_depth(half, 0.0, frame, face, corner)
+            if depth > 0.0:
+                for i in face:
+                    found = to_start(half, contact.inv_mass, frame, i) or found
+    return found
+
+
+@kernel
+def to_start(half: Vector, w: Array, frame: Array, i: int) -> bool:
+    """Return a free particle to its start; whether that moved it."""
+    start, end = start_of(frame, i), end_of(frame, i)
+    same = start[0] == end[0] and start[1] == end[1] and start[2] == end[2]
+    if w[i] == 0.0 or same:
+        return False
+    put(frame, i, END, start)
+    measure(half, frame, i)
+    frame[i, MOVED] = 1.0
+    return True

@@ -1,0 +1,60 @@
+"""Bounds and vectors of the contact kernels."""
+
+from drapery.cloth.colliders.vectors import Vector, row
+from drapery.jit import kernel
+from drapery.mesh import Array
+
+UP = (0.0, 1.0, 0.0)
+
+
+@kernel
+def put(rows: Array, i: int, first: int, values: Vector) -> None:
+    """Set three numbers of row i, from number `first` on."""
+    rows[i, first], rows[i, first + 1], rows[i, first + 2] = values
+
+
+@kernel
+def lower(a: Vector, b: Vector) -> Vector:
+    """The lower of each pair of coordinates."""
+    return min(a[0], b[0]), min(a[1], b[1]), min(a[2], b[2])
+
+
+@kernel
+def higher(a: Vector, b: Vector) -> Vector:
+    """The higher of each pair of coordinates."""
+    return max(a[0], b[0]), max(a[1], b[1]), max(a[2], b[2])
+
+
+@kernel
+def grown(a: Vector, length: float) -> Vector:
+    """All coordinates and the same length."""
+    return a[0] + length, a[1] + length, a[2] + length
+
+
+@kernel
+def overlap(low: Vector, high: Vector, first: Vector, last: Vector) -> bool:
+    """Whether two upright boxes have a common point."""
+    return (
+        low[0] <= last[0]
+        and high[0] >= first[0]
+        and low[1] <= last[1]
+        and high[1] >= first[1]
+        and low[2] <= last[2]
+        and high[2] >= first[2]
+    )
+
+
+@kernel
+def bounds_of(x0: Array, x: Array) -> tuple[Vector, Vector]:
+    """The least box about a cloth's places at the start and the end of a step."""
+    low, high = row(x, 0), row(x, 0)
+    for i in range(len(x)):
+        a, b = row(x0, i), row(x, i)
+        low, high = lower(low, lower(a, b)), higher(high, higher(a, b))
+    return low, high
+
+
+@kernel
+def has_end(low: float, high: float, half: float) -> bool:
+    """Whether -half or half lies between two numbers."""
+    return low < half < high or low < -half < high
