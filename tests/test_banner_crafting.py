@@ -6,7 +6,7 @@ from conftest import Run
 
 from drapery import Banner
 from drapery.banner import PATTERN_NAMES, crafting_items
-from drapery.banner.loom import CHARGE_ITEMS
+from drapery.banner.pattern_items import PATTERN_ITEMS
 
 
 def counts(text: str, *, consumed: bool) -> dict[str, int]:
@@ -38,7 +38,14 @@ def test_a_shield_takes_a_shield() -> None:
 def test_every_pattern_that_needs_an_item_has_one() -> None:
     for pattern in PATTERN_NAMES:
         kept = counts(f"white {pattern}:red", consumed=False)
-        assert len(kept) == (2 if pattern in CHARGE_ITEMS else 1), pattern
+        assert len(kept) == (2 if pattern in PATTERN_ITEMS else 1), pattern
+
+
+def test_older_looms_need_no_item_for_bricks() -> None:
+    sources = {one.item: one.source for one in crafting_items(Banner.parse("white bricks:red"))}
+    assert sources["field_masoned_banner_pattern"] == (
+        "crafted from paper and bricks; not needed before 1.21.2"
+    )
 
 
 def test_layers_prints_the_materials(drapery: Run) -> None:
@@ -51,5 +58,6 @@ def test_layers_prints_the_materials(drapery: Run) -> None:
 def test_layers_prints_json(drapery: Run) -> None:
     facts = json.loads(drapery("layers", "red" + " cross:white" * 7, "--json")[1])
     assert facts["survival"] is False and facts["most_layers"] == 6 and len(facts["steps"]) == 7
+    assert facts["steps"][0] == {"pattern": "cross", "dye": "white", "item": None}
     dye = {"item": "white_dye", "count": 7, "consumed": True, "source": ""}
     assert dye in facts["materials"]

@@ -151,7 +151,7 @@ def test_the_loom_is_described_step_by_step(drapery: Run, tmp_path: Path) -> Non
         "64x64",
     )
     assert code == 0 and out_file.exists() and steps_file.exists()
-    assert "2. creeper with lime dye and a creeper head" in out
+    assert "2. creeper with lime dye and a creeper banner pattern" in out
     banner = Banner.parse("white base:red creeper:lime")
     assert [step.banner.layers[-1] for step in loom_steps(banner)] == list(banner.layers)
     assert fits_loom(banner) and not fits_loom(Banner.parse("white" + " cross:red" * 7))

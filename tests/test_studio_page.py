@@ -276,8 +276,11 @@ def test_the_loom_stops_at_six_and_says_what_is_needed(page: Any) -> None:
     assert "needs a command" in find(page, ".panel-layers .warning").text
     goods = find(page, ".goods").text.splitlines()
     assert goods == [
-        *("1 white banner", "3 lime dyes", "3 black dyes", "1 red dye"),
-        *("creeper head", "oxeye daisy"),
+        *("6 white wool", "1 stick", "3 lime dye", "3 black dye", "1 red dye"),
+        *("2 paper", "1 creeper head", "1 oxeye daisy"),
+        "1 creeper banner pattern kept, crafted from paper and creeper head",
+        "1 flower banner pattern kept, crafted from paper and oxeye daisy",
+        "1 loom kept",
     ]
     press(page, "m")
     wait_until(lambda: find(page, ".count").text == "7 of 16")

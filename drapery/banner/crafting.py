@@ -1,31 +1,14 @@
 """What a design takes to make by hand: wool, dyes, a stick, and pattern items, with counts.
 
-The recipes are those of https://minecraft.wiki/w/Banner and https://minecraft.wiki/w/Banner_Pattern,
-Java Edition 1.21.
+Banners are made as https://minecraft.wiki/w/Banner tells, of Java Edition 26.1; pattern items stand
+in `drapery.banner.pattern_items`.
 """
 
 from collections import Counter
 from dataclasses import dataclass
 
 from drapery.banner.design import Banner
-
-_CRAFTED = {
-    "creeper": ("creeper_banner_pattern", "creeper_head"),
-    "skull": ("skull_banner_pattern", "wither_skeleton_skull"),
-    "flower": ("flower_banner_pattern", "oxeye_daisy"),
-    "mojang": ("mojang_banner_pattern", "enchanted_golden_apple"),
-    "bricks": ("field_masoned_banner_pattern", "bricks"),
-    "curly_border": ("bordure_indented_banner_pattern", "vine"),
-}
-"""The pattern item of a pattern, and what it is crafted from beside paper."""
-
-_FOUND = {
-    "globe": ("globe_banner_pattern", "a cartographer sells it"),
-    "piglin": ("piglin_banner_pattern", "it is in chests of bastion remnants"),
-    "flow": ("flow_banner_pattern", "it is in vaults of trial chambers"),
-    "guster": ("guster_banner_pattern", "it is in vaults of trial chambers"),
-}
-"""The pattern item of a pattern, and where it is found."""
+from drapery.banner.pattern_items import PATTERN_ITEMS
 
 _WOOL = 6
 
@@ -57,11 +40,10 @@ def crafting_items(banner: Banner) -> tuple[CraftingItem, ...]:
     dyes = Counter(layer.dye for layer in banner.layers)
     items += [CraftingItem(f"{dye}_dye", count) for dye, count in dyes.items()]
     patterns = dict.fromkeys(layer.pattern for layer in banner.layers)
-    crafted = [_CRAFTED[pattern] for pattern in patterns if pattern in _CRAFTED]
-    if crafted:
-        items.append(CraftingItem("paper", len(crafted)))
-    items += [CraftingItem(part, 1) for _, part in crafted]
-    items += [CraftingItem(i, 1, False, f"crafted from paper and {part}") for i, part in crafted]
-    found = [_FOUND[pattern] for pattern in patterns if pattern in _FOUND]
-    items += [CraftingItem(item, 1, False, source) for item, source in found]
-    return (*items, *([CraftingItem("loom", 1, False)] if banner.layers else []))
+    needed = [PATTERN_ITEMS[pattern] for pattern in patterns if pattern in PATTERN_ITEMS]
+    ingredients = [one.ingredient for one in needed if one.ingredient]
+    if ingredients:
+        items.append(CraftingItem("paper", len(ingredients)))
+    items += [CraftingItem(ingredient, 1) for ingredient in ingredients]
+    items += [CraftingItem(one.item, 1, consumed=False, source=one.source) for one in needed]
+    return (*items, *([CraftingItem("loom", 1, consumed=False)] if banner.layers else []))

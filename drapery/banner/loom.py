@@ -7,21 +7,8 @@ import numpy as np
 
 from drapery.banner.design import LOOM_LAYERS, Banner, Layer
 from drapery.banner.packs import Packs
+from drapery.banner.pattern_items import PATTERN_ITEMS
 from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
-
-CHARGE_ITEMS = {
-    "creeper": "creeper head",
-    "skull": "wither skeleton skull",
-    "flower": "oxeye daisy",
-    "mojang": "enchanted golden apple",
-    "globe": "globe pattern (from a cartographer)",
-    "piglin": "snout pattern (from a bastion)",
-    "flow": "flow pattern (from a trial chamber)",
-    "guster": "guster pattern (from a trial chamber)",
-    "bricks": "field masoned pattern",
-    "curly_border": "bordure indented pattern",
-}
-"""The item that the loom needs beside the dye, by pattern."""
 
 
 @dataclass(frozen=True)
@@ -33,8 +20,9 @@ class LoomStep:
 
     @property
     def item(self) -> str | None:
-        """The pattern item that the loom needs, if any."""
-        return CHARGE_ITEMS.get(self.layer.pattern)
+        """The id of the pattern item that the loom needs, such as `creeper_banner_pattern`."""
+        needed = PATTERN_ITEMS.get(self.layer.pattern)
+        return needed.item if needed else None
 
 
 def loom_steps(banner: Banner) -> Iterator[LoomStep]:

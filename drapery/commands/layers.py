@@ -73,7 +73,7 @@ def _print_steps(banner: "Banner") -> None:
 
     print(f"start with a {banner.base.replace('_', ' ')} banner")
     for number, step in enumerate(loom_steps(banner), 1):
-        item = f" and a {step.item}" if step.item else ""
+        item = f" and a {step.item.replace('_', ' ')}" if step.item else ""
         dye = step.layer.dye.replace("_", " ")
         print(f"{number:2}. {step.layer.pattern} with {dye} dye{item}")
     if not fits_loom(banner):
@@ -99,7 +99,9 @@ def _json(banner: "Banner") -> str:
 
     from drapery.banner import LOOM_LAYERS, crafting_items, fits_loom, loom_steps
 
-    steps = [{"pattern": s.layer.pattern, "dye": s.layer.dye} for s in loom_steps(banner)]
+    steps = [
+        {"pattern": s.layer.pattern, "dye": s.layer.dye, "item": s.item} for s in loom_steps(banner)
+    ]
     facts = {
         "base": banner.base,
         "kind": banner.kind,

@@ -1,13 +1,19 @@
 """The design as a recipe for the loom: the required items and the steps."""
 
-from collections import Counter
 from html import escape
 from itertools import count
 
 from nicegui import ui
 
 from drapery import Banner, DraperyError
-from drapery.banner import LOOM_LAYERS, fits_loom, loom_steps, simplify
+from drapery.banner import (
+    LOOM_LAYERS,
+    CraftingItem,
+    crafting_items,
+    fits_loom,
+    loom_steps,
+    simplify,
+)
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
@@ -57,11 +63,7 @@ def simplify_design(session: Session) -> None:
 
 
 def _recipe(banner: Banner, address: str, version: int) -> str:
-    dyes = Counter(layer.dye for layer in banner.layers)
-    goods = [f"1 {_lower(banner.base)} {banner.kind}"]
-    goods += [f"{n} {_lower(dye)} dye" + "s" * (n > 1) for dye, n in dyes.items()]
-    goods += sorted({step.item for step in loom_steps(banner) if step.item})
-    items = "".join(f"<li>{escape(each)}</li>" for each in goods)
+    items = "".join(_item(one) for one in crafting_items(banner))
     rows = "".join(
         _row(
             f"{address}/{number}.png?v={version}",
@@ -77,15 +79,20 @@ def _recipe(banner: Banner, address: str, version: int) -> str:
     )
 
 
+def _item(item: CraftingItem) -> str:
+    """One item with its count; a hint tells of those that are kept or not crafted."""
+    words = f"{item.count} {item.item.replace('_', ' ')}"
+    hints = [] if item.consumed else ["kept"]
+    hints += [item.source.replace("_", " ")] if item.source else []
+    hint = f' <span class="hint">{escape(", ".join(hints))}</span>' if hints else ""
+    return f"<li>{escape(words)}{hint}</li>"
+
+
 def _row(address: str, did: str, item: str | None) -> str:
-    needs = f'<span class="hint">with {escape(item)}</span>' if item else ""
+    needs = f'<span class="hint">with {escape(item.replace("_", " "))}</span>' if item else ""
     picture = f'<img src="{escape(address)}" alt="" width="30" height="60" loading="lazy">'
     return f"<li>{picture}<span><b>{escape(did)}</b>{needs}</span></li>"
 
 
 def _step_title(dye: str, pattern: str) -> str:
     return f"{dye_title(dye)} {pattern_title(pattern)}"
-
-
-def _lower(dye: str) -> str:
-    return dye_title(dye).lower()
