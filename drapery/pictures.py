@@ -13,7 +13,7 @@ from drapery.errors import DesignError, OptionError
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
-from drapery.settings import OPTIONS, Options, Settings, check_format, frame_count
+from drapery.settings import Options, Settings, check_format, frame_count
 
 if TYPE_CHECKING:
     from drapery.garments.model import Garment
@@ -198,16 +198,14 @@ def _checked(
     if banner is None or isinstance(banner, Banner):
         return banner, _settled(settings, options)
     # Imported here: pictures of banners need no pydantic.
-    from drapery.garments.model import UNUSED_OPTIONS, Garment
+    from drapery.garments.model import Garment
 
     if not isinstance(banner, Garment):
         raise DesignError(
             f"{str(banner)[:40]!r} is not a Banner; read a text with Banner.parse(text)"
         )
     chosen = _settled(settings, options) if settings else banner.settings(**options)
-    for name in UNUSED_OPTIONS:
-        if getattr(chosen, name) != OPTIONS[name].default:
-            raise OptionError(f"{name} does not apply to a garment; set it in the garment's file")
+    banner.check_settings(chosen)
     texture = chosen.texture_path
     return banner if texture is None else banner.with_texture(texture), chosen
 

@@ -10,13 +10,16 @@ import yaml
 from conftest import Run
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 from test_banner_binary_files import make_world
 from world_maker import LIME, RED, SHIELD
 
 from drapery.banner.design import Banner, Layer
-from drapery.batch.jobs import plan
+from drapery.batch.jobs import make_job, plan
+from drapery.batch.keys import DigestCache
 from drapery.batch.manifest import ManifestError, PictureRequest, _numbered, read_manifest
 from drapery.errors import DraperyError, OptionError
+from drapery.garments import find_garment
 from drapery.packs import MemoryPack
 from drapery.render.encode.output import replacing
 from drapery.settings import Settings
@@ -63,6 +66,46 @@ def test_the_same_jobs_from_every_form(form, tmp_path: Path) -> None:
         ("guilds/red.gif", red, Settings(**few), 2.0, 10.0),
         ("00003.png", Banner("blue"), turned, None, None),
     ]
+
+
+def test_a_row_names_a_garment_or_its_file(tmp_path: Path) -> None:
+    own = tmp_path / "towel.toml"
+    write(own, 'picture = { wind = 7 }\npiece = [{ name = "a", size = [4, 4], points = [3, 3] }]')
+    rows = "garment,design,view,out\nflag,red,,flag.png\ntowel.toml,,front,towel.gif\n"
+    flag, towel = read_manifest(write(tmp_path / "m.csv", rows))
+    wanted = find_garment("flag").with_design("red")
+    assert (flag.banner, flag.settings) == (wanted, wanted.settings())
+    assert (towel.settings.wind, towel.settings.view, towel.fps) == (7.0, "front", 20.0)
+    keys = [make_job(each, DigestCache()).key for each in (flag, towel)]
+    write(own, 'picture = { wind = 7 }\npiece = [{ name = "a", size = [5, 4], points = [3, 3] }]')
+    again = [make_job(each, DigestCache()).key for each in read_manifest(tmp_path / "m.csv")]
+    assert again[0] == keys[0] and again[1] != keys[1]
+
+
+def test_the_key_of_a_garment_holds_the_bytes_of_its_files(tmp_path: Path) -> None:
+    text = 'texture = { file = "a.png" }\npiece = [{ name = "a", size = [4, 4], points = [3, 3] }]'
+    write(tmp_path / "towel.toml", text)
+    keys = []
+    for colour in ("red", "blue"):
+        Image.new("RGBA", (4, 4), colour).save(tmp_path / "a.png")
+        (request,) = read_manifest([{"garment": str(tmp_path / "towel.toml")}])
+        keys.append(make_job(request, DigestCache()).key)
+    assert keys[0] != keys[1]
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        ({"garment": "toga"}, "garment 'toga' is not known; use a file that ends with .toml"),
+        ({"garment": "none.toml"}, "none.toml"),
+        ({"garment": "flag", "grid": "3x5"}, "grid does not apply to a garment"),
+        ({"garment": "flag", "wind": 99}, "wind 99"),
+        ({"garment": "flag", "design": "wite"}, "wite"),
+    ],
+)
+def test_a_garment_that_cannot_be_drawn_is_a_fault(row: dict[str, object], said: str) -> None:
+    with pytest.raises(ManifestError, match=said):
+        read_manifest([row])
 
 
 def test_defaults_lie_under_the_manifests_own(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from drapery.batch.manifest import PictureRequest
 from drapery.batch.pool import JobLimits
 from drapery.batch.warmup import warm_up
 from drapery.errors import OptionError
+from drapery.garments import find_garment
 from drapery.serve.app import make_app
 from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import MAX_CLIENTS, RateLimiter
@@ -70,6 +71,32 @@ def test_a_loop_has_its_frames(client: TestClient) -> None:
     drawn = animate(Banner("red"), size=(24, 32), grid=(3, 5), seconds=0.3, fps=10)
     with Image.open(io.BytesIO(got.content)) as image:
         assert image.n_frames == len(drawn) == 3
+
+
+def test_a_garment_is_what_draw_draws(client: TestClient) -> None:
+    got = client.get("/garment.png?name=pennon&design=red&size=24x32&time=0.1")
+    assert (got.status_code, got.headers["content-type"]) == (200, "image/png")
+    pennon = find_garment("pennon").with_design("red")
+    drawn = draw(pennon, size=(24, 32), time=0.1)  # the file's own view and wind
+    assert np.array_equal(pixels(got.content), drawn.pixels)
+
+
+@pytest.mark.parametrize(
+    ("query", "reason"),
+    [
+        ("", "name is missing; use one of: awning"),
+        ("name=toga", "name 'toga' is not a garment; use one of: awning"),
+        ("name=../mine.toml", "is not a garment"),
+        ("name=flag&design=wite", "did you mean 'white'"),
+        ("name=flag&grid=5x9", "'grid' is not an option"),
+        ("name=flag&texture=/tmp/x.png", "'texture' is not an option"),
+        ("name=flag&time=99", "0 to 60"),
+    ],
+)
+def test_a_bad_address_of_a_garment_is_refused(client: TestClient, query: str, reason: str) -> None:
+    got = client.get(f"/garment.png?{query}")
+    assert got.status_code == 422
+    assert reason in "; ".join(got.json()["detail"])
 
 
 def test_the_etag_is_the_key_so_nothing_is_drawn_twice(client: TestClient) -> None:
@@ -123,7 +150,10 @@ def test_loops_have_limits_of_their_own(client: TestClient) -> None:
 
 def test_the_api_describes_itself(client: TestClient) -> None:
     api = client.get("/openapi.json").json()
-    assert set(api["paths"]) == {"/banner.png", "/banner.gif", "/metrics", "/healthz", "/readyz"}
+    pictures = {f"/{name}{end}" for name in ("banner", "garment") for end in (".png", ".gif")}
+    assert set(api["paths"]) == pictures | {"/metrics", "/healthz", "/readyz"}
+    taken = {p["name"] for p in api["paths"]["/garment.png"]["get"]["parameters"]}
+    assert {"name", "design", "wind"} <= taken and not {"grid", "kind"} & taken
     named = {p["name"] for p in api["paths"]["/banner.gif"]["get"]["parameters"]}
     assert {"design", "size", "pose", "seconds"} <= named
     assert client.get("/docs").status_code == 200

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 from drapery import Banner
 from drapery.batch.keys import DigestCache, code_version, picture_key
@@ -13,6 +14,9 @@ from drapery.batch.manifest import PictureRequest
 from drapery.batch.stores import LocalStore, Store
 from drapery.errors import BackendError, DesignError, DraperyError, OptionError
 from drapery.settings import Settings
+
+if TYPE_CHECKING:
+    from drapery.garments import Garment
 
 
 @dataclass(frozen=True)
@@ -27,7 +31,7 @@ class Job:
     key: str
     outs: tuple[str, ...]
     places: tuple[str, ...]
-    banner: Banner | None
+    banner: "Banner | Garment | None"
     settings: Settings
     seconds: float | None
     fps: float | None
@@ -36,8 +40,10 @@ class Job:
     @property
     def motion(self) -> tuple[object, ...]:
         """Equal for jobs with the same motion of the cloth; a worker simulates it once."""
-        s = self.settings
-        kind = s.kind if self.banner is None or s.kind != "auto" else self.banner.kind
+        s, drawn = self.settings, self.banner
+        kind: str = s.kind
+        if drawn is not None and kind == "auto":
+            kind = drawn.kind if isinstance(drawn, Banner) else drawn.name
         when = s.time if self.seconds is None else 0.0
         still = self.seconds is None
         wind = (s.wind, s.direction, s.gusts, s.seed)

@@ -10,12 +10,15 @@ from importlib.metadata import version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from drapery import Banner
 from drapery.errors import PackError
 from drapery.settings import Settings
 from drapery.styles import combined_style
+
+if TYPE_CHECKING:
+    from drapery.garments import Garment
 
 MAX_FILES = 200_000
 
@@ -50,7 +53,7 @@ def digest(path: Path) -> str:
 
 
 def picture_key(
-    banner: Banner | None,
+    banner: "Banner | Garment | None",
     settings: Settings,
     digests: DigestCache,
     *,
@@ -60,8 +63,8 @@ def picture_key(
 ) -> str:
     """The key of a picture: 64 hexadecimal digits. Raises PackError for unreadable packs.
 
-    It is a hash of the design in its canonical form, the options, the steps of styles, the bytes of
-    packs and textures (not their names), and `code_version`.
+    It is a hash of the design in its canonical form or of the garment, the options, the steps of
+    styles, the bytes of packs and textures (not their names), and `code_version`.
     """
     style = combined_style(settings.style)
     options, texture = asdict(replace(settings, style=())), settings.texture_path
@@ -69,12 +72,20 @@ def picture_key(
     options["packs"] = [digests.of(pack) for pack in settings.pack_paths]
     options["texture"] = None if texture is None else digests.of(texture)
     whole: dict[str, Any] = {
-        "design": None if banner is None else asdict(banner),
+        "design": _described(banner, digests),
         "options": options,
         "file": [ending, seconds, fps],
         "version": code_version(),
     }
     return hashlib.sha256(json.dumps(whole, sort_keys=True).encode()).hexdigest()
+
+
+def _described(banner: "Banner | Garment | None", digests: DigestCache) -> Any:
+    """A design, or a garment with the bytes of its files, as values of JSON. Raises PackError."""
+    if banner is None or isinstance(banner, Banner):
+        return None if banner is None else asdict(banner)
+    tree = banner.model_dump(mode="json", exclude={"folder"})
+    return {"garment": tree, "files": [digests.of(path) for path in banner.paths]}
 
 
 @cache

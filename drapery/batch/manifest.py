@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from drapery import Banner
 from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
@@ -15,12 +15,15 @@ from drapery.option import shown
 from drapery.options import check_options, one_line, unknown_names
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 
+if TYPE_CHECKING:
+    from drapery.garments import Garment
+
 MAX_JOBS = 1_000_000
 STILLS = ("png",)
 EITHER = ("webp",)
 ANIMATIONS = ("gif", "apng", "mp4", "webm")
 ENDINGS = (*STILLS, *EITHER, *ANIMATIONS)
-TEXTS = ("design", "name", "out")
+TEXTS = ("design", "garment", "name", "out")
 """The fields of a row that are texts; the others are options."""
 MAX_TEXT = 1 << 20
 """The most characters of a text."""
@@ -46,6 +49,7 @@ class RowFields:
     """The fields of a row that are not options of the picture."""
 
     design: str | None = None
+    garment: str | None = None
     name: str | None = None
     out: str | None = None
     seconds: float | None = None
@@ -57,12 +61,13 @@ class PictureRequest:
     """One checked picture of a manifest.
 
     place: of its row in the manifest. out: its file, relative to the output folder.
+    banner: a banner or garment; None for what needs no design.
     seconds, fps: of an animation; None for a still.
     """
 
     place: str
     out: str
-    banner: Banner | None
+    banner: "Banner | Garment | None"
     settings: Settings
     seconds: float | None = None
     fps: float | None = None
@@ -131,6 +136,8 @@ def _from_current_folder(name: str, value: Any) -> Any:
     """Defaults' paths are relative to the current folder, so they are made absolute."""
     if name == "texture":
         return Path(value).absolute()
+    if name == "garment" and str(value).endswith(".toml"):
+        return str(Path(value).absolute())
     if name in ("pack", "packs"):
         parts = value.split(";") if isinstance(value, str) else value
         return [Path(part).absolute() for part in parts if part]
@@ -153,7 +160,10 @@ def _request(
         settings = _with_styles(settings)
     if isinstance(settings, list):
         faults += settings
-    banner = row.banner or _design(fields.design, folder, faults)
+    banner: Banner | Garment | None = row.banner or _design(fields.design, folder, faults)
+    if fields.garment is not None and not isinstance(settings, list):
+        given = {name: getattr(settings, name) for name in options}
+        banner, settings = _garment(fields.garment, banner, folder, faults, given)
     out = _out(fields, row, number, ending, faults)
     times = _times(out, fields, faults)
     if faults or isinstance(settings, list):
@@ -230,6 +240,22 @@ def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
         return design
     faults.append(f"design: {design}")
     return None
+
+
+def _garment(
+    text: str, banner: Banner | None, folder: Path, faults: list[str], given: Mapping[str, Any]
+) -> "tuple[Garment | None, Settings]":
+    """A garment by its name or file with a design, and its settings with the options given."""
+    from drapery.garments import find_garment
+
+    try:
+        found = find_garment(folder / text if text.endswith(".toml") else text)
+        settings = found.settings(**given)
+        found.check_settings(settings)
+        return found if banner is None else found.with_design(banner), settings
+    except OptionError as error:
+        faults.append(one_line(str(error)))
+        return None, Settings()
 
 
 @lru_cache(maxsize=1024)
@@ -348,7 +374,10 @@ def _unusable(requests: Iterable[PictureRequest]) -> Iterator[ManifestFault]:
     """Faults for options that name missing packs, views, backends or placements."""
     verdicts: dict[object, str | None] = {}
     for request in requests:
-        s, kind = request.settings, getattr(request.banner, "kind", None)
+        s, drawn = request.settings, request.banner
+        kind: object = getattr(drawn, "kind", None)
+        if drawn is not None and not isinstance(drawn, Banner):
+            kind = (drawn.folder, drawn.name)
         key = (s.packs, s.format, s.view, s.backend, s.kind, s.placement, s.texture, kind)
         if key not in verdicts:
             verdicts[key] = _verdict(request)
@@ -362,12 +391,17 @@ def _verdict(request: PictureRequest) -> str | None:
     from drapery.render import backend
     from drapery.style import check_kind
 
-    settings = request.settings
+    settings, drawn = request.settings, request.banner
     try:
-        open_packs(settings.packs, format=settings.format)
+        packs = open_packs(settings.packs, format=settings.format)
         backend(settings.backend)
-        check_kind(request.banner, settings)
-        if request.banner is None and settings.kind in ("auto", "banner"):
+        if drawn is None or isinstance(drawn, Banner):
+            check_kind(drawn, settings)
+        else:
+            from drapery.scenes import Dressed
+
+            Dressed(drawn, packs, settings).check()
+        if drawn is None and settings.kind in ("auto", "banner"):
             return "no design is given; write one like 'white creeper:lime border:black'"
         if settings.texture_path is not None and not Path(settings.texture_path).is_file():
             return f"texture {settings.texture} does not exist: check the path"

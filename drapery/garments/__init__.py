@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from drapery.garments.assembly import SewnCloth, SewnPiece, tailor
     from drapery.garments.catalogue import find_garment, garment_names
     from drapery.garments.model import (
+        UNUSED_OPTIONS,
         ClothTexture,
         DiscPiece,
         Garment,
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from drapery.garments.players import dressed_player, make_wearer
 
 __all__ = [
+    "UNUSED_OPTIONS",
     "ClothTexture",
     "DiscPiece",
     "Garment",
@@ -63,6 +65,7 @@ __getattr__, __dir__ = lazy_names(
     {
         "garments.catalogue": ("find_garment", "garment_names"),
         "garments.model": (
+            "UNUSED_OPTIONS",
             "ClothTexture",
             "DiscPiece",
             "Garment",

@@ -32,5 +32,10 @@ def find_garment(name: str | Path) -> Garment:
             f"garment {shown(str(name))} is not known; use a file that ends with {ENDING},"
             f" or one of: {known}"
         )
+    return _of_package(str(name))
+
+
+@cache
+def _of_package(name: str) -> Garment:
     with as_file(files("drapery.garments") / "files" / f"{name}{ENDING}") as path:
         return Garment.load(path)

@@ -29,7 +29,7 @@ from drapery.errors import DraperyError, OptionError
 from drapery.garments.loading import load_tables
 from drapery.option import shown
 from drapery.options import unknown_names
-from drapery.settings import NAMED_OPTIONS, Settings
+from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings
 from drapery.toml_text import Place
 
 MAX_LENGTH = 1024
@@ -460,6 +460,25 @@ class Garment(GarmentTable):
     def settings(self, **options: Any) -> Settings:
         """The settings of its picture. options: those that replace its own. Raises OptionError."""
         return Settings(**{**self.picture, **options})
+
+    def check_settings(self, settings: Settings) -> None:
+        """Raise OptionError for an option that its file sets in its stead, such as `grid`."""
+        for name in UNUSED_OPTIONS:
+            if getattr(settings, name) != OPTIONS[name].default:
+                raise OptionError(
+                    f"{name} does not apply to a garment; set it in the garment's file"
+                )
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        """The files that it reads when it is drawn: textures, a skin and a pose."""
+        textures = [each.texture or self.texture for each in self.piece]
+        names: list[str | Path] = [each.file for each in textures if each.file is not None]
+        if self.wearer is not None:
+            words = (self.wearer.skin, self.wearer.motion)
+            names += [word for word in words if word.lower().endswith((".png", ".json"))]
+        own = (self.folder / name for name in names)
+        return (*dict.fromkeys(own), *(path for each in self.over for path in each.paths))
 
     def with_design(self, design: str | Banner) -> "Garment":
         """The garment with another design on the pieces that have one, or on all if none has.

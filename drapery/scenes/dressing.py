@@ -105,6 +105,10 @@ class Dressed:
     settings: Settings
     period: float | None = None
 
+    def check(self) -> None:
+        """Raise OptionError or PackError if something cannot be drawn: an edge, file or block."""
+        _ = self.cloths, self.wearer, self.fixed
+
     @cached_property
     def cloths(self) -> tuple[SewnCloth, ...]:
         """The cloths of the garment at rest."""

@@ -28,13 +28,24 @@ from drapery.errors import OptionError
 from drapery.serve.job_queue import BusyError, JobQueue, Unavailable
 from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import RateLimiter
-from drapery.serve.request_params import ServiceConfig, parameters, parse_query, read_request
+from drapery.serve.request_params import (
+    SUBJECTS,
+    ServiceConfig,
+    Subject,
+    parameters,
+    parse_query,
+    read_request,
+)
 
 Ending: TypeAlias = Literal[".png", ".gif"]
 MEDIA_TYPES: dict[Ending, str] = {".png": "image/png", ".gif": "image/gif"}
 CACHE_CONTROL = "public, max-age=86400"
 WORKER_RESTARTS = RetryPolicy(limit=math.inf, pause=0.25, longest=30.0)
 """Workers that fail to start are started again without a limit: memory may be free later."""
+SUMMARIES: dict[Ending, str] = {
+    ".png": "A {} as one picture.",
+    ".gif": "A {} in the wind, as a seamless loop.",
+}
 CLOSED_REQUEST = 499
 """The status that metrics count for a client that disconnected; it is not sent."""
 REASONS = {
@@ -93,7 +104,7 @@ class PictureService:
         code_version()  # cache the result before the first request
         self.queue: JobQueue[bytes | JobResult] = JobQueue(pool, self._finish, waiting)
 
-    async def answer(self, request: Request, ending: Ending) -> Response:
+    async def answer(self, request: Request, subject: Subject, ending: Ending) -> Response:
         """The response to a request: a picture, or an error that states the reason."""
         pause = self.rates.wait(request.client.host if request.client else "")
         if pause:
@@ -103,7 +114,7 @@ class PictureService:
         except OptionError as error:
             return _refusal(414, [str(error)])
         # Use a thread, so that a long design does not block other requests.
-        job = await run_in_threadpool(self._job, query, ending)
+        job = await run_in_threadpool(self._job, query, subject, ending)
         if isinstance(job, list):
             return _refusal(422, job)
         headers = {"ETag": f'"{job.key}"', "Cache-Control": CACHE_CONTROL}
@@ -119,9 +130,11 @@ class PictureService:
             self.metrics.cache_hits.inc()
         return Response(data, media_type=MEDIA_TYPES[ending], headers=headers)
 
-    def _job(self, query: list[tuple[str, str]], ending: Ending) -> Job | list[str]:
+    def _job(
+        self, query: list[tuple[str, str]], subject: Subject, ending: Ending
+    ) -> Job | list[str]:
         """The job of a query, whose key is its file name, or the errors of the query."""
-        request = read_request(query, ending, self.config)
+        request = read_request(query, ending, self.config, subject)
         if isinstance(request, list):
             return request
         job = make_job(request, self.digests)
@@ -204,12 +217,13 @@ def make_app(
 
     app = FastAPI(
         title="Drapery",
-        description="Pictures of Minecraft banners as cloth.",
+        description="Pictures of Minecraft banners and garments as cloth.",
         lifespan=lifespan,
     )
     app.add_middleware(CountRequests, metrics=metrics)
-    _add_picture(app, ".png", "A banner as one picture.", chosen)
-    _add_picture(app, ".gif", "A banner waving, as a seamless loop.", chosen)
+    for subject in SUBJECTS:
+        for ending in MEDIA_TYPES:
+            _add_picture(app, subject, ending, chosen)
     _add_metrics(app, metrics)
     _add_health(app)
     return app
@@ -233,20 +247,20 @@ def _with_own_packs(config: ServiceConfig, folder: Path) -> ServiceConfig:
     return replace(config, base=replace(config.base, packs=tuple(packs)))
 
 
-def _add_picture(app: FastAPI, ending: Ending, summary: str, config: ServiceConfig) -> None:
+def _add_picture(app: FastAPI, subject: Subject, ending: Ending, config: ServiceConfig) -> None:
     async def handler(request: Request) -> Response:
         service: PictureService = request.app.state.service
-        return await service.answer(request, ending)
+        return await service.answer(request, subject, ending)
 
     app.add_api_route(
-        f"/banner{ending}",
+        f"/{subject}{ending}",
         handler,
         methods=["GET"],
-        summary=summary,
+        summary=SUMMARIES[ending].format(subject),
         response_class=Response,
-        operation_id=f"banner_{ending[1:]}",
+        operation_id=f"{subject}_{ending[1:]}",
         responses=_responses(MEDIA_TYPES[ending]),
-        openapi_extra={"parameters": parameters(ending == ".gif", config.limits)},
+        openapi_extra={"parameters": parameters(ending == ".gif", config.limits, subject)},
     )
 
 
@@ -294,6 +308,15 @@ def _add_health(app: FastAPI) -> None:
         return _state(ready, "no worker is running; workers are being started")
 
 
+COUNTED = frozenset(
+    {
+        *(f"/{subject}{ending}" for subject in SUBJECTS for ending in MEDIA_TYPES),
+        *("/metrics", "/healthz", "/readyz"),
+    }
+)
+"""The paths that metrics count by themselves."""
+
+
 class CountRequests:
     """Middleware that counts requests, and tells browsers not to guess media types."""
 
@@ -305,8 +328,7 @@ class CountRequests:
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
-        known = ("/banner.png", "/banner.gif", "/metrics", "/healthz", "/readyz")
-        path = scope["path"] if scope["path"] in known else "other"
+        path = scope["path"] if scope["path"] in COUNTED else "other"
 
         async def count(message: Message) -> None:
             if message["type"] == "http.response.start":

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from urllib.parse import parse_qsl
 
 from drapery.batch.manifest import PictureRequest
@@ -13,6 +13,17 @@ from drapery.options import check_options, one_line, unknown
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 from drapery.styles import combined_style
 
+if TYPE_CHECKING:
+    from drapery import Banner
+    from drapery.garments import Garment
+
+Subject: TypeAlias = Literal["banner", "garment"]
+"""What an address shows."""
+SUBJECTS: dict[Subject, dict[str, bool]] = {
+    "banner": {"design": True},
+    "garment": {"name": True, "design": False},
+}
+"""The texts that the address of each subject takes, and whether it needs them."""
 PUBLIC_OPTIONS = tuple(name for name, option in OPTIONS.items() if option.public)
 """Options that anyone may set. Only the service sets those that name files, packs or backends."""
 MAX_QUERY = 32 << 10
@@ -52,18 +63,36 @@ class ServiceConfig:
     limits: PictureLimits = field(default_factory=PictureLimits)
 
 
-def parameters(animated: bool, limits: PictureLimits) -> list[dict[str, Any]]:
+def options_of(subject: Subject) -> tuple[str, ...]:
+    """The options that the address of a subject takes."""
+    from drapery.garments import UNUSED_OPTIONS
+
+    left_out = UNUSED_OPTIONS if subject == "garment" else ()
+    return tuple(name for name in PUBLIC_OPTIONS if name not in left_out)
+
+
+def parameters(
+    animated: bool, limits: PictureLimits, subject: Subject = "banner"
+) -> list[dict[str, Any]]:
     """The query's parameters in OpenAPI form."""
+    from drapery.garments import garment_names
+
     length = {"minLength": 1, "maxLength": limits.max_length}
-    schemas: dict[str, dict[str, Any]] = {"design": {"type": "string", **length}}
-    schemas |= {name: _schema(OPTIONS[name]) for name in PUBLIC_OPTIONS}
+    texts = {"design": {"type": "string", **length}, "name": {"enum": [*garment_names()]}}
+    schemas: dict[str, dict[str, Any]] = {name: texts[name] for name in SUBJECTS[subject]}
+    schemas |= {name: _schema(OPTIONS[name]) for name in options_of(subject)}
     schemas["time"]["maximum"] = limits.time
     if animated:
         schemas |= {name: _schema(option) for name, option in LOOP_OPTIONS.items()}
         schemas["seconds"]["maximum"] = limits.seconds
         schemas["fps"]["maximum"] = limits.fps
     return [
-        {"name": name, "in": "query", "required": name == "design", "schema": schema}
+        {
+            "name": name,
+            "in": "query",
+            "required": SUBJECTS[subject].get(name, False),
+            "schema": schema,
+        }
         for name, schema in schemas.items()
     ]
 
@@ -95,13 +124,16 @@ def parse_query(query: bytes) -> list[tuple[str, str]]:
 
 
 def read_request(
-    query: Sequence[tuple[str, str]], ending: str, config: ServiceConfig
+    query: Sequence[tuple[str, str]],
+    ending: str,
+    config: ServiceConfig,
+    subject: Subject = "banner",
 ) -> PictureRequest | list[str]:
     """The request of a query, or the errors in the query, one line each.
 
-    query: names and values from the address. ending: `.png` or `.gif`.
+    query: names and values from the address. ending: `.png` or `.gif`. subject: what it shows.
     """
-    faults = _faults(query, ending)
+    faults = _faults(query, ending, subject)
     values = dict(query)
     if faults:
         return faults[:MAX_REASONS]
@@ -114,16 +146,21 @@ def read_request(
     chosen = {n: getattr(settings, n) for n in PUBLIC_OPTIONS if n in values}
     try:
         combined_style(settings.style)
-        settings = replace(config.base, **chosen)
-        return _request(values, settings, ending, config.limits)
+        if subject == "garment":
+            garment = _garment(values, config.limits)
+            settings = replace(config.base, **{**garment.picture, **chosen})
+            return _request(values, garment, settings, ending, config.limits)
+        settings, banner = replace(config.base, **chosen), _banner(values, config.limits)
+        _check_kind(banner, settings)
+        return _request(values, banner, settings, ending, config.limits)
     except (DraperyError, ValueError) as error:
         return [one_line(str(error))]
 
 
-def _faults(query: Sequence[tuple[str, str]], ending: str) -> list[str]:
+def _faults(query: Sequence[tuple[str, str]], ending: str, subject: Subject) -> list[str]:
     """The errors in the names of a query."""
     loop = tuple(LOOP_OPTIONS) if ending == ".gif" else ()
-    known = frozenset({"design", *PUBLIC_OPTIONS, *loop})
+    known = frozenset({*SUBJECTS[subject], *options_of(subject), *loop})
     names = [name for name, _ in query]
     strange = [name for name in dict.fromkeys(names) if name not in known]
     twice = sorted({name for name in names if name in known and names.count(name) > 1})
@@ -132,11 +169,8 @@ def _faults(query: Sequence[tuple[str, str]], ending: str) -> list[str]:
     return faults + [f"{name} is given twice; give it once" for name in twice]
 
 
-def _request(
-    values: dict[str, str], settings: Settings, ending: str, limits: PictureLimits
-) -> PictureRequest:
+def _banner(values: dict[str, str], limits: PictureLimits) -> "Banner":
     from drapery import Banner
-    from drapery.style import check_kind
 
     text = values.get("design", "")
     if not text:
@@ -144,10 +178,36 @@ def _request(
     if len(text) > limits.max_length:
         raise OptionError(f"design has over {limits.max_length} characters; write it shorter")
     # A client's text must not name a file, so only parse it and never open it.
-    banner = Banner.parse(text)
+    return Banner.parse(text)
+
+
+def _check_kind(banner: "Banner", settings: Settings) -> None:
+    from drapery.style import check_kind
+
     if settings.kind in _NEEDS_FILE:
         raise OptionError(f"kind {settings.kind} shows a file, which an address cannot name")
     check_kind(banner, settings)
+
+
+def _garment(values: dict[str, str], limits: PictureLimits) -> "Garment":
+    from drapery.garments import find_garment, garment_names
+
+    name = values.get("name", "")
+    # A client's text must not name a file, which `find_garment` would open.
+    if name not in garment_names():
+        what = f"name {shown(name)} is not a garment" if name else "name is missing"
+        raise OptionError(f"{what}; use one of: {', '.join(garment_names())}")
+    found = find_garment(name)
+    return found.with_design(_banner(values, limits)) if "design" in values else found
+
+
+def _request(
+    values: dict[str, str],
+    banner: "Banner | Garment",
+    settings: Settings,
+    ending: str,
+    limits: PictureLimits,
+) -> PictureRequest:
     seconds, fps = _times(values, limits) if ending == ".gif" else (None, None)
     frames = 1 if seconds is None or fps is None else round(seconds * fps)
     _check_size(settings, frames, limits)
