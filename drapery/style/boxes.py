@@ -50,7 +50,7 @@ def box_mesh(box: ModelBox, sheet: tuple[float, float] = (64, 64)) -> Mesh:
     return Mesh(
         corner + unit * (np.array(box.size, np.float64) + 2 * box.grown),
         np.concatenate([normals for _, normals, _ in faces]),
-        np.concatenate([np.array([[0, 2, 1], [1, 2, 3]], np.int32) + 4 * i for i in range(6)]),
+        _TRIANGLES.copy(),
         np.concatenate([uvs for _, _, uvs in faces]),
     )
 
@@ -72,6 +72,13 @@ def join(meshes: Sequence[Mesh]) -> Mesh:
     )
 
 
+_FACE = np.array([[0, 2, 1], [1, 2, 3]], np.int32)
+"""The triangles of a side from its corners, see `_face`."""
+_TRIANGLES = np.concatenate(
+    [(_FACE[:, ::-1] if side == 5 else _FACE) + np.int32(4 * side) for side in range(6)]
+)
+"""Those of all sides of a box. The corners of the bottom go round the other way."""
+
 _Side = tuple[
     tuple[float, float, float],
     tuple[int, int, int],
@@ -84,7 +91,8 @@ _Side = tuple[
 def _sides(uv_mapping: BoxMapping) -> list[_Side]:
     """(upper left corner, step right, step down, world normal, texture) of each face.
 
-    In fractions of the box: x to the right, y down, z to the back, as in the model.
+    In fractions of the box: x to the right, y down, z to the back, as in the model. The bottom is
+    last; its texture is drawn as it is seen from above, through the box, as in the game.
     """
     return [
         ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), uv_mapping.front_rect),
@@ -92,7 +100,7 @@ def _sides(uv_mapping: BoxMapping) -> list[_Side]:
         ((0, 0, 1), (0, 0, -1), (0, 1, 0), (-1, 0, 0), uv_mapping.left),
         ((1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 0), uv_mapping.right),
         ((0, 0, 1), (1, 0, 0), (0, 0, -1), (0, 1, 0), uv_mapping.top),
-        ((0, 1, 0), (1, 0, 0), (0, 0, 1), (0, -1, 0), uv_mapping.bottom),
+        ((0, 1, 1), (1, 0, 0), (0, 0, -1), (0, -1, 0), uv_mapping.bottom),
     ]
 
 

@@ -110,7 +110,7 @@ def _from_old(texels: Texels, unit: int) -> Texels:
         whole[top : top + height * unit, left : left + 4 * unit] = face[:, ::-1]
     left, top, right, bottom = (unit * value for value in HAT)
     hat = whole[top:bottom, left:right]
-    if (hat[..., 3] == 255).all():  # an old skin without alpha has no hat
+    if (hat[..., 3] > 127).all():  # an old skin without alpha has no hat
         hat[..., 3] = 0
     return whole
 
