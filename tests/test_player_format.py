@@ -179,3 +179,29 @@ def test_an_old_skin_shows_its_right_limbs_mirrored_on_the_left() -> None:
             one = read.texels[right[2][1] + y :, right[2][0] + x :][:h, :w]
             two = read.texels[left[2][1] + y2 :, left[2][0] + x2 :][:h, :w]
             assert np.array_equal(one, two[:, ::-1]), (name, side)
+
+
+def test_one_texel_of_the_second_layer_is_a_box_with_four_walls() -> None:
+    texels = np.zeros((64, 64, 4), np.uint8)
+    texels[10, 43] = (9, 8, 7, 255)  # on the front of the head, away from its edges
+    flat, voxels, none = (
+        read_skin(texels, "classic", overlay=overlay).mesh({}, ("head",))
+        for overlay in ("flat", "voxels", "none")
+    )
+    assert len(none.triangles) == 12 and len(flat.triangles) == 24
+    assert len(voxels.triangles) == 24 + 2 * 4
+    walls = voxels.positions[-16:] / TEXEL
+    # Column 3 and row 2 of 8, on a layer that stands off by half a texel.
+    low, high = np.array([-4.5, 32.5]) + np.array([[3, -3], [4, -2]]) * 9 / 8
+    np.testing.assert_allclose(walls.min(axis=0), [*low, 4], atol=1e-9)
+    np.testing.assert_allclose(walls.max(axis=0), [*high, 4.5], atol=1e-9)
+    assert np.allclose(voxels.uvs[-16:], [43.5 / 64, 10.5 / 64])
+    a, b, c = (voxels.positions[voxels.triangles[-8:, corner]] for corner in range(3))
+    normals = np.cross(b - a, c - a)
+    assert ((normals * voxels.normals[voxels.triangles[-8:, 0]]).sum(axis=1) > 0).all()
+
+
+def test_no_wall_stands_inside_a_closed_layer() -> None:
+    read = read_skin(np.full((64, 64, 4), 255, np.uint8), "slim", overlay="voxels")
+    flat = read_skin(np.full((64, 64, 4), 255, np.uint8), "slim")
+    assert len(read.mesh({}).triangles) == len(flat.mesh({}).triangles)

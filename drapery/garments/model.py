@@ -346,6 +346,7 @@ class GarmentWearer(GarmentTable):
 
     skin: of a player, `traveller` or `dancer`, or a PNG file of 64 x 64 or 64 x 32 texels, relative
     to the garment's file. arms: slim, classic, or auto, which reads it from the skin.
+    overlay: how the skin's second layer is drawn: flat, its texels as small boxes, or not at all.
     motion: `walk`, another motion of a player, or a pose in a JSON file; see `motion_names`.
     speed: over the ground [m/s], the speed of the air from ahead; a walk of 0 stands.
     look: where a player's head turns: to its left and downwards [degrees].
@@ -357,6 +358,7 @@ class GarmentWearer(GarmentTable):
     skin: str = "traveller"
     speed: Annotated[float, Field(strict=True, ge=0, le=MAX_SPEED)] = 0.0
     arms: Literal["auto", "classic", "slim"] = "auto"
+    overlay: Literal["flat", "voxels", "none"] = "flat"
     motion: Annotated[str, Field(min_length=1, max_length=200)] = "walk"
     look: tuple[Angle, Angle] = (0.0, 0.0)
     shown: Literal["full", "bust", "head"] = "full"

@@ -123,11 +123,12 @@ def _poses(
 def _skin(who: GarmentWearer, folder: Path, packs: Packs) -> Skin:
     arms = None if who.arms == "auto" else who.arms
     if who.skin in SKINS:
-        return read_skin(packs.texture(f"entity/player/{who.skin}"), arms)
+        texels = packs.texture(f"entity/player/{who.skin}")
+        return read_skin(texels, arms, overlay=who.overlay)
     if not who.skin.lower().endswith(".png"):
         known = ", ".join(SKINS)
         raise OptionError(f"skin {who.skin!r} is not known; use a PNG file, or one of: {known}")
-    return read_skin(read_texture(folder / who.skin), arms, f"skin {who.skin}")
+    return read_skin(read_texture(folder / who.skin), arms, f"skin {who.skin}", who.overlay)
 
 
 def _horse(packs: Packs) -> Draw:

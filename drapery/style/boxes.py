@@ -44,7 +44,7 @@ def box_mesh(box: ModelBox, sheet: tuple[float, float] = (64, 64)) -> Mesh:
     and z. sheet: width and height of the texture [texels].
     """
     uv_mapping = box_mapping(box.offset, box.size, sheet)
-    faces = [_face(*side) for side in _sides(uv_mapping)]
+    faces = [_face(*side) for side in box_sides(uv_mapping)]
     unit = np.concatenate([corners for corners, _, _ in faces])
     corner = np.array(box.corner, np.float64) - box.grown
     return Mesh(
@@ -79,16 +79,17 @@ _TRIANGLES = np.concatenate(
 )
 """Those of all sides of a box. The corners of the bottom go round the other way."""
 
-_Side = tuple[
+Side = tuple[
     tuple[float, float, float],
     tuple[int, int, int],
     tuple[int, int, int],
     tuple[float, float, float],
     tuple[float, float, float, float],
 ]
+"""A side of a box, see `box_sides`."""
 
 
-def _sides(uv_mapping: BoxMapping) -> list[_Side]:
+def box_sides(uv_mapping: BoxMapping) -> list[Side]:
     """(upper left corner, step right, step down, world normal, texture) of each face.
 
     In fractions of the box: x to the right, y down, z to the back, as in the model. The bottom is

@@ -6,7 +6,7 @@ A skin is 64 x 64 texels, or a multiple, with a second layer over each part. Unt
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Literal
 
 import numpy as np
@@ -16,8 +16,11 @@ from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.style.boxes import ModelBox, box_mesh, join, upright
 from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed, posed
+from drapery.style.voxel_layer import layer_walls
 
 Arms = Literal["classic", "slim"]
+Overlay = Literal["flat", "voxels", "none"]
+"""How the second layer is drawn: as one surface, its texels as small boxes, or not at all."""
 
 SIDE = 64
 """Width and height of a skin [texels]."""
@@ -46,10 +49,12 @@ EMPTY_OF_SLIM = (54, 20, 56, 32)
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """A skin as it is drawn. texels: uint8, shape [64 n, 64 n, 4]. arms: classic or slim."""
+    """A skin as it is drawn. texels: uint8, shape [64 n, 64 n, 4]. arms: classic or slim.
+    overlay: how its second layer is drawn."""
 
     texels: Texels
     arms: Arms
+    overlay: Overlay = "flat"
 
     @property
     def parts(self) -> Mapping[str, FigurePart]:
@@ -66,10 +71,15 @@ class Skin:
         """The boxes at rest by bone; those of the second layer only where it has texels."""
         found = []
         for name, part in self.parts.items():
+            found.append((name, _at_rest(part.box)))
             left, top, grown = OVERLAYS[name]
             over = replace(part.box, offset=(left, top), grown=grown)
-            boxes = [part.box, over] if self._covers(over) else [part.box]
-            found += [(name, upright(box_mesh(box), TEXEL, (0, 0, 0))) for box in boxes]
+            if self.overlay == "none" or not self._covers(over):
+                continue
+            found.append((name, _at_rest(over)))
+            if self.overlay == "voxels":
+                walls = layer_walls(over, self.texels[..., 3] > 127)
+                found += [(name, upright(walls, TEXEL, (0, 0, 0)))] if walls else []
         return tuple(found)
 
     def _covers(self, box: ModelBox) -> bool:
@@ -82,10 +92,17 @@ class Skin:
         return bool(area[..., 3].any())
 
 
-def read_skin(texels: Texels, arms: Arms | None = None, name: str = "skin") -> Skin:
+@lru_cache(maxsize=64)
+def _at_rest(box: ModelBox) -> Mesh:
+    return upright(box_mesh(box), TEXEL, (0, 0, 0))
+
+
+def read_skin(
+    texels: Texels, arms: Arms | None = None, name: str = "skin", overlay: Overlay = "flat"
+) -> Skin:
     """A skin of any layout. arms: found from the texels unless given.
 
-    name: what messages call it. Raises OptionError for another size.
+    name: what messages call it. overlay: see `Skin`. Raises OptionError for another size.
     """
     height, width = texels.shape[:2]
     unit = width // SIDE
@@ -97,7 +114,7 @@ def read_skin(texels: Texels, arms: Arms | None = None, name: str = "skin") -> S
     whole = _from_old(texels, unit) if is_old else texels.copy()
     for left, top, right, bottom in BASE:
         whole[top * unit : bottom * unit, left * unit : right * unit, 3] = 255
-    return Skin(whole, arms or ("slim" if empty and not is_old else "classic"))
+    return Skin(whole, arms or ("slim" if empty and not is_old else "classic"), overlay)
 
 
 def _from_old(texels: Texels, unit: int) -> Texels:
