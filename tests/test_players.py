@@ -91,7 +91,7 @@ def test_the_first_layer_has_no_holes_and_an_empty_second_is_not_drawn() -> None
     assert (skin.texels[8:16, 8:16, 3] == 255).all()
     assert len(skin.mesh({}).uvs) == 4 * FACES * len(PARTS)
     texels[8, 40, 3] = 255  # one texel of the hat
-    assert len(read_skin(texels, "classic").mesh({}).uvs) == 4 * FACES * (len(PARTS) + 1)
+    assert len(read_skin(texels, "classic").mesh({}).uvs) == 4 * (FACES * len(PARTS) + 1)
     assert len(Skin(skin.texels, "classic").mesh({}, ("head",)).uvs) == 4 * FACES
 
 

@@ -72,12 +72,14 @@ def join(meshes: Sequence[Mesh]) -> Mesh:
     )
 
 
+BOTTOM = 5
+"""The number of the bottom among the sides of a box. Its corners go round the other way."""
 _FACE = np.array([[0, 2, 1], [1, 2, 3]], np.int32)
 """The triangles of a side from its corners, see `_face`."""
 _TRIANGLES = np.concatenate(
-    [(_FACE[:, ::-1] if side == 5 else _FACE) + np.int32(4 * side) for side in range(6)]
+    [(_FACE[:, ::-1] if side == BOTTOM else _FACE) + np.int32(4 * side) for side in range(6)]
 )
-"""Those of all sides of a box. The corners of the bottom go round the other way."""
+"""Those of all sides of a box."""
 
 Side = tuple[
     tuple[float, float, float],

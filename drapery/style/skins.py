@@ -16,7 +16,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.style.boxes import ModelBox, box_mesh, join, upright
 from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed, posed
-from drapery.style.voxel_layer import layer_walls
+from drapery.style.skin_layer import layer_meshes
 
 Arms = Literal["classic", "slim"]
 Overlay = Literal["flat", "voxels", "none"]
@@ -68,28 +68,17 @@ class Skin:
 
     @cached_property
     def _rest(self) -> tuple[tuple[str, Mesh], ...]:
-        """The boxes at rest by bone; those of the second layer only where it has texels."""
+        """The boxes at rest by bone, and the second layer where it has texels."""
         found = []
         for name, part in self.parts.items():
             found.append((name, _at_rest(part.box)))
+            if self.overlay == "none":
+                continue
             left, top, grown = OVERLAYS[name]
             over = replace(part.box, offset=(left, top), grown=grown)
-            if self.overlay == "none" or not self._covers(over):
-                continue
-            found.append((name, _at_rest(over)))
-            if self.overlay == "voxels":
-                walls = layer_walls(over, self.texels[..., 3] > 127)
-                found += [(name, upright(walls, TEXEL, (0, 0, 0)))] if walls else []
+            layer = layer_meshes(over, self.texels[..., 3] > 127, self.overlay == "voxels")
+            found += [(name, upright(mesh, TEXEL, (0, 0, 0))) for mesh in layer]
         return tuple(found)
-
-    def _covers(self, box: ModelBox) -> bool:
-        """Whether any texel of an unfolded box is not transparent."""
-        unit = len(self.texels) // SIDE
-        width, height, depth = (int(side) for side in box.size)
-        left, top = (int(value) for value in box.offset)
-        right, bottom = left + 2 * (width + depth), top + depth + height
-        area = self.texels[top * unit : bottom * unit, left * unit : right * unit]
-        return bool(area[..., 3].any())
 
 
 @lru_cache(maxsize=64)
