@@ -73,6 +73,18 @@ def test_a_loop_has_its_frames(client: TestClient) -> None:
         assert image.n_frames == len(drawn) == 3
 
 
+def test_the_deadline_includes_the_time_of_reading(monkeypatch: pytest.MonkeyPatch) -> None:
+    def slow(*args: object) -> object:
+        time.sleep(1.1)
+        return read_request(*args)  # type: ignore[arg-type]
+
+    with TestClient(make_app(rate=0, deadline=1)) as client:
+        while client.get(f"/banner.png?design=red&{SMALL}").status_code != 200:
+            time.sleep(0.02)
+        monkeypatch.setattr("drapery.serve.app.read_request", slow)
+        assert client.get(f"/banner.png?design=blue&{SMALL}").status_code == 504
+
+
 def test_a_garment_is_what_draw_draws(client: TestClient) -> None:
     got = client.get("/garment.png?name=pennon&design=red&size=24x32&time=0.1")
     assert (got.status_code, got.headers["content-type"]) == (200, "image/png")

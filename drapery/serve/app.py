@@ -4,6 +4,7 @@ import asyncio
 import logging
 import math
 import shutil
+import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from dataclasses import replace
@@ -106,6 +107,7 @@ class PictureService:
 
     async def answer(self, request: Request, subject: Subject, ending: Ending) -> Response:
         """The response to a request: a picture, or an error that states the reason."""
+        end = time.monotonic() + self.deadline
         pause = self.rates.wait(request.client.host if request.client else "")
         if pause:
             return _refusal(429, ["too many requests; ask again later"], pause)
@@ -122,7 +124,7 @@ class PictureService:
             return Response(status_code=304, headers=headers)
         data = self.cache.get(job.key)
         if data is None:
-            drawn = await self._draw(request, job)
+            drawn = await self._draw(request, job, end)
             if isinstance(drawn, Response):
                 return drawn
             data = drawn
@@ -153,7 +155,8 @@ class PictureService:
         self.metrics.seconds.observe(result.seconds)
         return data
 
-    async def _draw(self, request: Request, job: Job) -> bytes | Response:
+    async def _draw(self, request: Request, job: Job, end: float) -> bytes | Response:
+        """The picture, drawn before the end of time.monotonic(), or why there is none."""
         try:
             answer = self.queue.ask(job, lambda: self.cache.get(job.key))
         except BusyError:
@@ -163,7 +166,7 @@ class PictureService:
             # Other requests may wait for the same picture, so do not cancel the job here.
             ends: set[asyncio.Future[Any]] = {asyncio.wrap_future(answer), left}
             first = asyncio.FIRST_COMPLETED
-            await asyncio.wait(ends, timeout=self.deadline, return_when=first)
+            await asyncio.wait(ends, timeout=max(0.0, end - time.monotonic()), return_when=first)
         finally:
             left.cancel()
             self.queue.leave(job, answer)
