@@ -32,6 +32,7 @@ from drapery.cloth import (
     grid,
     simulate,
 )
+from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh
@@ -82,7 +83,8 @@ class ClothSpec:
     shape: particles across and down. size: width and height [m]. pins: which particles are pinned.
     solver: its name, or a Solver. fabric: its name, or a Fabric; None is the default of `grid`.
     solids: what it cannot enter, in its own frame. itself: whether it also meets itself.
-    thickness: of the cloth [m].
+    thickness: of the cloth [m]. fullness: how much wider the cloth is than its top edge, on which
+    it is gathered; only if it is pinned along the top, on a grid that is fine enough for folds.
     """
 
     shape: tuple[int, int]
@@ -93,11 +95,19 @@ class ClothSpec:
     solids: tuple[Solid, ...] = ()
     itself: bool = False
     thickness: float = 0.0
+    fullness: float = 0.0
 
     def make_cloth(self) -> Cloth:
-        """The cloth at rest. Raises OptionError."""
+        """The cloth at rest, which is flat. Raises OptionError."""
         fabric = FABRICS[self.fabric] if isinstance(self.fabric, str) else self.fabric
-        return grid(*self.shape, *self.size, pins=self.pins, fabric=fabric or Fabric())
+        width, height = self.size
+        if self.pins == "top" and fold_count(self.shape[0]):
+            width *= 1 + self.fullness
+        return grid(*self.shape, width, height, pins=self.pins, fabric=fabric or Fabric())
+
+    def hang(self, cloth: Cloth) -> State:
+        """The cloth of `make_cloth` before its first step: gathered, if it is wider than `size`."""
+        return gathered_state(cloth, self.size[0])
 
     def make_solver(self) -> Solver:
         """The solver. Raises OptionError for a name that is not known."""
@@ -115,9 +125,10 @@ class ClothSpec:
 
 
 def cloth_at_rest(spec: ClothSpec) -> MovingCloth:
-    """The cloth at rest at time 0. Raises OptionError."""
-    collisions = spec.make_collisions()
-    return MovingCloth.begin(spec.make_cloth(), spec.make_solver(), STEP, collisions=collisions)
+    """The cloth at time 0, as it hangs before its first step. Raises OptionError."""
+    cloth, met = spec.make_cloth(), spec.make_collisions()
+    start = spec.hang(cloth)
+    return MovingCloth.begin(cloth, spec.make_solver(), STEP, start=start, collisions=met)
 
 
 def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -> ClothSpec:
@@ -128,7 +139,7 @@ def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -
     moved = tuple(Solid(_less(solid.low, x, y, z), _less(solid.high, x, y, z)) for solid in met)
     thickness = max(settings.thickness, THINNEST) * panel.texel
     made = settings.grid, panel.size, pins, settings.solver, settings.fabric
-    return ClothSpec(*made, moved, settings.contact == "all", thickness)
+    return ClothSpec(*made, moved, settings.contact == "all", thickness, panel.fullness)
 
 
 def _less(corner: tuple[float, float, float], *origin: float) -> tuple[float, float, float]:
@@ -451,8 +462,8 @@ class Moments:
 def _record(spec: ClothSpec, forces: Sequence[Force], at: Moments) -> tuple[State, ...]:
     """The cloth at each of the moments."""
     cloth, method = spec.make_cloth(), spec.make_solver()
-    met = spec.make_collisions()
-    states = simulate(cloth, method, forces, at.dt, every=at.every, collisions=met)
+    start, met = spec.hang(cloth), spec.make_collisions()
+    states = simulate(cloth, method, forces, at.dt, start=start, every=at.every, collisions=met)
     return tuple(islice(states, at.first, at.first + at.count))
 
 

@@ -42,10 +42,15 @@ class Grab:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LiveCloth(MovingCloth):
-    """A panel's cloth that can be grabbed. spec: how to make it. whole: the ungrabbed cloth."""
+    """A panel's cloth that can be grabbed.
+
+    spec: how to make it. whole: the ungrabbed cloth. hung: the positions in which it began [m],
+    shape [N, 3]; its pins return to theirs.
+    """
 
     spec: ClothSpec
     whole: Cloth
+    hung: Array
     grab: Grab | None = None
 
     @property
@@ -98,8 +103,9 @@ class LiveCloth(MovingCloth):
         if self.grab is None:
             return target
         rest = self.whole.rest_positions
-        pins = rest[self.whole.inv_mass == 0]
-        longest = MAX_STRETCH * _lengths(pins - rest[self.grab.particle])
+        pinned = self.whole.inv_mass == 0
+        pins = self.hung[pinned].astype(np.float64)
+        longest = MAX_STRETCH * _lengths(rest[pinned] - rest[self.grab.particle])
         place = np.asarray(target, np.float64)
         for _ in range(PROJECTIONS if len(pins) else 0):
             distances = _lengths(place - pins)
@@ -128,7 +134,7 @@ class LiveCloth(MovingCloth):
         """The path of the held particles during a time step; None if all are at their targets."""
         held = np.flatnonzero(self.cloth.inv_mass == 0)
         start, began = self.positions[held], self.state.time
-        goal = self.cloth.rest_positions[held].astype(start.dtype)
+        goal = self.hung[held].astype(start.dtype)
         if self.grab is not None:
             places = np.searchsorted(held, self.grab.around)
             goal[places] = self.grab.target + self.grab.offsets
@@ -141,7 +147,7 @@ class LiveCloth(MovingCloth):
 def new_live_cloth(spec: ClothSpec) -> LiveCloth:
     """A cloth at rest. Raises OptionError."""
     rest = cloth_at_rest(spec)
-    return LiveCloth(**vars(rest), spec=spec, whole=rest.cloth)
+    return LiveCloth(**vars(rest), spec=spec, whole=rest.cloth, hung=rest.state.positions[0])
 
 
 def _resampled(old: LiveCloth, new: LiveCloth) -> State:

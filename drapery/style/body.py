@@ -51,6 +51,7 @@ class Panel:
         thickness [texels].
     sway: the period of that sway [s]; None where it does not move in the game.
     material_at: its material at a time [s].
+    fullness: how much wider its cloth is than its top edge, on which it is gathered.
     """
 
     size: tuple[float, float]
@@ -61,6 +62,7 @@ class Panel:
     board: Callable[[float, float], Mesh]
     sway: float | None
     material_at: MaterialAt
+    fullness: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,9 @@ from drapery.style.body import Body, Panel, Part
 from drapery.style.layers import flag_material_at, textures_period, wood_material_at
 from drapery.style.slot import BANNER_POSE, SLOT_LIGHT, in_slot, slot_camera
 
+FULLNESS = 0.08
+"""The flag is so much wider than its bar, on which it is gathered, so that it falls in folds."""
+
 
 def body(banner: Banner | None, packs: Packs, settings: Settings) -> Body:
     """The wood and the flag. Raises OptionError without a design, and PackError."""
@@ -39,6 +42,7 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
         lambda phase, thickness: stiff_flag(placement, phase, thickness),
         SWAY_PERIOD,
         flag_material_at(banner, packs, settings),
+        FULLNESS,
     )
     frame = Part(wood(placement), wood_material_at(packs, settings))
     period = textures_period(banner, packs, "banner")
