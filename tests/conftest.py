@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 from studio_browser import chromium, compiled_kernels, studio
-from untraced_compiler import trace_no_compiler
+from tracing import trace_no_compiler
 
 from drapery import cli
 
@@ -51,6 +51,15 @@ GIVE = (
 def strict_numerics() -> None:
     """No test may pass by way of an overflow or an invalid operation."""
     np.seterr(over="raise", divide="raise", invalid="raise", under="ignore")
+
+
+@pytest.fixture
+def untraced_processes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Coverage does not trace the processes that the test starts, whose lines other tests run.
+
+    A traced process takes about one second more of the processor at its start and end.
+    """
+    monkeypatch.delenv("COVERAGE_PROCESS_CONFIG", raising=False)
 
 
 @pytest.fixture(scope="session")

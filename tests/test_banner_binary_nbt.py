@@ -4,7 +4,6 @@ import gc
 import gzip
 import io
 import struct
-import sys
 import time
 import tracemalloc
 import zlib
@@ -14,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tracing import untraced
 
 from drapery.banner.formats.files import find_in_bytes
 from drapery.banner.formats.nbt import MAX_DEPTH, MAX_MEMORY, Numbers, is_nbt, read_nbt
@@ -202,13 +202,10 @@ def test_hostile_files_are_refused_soon(name: str):
     data, place = HOSTILE[name]
     # What other tests left behind, and the tracer of coverage, cost the reader no time.
     gc.freeze()
-    tracer = sys.gettrace()
-    sys.settrace(None)
     start = time.process_time()
-    with pytest.raises(DesignError, match=place) as caught:
+    with untraced(), pytest.raises(DesignError, match=place) as caught:
         read_nbt(data, "evil.nbt")
     seconds = time.process_time() - start
-    sys.settrace(tracer)
     gc.unfreeze()
     assert seconds < 1
     assert str(caught.value).startswith("evil.nbt: ") and "\n" not in str(caught.value)
@@ -217,7 +214,7 @@ def test_hostile_files_are_refused_soon(name: str):
 @pytest.mark.parametrize("name", sorted(set(HOSTILE) - {"a million names"}))
 def test_hostile_files_are_refused_small(name: str):
     tracemalloc.start()
-    with pytest.raises(DesignError):
+    with untraced(), pytest.raises(DesignError):
         read_nbt(HOSTILE[name][0], "evil.nbt")
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
@@ -256,7 +253,8 @@ def test_the_estimate_of_memory_is_cautious():
     box = nbtlib.Compound({"Items": nbtlib.List[nbtlib.Compound]([nbtlib.Compound(item)] * 27)})
     data = encode(nbtlib.Compound({"boxes": nbtlib.List[nbtlib.Compound]([box] * 3000)}))
     tracemalloc.start()
-    read_nbt(data, "f")
+    with untraced():
+        read_nbt(data, "f")
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < MAX_MEMORY
