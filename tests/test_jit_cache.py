@@ -17,17 +17,16 @@ from drapery.jit_cache import source_files
 CALLEE = "from drapery.jit import kernel\n\n@kernel\ndef part(x):\n    return x + {number}\n"
 CALLER = """
 from drapery.jit import entry_point
-from drapery.scratch_kernels.parts import part
+from .parts import part
 
 @entry_point
 def total(x):
     return 2 * part(x)
 """
 USE = """
-import sys, warnings
 import drapery
 drapery.__path__.append({root!r})
-from drapery.scratch_kernels.whole import total
+from drapery.{name}.whole import total
 print(total(1.0), dict(total.stats.cache_hits) != {{}})
 """
 NO_FOLDER = """
@@ -50,17 +49,23 @@ print(first(1.0) + second(1.0), jit_cache.kernel_cache_status().folder)
 """
 
 
-@pytest.fixture
-def package(tmp_path):
-    """A package of two modules with kernels; a function that runs it in a new process."""
-    folder = tmp_path / "scratch_kernels"
+def make_package(folder, number=1):
+    """A package of two modules with kernels."""
     folder.mkdir()
     (folder / "__init__.py").write_text("")
-    (folder / "parts.py").write_text(CALLEE.format(number=1))
+    (folder / "parts.py").write_text(CALLEE.format(number=number))
     (folder / "whole.py").write_text(CALLER)
 
+
+@pytest.fixture
+def package(tmp_path):
+    """A function that runs a package with kernels in a new process."""
+    folder = tmp_path / "scratch_kernels"
+    make_package(folder)
+
     def run():
-        return run_program(USE.format(root=str(tmp_path)), tmp_path / "cache").stdout.split()
+        program = USE.format(root=str(tmp_path), name=folder.name)
+        return run_program(program, tmp_path / "cache").stdout.split()
 
     run.callee, run.cache = folder / "parts.py", tmp_path / "cache"
     return run
@@ -84,7 +89,7 @@ def test_equal_sources_in_two_folders_share_their_kernels(package, tmp_path):
     assert package() == ["4.0", "False"]
     copied = tmp_path / "other" / "scratch_kernels"
     shutil.copytree(package.callee.parent, copied, ignore=shutil.ignore_patterns("__pycache__"))
-    program = USE.format(root=str(copied.parent))
+    program = USE.format(root=str(copied.parent), name=copied.name)
     assert run_program(program, package.cache).stdout.split() == ["4.0", "True"]
 
 
@@ -99,18 +104,33 @@ def test_kernels_of_a_few_states_of_the_sources_are_kept(tmp_path, monkeypatch):
     assert sorted(tmp_path.iterdir()) == sorted(kept)
 
 
-@pytest.mark.parametrize("kind", ["*.nbi", "*.nbc"])
-@pytest.mark.parametrize("damage", ["empty", "half", "noise"])
-def test_a_damaged_cache_file_is_rebuilt(package, kind, damage):
-    assert package() == ["4.0", "False"]
-    (path,) = package.cache.rglob(kind)
-    content = path.read_bytes()
-    broken = bytearray(content[: {"empty": 0, "half": len(content) // 2}.get(damage)])
-    if damage == "noise":
-        broken[len(broken) // 2] ^= 0xFF
-    path.write_bytes(broken)
-    assert package()[0] == "4.0"
-    assert package() == ["4.0", "True"]
+def with_a_wrong_byte(content):
+    middle = len(content) // 2
+    return content[:middle] + bytes([content[middle] ^ 0xFF]) + content[middle + 1 :]
+
+
+DAMAGES = (lambda content: b"", lambda content: content[: len(content) // 2], with_a_wrong_byte)
+
+
+def test_damaged_cache_files_are_rebuilt(tmp_path):
+    """A package for each damage to each kind of file; one process uses all packages."""
+    cases = [(kind, damage) for kind in ("*.nbi", "*.nbc") for damage in DAMAGES]
+    program, numbers = "", range(len(cases))
+    for number in numbers:
+        make_package(tmp_path / f"scratch{number}", number)
+        program += USE.format(root=str(tmp_path), name=f"scratch{number}")
+
+    def run():
+        words = run_program(program, tmp_path / "cache").stdout.split()
+        return [float(word) for word in words[::2]], words[1::2]
+
+    totals = [2.0 * (1 + number) for number in numbers]
+    assert run() == (totals, ["False"] * len(cases))
+    for number, (kind, damage) in enumerate(cases):
+        (path,) = (tmp_path / "cache").rglob(f"*.scratch{number}.whole{kind}")
+        path.write_bytes(damage(path.read_bytes()))
+    assert run()[0] == totals
+    assert run() == (totals, ["True"] * len(cases))
 
 
 def test_without_a_folder_kernels_are_compiled_and_one_warning_says_so(tmp_path):
