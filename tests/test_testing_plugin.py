@@ -27,9 +27,9 @@ def test_one(golden, number, name):
     golden(grey(40 * number + 1), name)
 """
     )
-    pytester.runpytest_subprocess("--drapery-update").assert_outcomes(passed=6)
+    pytester.runpytest_inprocess("--drapery-update").assert_outcomes(passed=6)
     assert len(list(pytester.path.glob("goldens/*/*.png"))) == 12
-    pytester.runpytest_subprocess().assert_outcomes(passed=6)
+    pytester.runpytest_inprocess().assert_outcomes(passed=6)
 
 
 def test_names_that_differ_by_case_alone_are_refused(pytester: pytest.Pytester) -> None:
@@ -45,7 +45,7 @@ def test_one_again(golden):
     golden(grey(20), "b")
 """
     )
-    result = pytester.runpytest_subprocess("--drapery-update")
+    result = pytester.runpytest_inprocess("--drapery-update")
     result.assert_outcomes(passed=1, failed=1)
     result.stdout.fnmatch_lines(
         ["golden 'b': *test_one_again?b?.png differs from *test_one_again?B?.png only in case;*"]
@@ -57,7 +57,7 @@ def test_a_failed_update_says_why(pytester: pytest.Pytester) -> None:
     folder = pytester.mkdir("goldens") / "test_it" / "test_one[a].png"
     folder.mkdir(parents=True)
     for words in (["--drapery-update"], []):
-        result = pytester.runpytest_subprocess(*words)
+        result = pytester.runpytest_inprocess(*words)
         result.assert_outcomes(failed=1)
         result.stdout.fnmatch_lines(["golden 'a': *test_one?a?.png: *; *"])
         result.stdout.no_fnmatch_line("*accept it*")
@@ -75,21 +75,21 @@ def test_with_a_golden(golden):
     golden(grey(10), "a")
 """
     )
-    pytester.runpytest_subprocess("--drapery-update").assert_outcomes(passed=2)
+    pytester.runpytest_inprocess("--drapery-update").assert_outcomes(passed=2)
     # No user, not even the super-user, can unlink a folder.
     stuck = pytester.path / "drapery-report" / "old.failure.json"
     stuck.mkdir(parents=True)
-    result = pytester.runpytest_subprocess()
+    result = pytester.runpytest_inprocess()
     result.assert_outcomes(passed=2, warnings=1)
     result.stdout.fnmatch_lines(["*drapery-report*cannot be removed*--drapery-report*"])
 
 
 def test_a_report_that_cannot_be_written_keeps_the_fault(pytester: pytest.Pytester) -> None:
     test = pytester.makepyfile(HEAD + "\ndef test_one(golden):\n    golden(grey(10), 'a')\n")
-    pytester.runpytest_subprocess("--drapery-update").assert_outcomes(passed=1)
+    pytester.runpytest_inprocess("--drapery-update").assert_outcomes(passed=1)
     code = Path(test).read_text(encoding="utf-8")
     Path(test).write_text(code.replace("grey(10)", "grey(11)"), encoding="utf-8")
     (pytester.path / "drapery-report").write_text("a file in the way of the folder")
-    result = pytester.runpytest_subprocess()
+    result = pytester.runpytest_inprocess()
     result.assert_outcomes(failed=1)
     result.stdout.fnmatch_lines(["golden 'a': 16 pixels differ, max 1; *drapery-report*"])
