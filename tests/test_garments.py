@@ -79,7 +79,7 @@ def test_a_file_of_the_package_is_short_and_complete(name: str) -> None:
     assert garment.name == name and garment.description and garment.picture
     assert f"`{name}`" in PAGE
     for sewn in tailor(garment, open_packs(())):
-        assert (sewn.cloth.inv_mass == 0).any()
+        assert (sewn.cloth.inv_mass == 0).any() == (name != "drape")  # which nothing holds
 
 
 @pytest.mark.parametrize(

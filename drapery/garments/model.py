@@ -381,7 +381,8 @@ class Garment(GarmentTable):
     name: shown in lists; the name of its file. description: one line about it.
     fabric: the name of a preset, or a table of the fields of `Fabric`. thickness: [texels].
     collisions: what its cloth does not pass through: `none`, `world` (wearer, poles, blocks,
-    ground), or `all` (itself too). folder: where relative paths of its textures start.
+    ground), or `all` (itself too). resolution: texels to a block.
+    folder: where relative paths of its textures start.
     picture: options of its pictures by name, unless the picture gives them; see `Settings`.
     over: garments that its wearer wears over it; only their cloth counts.
 
@@ -393,6 +394,7 @@ class Garment(GarmentTable):
     fabric: Annotated[Fabric, BeforeValidator(_said(_as_fabric))] = FABRICS["wool"]
     thickness: Annotated[float, Field(strict=True, ge=0.05, le=16)] = 1.0
     collisions: Literal["none", "world", "all"] = "world"
+    resolution: Annotated[int, Field(strict=True, ge=1, le=256)] = 16
     texture: ClothTexture = ClothTexture()
     folder: Path = Path()
     picture: Annotated[dict[str, Any], BeforeValidator(_said(_as_options))] = {}
@@ -442,7 +444,7 @@ class Garment(GarmentTable):
     @property
     def texel(self) -> float:
         """The length of a texel [m]."""
-        return 1 / 16 if self.wearer is None else 15 / 256
+        return (1 if self.wearer is None else 15 / 16) / self.resolution
 
     @property
     def bones(self) -> tuple[str, ...]:
