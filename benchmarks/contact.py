@@ -147,15 +147,17 @@ def runner(garment: str) -> Case:
     """A cape or a skirt on a runner."""
     gait = Gait(5.0)
     if garment == "cape":
-        cloth, names = cape.cape_cloth(cape.CapeParameters().grid), cape.BODY
+        sewn = cape.cape_cloth(cape.CapeParameters())
     else:
-        cloth, names = skirt.skirt_cloth(skirt.SkirtParameters()), skirt.BODY
-    met = gait.colliders(names)
+        sewn = skirt.skirt_cloth(skirt.SkirtParameters())
+    cloth, met = sewn.cloth, gait.colliders(sewn.solid or ())
     collisions = Collisions(met, TEXEL, order=3, apart=TEXEL / 2)
     moving = MovingCloth.begin(cloth, None, 1 / 120, collisions=collisions)
     wind = Wind((0.0, 0.0, -5.5), period=4.0)
     forces: list[Force] = [Gravity(), wind]
-    return Case(f"{garment} on a runner", moving, lambda number: forces, met, gait.pins(cloth))
+    return Case(
+        f"{garment} on a runner", moving, lambda number: forces, met, sewn.pin_path(gait.poses)
+    )
 
 
 def cases() -> Iterator[Callable[[], Case]]:

@@ -41,18 +41,20 @@ def test_a_foot_moves_back_as_far_as_the_ground() -> None:
 
 def test_a_cape_stays_on_and_out_of_the_body() -> None:
     parameters, gait = cape.CapeParameters(), Gait()
-    cloth = cape.cape_cloth(parameters.grid)
-    for state in cape.cape_states(parameters, cloth, gait, STRIDE):
-        pins = gait.pins(cloth)(state.time)
+    sewn = cape.cape_cloth(parameters)
+    cloth = sewn.cloth
+    for state in cape.cape_states(parameters, sewn, gait, STRIDE):
+        pins = sewn.pin_path(gait.poses)(state.time)
         np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)
-        assert clearance(cloth, state, gait.colliders(cape.BODY)) > 0.45 * TEXEL
+        assert clearance(cloth, state, gait.colliders(sewn.solid)) > 0.45 * TEXEL
         assert max_stretch(state.positions, cloth) < 0.1
         assert state.positions[0][-1, 2] < -0.2  # the walk blows it backwards
 
 
 def test_a_walk_in_a_cape_ends_as_it_began() -> None:
-    cloth, loop = cape.cape_cloth((6, 9)), Clip((64, 64), 81, 20.0)
-    states = list(cape.cape_states(cape.CapeParameters(), cloth, Gait(), loop))
+    parameters, loop = cape.CapeParameters(), Clip((64, 64), 81, 20.0)
+    sewn = cape.cape_cloth(parameters)
+    states = list(cape.cape_states(parameters, sewn, Gait(), loop))
     apart = np.abs(states[-1].positions - states[0].positions).max()
     step = np.abs(states[1].positions - states[0].positions).max()
     assert apart < step  # the seam of the loop is no wider than a step between frames
@@ -61,30 +63,32 @@ def test_a_walk_in_a_cape_ends_as_it_began() -> None:
 @pytest.mark.parametrize("place", [0, 1])
 def test_a_scarf_stays_on_and_out_of_the_body(place) -> None:
     parameters, gait = scarf.ScarfParameters(), Gait()
-    cloth = scarf.tail(*scarf.TAILS[place])
-    for state in scarf.tail_states(parameters, cloth, gait, STRIDE):
-        pins = gait.pins(cloth)(state.time)
+    sewn = scarf.tails(parameters)[place]
+    cloth = sewn.cloth
+    for state in scarf.tail_states(parameters, sewn, gait, STRIDE):
+        pins = sewn.pin_path(gait.poses)(state.time)
         np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)
-        assert clearance(cloth, state, gait.colliders(scarf.BODY)) > 0
+        assert clearance(cloth, state, gait.colliders(tuple(PARTS))) > 0
         assert state.positions[0, -1, 2] < -0.5  # it streams behind
         assert state.positions[0, :, 1].min() > 0  # and off the ground
 
 
 def test_a_skirt_stays_on_and_is_moved_by_the_legs_alone() -> None:
     parameters, gait = skirt.SkirtParameters(), Gait(2.0)
-    cloth = skirt.skirt_cloth(parameters)
-    states = list(skirt.skirt_states(parameters, cloth, gait, STRIDE))
+    sewn = skirt.skirt_cloth(parameters)
+    cloth = sewn.cloth
+    states = list(skirt.skirt_states(parameters, sewn, gait, STRIDE))
     for state in states:
-        pins = gait.pins(cloth)(state.time)
+        pins = sewn.pin_path(gait.poses)(state.time)
         np.testing.assert_allclose(state.positions[0][cloth.inv_mass == 0], pins, atol=1e-9)
-        assert clearance(cloth, state, gait.colliders(skirt.BODY), order=3) > 0
+        assert clearance(cloth, state, gait.colliders(sewn.solid), order=3) > 0
         assert max_stretch(state.positions, cloth) < 0.15
     hem = np.stack([state.positions[0, -parameters.panels :] for state in states])
     assert np.ptp(hem[..., 2], axis=0).max() > 0.05
 
 
 def test_a_skirt_is_a_closed_ring_seen_from_outside() -> None:
-    cloth = skirt.skirt_cloth(skirt.SkirtParameters())
+    cloth = skirt.skirt_cloth(skirt.SkirtParameters()).cloth
     assert len(boundary_edges(cloth.triangles)) == 2 * 12  # waist and hem
     outwards = vertex_normals(cloth.rest_positions, cloth.triangles)
     level = cloth.rest_positions * [1, 0, 1]

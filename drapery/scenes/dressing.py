@@ -13,12 +13,13 @@ from itertools import islice, product
 import numpy as np
 
 from drapery.banner.packs import Packs
-from drapery.cloth import Box, Collider, Collisions, Force, Gravity, Plane, State, Wind, simulate
+from drapery.cloth import Box, Collider, Collisions, Force, Plane, State, Wind, simulate
 from drapery.cloth.solvers.registry import solver
 from drapery.garments.assembly import SewnCloth, tailor
 from drapery.garments.model import Garment, GarmentPole
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
+from drapery.scenes.moving import in_wind
 from drapery.scenes.stager import (
     FADE,
     SETTLING,
@@ -159,12 +160,8 @@ class Dressed:
         return tuple(found)
 
     def forces(self, sewn: SewnCloth, period: float | None) -> tuple[Force, ...]:
-        """All forces on the cloth. The drag of a fabric is that in moving air, so it pulls cloth
-        along: drag * (wind - v) is a constant push beside the drag in still air."""
-        wind, drag = self.wind(period), sewn.cloth.drag
-        x, y, z = wind.velocity
-        pull = (Gravity((drag * x, drag * y, drag * z)),) if drag else ()
-        return (Gravity(), wind, *pull, *self.settings.forces)
+        """All forces on the cloth."""
+        return (*in_wind(sewn.cloth, self.wind(period)), *self.settings.forces)
 
     def wind(self, period: float | None) -> Wind:
         """The wind in the garment's own frame. On a wearer it has no eddies of a pole."""

@@ -10,8 +10,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from drapery.cloth import PinPath
-from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders import Box, Collider, Path, Pose
 from drapery.cloth.exact import sine_of_turns
 from drapery.mesh import Array
@@ -77,11 +75,6 @@ class Gait:
             Collider(Box(self.parts[name].centre, self.parts[name].extent), self._path(name))
             for name in names
         )
-
-    def pins(self, cloth: Cloth) -> PinPath:
-        """The path of a cloth's pins: they move with the body, from their places at rest."""
-        rest = cloth.rest_positions[cloth.inv_mass == 0]
-        return lambda time: rest + np.array([0.0, self.lift(time), 0.0])
 
     def _path(self, name: str) -> Path:
         return lambda time: Pose(*self.poses(time)[name])

@@ -6,7 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from drapery.cloth import Cloth, Force, Gravity, MovingCloth, PinPath, Solver, State, rest_state
+from drapery.cloth import (
+    Cloth,
+    Force,
+    Gravity,
+    MovingCloth,
+    PinPath,
+    Solver,
+    State,
+    Wind,
+    rest_state,
+)
 from drapery.cloth.collisions import Collisions
 from drapery.mesh import Array
 from drapery.scenes.catalogue import Clip
@@ -45,6 +55,14 @@ def motion(
             moving = moving.advance(acting, steps, pins)
         if frame >= 0:
             yield moving.state
+
+
+def in_wind(cloth: Cloth, wind: Wind) -> tuple[Force, ...]:
+    """Gravity and the wind on a cloth. The drag of a fabric is that in moving air, so it pulls
+    cloth along: drag * (wind - v) is a constant push beside the drag in still air."""
+    x, y, z = wind.velocity
+    drag = cloth.drag
+    return (Gravity(), wind, *((Gravity((drag * x, drag * y, drag * z)),) if drag else ()))
 
 
 def placed(cloth: Cloth, position: Array, rotation: Array | None = None) -> Cloth:

@@ -2,39 +2,31 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
 from drapery.banner.dyes import DYE_NAMES, DYES
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.sprites import tint
-from drapery.cloth import Cloth, Gravity, State, Wind
-from drapery.cloth.collisions import Collisions
+from drapery.cloth import State, Wind
 from drapery.errors import OptionError
-from drapery.garments.catalogue import find_garment
-from drapery.garments.shapes import CutPiece, cut_pieces
-from drapery.mesh import vertex_normals
-from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
+from drapery.garments.assembly import SewnCloth
+from drapery.render.scene import Material, Scene, Texels, TextureLayer
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.gait import LOOP, MAX_WALK, Gait
-from drapery.scenes.moving import motion
 from drapery.scenes.parameters import (
     SceneParameters,
     parameter,
     seed_parameter,
     thickness_parameter,
 )
-from drapery.scenes.stroll import BEFORE, camera, ground, walker
-from drapery.style.extrusion import Shell, make_shell
-from drapery.style.figure import SKINS, TEXEL, figure_material
-from drapery.style.scenery import SKY
-from drapery.style.tailoring import ClothModel
+from drapery.scenes.stroll import BEFORE, cloths_of, stroll, worn_states
+from drapery.style.extrusion import make_shell
+from drapery.style.figure import SKINS
 from drapery.style.uv_mapping import BoxMapping
 
-BODY = ("body", "right_leg", "left_leg")
 SIDES = ("outside", "inside", "hem")
-SKIN = BoxMapping(
+SIDES_OF_CLOTH = BoxMapping(
     front_rect=(0.0, 0.0, 0.5, 1.0),
     back_rect=(0.5, 0.0, 1.0, 1.0),
     left=(0.0, 0.9, 0.1, 1.0),
@@ -63,65 +55,26 @@ class SkirtParameters(SceneParameters):
 
 def play(parameters: SkirtParameters, clip: Clip) -> Iterator[Scene]:
     """Seen from the front."""
-    packs, gait = open_packs(()), Gait(parameters.speed)
-    cloth = skirt_cloth(parameters)
-    shell, material = skirt_shell(parameters), skirt_material(parameters, packs)
-    skin, causeway = figure_material(parameters.skin, packs), ground(packs)
-    view = camera(clip.size, BEFORE, tail=0.6)
-    for state in skirt_states(parameters, cloth, gait, clip):
-        skirt = skirt_model(parameters, cloth, shell, state, material)
-        models = (*walker(gait, state.time, skin, causeway), skirt)
-        yield Scene(models, view, clip.size, background=SKY, samples=4)
+    gait, sewn = Gait(parameters.speed), skirt_cloth(parameters)
+    piece = sewn.pieces[0]
+    shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs, SIDES_OF_CLOTH)
+    drawn = replace(piece, shell=shell, material=skirt_material(parameters, open_packs(())))
+    worn = [(replace(sewn, pieces=(drawn,)), skirt_states(parameters, sewn, gait, clip))]
+    return stroll(parameters.skin, gait, clip, worn, view=BEFORE, tail=0.6)
+
+
+def skirt_cloth(parameters: SkirtParameters) -> SewnCloth:
+    """The garment `skirt` with other numbers of particles, `panels` in each row."""
+    (sewn,) = cloths_of("skirt", parameters.thickness, (parameters.panels, parameters.rows + 1))
+    return sewn
 
 
 def skirt_states(
-    parameters: SkirtParameters, cloth: Cloth, gait: Gait, clip: Clip
+    parameters: SkirtParameters, sewn: SewnCloth, gait: Gait, clip: Clip
 ) -> Iterator[State]:
     """The skirt at each frame, in the figure's own frame."""
     wind = Wind((0.0, 0.0, -gait.speed), gusts=0.3, seed=parameters.seed, period=LOOP)
-    return motion(
-        cloth,
-        clip,
-        forces=(Gravity(), wind),
-        collisions=Collisions(gait.colliders(BODY), parameters.thickness * TEXEL, order=3),
-        pins=gait.pins(cloth),
-        settle=LOOP,
-    )
-
-
-@lru_cache(maxsize=8)
-def skirt_piece(parameters: SkirtParameters) -> CutPiece:
-    """The ring of the garment `skirt` at rest, with other numbers of particles: row by row from the
-    waist, `panels` in each row."""
-    garment = find_garment("skirt")
-    points = parameters.panels, parameters.rows + 1
-    ring = garment.piece[0].model_copy(update={"points": points})
-    return cut_pieces(garment.model_copy(update={"piece": (ring,)}))[0]
-
-
-def skirt_cloth(parameters: SkirtParameters) -> Cloth:
-    """The ring at rest, pinned at the waist."""
-    piece = skirt_piece(parameters)
-    inv_mass = piece.cloth.inv_mass.copy()
-    inv_mass[piece.edges["top"]] = 0.0
-    return replace(piece.cloth, inv_mass=inv_mass)
-
-
-def skirt_shell(parameters: SkirtParameters) -> Shell:
-    """The thick skirt: the ring is cut open where the texture begins and ends."""
-    piece = skirt_piece(parameters)
-    return make_shell(piece.triangles, piece.uvs, SKIN)
-
-
-def skirt_model(
-    parameters: SkirtParameters, cloth: Cloth, shell: Shell, state: State, material: Material
-) -> Model:
-    """The skirt of a state, with the normals of the closed ring, so that the cut is invisible."""
-    drawn = skirt_piece(parameters).drawn
-    sheet = state.positions[0]
-    normals = vertex_normals(sheet, cloth.triangles)
-    thick = shell.cover(sheet[drawn], normals[drawn], parameters.thickness * TEXEL)
-    return ClothModel(thick, (material,))
+    return worn_states(sewn, gait, clip, wind, order=3)
 
 
 def skirt_material(parameters: SkirtParameters, packs: Packs) -> Material:

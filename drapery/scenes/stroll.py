@@ -1,19 +1,83 @@
-"""How a walking figure is drawn: in place, over ground that passes below."""
+"""A walking figure in cloth that garments describe: in place, over ground that passes below."""
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 import numpy as np
 
-from drapery.banner.packs import Packs
+from drapery.banner.packs import Packs, open_packs
+from drapery.cloth import State, Wind
+from drapery.cloth.collisions import Collisions
+from drapery.garments.assembly import SewnCloth, tailor
+from drapery.garments.catalogue import find_garment
 from drapery.render.camera import Camera
-from drapery.render.scene import Material, Model
+from drapery.render.scene import Material, Model, Scene
 from drapery.render.views import View, frame_points
-from drapery.scenes.gait import Gait
-from drapery.style.figure import figure_mesh
-from drapery.style.scenery import moved, path_ground, shadow
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.gait import LOOP, Gait
+from drapery.scenes.moving import in_wind, motion
+from drapery.style.figure import PARTS, figure_material, figure_mesh
+from drapery.style.scenery import SKY, moved, path_ground, shadow
 
 BEHIND = View(azimuth=214, elevation=14, fov=26)
 BEFORE = View(azimuth=32, elevation=12, fov=26)
 PERIOD = 10
 """The ground repeats after this number of blocks, the distance walked in a loop."""
+
+Worn = tuple[SewnCloth, Iterator[State]]
+"""A cloth and its state at each frame."""
+
+
+@lru_cache(maxsize=8)
+def cloths_of(
+    name: str, thickness: float, points: tuple[int, int] | None = None
+) -> tuple[SewnCloth, ...]:
+    """The cloths of a garment of the package. thickness: [texels]. points: of its pieces."""
+    garment = find_garment(name)
+    pieces = garment.piece
+    if points is not None:
+        pieces = tuple(each.model_copy(update={"points": points}) for each in pieces)
+    made = garment.model_copy(update={"piece": pieces, "thickness": thickness})
+    return tailor(made, open_packs(()))
+
+
+def worn_states(
+    sewn: SewnCloth, gait: Gait, clip: Clip, wind: Wind, *, order: int = 2, settle: float = LOOP
+) -> Iterator[State]:
+    """A cloth at each frame, in the figure's own frame. settle: time before the first [s]."""
+    met = gait.colliders(sewn.solid or tuple(PARTS))
+    return motion(
+        sewn.cloth,
+        clip,
+        forces=in_wind(sewn.cloth, wind),
+        collisions=Collisions(met, sewn.distance, order=order),
+        pins=sewn.pin_path(gait.poses),
+        settle=settle,
+    )
+
+
+def stroll(
+    skin: str,
+    gait: Gait,
+    clip: Clip,
+    worn: Sequence[Worn],
+    *,
+    view: View = BEHIND,
+    tail: float = 0.9,
+    lifted: tuple[Model, ...] = (),
+) -> Iterator[Scene]:
+    """The figure at each frame. tail: how far its cloth streams behind it [m].
+    lifted: models that move with its body."""
+    packs = open_packs(())
+    material, causeway = figure_material(skin, packs), ground(packs)
+    seen = camera(clip.size, view, tail)
+    for states in zip(*(states for _, states in worn), strict=True):
+        time = states[0].time
+        models = [*walker(gait, time, material, causeway)]
+        models += moved(lifted, np.array([0, gait.lift(time), 0]))
+        for (sewn, _), state in zip(worn, states, strict=True):
+            models += sewn.models(state.positions[0])
+        yield Scene(tuple(models), seen, clip.size, background=SKY, samples=4)
 
 
 def walker(
