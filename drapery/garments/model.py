@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
+    AfterValidator,
     BaseModel,
     BeforeValidator,
     ConfigDict,
@@ -30,6 +31,7 @@ from drapery.garments.loading import load_tables
 from drapery.option import shown
 from drapery.options import unknown_names
 from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings
+from drapery.style.equipment import POLES, parse_armor, parse_trim
 from drapery.toml_text import Place
 
 MAX_LENGTH = 1024
@@ -81,6 +83,16 @@ def _said(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 def _as_banner(value: str | Banner) -> Banner:
     return value if isinstance(value, Banner) else Banner.parse(value)
+
+
+def _checked_armor(text: str) -> str:
+    parse_armor(text)
+    return text
+
+
+def _checked_trim(text: str) -> str:
+    parse_trim(text)
+    return text
 
 
 def _as_fabric(value: Any) -> Fabric:
@@ -350,8 +362,12 @@ class GarmentWearer(GarmentTable):
     motion: `walk`, another motion of a player, or a pose in a JSON file; see `motion_names`.
     speed: over the ground [m/s], the speed of the air from ahead; a walk of 0 stands.
     look: where a player's head turns: to its left and downwards [degrees].
-    solid: the bones that stop its cloth; all of them unless given.
+    solid: the bones that stop its cloth; all of them unless given. `pole` and `bar` are those of a
+    banner on the head.
     shown: what the picture shows: full, bust or head.
+    head: the design of a banner on a player's head. shield: that of a shield in the left hand.
+    armor: a material such as `diamond`, or pieces such as `helmet:iron,boots:gold`; the packs have
+    their textures. trim: of the armour, such as `coast:gold`.
     """
 
     kind: Literal["player", "horse"] = "player"
@@ -363,11 +379,26 @@ class GarmentWearer(GarmentTable):
     look: tuple[Angle, Angle] = (0.0, 0.0)
     shown: Literal["full", "bust", "head"] = "full"
     solid: tuple[str, ...] | None = None
+    head: Annotated[Banner, BeforeValidator(_said(_as_banner))] | None = None
+    shield: Annotated[Banner, BeforeValidator(_said(_as_banner))] | None = None
+    armor: Annotated[str, Field(max_length=200), AfterValidator(_said(_checked_armor))] | None = (
+        None
+    )
+    trim: Annotated[str, Field(max_length=100), AfterValidator(_said(_checked_trim))] | None = None
+
+    @model_validator(mode="after")
+    def _is_for_players(self) -> Self:
+        given = [n for n in ("head", "shield", "armor") if getattr(self, n) is not None]
+        if self.kind == "horse" and given:
+            raise ValueError(f"{given[0]} is for players; leave it out for a horse")
+        if self.trim is not None and self.armor is None:
+            raise ValueError(f'trim {self.trim} has no armor; add one, such as armor = "iron"')
+        return self
 
     @model_validator(mode="after")
     def _knows_its_bones(self) -> Self:
         for bone in self.solid or ():
-            if bone not in BONES[self.kind]:
+            if bone not in (*BONES[self.kind], *POLES):
                 known = ", ".join(BONES[self.kind])
                 raise ValueError(f"solid {shown(bone)} is not a bone; use some of: {known}")
         if self.kind == "horse" and self.motion != "walk":

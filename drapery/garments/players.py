@@ -9,7 +9,14 @@ from pydantic import ValidationError
 from drapery.errors import OptionError
 from drapery.garments.catalogue import find_garment
 from drapery.garments.loading import complaint_of
-from drapery.garments.model import ClothTexture, Garment, GarmentWearer
+from drapery.garments.model import (
+    ClothTexture,
+    Garment,
+    GarmentPin,
+    GarmentWearer,
+    GridPiece,
+)
+from drapery.style.equipment import BANNER_TEXEL, FLAG_TOP, POLES
 
 PICTURE = {"view": "hero", "wind": 0.5, "direction": 180.0, "gusts": 0.2}
 """Options of a player's picture unless others are given: a light wind from ahead."""
@@ -50,3 +57,25 @@ def dressed_player(
         plain = find_garment("cape").with_texture(cape)
         worn.append(plain)
     return Garment(name="player", piece=(), wearer=wearer, picture=PICTURE, over=tuple(worn))
+
+
+def with_head_banner(garment: Garment) -> Garment:
+    """A garment over which its wearer has the flag of the banner on its head, if it has one."""
+    who = garment.wearer
+    if who is None or who.head is None:
+        return garment
+    flag = GridPiece(
+        name="head-flag",
+        size=(20 * BANNER_TEXEL, 40 * BANNER_TEXEL),
+        points=(9, 17),
+        place=FLAG_TOP,
+        texture=ClothTexture(design=who.head),
+    )
+    banner = Garment(
+        name="head-banner",
+        piece=(flag,),
+        pin=(GarmentPin(piece="head-flag", at="top", to="head"),),
+        thickness=BANNER_TEXEL,
+        wearer=who.model_copy(update={"solid": ("head", *POLES)}),
+    )
+    return garment.model_copy(update={"over": (*garment.over, banner)})

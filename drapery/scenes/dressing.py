@@ -17,6 +17,7 @@ from drapery.cloth import Box, Collider, Collisions, Force, Plane, State, Wind, 
 from drapery.cloth.solvers.registry import solver
 from drapery.garments.assembly import SewnCloth, tailor
 from drapery.garments.model import Garment, GarmentPole
+from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
 from drapery.render.scene import Model, Scene
 from drapery.scenes.moving import in_wind
@@ -114,7 +115,9 @@ class Dressed:
     def cloths(self) -> tuple[SewnCloth, ...]:
         """The cloths of the garment at rest."""
         who = self.garment.wearer
-        return () if who and who.shown == "head" else tailor(self.garment, self.packs)
+        if who and who.shown == "head":
+            return ()
+        return tailor(with_head_banner(self.garment), self.packs)
 
     @cached_property
     def wearer(self) -> Wearer | None:

@@ -1,7 +1,7 @@
 """Who wears a garment: how a player or a horse moves, is drawn, and stops cloth."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,6 +19,14 @@ from drapery.mesh import Mesh
 from drapery.render.scene import Material, Model, TextureLayer
 from drapery.scenes.gait import Gait
 from drapery.style.boxes import box_mesh, join, upright
+from drapery.style.equipment import (
+    Equipment,
+    armor_growth,
+    armor_on,
+    banner_pole,
+    pole_boxes,
+    shield_in_hand,
+)
 from drapery.style.figure import SKINS, TEXEL, FigurePart, Placed, posed, to_metres
 from drapery.style.horse import HORSE_BOXES, HORSE_PARTS, SHEET
 from drapery.style.skins import Skin, read_skin
@@ -35,23 +43,44 @@ Draw = Callable[[Poses, tuple[str, ...] | None], tuple[Model, ...]]
 @dataclass(frozen=True, eq=False)
 class Wearer:
     """A figure that moves. parts: its boxes by bone. poses: of all bones at a time [s].
-    draw: its models in poses, of some bones or all."""
+    draw: its models in poses, of some bones or all. equipment: what it holds, and its armour.
+    growth: how far armour stands off its bones [texels]."""
 
     parts: Mapping[str, FigurePart]
     poses: Callable[[float], Poses]
     draw: Draw
+    equipment: tuple[Equipment, ...] = ()
+    growth: Mapping[str, float] = field(default_factory=dict)
 
     def models(self, time: float, bones: tuple[str, ...] | None = None) -> tuple[Model, ...]:
         """The figure at a time [s], at the origin. bones: those that are drawn; None for all."""
-        return self.draw(self.poses(time), bones)
+        poses = self.poses(time)
+        held = (
+            Model(each.posed(poses[each.bone]), (each.material,))
+            for each in self.equipment
+            if bones is None or each.bone in bones
+        )
+        return (*self.draw(poses, bones), *held)
 
     def colliders(self, bones: tuple[str, ...] | None = None) -> tuple[Collider, ...]:
-        """The parts of some bones, or of all, as moving boxes."""
-        return tuple(
-            Collider(Box(part.centre, part.extent), self._path(name))
+        """The parts of some bones, or of all, as moving boxes with their armour.
+
+        bones: may also name POLES, those of a banner on the head.
+        """
+        poles = (
+            Collider(box, self._path("head"))
+            for name, box in pole_boxes().items()
+            if bones is not None and name in bones
+        )
+        body = (
+            Collider(
+                Box(part.centre, part.extent + 2 * self.growth.get(name, 0.0) * TEXEL),
+                self._path(name),
+            )
             for name, part in self.parts.items()
             if bones is None or name in bones
         )
+        return *body, *poles
 
     def _path(self, name: str) -> PosePathOf:
         return lambda time: Pose(*self.poses(time)[name])
@@ -75,7 +104,21 @@ def wearer_of(garment: Garment, packs: Packs, period: float | None = None) -> We
     def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
         return (Model(skin.mesh(poses, bones), (material,)),)
 
-    return Wearer(skin.parts, poses, draw)
+    growth = {} if who.armor is None else armor_growth(who.armor)
+    return Wearer(skin.parts, poses, draw, _equipment(who, packs, skin.parts), growth)
+
+
+def _equipment(
+    who: GarmentWearer, packs: Packs, parts: Mapping[str, FigurePart]
+) -> tuple[Equipment, ...]:
+    found: list[Equipment] = []
+    if who.armor is not None:
+        found += armor_on(who.armor, who.trim, packs, parts)
+    if who.head is not None:
+        found.append(banner_pole(packs))
+    if who.shield is not None:
+        found += shield_in_hand(who.shield, packs, parts)
+    return tuple(found)
 
 
 def _walk(who: GarmentWearer, period: float | None) -> Callable[[float], Poses]:

@@ -12,8 +12,8 @@ from drapery.style.slot import SHIELD_POSE, SLOT_LIGHT, in_slot, slot_camera
 TEXEL = 1.0 / 16.0
 """Metres per texel."""
 
-_PLATE = ModelBox((-6, -11, -2), (12, 22, 1), (0, 0))
-_HANDLE = ModelBox((-1, -3, -1), (2, 6, 6), (26, 0))
+PLATE = ModelBox((-6, -11, -2), (12, 22, 1), (0, 0))
+HANDLE = ModelBox((-1, -3, -1), (2, 6, 6), (26, 0))
 _STANDING = (0.5, 11 * TEXEL, 0.5)
 """Place of the model's origin when the shield stands on the floor [m]."""
 
@@ -30,11 +30,11 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     period = textures_period(design, packs, "shield")
     if settings.placement == "item":
         plate, handle = (
-            in_slot(_upright_at(box, (0, 0, 0)), SHIELD_POSE) for box in (_PLATE, _HANDLE)
+            in_slot(_upright_at(box, (0, 0, 0)), SHIELD_POSE) for box in (PLATE, HANDLE)
         )
         parts = tuple(map(Part, (plate, handle), materials))
         return Body(parts, (), period, SLOT_LIGHT, slot_camera(settings.size))
-    plate, handle = (_upright_at(box, _STANDING) for box in (_PLATE, _HANDLE))
+    plate, handle = (_upright_at(box, _STANDING) for box in (PLATE, HANDLE))
     return Body(tuple(map(Part, (plate, handle), materials)), (), period)
 
 

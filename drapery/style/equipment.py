@@ -1,0 +1,302 @@
+"""What players hold and wear beside cloth: the pole of a banner on the head, a shield, armour.
+
+Poses and sizes are those of the game: its display transforms of items, and how far the boxes of
+each piece of armour stand off.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.banner.packs.png import Texels
+from drapery.banner.sprites import tint
+from drapery.cloth import Box
+from drapery.errors import OptionError
+from drapery.mesh import Array, Mesh
+from drapery.option import shown
+from drapery.render.scene import Material, TextureLayer
+from drapery.settings import Settings
+from drapery.style.block import solids, wood
+from drapery.style.boxes import ModelBox, box_mesh, upright
+from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed, posed
+from drapery.style.kinds.shield import HANDLE, PLATE
+from drapery.style.layers import handle_material_at, plate_material_at, wood_material
+
+BANNER_TEXEL = 0.625
+"""A texel of a banner on a head [texels of the player]: 1.5 * 0.625 * 2/3."""
+POLE_FOOT = (0.0, 30.5, -4.375)
+"""Where the pole of a banner on a head begins [texels, y up]: behind the head."""
+FLAG_TOP = (0.0, 58.0, -3.4375)
+"""The middle of the upper edge of its flag [texels, y up]."""
+POLES = ("pole", "bar")
+"""What stops that flag beside the head, by name."""
+SHIELD_ARM = "left_arm"
+
+ARMOR_SHEET = (64, 32)
+LEATHER = (160, 101, 64)
+"""The colour of leather without a dye."""
+PIECES: Mapping[str, tuple[tuple[str, float], ...]] = {
+    "helmet": (("head", 1.0), ("hat", 1.5)),
+    "chestplate": (("body", 1.0), ("right_arm", 1.0), ("left_arm", 1.0)),
+    "leggings": (("body", 0.5), ("right_leg", 0.4), ("left_leg", 0.4)),
+    "boots": (("right_leg", 0.9), ("left_leg", 0.9)),
+}
+"""The boxes of each piece of armour, and how far they stand off [texels]."""
+_OFFSETS = {"head": (0, 0), "hat": (32, 0), "body": (16, 16), "arm": (40, 16), "leg": (0, 16)}
+"""Where the boxes lie on a texture of armour; those of the left are mirrored."""
+ARMOR_MATERIALS = (
+    *("leather", "chainmail", "copper", "iron", "gold", "diamond", "netherite", "turtle_scute"),
+)
+DARKER = frozenset({"iron", "gold", "diamond", "netherite", "copper"})
+"""Trims of these are darker on armour of the same material."""
+
+
+@dataclass(frozen=True, eq=False)
+class Equipment:
+    """A stiff thing on a bone. mesh: on a player at rest [m]."""
+
+    bone: str
+    mesh: Mesh
+    material: Material
+
+    def posed(self, pose: Placed) -> Mesh:
+        """The mesh where the bone is."""
+        return posed(self.mesh, pose)
+
+
+def banner_pole(packs: Packs) -> Equipment:
+    """Pole and bar of a banner on the head; its flag is cloth. Raises PackError."""
+    mesh = wood("standing")
+    return Equipment(
+        "head", replace(mesh, positions=_on_head(mesh.positions)), wood_material(packs)
+    )
+
+
+def pole_boxes() -> dict[str, Box]:
+    """What the flag of a banner on the head cannot enter, beside the head: pole and bar."""
+    found = {}
+    # The last solid is the ground.
+    for name, solid in zip(POLES, solids("standing"), strict=False):
+        low, high = _on_head(np.array([solid.low, solid.high]))
+        found[name] = Box((low + high) / 2, high - low)
+    return found
+
+
+def _on_head(points: Array) -> Array:
+    """Points of a banner in its block as those of one on the head of a player at rest [m]."""
+    scale = BANNER_TEXEL * TEXEL * 24  # a block is 24 texels of a banner
+    placed: Array = (points - np.array([0.5, 0.0, 0.5])) * scale + np.array(POLE_FOOT) * TEXEL
+    return placed
+
+
+def shield_in_hand(
+    design: Banner, packs: Packs, parts: Mapping[str, FigurePart]
+) -> tuple[Equipment, ...]:
+    """A shield in the left hand: its plate and handle. Raises PackError.
+
+    parts: of the player, whose left arm holds it.
+    """
+    settings = Settings(kind="shield")
+    # From the joint of the arm to the hand, then the item's display transform [texels].
+    x, y, z = parts[SHIELD_ARM].joint
+    slim = parts[SHIELD_ARM].box.size[0] == 3
+    chain = [
+        _moved(x - (1.5 if slim else 1.0), y, z),
+        _turned(0, -90),
+        _turned(1, 180),
+        _moved(-1, 2, -10),
+        _moved(-10, 6, 12),
+        _turned(1, -90),
+        _moved(-8, -8, -8),
+        np.diag([1.0, -1.0, -1.0, 1.0]),
+    ]
+    matrix = chain[0]
+    for each in chain[1:]:
+        matrix = np.einsum("ij,jk->ik", matrix, each)
+    made = []
+    for box, material_at in ((PLATE, plate_material_at), (HANDLE, handle_material_at)):
+        mesh = box_mesh(box)
+        flipped = np.array([1.0, -1.0, -1.0])  # box_mesh gives normals of the world
+        turned = Mesh(
+            np.einsum("ij,vj->vi", matrix[:3, :3], mesh.positions) + matrix[:3, 3],
+            np.einsum("ij,vj->vi", matrix[:3, :3], mesh.normals * flipped) * flipped,
+            mesh.triangles,
+            mesh.uvs,
+        )
+        material = material_at(design, packs, settings)(0.0)
+        made.append(Equipment(SHIELD_ARM, upright(turned, TEXEL, (0, 0, 0)), material))
+    return tuple(made)
+
+
+def parse_armor(text: str) -> dict[str, str]:
+    """The material of each piece: of all from `diamond`, of some from `helmet:iron,boots:gold`.
+
+    Raises OptionError.
+    """
+    words = [word.strip() for word in text.split(",")]
+    if len(words) == 1 and ":" not in text:
+        found = dict.fromkeys(PIECES, words[0])
+        if words[0] == "turtle_scute":
+            found = {"helmet": words[0]}
+    else:
+        found = {piece: material for piece, _, material in (word.partition(":") for word in words)}
+    for piece, material in found.items():
+        if piece not in PIECES:
+            raise OptionError(
+                f"armor {shown(piece)} is not a piece; use some of: {', '.join(PIECES)},"
+                " such as helmet:iron,boots:gold"
+            )
+        if material not in ARMOR_MATERIALS:
+            known = ", ".join(ARMOR_MATERIALS)
+            raise OptionError(f"armor {shown(material)} is not known; use one of: {known}")
+    return found
+
+
+def parse_trim(text: str) -> tuple[str, str]:
+    """Pattern and material of a trim, such as `coast:gold`. Raises OptionError."""
+    pattern, colon, material = text.partition(":")
+    good = all(part and part.replace("_", "").isalnum() for part in (pattern, material))
+    if not colon or not good:
+        raise OptionError(f"trim {shown(text)} is not a pattern and a material; write coast:gold")
+    return pattern, material
+
+
+def armor_on(
+    armor: str, trim: str | None, packs: Packs, parts: Mapping[str, FigurePart]
+) -> tuple[Equipment, ...]:
+    """Armour on a player, with the textures of the packs.
+
+    armor: see `parse_armor`. trim: see `parse_trim`. Raises OptionError, which names the missing
+    file, and PackError.
+    """
+    made = []
+    for piece, material in parse_armor(armor).items():
+        texels = _armor_texels(piece, material, packs)
+        if trim is not None:
+            texels = _over(texels, _trim_texels(piece, material, *parse_trim(trim), packs))
+        drawn = Material((TextureLayer(texels),), "cutout")
+        made += [Equipment(bone, mesh, drawn) for bone, mesh in _armor_meshes(piece, parts)]
+    return tuple(made)
+
+
+def armor_growth(armor: str) -> dict[str, float]:
+    """How far armour stands off each bone [texels]. Raises OptionError."""
+    grown: dict[str, float] = {}
+    for piece in parse_armor(armor):
+        for box, distance in PIECES[piece]:
+            bone = "head" if box == "hat" else box
+            if box != "hat":
+                grown[bone] = max(grown.get(bone, 0.0), distance)
+    return grown
+
+
+def _armor_meshes(piece: str, parts: Mapping[str, FigurePart]) -> Iterator[tuple[str, Mesh]]:
+    for name, grown in PIECES[piece]:
+        bone = "head" if name == "hat" else name
+        side, _, limb = bone.rpartition("_")
+        # Armour is the same for slim arms, which it covers.
+        part = PARTS[bone]
+        lower = parts[bone].joint[1] - part.joint[1]
+        x, y, z = part.box.corner
+        offset = _OFFSETS[name if name in _OFFSETS else limb]
+        box = ModelBox((x, y + lower, z), part.box.size, offset, grown)
+        if side == "left":
+            # The mirror of the right one, moved to its place.
+            mesh = _mirrored(
+                box_mesh(replace(box, corner=(-x - box.size[0], y + lower, z)), ARMOR_SHEET)
+            )
+        else:
+            mesh = box_mesh(box, ARMOR_SHEET)
+        yield bone, upright(mesh, TEXEL, (0, 0, 0))
+
+
+def _mirrored(mesh: Mesh) -> Mesh:
+    across = np.array([-1.0, 1.0, 1.0])
+    triangles = np.ascontiguousarray(mesh.triangles[:, ::-1])
+    return Mesh(mesh.positions * across, mesh.normals * across, triangles, mesh.uvs)
+
+
+def _armor_texels(piece: str, material: str, packs: Packs) -> Texels:
+    """The texture of a piece, shape [32 n, 64 n, 4]; leather is dyed and has a second layer."""
+    texels = _texture(_armor_names(piece, material), packs, f"armor {material}")
+    if material != "leather":
+        return texels
+    over = _texture(_armor_names(piece, "leather", "_overlay"), packs, "armor leather")
+    return _over(tint(texels, LEATHER), over)
+
+
+def _armor_names(piece: str, material: str, more: str = "") -> tuple[str, str]:
+    """The ids of a texture of armour since 1.21.2, and before."""
+    legs = piece == "leggings"
+    folder = "humanoid_leggings" if legs else "humanoid"
+    old = {"turtle_scute": "turtle"}.get(material, material)
+    return (
+        f"minecraft:entity/equipment/{folder}/{material}{more}",
+        f"minecraft:models/armor/{old}_layer_{2 if legs else 1}{more}",
+    )
+
+
+def _trim_texels(piece: str, worn: str, pattern: str, material: str, packs: Packs) -> Texels:
+    """A trim in the colours of its material: a palette gives a colour for each tone of a key."""
+    legs = piece == "leggings"
+    texels = _texture(
+        (
+            f"minecraft:trims/entity/{'humanoid_leggings' if legs else 'humanoid'}/{pattern}",
+            f"minecraft:trims/models/armor/{pattern}{'_leggings' if legs else ''}",
+        ),
+        packs,
+        f"trim {pattern}",
+    )
+    palettes = "minecraft:trims/color_palettes"
+    key = _texture((f"{palettes}/trim_palette",), packs, f"trim {material}")[0]
+    name = f"{material}_darker" if worn == material and material in DARKER else material
+    colours = _texture((f"{palettes}/{name}",), packs, f"trim {material}")[0]
+    if len(key) != len(colours):
+        raise OptionError(
+            f"trim {material}: its palette has {len(colours)} colours, the key has {len(key)};"
+            " give a pack with palettes of one length"
+        )
+    dyed = texels.copy()
+    for tone, colour in zip(key, colours, strict=True):
+        dyed[(texels[..., :3] == tone[:3]).all(axis=-1), :3] = colour[:3]
+    return dyed
+
+
+def _texture(names: tuple[str, ...], packs: Packs, what: str) -> Texels:
+    """The first texture of these ids that the packs have. Raises OptionError."""
+    for name in names:
+        if packs.has_texture(name):
+            return packs.texture(name)
+    files = " or ".join(f"textures/{name.partition(':')[2]}.png" for name in names)
+    raise OptionError(f"{what}: no pack has {files}; give one that has it, by --pack")
+
+
+def _over(lower: Texels, upper: Texels) -> Texels:
+    """One texture over another, at the finer size of both."""
+    height = max(len(lower), len(upper))
+    below, above = (
+        np.kron(each, np.ones((height // len(each),) * 2 + (1,), np.uint8))
+        for each in (lower, upper)
+    )
+    alpha = above[..., 3:].astype(np.uint16)
+    mixed = (above[..., :3] * alpha + below[..., :3] * (255 - alpha) + 127) // 255
+    both = np.maximum(below[..., 3:], above[..., 3:])
+    return np.concatenate([mixed, both], axis=-1).astype(np.uint8)
+
+
+def _moved(x: float, y: float, z: float) -> Array:
+    matrix = np.eye(4)
+    matrix[:3, 3] = x, y, z
+    return matrix
+
+
+def _turned(axis: int, degrees: int) -> Array:
+    """A rotation by a multiple of a right angle about an axis, exact, shape [4, 4]."""
+    cos, sin = ((1, 0), (0, 1), (-1, 0), (0, -1))[degrees // 90 % 4]
+    a, b = (axis + 1) % 3, (axis + 2) % 3
+    matrix = np.eye(4)
+    matrix[a, a], matrix[a, b], matrix[b, a], matrix[b, b] = cos, -sin, sin, cos
+    return matrix
