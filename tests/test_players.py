@@ -15,6 +15,7 @@ from drapery.garments import dressed_player, find_garment, make_wearer, motion_n
 from drapery.garments.motions import MAX_BYTES, KeyPose, Motion, bone_poses, find_motion
 from drapery.packs import open_packs
 from drapery.scenes import Dressed
+from drapery.scenes.player_motion import player_poses
 from drapery.settings import Settings
 from drapery.sheets import players_sheet
 from drapery.style.boxes import ModelBox
@@ -232,3 +233,70 @@ def test_the_command_draws_a_player(tmp_path: Path) -> None:
         assert picture.size == (32, 32) and picture.getextrema()[3] == (0, 255)
     with pytest.raises(OptionError, match=r"look 'up' is not two angles; write it like 30,10"):
         command("player", "--look", "up", "-o", tmp_path / "p.png")
+
+
+def poses_of(motion: str, time: float, loop: float | None = None, **fields: object) -> dict:
+    who = make_wearer(motion=motion, **fields)
+    return dict(player_poses(who, Path(), PARTS, loop)(time))
+
+
+def test_layered_motions_turn_the_bones_that_the_later_one_moves() -> None:
+    both = poses_of("walk+wave", 1.1, speed=2.0)
+    walk, wave = poses_of("walk", 1.1, speed=2.0), poses_of("wave", 1.1)
+    for bone, wanted in {"right_leg": walk, "left_leg": walk, "right_arm": wave}.items():
+        np.testing.assert_allclose(both[bone][1], wanted[bone][1], atol=1e-12)
+    # The feet of a walk touch the ground.
+    assert both["body"][0][1] == pytest.approx(walk["body"][0][1], abs=1e-9)
+
+
+def test_a_mean_of_motions_has_their_weights() -> None:
+    only = poses_of("walk:0,sit:1", 1.0, speed=2.0)
+    for bone, (place, turn) in poses_of("sit", 1.0).items():
+        np.testing.assert_allclose(only[bone][0], place, atol=1e-12)
+        np.testing.assert_allclose(only[bone][1], turn, atol=1e-12)
+    half = poses_of("stand:0.5,point:0.5", 2.0)["right_arm"][1]
+    raised = np.degrees(np.arccos(half[1, 1] / np.hypot(half[1, 1], half[2, 1])))
+    assert raised == pytest.approx((88 - 1) / 2, abs=1.5)
+
+
+@pytest.mark.parametrize("motion", ["walk+wave", "run:0.5,stand:0.5", "swim", "sneak+point"])
+def test_a_loop_of_blended_motions_ends_where_it_begins(motion: str) -> None:
+    first, last = (poses_of(motion, 2.0 + time, 3.1, speed=1.5) for time in (0, 3.1))
+    for bone in PARTS:
+        for one, other in zip(first[bone], last[bone], strict=True):
+            np.testing.assert_allclose(one, other, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("motion", "said"),
+    [
+        ("walk:2,wave:1", "its weight is not 0 to 1"),
+        ("walk:0,wave:0", "has only weights of 0"),
+        ("+".join(["wave"] * 9), "blends over 8 motions"),
+        ("walk+fly", "motion 'fly' is not known"),
+    ],
+)
+def test_a_blend_that_cannot_be_read_is_refused(motion: str, said: str) -> None:
+    with pytest.raises(OptionError, match=said):
+        poses_of(motion, 1.0)
+
+
+@pytest.mark.parametrize("motion", ["stand", "glide", "sit", "walk+wave"])
+@pytest.mark.parametrize("point", [(1.0, 2.0, 2.0), (-2.0, 0.2, 1.0), (0.0, 3.0, 1.0)])
+def test_a_head_looks_at_a_point(motion: str, point: tuple[float, float, float]) -> None:
+    poses = poses_of(motion, 1.0, look=point)
+    place, turn = poses["head"]
+    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(turn) == pytest.approx(1)
+    joint = np.array([0, 24 * TEXEL, 0])
+    plain = poses_of(motion, 1.0)["head"]
+    np.testing.assert_allclose(turn @ joint + place, plain[1] @ joint + plain[0], atol=1e-12)
+    middle = turn @ joint + place + poses["body"][1] @ np.array([0, 4 * TEXEL, 0])
+    towards = np.array(point) - middle
+    if (poses["body"][1].T @ towards)[2] > 0:
+        np.testing.assert_allclose(turn[:, 2], towards / np.linalg.norm(towards), atol=1e-12)
+
+
+def test_a_head_does_not_turn_farther_than_its_shoulder() -> None:
+    _, turn = poses_of("stand", 1.0, look=(1.0, 28.0 * TEXEL, -5.0))["head"]
+    np.testing.assert_allclose(turn[:, 2], [1, 0, 0], atol=1e-9)

@@ -360,8 +360,10 @@ class GarmentWearer(GarmentTable):
     to the garment's file. arms: slim, classic, or auto, which reads it from the skin.
     overlay: how the skin's second layer is drawn: flat, its texels as small boxes, or not at all.
     motion: `walk`, another motion of a player, or a pose in a JSON file; see `motion_names`.
+    Several are layered by `walk+wave`, or averaged by `walk:0.7,wave:0.3`.
     speed: over the ground [m/s], the speed of the air from ahead; a walk of 0 stands.
-    look: where a player's head turns: to its left and downwards [degrees].
+    look: how far a player's head turns to its left and downwards [degrees], or the point that it
+    looks at: to its left, upwards from the ground, and ahead [m].
     solid: the bones that stop its cloth; all of them unless given. `pole` and `bar` are those of a
     banner on the head.
     shown: what the picture shows: full, bust or head.
@@ -376,7 +378,7 @@ class GarmentWearer(GarmentTable):
     arms: Literal["auto", "classic", "slim"] = "auto"
     overlay: Literal["flat", "voxels", "none"] = "flat"
     motion: Annotated[str, Field(min_length=1, max_length=200)] = "walk"
-    look: tuple[Angle, Angle] = (0.0, 0.0)
+    look: tuple[Angle, Angle] | Point = (0.0, 0.0)
     shown: Literal["full", "bust", "head"] = "full"
     solid: tuple[str, ...] | None = None
     head: Annotated[Banner, BeforeValidator(_said(_as_banner))] | None = None

@@ -2,22 +2,20 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
-from drapery.cloth.colliders import Box, Collider, Pose, rotation_about
+from drapery.cloth.colliders import Box, Collider, Pose
 from drapery.cloth.colliders import Path as PosePathOf
 from drapery.errors import OptionError
 from drapery.garments.model import Garment, GarmentWearer
-from drapery.garments.motions import KeyPose, bone_poses, find_motion
 from drapery.garments.textures import read_texture
 from drapery.mesh import Mesh
 from drapery.render.scene import Material, Model, TextureLayer
-from drapery.scenes.gait import Gait
+from drapery.scenes.player_motion import Poses, player_poses, walk
 from drapery.style.boxes import box_mesh, join, upright
 from drapery.style.equipment import (
     Equipment,
@@ -27,16 +25,10 @@ from drapery.style.equipment import (
     pole_boxes,
     shield_in_hand,
 )
-from drapery.style.figure import SKINS, TEXEL, FigurePart, Placed, posed, to_metres
+from drapery.style.figure import SKINS, TEXEL, FigurePart, posed
 from drapery.style.horse import HORSE_BOXES, HORSE_PARTS, SHEET
 from drapery.style.skins import Skin, read_skin
 
-STRIDE = 0.8
-"""The period of a stride [s], unless a loop needs a whole number of them."""
-RAMP = 0.5
-"""A wearer takes its pose in this time, so that its cloth can follow [s]."""
-
-Poses = Mapping[str, Placed]
 Draw = Callable[[Poses, tuple[str, ...] | None], tuple[Model, ...]]
 
 
@@ -96,10 +88,10 @@ def wearer_of(garment: Garment, packs: Packs, period: float | None = None) -> We
     if who is None:
         return None
     if who.kind == "horse":
-        return Wearer(HORSE_PARTS, _walk(who, period), _horse(packs))
+        return Wearer(HORSE_PARTS, walk(who, period).poses, _horse(packs))
     skin = _skin(who, garment.folder, packs)
     material = Material((TextureLayer(skin.texels),), "cutout")
-    poses = _poses(who, garment.folder, skin.parts, period)
+    poses = player_poses(who, garment.folder, skin.parts, period)
 
     def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
         return (Model(skin.mesh(poses, bones), (material,)),)
@@ -119,48 +111,6 @@ def _equipment(
     if who.shield is not None:
         found += shield_in_hand(who.shield, packs, parts)
     return tuple(found)
-
-
-def _walk(who: GarmentWearer, period: float | None) -> Callable[[float], Poses]:
-    return Gait(who.speed, _whole_period(STRIDE, period), who.kind).poses
-
-
-def _whole_period(period: float, loop: float | None) -> float:
-    """The period that fills a loop a whole number of times."""
-    return period if loop is None else loop / max(1, round(loop / period))
-
-
-def _poses(
-    who: GarmentWearer, folder: Path, parts: Mapping[str, FigurePart], period: float | None
-) -> Callable[[float], Poses]:
-    """The poses of a player at a time [s], its head turned by `look`."""
-    moves = _walk(who, period)
-    if who.motion != "walk":
-        motion = find_motion(who.motion, folder)
-        motion = motion.model_copy(update={"period": _whole_period(motion.period, period)})
-
-        def moves(time: float) -> Poses:
-            share = min(time / RAMP, 1.0)
-            pose = motion.key_pose(time)
-            if share < 1:
-                pose = KeyPose().mixed(pose, share * share * (3 - 2 * share))
-            return bone_poses(pose, parts, motion.grounded)
-
-    yaw, pitch = who.look
-    turn = np.einsum("ij,jk->ik", rotation_about((0, 1, 0), yaw), rotation_about((1, 0, 0), pitch))
-    joint = to_metres(np.array(parts["head"].joint))
-    offset = joint - (turn * joint).sum(axis=1)
-
-    @lru_cache(maxsize=64)
-    def looking(time: float) -> Poses:
-        poses = dict(moves(time))
-        if yaw or pitch:
-            place, rotation = poses["head"]
-            head = (rotation * offset).sum(axis=1) + place
-            poses["head"] = head, np.einsum("ij,jk->ik", rotation, turn)
-        return poses
-
-    return looking
 
 
 def _skin(who: GarmentWearer, folder: Path, packs: Packs) -> Skin:
