@@ -22,7 +22,7 @@ from drapery.style.equipment import (
     armor_growth,
     armor_on,
     banner_pole,
-    pole_boxes,
+    pole_solids,
     shield_in_hand,
 )
 from drapery.style.figure import SKINS, TEXEL, FigurePart, posed
@@ -60,8 +60,8 @@ class Wearer:
         bones: may also name POLES, those of a banner on the head.
         """
         poles = (
-            Collider(box, self._path("head"))
-            for name, box in pole_boxes().items()
+            Collider(Box((low + high) / 2, high - low), self._path("head"))
+            for name, (low, high) in pole_solids().items()
             if bones is not None and name in bones
         )
         body = (

@@ -13,7 +13,6 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.banner.packs.png import Texels
 from drapery.banner.sprites import tint
-from drapery.cloth import Box
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.option import shown
@@ -75,14 +74,11 @@ def banner_pole(packs: Packs) -> Equipment:
     )
 
 
-def pole_boxes() -> dict[str, Box]:
-    """What the flag of a banner on the head cannot enter, beside the head: pole and bar."""
-    found = {}
+def pole_solids() -> dict[str, tuple[Array, Array]]:
+    """Low and high corner of what stops the flag of a banner on the head, by name [m]."""
     # The last solid is the ground.
-    for name, solid in zip(POLES, solids("standing"), strict=False):
-        low, high = _on_head(np.array([solid.low, solid.high]))
-        found[name] = Box((low + high) / 2, high - low)
-    return found
+    found = zip(POLES, solids("standing"), strict=False)
+    return {name: (_on_head(np.array(s.low)), _on_head(np.array(s.high))) for name, s in found}
 
 
 def _on_head(points: Array) -> Array:
