@@ -32,7 +32,9 @@ if TYPE_CHECKING:
         parse_banners,
         recognise,
         write_banner,
+        write_blocks,
     )
+    from drapery.banner.letters import letter_banners, letter_characters
     from drapery.banner.loom import LoomStep, fits_loom, loom_steps, simplify
     from drapery.banner.names import dye_name, pattern_id
     from drapery.banner.patterns import PATTERN_NAMES, PATTERNS, Pattern
@@ -73,6 +75,8 @@ __all__ = [
     "find_banners",
     "fits_loom",
     "flag_layers",
+    "letter_banners",
+    "letter_characters",
     "loom_steps",
     "parse_banner",
     "parse_banners",
@@ -83,6 +87,7 @@ __all__ = [
     "shield_layers",
     "simplify",
     "write_banner",
+    "write_blocks",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -102,7 +107,9 @@ __getattr__, __dir__ = lazy_names(
             "parse_banners",
             "recognise",
             "write_banner",
+            "write_blocks",
         ),
+        "banner.letters": ("letter_banners", "letter_characters"),
         "banner.loom": ("LoomStep", "fits_loom", "loom_steps", "simplify"),
         "banner.names": ("dye_name", "pattern_id"),
         "banner.patterns": ("PATTERNS", "PATTERN_NAMES", "Pattern"),

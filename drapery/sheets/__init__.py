@@ -17,13 +17,16 @@ if TYPE_CHECKING:
         styles_sheet,
     )
     from drapery.sheets.faces import contents_sheet, patterns_sheet, steps_sheet
+    from drapery.sheets.letters import cloth_row, faces_row
     from drapery.sheets.sheet import PictureSheet, SheetCell, check_sheet_target
 
 __all__ = [
     "PictureSheet",
     "SheetCell",
     "check_sheet_target",
+    "cloth_row",
     "contents_sheet",
+    "faces_row",
     "garments_sheet",
     "packs_sheet",
     "patterns_sheet",
@@ -44,6 +47,7 @@ __getattr__, __dir__ = lazy_names(
             "styles_sheet",
         ),
         "sheets.faces": ("contents_sheet", "patterns_sheet", "steps_sheet"),
+        "sheets.letters": ("cloth_row", "faces_row"),
         "sheets.sheet": ("PictureSheet", "SheetCell", "check_sheet_target"),
     },
 )

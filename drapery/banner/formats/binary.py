@@ -1,7 +1,7 @@
 """The forms of files as the registry lists them, each with its reader and writer."""
 
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import litematic, mcstructure, region, schem, structure
@@ -109,3 +109,10 @@ _TABLE = (
 
 BINARY_FORMS: dict[str, BinaryForm] = {form.name: form for form in _TABLE}
 """Every form of files by name. A file is read by the first form that recognises it."""
+
+BLOCK_WRITERS: dict[str, Callable[[Sequence[Banner]], bytes]] = {
+    ".schem": schem.write,
+    ".nbt": structure.write,
+    ".mcstructure": mcstructure.write,
+}
+"""What writes standing banners in a row as a file of blocks, by the ending of its name."""

@@ -1,7 +1,7 @@
 """The registry of forms: reads banners from any text, and writes a banner in any form."""
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from itertools import islice
 from types import ModuleType
@@ -289,6 +289,18 @@ def binary_forms() -> dict[str, BinaryForm]:
     from drapery.banner.formats.binary import BINARY_FORMS
 
     return BINARY_FORMS
+
+
+def write_blocks(banners: Sequence[Banner], suffix: str) -> bytes | None:
+    """A file of blocks with the banners standing in a row to the east, to read from the south.
+
+    suffix: .schem, .nbt or .mcstructure; None comes back for another one.
+    Raises DesignError for shields, which are not blocks, and for too many banners.
+    """
+    from drapery.banner.formats.binary import BLOCK_WRITERS
+
+    write = BLOCK_WRITERS.get(suffix.lower())
+    return None if write is None else write(banners)
 
 
 def some_of(found: list[FoundBanner], errors: list[DesignError], nothing: str) -> list[FoundBanner]:

@@ -1,0 +1,39 @@
+"""A row of banners as one picture, such as the letters of a word."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.pictures import draw, face_pixels
+from drapery.render import Frame, Pixels
+from drapery.settings import Settings
+
+GAP = 2
+"""Transparent texels between the faces of a row."""
+
+
+def faces_row(banners: Sequence[Banner], packs: Packs, *, scale: int = 8) -> Frame:
+    """The plain faces side by side, each 20 x 40 texels of `scale` pixels.
+
+    Raises PackError.
+    """
+    gap = np.zeros((40 * scale, GAP * scale, 4), np.uint8)
+    parts: list[Pixels] = []
+    for banner in banners:
+        parts += [gap, face_pixels(banner, packs, scale)]
+    return Frame(np.concatenate(parts[1:], axis=1))
+
+
+def cloth_row(banners: Sequence[Banner], settings: Settings) -> Frame:
+    """The banners as cloth side by side, each of the settings' size.
+
+    Each has a seed of its own, so that equal letters do not hang in equal folds.
+    Raises OptionError, PackError or BackendError.
+    """
+    seeds = range(settings.seed, settings.seed + len(banners))
+    chosen = (replace(settings, seed=seed) for seed in seeds)
+    frames = [draw(banner, each) for banner, each in zip(banners, chosen, strict=True)]
+    return Frame(np.concatenate([frame.pixels for frame in frames], axis=1))
