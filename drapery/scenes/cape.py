@@ -18,7 +18,7 @@ from drapery.scenes.parameters import (
     thickness_parameter,
     wind_parameter,
 )
-from drapery.scenes.stroll import cloths_of, stroll, worn_states
+from drapery.scenes.stroll import cloths_of, walk_scenes, worn_states
 from drapery.style.figure import SKINS
 from drapery.style.tailoring import dyed
 
@@ -43,7 +43,7 @@ def play(parameters: CapeParameters, clip: Clip) -> Iterator[Scene]:
     """The figure walks in place; the causeway passes below."""
     gait, sewn = Gait(parameters.speed), cape_cloth(parameters)
     worn = [(sewn, cape_states(parameters, sewn, gait, clip))]
-    return stroll(parameters.skin, gait, clip, worn)
+    return walk_scenes(parameters.skin, gait, clip, worn)
 
 
 def cape_cloth(parameters: CapeParameters) -> SewnCloth:

@@ -20,7 +20,7 @@ from drapery.scenes.parameters import (
     thickness_parameter,
     wind_parameter,
 )
-from drapery.scenes.stroll import cloths_of, stroll, worn_states
+from drapery.scenes.stroll import cloths_of, walk_scenes, worn_states
 from drapery.style.boxes import ModelBox, box_mesh, upright
 from drapery.style.extrusion import make_shell
 from drapery.style.figure import SKINS, TEXEL
@@ -59,7 +59,7 @@ def play(parameters: ScarfParameters, clip: Clip) -> Iterator[Scene]:
         states = tail_states(parameters, sewn, gait, clip)
         worn.append((replace(sewn, pieces=(drawn,)), states))
     collar = (Model(box, (_collar_material(squares),)),)
-    return stroll(parameters.skin, gait, clip, worn, tail=1.3, lifted=collar)
+    return walk_scenes(parameters.skin, gait, clip, worn, tail=1.3, lifted=collar)
 
 
 def tails(parameters: ScarfParameters) -> tuple[SewnCloth, ...]:

@@ -20,7 +20,7 @@ from drapery.scenes.parameters import (
     seed_parameter,
     thickness_parameter,
 )
-from drapery.scenes.stroll import BEFORE, cloths_of, stroll, worn_states
+from drapery.scenes.stroll import BEFORE, cloths_of, walk_scenes, worn_states
 from drapery.style.extrusion import make_shell
 from drapery.style.figure import SKINS
 from drapery.style.uv_mapping import BoxMapping
@@ -60,7 +60,7 @@ def play(parameters: SkirtParameters, clip: Clip) -> Iterator[Scene]:
     shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs, SIDES_OF_CLOTH)
     drawn = replace(piece, shell=shell, material=skirt_material(parameters, open_packs(())))
     worn = [(replace(sewn, pieces=(drawn,)), skirt_states(parameters, sewn, gait, clip))]
-    return stroll(parameters.skin, gait, clip, worn, view=BEFORE, tail=0.6)
+    return walk_scenes(parameters.skin, gait, clip, worn, view=BEFORE, tail=0.6)
 
 
 def skirt_cloth(parameters: SkirtParameters) -> SewnCloth:

@@ -56,7 +56,7 @@ def worn_states(
     )
 
 
-def stroll(
+def walk_scenes(
     skin: str,
     gait: Gait,
     clip: Clip,
