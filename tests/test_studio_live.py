@@ -23,7 +23,7 @@ from drapery.settings import Settings
 from drapery.studio.live import Live, Ray
 from drapery.studio.live_cloth import new_live_cloth
 from drapery.studio.messages import MessageEncoder, pack, unpack
-from drapery.studio.player import Player
+from drapery.studio.player import Player, scene_show
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import sketch_of
 from drapery.studio.stream import UNDER_WAY, UNKNOWN, WRONG, add_routes
@@ -341,18 +341,20 @@ def test_upright_viewers_stack_scenes_but_not_banners(shape: tuple[int, int]) ->
     assert [pane["label"] for pane in banners["panes"]] == ["one", "other"]
     only, _ = unpack(MessageEncoder("right", shape).messages(live.shown())[0])
     assert [pane["label"] for pane in only["panes"]] == ["other"]
-    scenes, _ = unpack(MessageEncoder("all", shape).messages(Player("fold", shape).step())[0])
+    scenes, _ = unpack(
+        MessageEncoder("all", shape).messages(Player(scene_show("fold"), shape).step())[0]
+    )
     assert scenes["columns"] == (2 if shape[0] > shape[1] else 1)
 
 
 def test_a_scene_comes_round_again() -> None:
-    player = Player("fold", (96, 96))
+    player = Player(scene_show("fold"), (96, 96))
     player._clip = replace(player._clip, count=5)
     first = [player.step() for _ in range(5)]
     again = [player.step() for _ in range(5)]
     for one, other in zip(first, again, strict=True):
         assert one.panes[0].scene is other.panes[0].scene
-    pictures = islice(player.entry.play(player.parameters, player._clip), 5)
+    pictures = islice(player.show.play(player._clip), 5)
     for shown, picture in zip(first, pictures, strict=True):
         parts = picture.pictures
         for pane, scene in zip(shown.panes, parts, strict=True):
@@ -361,7 +363,7 @@ def test_a_scene_comes_round_again() -> None:
 
 
 def test_a_finished_picture_is_hung_up_as_it_is() -> None:
-    shown = Player("julia", (96, 96)).step()
+    shown = Player(scene_show("julia"), (96, 96)).step()
     (pane,) = shown.panes
     assert pane.flat
     scene = replace(pane.scene, camera=pane.framing(1.0))

@@ -17,6 +17,7 @@ from drapery.banner.design import Banner, Layer
 from drapery.banner.formats import parse_banner
 from drapery.banner.formats.shorthand import write
 from drapery.commands import animate, flat, model, render
+from drapery.garments import find_garment
 from drapery.settings import Settings
 from drapery.studio import snippets
 from drapery.studio.exports import make
@@ -24,6 +25,8 @@ from drapery.studio.snippets import ExportRequest, as_command, as_python
 
 BANNER = Banner("white", (Layer("creeper", "lime"), Layer("border", "black")))
 SMALL = Settings(size=(48, 64), view="iso", background="#204080", wind=6.5, shadow=True)
+
+SMALL_FLAG = find_garment("flag").settings(size=(48, 64), time=0.1, view="front")
 
 
 def run_shell(command: str, folder: Path) -> None:
@@ -51,6 +54,8 @@ ORDERS = {
     "gif": ExportRequest(BANNER, SMALL, "gif", seconds=0.5, fps=8.0),
     "glb": ExportRequest(BANNER, SMALL, "glb", seconds=0.5, fps=8.0),
     "json": ExportRequest(BANNER, SMALL, "json"),
+    "garment": ExportRequest(BANNER, SMALL_FLAG, garment="flag"),
+    "own": ExportRequest(BANNER, Settings(size=(24, 24)), "glb", 0.2, 10.0, garment="pennants"),
 }
 
 
@@ -103,6 +108,14 @@ def test_only_what_is_off_its_default_is_said() -> None:
         "from drapery import Banner, draw\n\n"
         'banner = Banner.parse("red")\ndraw(banner, view="iso").save("banner.png")\n'
     )
+
+
+def test_a_garment_shows_the_design_where_its_file_has_one() -> None:
+    flag = as_command(ExportRequest(Banner("red"), find_garment("flag").settings(), garment="flag"))
+    assert flag == "drapery garment flag --design red -o banner.png"
+    calm = find_garment("poncho").settings(wind=0)
+    lines = as_python(ExportRequest(Banner("red"), calm, garment="poncho"))
+    assert 'banner = find_garment("poncho")\ndraw(banner, wind=0.0).save("banner.png")\n' in lines
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,18 @@
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from drapery.garments import find_garment
+from drapery.packs import open_packs
+from drapery.scenes import Clip
+from drapery.studio.panels.live import wear
+from drapery.studio.player import Player, garment_show
 from drapery.studio.session import Session
+from drapery.studio.sketch import Sketch
 
 
 @pytest.fixture
@@ -46,6 +54,35 @@ def test_no_input_is_lost_while_turns_are_made(session: Session) -> None:
     thread.join()
     viewport._turn(0)
     assert seen == [*range(2000)]
+
+
+def test_a_garment_is_shown_at_rest_and_then_moves(session: Session) -> None:
+    viewport, kinds = session.viewport, []
+    wear(session, "flag")
+    assert session.settings.view == "hero" and session.settings.wind == 7
+    session.adjust(grid=(3, 5))  # a garment has its own
+    for base in ("white", "red"):
+        session.edit(Sketch(base))
+        viewport._turn(0)
+        shown = viewport.shown()
+        assert shown is not None and not viewport.fault and not shown.live
+        (cloth,) = shown.panes[0].scene.models[-1].materials
+        kinds.append([(each.tint, each.texels.tobytes()) for each in cloth.layers])
+    assert kinds[0] != kinds[1]  # the flag shows the design
+    wear(session, None)
+    viewport._turn(0)
+    shown = viewport.shown()
+    assert shown is not None and shown.live
+
+
+def test_the_loop_of_a_garment_follows_its_first_picture() -> None:
+    garment, packs = find_garment("pennants"), open_packs(())
+    show = garment_show(garment, packs, garment.settings())
+    player = Player(replace(show, clip=Clip(count=2, fps=10.0)), (64, 64))
+    first, *loop = (player.step() for _ in range(5))
+    places = [each.panes[0].scene.models[-1].mesh.positions for each in loop]
+    assert first.cut != loop[0].cut == loop[1].cut
+    assert not np.array_equal(places[0], places[1]) and places[0] is places[2]
 
 
 def test_no_version_is_counted_twice(session: Session) -> None:

@@ -494,6 +494,11 @@ class Garment(GarmentTable):
         given = {"name": target.stem, "folder": target.parent}
         return load_tables(cls, target, given, TABLES)
 
+    @property
+    def shows_design(self) -> bool:
+        """Whether a piece shows a banner's design."""
+        return any((each.texture or self.texture).source == "design" for each in self.piece)
+
     def settings(self, **options: Any) -> Settings:
         """The settings of its picture. options: those that replace its own. Raises OptionError."""
         return Settings(**{**self.picture, **options})

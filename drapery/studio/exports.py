@@ -14,7 +14,15 @@ from drapery import Banner, DraperyError, OptionError
 from drapery.option import one_of
 from drapery.settings import frame_count
 from drapery.studio.document import Document
-from drapery.studio.snippets import KINDS, LOOPS, SCALE, ExportRequest, file_name, options_for
+from drapery.studio.snippets import (
+    KINDS,
+    LOOPS,
+    SCALE,
+    ExportRequest,
+    file_name,
+    options_for,
+    subject_of,
+)
 
 MAX_PIXELS = 1 << 31
 """The most pixels of all frames together: 512 x 512 for six minutes at 20 frames/s."""
@@ -69,7 +77,7 @@ def _still(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery import draw
 
     on_progress(0, 1)
-    frame = draw(request.banner, options_for(request))
+    frame = draw(subject_of(request), options_for(request))
     on_progress(1, 1)
     frame.save(path)
 
@@ -93,21 +101,26 @@ def _loop(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     on_progress(0, total)
     check_animation_target(path)
     drawn = iter_frames(
-        request.banner, options_for(request), seconds=request.seconds, fps=request.fps
+        subject_of(request), options_for(request), seconds=request.seconds, fps=request.fps
     )
     save_animation(_counted(drawn, total, on_progress), request.fps, path, total=total)
 
 
 def _model(request: ExportRequest, path: Path, on_progress: Progress) -> None:
+    from drapery.garments import Garment
     from drapery.packs import open_packs
     from drapery.render import check_model_target, save_model
-    from drapery.scenes import loop
+    from drapery.scenes import garment_loop, loop
 
-    total, settings = count_frames(request), options_for(request)
+    total, settings, subject = count_frames(request), options_for(request), subject_of(request)
     on_progress(0, total)
     check_model_target(path)
     packs = open_packs(settings.packs, format=settings.format)
-    scenes = loop(request.banner, packs, replace(settings, ground="none"), total, request.fps)
+    settings = replace(settings, ground="none")
+    if isinstance(subject, Garment):
+        scenes = garment_loop(subject, packs, settings, total, request.fps)
+    else:
+        scenes = loop(subject, packs, settings, total, request.fps)
     save_model(_counted(scenes, total, on_progress), path, fps=request.fps)
 
 

@@ -1,11 +1,21 @@
-"""A ready-made scene, played in a loop at its own frame rate."""
+"""A ready-made scene or a garment, played in a loop at its own frame rate."""
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
+from drapery import Settings
+from drapery.garments import Garment
+from drapery.packs import Packs
 from drapery.render import Scene
-from drapery.scenes import Clip, Picture, PictureGrid, SceneEntry, find_scene
+from drapery.scenes import (
+    Clip,
+    Picture,
+    PictureGrid,
+    find_scene,
+    garment_loop,
+    garment_moments,
+)
 from drapery.studio.panes import ViewerState, shown_picture
 
 MAX_CACHED = 96 << 20
@@ -16,17 +26,51 @@ MAX_SIDE = 960
 """The longest side of the picture for which a scene is framed [pixels]; a viewer may be larger."""
 
 
-class Player:
-    """Plays a scene of the catalogue from its first moment to its last, in a loop.
+@dataclass(frozen=True)
+class Show:
+    """What is played. clip: its length and frame rate. play: the pictures of a clip.
 
-    size: width and height of the picture for which it is framed [pixels]. Raises OptionError for
-    an unknown name.
+    first: a picture that is shown until the first one of the clip is ready, if that takes long.
     """
 
-    def __init__(self, name: str, size: tuple[int, int] = (640, 480)) -> None:
-        self.entry: SceneEntry = find_scene(name)
-        self.parameters = self.entry.parameters(REDUCED.get(name, {}))
-        self._clip: Clip = replace(self.entry.clip, size=_framed_size(size))
+    name: str
+    clip: Clip
+    play: Callable[[Clip], Iterator[Picture]]
+    first: Callable[[Clip], Picture] | None = None
+
+
+def scene_show(name: str) -> Show:
+    """A scene of the catalogue. Raises OptionError for an unknown name."""
+    entry = find_scene(name)
+    parameters = entry.parameters(REDUCED.get(name, {}))
+    return Show(name, entry.clip, lambda clip: entry.play(parameters, clip))
+
+
+def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:
+    """A garment: first at rest, then its seamless loop."""
+
+    def play(clip: Clip) -> Iterator[Picture]:
+        return garment_loop(garment, packs, _sized(clip), clip.count, clip.fps)
+
+    def first(clip: Clip) -> Picture:
+        return next(garment_moments(garment, packs, _sized(clip), (0.0,)))
+
+    def _sized(clip: Clip) -> Settings:
+        return replace(settings, size=clip.size, pixel=1)
+
+    return Show(garment.name, Clip(), play, first)
+
+
+class Player:
+    """Plays a show from its first moment to its last, in a loop.
+
+    size: width and height of the picture for which it is framed [pixels].
+    """
+
+    def __init__(self, show: Show, size: tuple[int, int] = (640, 480)) -> None:
+        self.show = show
+        self._clip: Clip = replace(show.clip, size=_framed_size(size))
+        self._first = show.first
         self._cache: list[ViewerState] | None = []
         self._free = MAX_CACHED
         self._counted: set[int] = set()
@@ -40,11 +84,15 @@ class Player:
 
     def step(self) -> ViewerState:
         """The next moment; after the last moment comes the first."""
+        if self._first is not None:
+            first, self._first = self._first(self._clip), None
+            self.now = replace(shown_picture(first), cut=(self.show.name, "first"))
+            return self.now
         shown = next(self._upcoming, None)
         if shown is None:
             self.restart()
             shown = next(self._upcoming)
-        self.now = replace(shown, cut=(self.entry.name, self._clip.size))
+        self.now = replace(shown, cut=(self.show.name, self._clip.size))
         return self.now
 
     def restart(self) -> None:
@@ -56,7 +104,7 @@ class Player:
         """Simulate all moments; caches them unless they exceed the cache's limit."""
         self._cache, self._free = ([], MAX_CACHED) if self._cache is not None else (None, 0)
         self._counted = set()
-        for picture in self.entry.play(self.parameters, self._clip):
+        for picture in self.show.play(self._clip):
             shown = shown_picture(picture)
             self._add_to_cache(shown, picture)
             yield shown

@@ -8,6 +8,7 @@ from typing import Any
 
 from drapery import Banner, Settings
 from drapery.banner import write_banner
+from drapery.garments import UNUSED_OPTIONS, Garment, find_garment
 from drapery.option import Option
 from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
 
@@ -35,6 +36,7 @@ class ExportRequest:
     """The description of a file to make.
 
     kind: one of KINDS. seconds, fps: for a loop. scale: pixels per texel, for a face.
+    garment: the name of a garment, which is drawn in place of the banner.
     """
 
     banner: Banner | None
@@ -43,6 +45,27 @@ class ExportRequest:
     seconds: float = LOOP_OPTIONS["seconds"].default
     fps: float = LOOP_OPTIONS["fps"].default
     scale: int = SCALE.default
+    garment: str | None = None
+
+
+def subject_of(request: ExportRequest) -> Banner | Garment | None:
+    """What is drawn: the banner, or a garment, with the banner as its design if it shows one."""
+    found = _garment(request)
+    if found is None:
+        return request.banner
+    design = _design_on(request, found)
+    return found if design is None else found.with_design(design)
+
+
+def _garment(request: ExportRequest) -> Garment | None:
+    """The garment that is drawn; a face and a design are of the banner."""
+    if request.garment is None or request.kind in ("face", "json"):
+        return None
+    return find_garment(request.garment)
+
+
+def _design_on(request: ExportRequest, found: Garment) -> Banner | None:
+    return request.banner if found.shows_design else None
 
 
 def file_name(request: ExportRequest, stem: str = "banner") -> str:
@@ -52,8 +75,9 @@ def file_name(request: ExportRequest, stem: str = "banner") -> str:
 
 def options_for(request: ExportRequest) -> Settings:
     """The options of this kind of file; the others have their default."""
-    settings = request.settings
-    return Settings(**{name: getattr(settings, name) for name in _names(request)})
+    given = {name: getattr(request.settings, name) for name in _names(request)}
+    found = _garment(request)
+    return Settings(**given) if found is None else found.settings(**given)
 
 
 def as_command(
@@ -63,11 +87,16 @@ def as_command(
 
     called: the user's names of packs, by path.
     """
-    design = [] if request.banner is None else [_quoted(write_banner(request.banner, "text"))]
+    found = _garment(request)
+    banner = request.banner if found is None else _design_on(request, found)
+    design = [] if banner is None else [_quoted(write_banner(banner, "text"))]
     out = _quoted(file_name(request, stem))
     if request.kind == "json":
         return " ".join(["drapery show", *design, "--as json", ">", out])
-    words = [f"drapery {_COMMANDS.get(request.kind, 'animate')}", *design, "-o", out]
+    command = _COMMANDS.get(request.kind, "animate")
+    if found is not None:
+        command, design = f"garment {found.name}", ["--design", *design] if design else []
+    words = [f"drapery {command}", *design, "-o", out]
     words += [_quoted(word) for word in _flags(request, called or {})]
     return " ".join(words)
 
@@ -76,11 +105,16 @@ def as_python(
     request: ExportRequest, called: Mapping[str, str] | None = None, stem: str = "banner"
 ) -> str:
     """Lines of Python that write the file."""
-    banner = [] if request.banner is None else ["banner"]
-    out = _text(file_name(request, stem))
+    found, out = _garment(request), _text(file_name(request, stem))
+    banner = [] if found is None and request.banner is None else ["banner"]
     named = _named(request, called or {})
     names, lines = _PYTHON.get(request.kind, _loop)(request, banner, named, out)
-    if banner and request.banner is not None:
+    if found is not None:
+        design = _design_on(request, found)
+        text = "" if design is None else f".with_design({_text(write_banner(design, 'text'))})"
+        names = [*names, "drapery.garments.find_garment"]
+        lines = [f"banner = find_garment({_text(found.name)}){text}", *lines]
+    elif request.banner is not None:
         names = [*names, "drapery.Banner"]
         text = _text(write_banner(request.banner, "text"))
         lines = [f"banner = Banner.parse({text})", *lines]
@@ -93,14 +127,22 @@ _COMMANDS = {"png": "render", "face": "flat", "glb": "model"}
 def _names(request: ExportRequest) -> tuple[str, ...]:
     if request.kind == "json":
         return ()
-    return {"glb": MODEL_OPTIONS, "face": FACE_OPTIONS}.get(request.kind, PICTURE_OPTIONS)
+    names = {"glb": MODEL_OPTIONS, "face": FACE_OPTIONS}.get(request.kind, PICTURE_OPTIONS)
+    if _garment(request) is not None:
+        names = tuple(name for name in names if name not in (*UNUSED_OPTIONS, "texture"))
+    return names
 
 
 def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any]:
-    """This kind's options that differ from their default; packs have the user's names."""
+    """This kind's options that differ from their default, or from those of the garment's file;
+    packs have the user's names."""
     values = {name: getattr(request.settings, name) for name in _names(request)}
+    found = _garment(request)
+    default = Settings() if found is None else found.settings()
     changed = {
-        name: value for name, value in values.items() if value != NAMED_OPTIONS[name].default
+        name: value
+        for name, value in values.items()
+        if value != getattr(default, name) and (value is not None or found is None)
     }
     if "packs" in changed:
         changed["packs"] = [called.get(str(pack), str(pack)) for pack in changed["packs"]]

@@ -16,14 +16,16 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from drapery import Banner, DraperyError
+from drapery.garments import Garment
 from drapery.packs import Packs, open_packs
 from drapery.scenes import STEP
 from drapery.studio.document import Document
 from drapery.studio.live import Live
 from drapery.studio.pack_store import PackStore
 from drapery.studio.panes import ViewerState
-from drapery.studio.player import Player
+from drapery.studio.player import Player, garment_show, scene_show
 from drapery.studio.sketch import banner_of
+from drapery.studio.snippets import ExportRequest, options_for, subject_of
 from drapery.studio.wind_controls import wind_controls_of
 
 BEHIND = 4
@@ -48,13 +50,15 @@ class ViewportRequest:
     """What the live cloth shows, in addition to the settings of a picture.
 
     on: whether the wind blows. paused: whether time stands still. scene: a ready-made scene, shown
-    in place of the design. beside: packs for a second view of the design, side by side with the
-    first; None shows only one view.
+    in place of the design. garment: the name of a garment, shown in place of the banner.
+    beside: packs for a second view of the design, side by side with the first; None shows only one
+    view.
     """
 
     on: bool = True
     paused: bool = False
     scene: str | None = None
+    garment: str | None = None
     beside: tuple[str | Path, ...] | None = None
 
 
@@ -90,6 +94,7 @@ class Viewport:
         self._pack_store = packs
         self._live: Live | None = None
         self._player: Player | None = None
+        self._played: object = None  # what the player shows
         self._inputs: list[Input] = []
         self._listeners: list[Callable[[], None]] = []
         self._stale = True
@@ -108,7 +113,7 @@ class Viewport:
         document.on_close(self.close)
 
     def update(self, **options: Any) -> None:
-        """Change the request; notifies "scene" if the scene changes.
+        """Change the request; notifies "scene" if the scene or garment changes.
 
         Raises OptionError or PackError; then nothing changes.
         """
@@ -116,8 +121,10 @@ class Viewport:
         self._open_beside(after.beside)
         self.request = after
         self._mark_stale()
-        if after.scene != before.scene:
-            self.note = f"The scene {after.scene} is getting ready." if after.scene else ""
+        if (after.scene, after.garment) != (before.scene, before.garment):
+            name = after.scene or after.garment
+            kind = "scene" if after.scene else "garment"
+            self.note = f"The {kind} {name} is getting ready." if name else ""
             self._document.notify("scene")
             self._count_change()
             self._wake()
@@ -355,16 +362,30 @@ class Viewport:
         self._player.step()
         return True
 
+    def _choose_player(self, packs: Packs) -> None:
+        """Begin another scene or garment if the request asks for one. Raises DraperyError."""
+        request, document = self.request, self._document
+        wanted: object = request.scene
+        if request.garment is not None:
+            settings = document.settings if request.on else replace(document.settings, wind=0.0)
+            wanted = ExportRequest(_design(document), settings, garment=request.garment)
+        if wanted == self._played:
+            return
+        self._player, self._played = None, wanted
+        if isinstance(wanted, ExportRequest):
+            garment = subject_of(wanted)
+            assert isinstance(garment, Garment)
+            self._player = Player(garment_show(garment, packs, options_for(wanted)), self.size)
+        elif request.scene is not None:
+            self._player = Player(scene_show(request.scene), self.size)
+        if self._player is not None:
+            self._player.step()
+
     def _renew(self) -> None:
         """Apply the design, the settings and the request. Raises DraperyError."""
         document, request = self._document, self.request
-        if request.scene != (self._player.entry.name if self._player is not None else None):
-            self._player = None
-            if request.scene is not None:
-                player = Player(request.scene, self.size)
-                player.step()
-                self._player = player
         settings, packs = document.settings, document.packs()
+        self._choose_player(packs)
         beside = self._open_beside(request.beside)
         design = _design(document)
         if self._live is None:

@@ -67,7 +67,8 @@ def request_of(session: Session, choice: FileChoice) -> ExportRequest:
     settings = session.settings
     if not session.viewport.request.on:
         settings = replace(settings, wind=0.0)
-    return ExportRequest(banner, settings, choice.kind, choice.seconds, choice.fps, choice.scale)
+    made = choice.kind, choice.seconds, choice.fps, choice.scale
+    return ExportRequest(banner, settings, *made, session.viewport.request.garment)
 
 
 BY_VIEW = {"": "by the view"}

@@ -1,9 +1,10 @@
-"""The live banner in the viewport, and below it the actions on it."""
+"""The live banner or garment in the viewport, and below it the actions on it."""
 
 from functools import cache
 
 from nicegui import ui
 
+from drapery.garments import find_garment, garment_names
 from drapery.scenes import find_scene, scene_names
 from drapery.settings import OPTIONS
 from drapery.studio.descriptions import view_title
@@ -14,6 +15,8 @@ from drapery.studio.viewport import in_thread
 
 OWN = "your banner"
 """The choice that shows the design instead of a scene."""
+NONE = "none"
+"""The choice that shows the banner instead of a garment."""
 LATER = 1.5
 """The delay between building the page and listing the scenes [s]."""
 
@@ -41,15 +44,22 @@ def build(session: Session) -> None:
                 "Scene",
                 {None: OWN},
                 lambda: viewport.request.scene,
-                lambda name: viewport.update(scene=name),
+                lambda name: viewport.update(scene=name, garment=None),
+            )
+            garments = controls.select(
+                "Garment",
+                {None: NONE},
+                lambda: viewport.request.garment,
+                lambda name: wear(session, name),
             )
     controls.follow()
 
     async def list_scenes() -> None:
         # Listing the scenes imports them, so do it after the first picture.
-        names = await in_thread(_scenes)
+        names, worn = await in_thread(lambda: (_scenes(), _garments()))
         if not session.closed:
             scenes.set_options({None: OWN, **names}, value=viewport.request.scene)
+            garments.set_options({None: NONE, **worn}, value=viewport.request.garment)
 
     ui.timer(LATER, list_scenes, once=True)
 
@@ -62,6 +72,19 @@ def _view(session: Session, controls: Controls, name: str) -> None:
     button = controls.button(view_title(name), choose)
     button.props(f'aria-label="View: {view_title(name)}"')
     controls.pressed(button, lambda: session.settings.view == name)
+
+
+def wear(session: Session, name: str | None) -> None:
+    """Show a garment in the wind and view of its file; None shows the banner again."""
+    if name is not None:
+        session.adjust(placement="standing", facing=None, **find_garment(name).picture)
+    session.viewport.update(garment=name, scene=None)
+
+
+@cache
+def _garments() -> dict[str, str]:
+    """All garments with their descriptions."""
+    return {name: f"{name}: {find_garment(name).description}" for name in garment_names()}
 
 
 @cache
