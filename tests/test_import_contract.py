@@ -23,7 +23,7 @@ FOUNDATION = {
     *("lazy", "toml_text"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
-PICTURES = {"scenes", "pictures", "comparison", "sheets"}
+PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
 APPLICATIONS = {"commands", "testing", "batch", "serve", "studio", "beet", "cli", "__main__"}
 RINGS = (FOUNDATION, CORE, PICTURES, APPLICATIONS)
 """From the innermost ring to the outermost; none imports one that is further out."""
@@ -52,6 +52,7 @@ ALLOWED: dict[str, set[str]] = {
     "pictures": {"scenes"},
     "comparison": {"pictures", "scenes"},
     "sheets": {"pictures", "comparison", "scenes"},
+    "match": {"pictures", "sheets"},
     "testing": set(),
     "beet": {"testing"},
     "batch": set(),
@@ -68,7 +69,7 @@ PUBLIC = {
     *("drapery", "drapery.cloth", "drapery.cloth.colliders", "drapery.banner", "drapery.packs"),
     *("drapery.render", "drapery.style", "drapery.styles", "drapery.scenes", "drapery.pictures"),
     "drapery.garments",
-    *("drapery.comparison", "drapery.sheets", "drapery.testing", "drapery.batch"),
+    *("drapery.comparison", "drapery.sheets", "drapery.match", "drapery.testing", "drapery.batch"),
     *(f"drapery.{name}" for name in FOUNDATION),
 }
 """Modules whose names others may import."""

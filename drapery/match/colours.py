@@ -1,0 +1,66 @@
+"""Colours as people see them: OKLab (Ottosson, "A perceptual color space", 2020)."""
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+Whole = NDArray[np.int32]
+
+UNIT = 10_000
+"""Distances are whole numbers in this fraction of OKLab's range from black to white, so that sums
+of them are the same in any order."""
+
+_STEP = 4
+"""Colours are looked up in a table with every fourth value of each channel."""
+
+_TO_CONES = (
+    (0.4122214708, 0.5363325363, 0.0514459929),
+    (0.2119034982, 0.6806995451, 0.1073969566),
+    (0.0883024619, 0.2817188376, 0.6299787005),
+)
+_TO_LAB = (
+    (0.2104542553, 0.7936177850, -0.0040720468),
+    (1.9779984951, -2.4285922050, 0.4505937099),
+    (0.0259040371, 0.7827717662, -0.8086757660),
+)
+
+
+def oklab(rgb: NDArray[np.generic]) -> Floats:
+    """The OKLab of 8-bit sRGB colours [..., 3], also of values between whole ones."""
+    share = np.asarray(rgb, np.float32) / np.float32(255)
+    bent = ((share + np.float32(0.055)) / np.float32(1.055)) ** np.float32(2.4)
+    linear = np.where(share <= 0.04045, share / np.float32(12.92), bent)
+    return _mixed(np.cbrt(_mixed(linear, _TO_CONES)), _TO_LAB)
+
+
+def quick_oklab(rgb: Floats) -> Floats:
+    """The OKLab of the nearest colours of a table, [..., 3], for values from 0 to 255."""
+    near = (rgb * np.float32(1 / _STEP) + np.float32(0.5)).astype(np.int32)
+    side = 256 // _STEP + 1
+    return _table().take((near[..., 0] * side + near[..., 1]) * side + near[..., 2], axis=0)
+
+
+def distances(lab: Floats, other: Floats) -> Whole:
+    """Between colours in OKLab [..., 3], in UNIT."""
+    away = lab - other
+    away *= away
+    length = np.sqrt(away[..., 0] + away[..., 1] + away[..., 2])
+    return np.asarray(np.rint(length * np.float32(UNIT)), np.int32)
+
+
+@cache
+def _table() -> Floats:
+    levels = np.minimum(np.arange(0, 257, _STEP), 255)
+    grid = np.stack(np.meshgrid(levels, levels, levels, indexing="ij"), axis=-1)
+    return oklab(grid.reshape(-1, 3))
+
+
+def _mixed(values: Floats, rows: tuple[tuple[float, float, float], ...]) -> Floats:
+    """Three weighted sums of the last axis, added in a fixed order."""
+    x, y, z = values[..., 0], values[..., 1], values[..., 2]
+    sums = [
+        x * np.float32(row[0]) + y * np.float32(row[1]) + z * np.float32(row[2]) for row in rows
+    ]
+    return np.stack(sums, axis=-1)

@@ -1,0 +1,233 @@
+"""The designs that look most like a given face: a beam of stacks, then layer by layer descent.
+
+A stack of layers shows A + h c at a texel: c is one layer's colour over what is below it, A and h
+what the layers above add and let through. For one layer, the others held, the errors of all
+patterns in all dyes are sums of few distances: opaque texels show a plain dye, whatever is below,
+and all patterns share most of these; only translucent texels depend on the pattern too.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.match.art import SIZE, FaceArt, Levels
+from drapery.match.colours import Floats, Whole, distances, oklab, quick_oklab
+
+Stack = tuple[int, tuple[tuple[int, int], ...]]
+"""A base dye and layers of (pattern, dye), lowest first, all by index."""
+
+Totals = NDArray[np.int64]
+
+_TEXELS = SIZE // 3
+_DYES = 16
+_SWEEPS = 6
+"""The most times that descent goes over all layers of a stack."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """The texels of all patterns, those of each pattern side by side.
+
+    colours: [n, 16, 3], of each entry in each dye. texels: of each entry, [n].
+    entries: which entries each pattern has, [m]. starts: where the entries of each pattern begin.
+    """
+
+    colours: Floats
+    texels: NDArray[np.intp]
+    entries: NDArray[np.intp]
+    starts: NDArray[np.intp]
+
+    def sums(self, values: Totals) -> Totals:
+        """The sums over each pattern's entries of values [n, ...]."""
+        total = np.zeros((len(values) and len(self.entries) + 1, *values.shape[1:]), np.int64)
+        np.cumsum(values[self.entries], axis=0, out=total[1:])
+        ends = np.append(self.starts[1:], len(self.entries))
+        return np.asarray(total[ends] - total[self.starts])
+
+
+@dataclass(frozen=True, eq=False)
+class NearestSearch:
+    """The tables of a search for the nearest designs in one `FaceArt`."""
+
+    art: FaceArt
+
+    @cached_property
+    def _opaque(self) -> _Parts:
+        """Opaque texels; patterns that show the same colours there share an entry."""
+        rows, texels, starts = list[int](), list[int](), list[int]()
+        colours = list[Levels]()
+        known: dict[tuple[int, bytes], int] = {}
+        for pattern, alpha in enumerate(self.art.alpha[:, ::3]):
+            starts.append(len(rows))
+            dyed = self.art.dyed[pattern].reshape(_DYES, _TEXELS, 3)
+            for texel in np.flatnonzero(alpha == 255):
+                key = (int(texel), dyed[:, texel].tobytes())
+                if key not in known:
+                    known[key] = len(known)
+                    colours.append(dyed[:, texel])
+                    texels.append(int(texel))
+                rows.append(known[key])
+        entries = np.array(rows, np.intp)
+        made = np.array(colours, np.float32).reshape(-1, _DYES, 3)
+        return _Parts(made, np.array(texels, np.intp), entries, np.array(starts, np.intp))
+
+    @cached_property
+    def _translucent(self) -> _Parts:
+        colours, texels, starts, count = [], [], [], 0
+        for pattern, alpha in enumerate(self.art.alpha[:, ::3]):
+            starts.append(count)
+            part = np.flatnonzero((alpha > 0) & (alpha < 255))
+            dyed = self.art.dyed[pattern].reshape(_DYES, _TEXELS, 3)[:, part]
+            colours.append(dyed.transpose(1, 0, 2))
+            texels.append(part)
+            count += len(part)
+        made = np.concatenate(colours).astype(np.float32)
+        order = np.arange(count, dtype=np.intp)
+        return _Parts(made, np.concatenate(texels), order, np.array(starts, np.intp))
+
+    @cached_property
+    def _shares(self) -> Floats:
+        """The alpha of each translucent entry, 0 to 1, [n]."""
+        ends = np.append(self._translucent.starts[1:], len(self._translucent.texels))
+        patterns = np.arange(len(self.art.patterns)).repeat(ends - self._translucent.starts)
+        alpha = self.art.alpha[patterns, 3 * self._translucent.texels]
+        return np.asarray(alpha / 255, np.float32)
+
+    @cached_property
+    def _alpha(self) -> Floats:
+        return np.asarray(self.art.alpha[:, ::3, None] / 255, np.float32)
+
+    def goal(self, face: NDArray[np.generic], weights: NDArray[np.generic]) -> "Goal":
+        """What is searched for: a face [N], and the weight of each texel [N / 3]."""
+        lab = oklab(np.asarray(face).reshape(_TEXELS, 3))
+        return Goal(self, lab, np.asarray(weights, np.int64).reshape(_TEXELS))
+
+
+@dataclass(frozen=True, eq=False)
+class Goal:
+    """A face that is searched for: its colours in OKLab [N / 3, 3] and the weights of its texels.
+
+    Errors are sums of weighted distances, whole numbers.
+    """
+
+    search: NearestSearch
+    lab: Floats
+    weights: Totals
+
+    def error(self, stack: Stack) -> int:
+        """Of the face that a stack of layers shows."""
+        face = self.search.art.paint(*stack).reshape(_TEXELS, 3)
+        return int((distances(oklab(face), self.lab) * self.weights).sum())
+
+    def bases(self, over: tuple[Floats, Floats] | None = None) -> Totals:
+        """The errors of the sixteen bases below layers that add and let through `over`, [16]."""
+        colours = self.search.art.bases.reshape(_DYES, _TEXELS, 3).astype(np.float32)
+        added, through = over or _nothing()
+        return np.asarray(self._errors(added + through * colours, slice(None)).sum(axis=1))
+
+    def choices(self, below: Floats, over: tuple[Floats, Floats] | None = None) -> Totals:
+        """The errors of all patterns in all dyes as one layer, the others held, [P, 16].
+
+        below: what is below the layer, [N / 3, 3]. over: what the layers above add [N / 3, 3], and
+        let through [N / 3, 1].
+        """
+        opaque, part, shares = self.search._opaque, self.search._translucent, self.search._shares
+        added, through = over or _nothing()
+        before = self._errors(added + through * below, slice(None))
+        seen = added[opaque.texels, None] + through[opaque.texels, None] * opaque.colours
+        gained = self._errors(seen, opaque.texels) - before[opaque.texels, None]
+        total = before.sum() + opaque.sums(gained)
+        mixed = shares[:, None, None] * part.colours
+        mixed += ((1 - shares)[:, None] * below[part.texels])[:, None]
+        seen = added[part.texels, None] + through[part.texels, None] * mixed
+        gained = self._errors(seen, part.texels) - before[part.texels, None]
+        total += part.sums(gained)
+        return np.asarray(total)
+
+    def _errors(self, seen: Floats, texels: slice | NDArray[np.intp]) -> Totals:
+        """Of colours [n, 16, 3] or [16, N / 3, 3] at texels."""
+        lab, weights = self.lab[texels], self.weights[texels]
+        if seen.ndim == 3 and not isinstance(texels, slice):
+            lab, weights = lab[:, None], weights[:, None]
+        found: Whole = distances(quick_oklab(seen), lab)
+        return np.asarray(found * weights)
+
+    def below(self, base: int, layers: Sequence[tuple[int, int]]) -> Floats:
+        """What a base and layers show, [N / 3, 3]."""
+        colour: Floats = self.search.art.bases[base].reshape(_TEXELS, 3).astype(np.float32)
+        for pattern, dye in layers:
+            colour = self.lay(pattern, dye, colour)
+        return colour
+
+    def lay(self, pattern: int, dye: int, below: Floats) -> Floats:
+        """One more layer on top, [N / 3, 3]."""
+        dyed = self.search.art.dyed[pattern, dye].reshape(_TEXELS, 3)
+        return np.asarray(below + self.search._alpha[pattern] * (dyed - below), np.float32)
+
+    def over(self, layers: Sequence[tuple[int, int]]) -> tuple[Floats, Floats]:
+        """What layers add to what is below [N / 3, 3], and how much of it they let through."""
+        added, through = _nothing()
+        for pattern, dye in reversed(layers):
+            alpha = self.search._alpha[pattern]
+            dyed = self.search.art.dyed[pattern, dye].reshape(_TEXELS, 3)
+            added = added + (through * alpha) * dyed
+            through = through * (1 - alpha)
+        return added.astype(np.float32), through.astype(np.float32)
+
+    def grow(self, layers: int, width: int) -> Iterator[list[Stack]]:
+        """The `width` best stacks of 0, 1, 2, ... layers, each found from those before it."""
+        errors = self.bases()
+        stacks: list[Stack] = [(int(base), ()) for base in np.argsort(errors, kind="stable")]
+        yield stacks
+        for _ in range(layers):
+            tables = [self.choices(self.below(*stack)).reshape(-1) for stack in stacks]
+            grown: list[Stack] = []
+            seen: set[int] = set()
+            every = np.concatenate(tables)
+            for place in np.argsort(every, kind="stable")[: 4 * width]:
+                if int(every[place]) not in seen and len(grown) < width:
+                    seen.add(int(every[place]))
+                    number, choice = divmod(int(place), len(tables[0]))
+                    base, below = stacks[number]
+                    grown.append((base, (*below, divmod(choice, _DYES))))
+            stacks = grown
+            yield stacks
+
+    def descend(self, stack: Stack) -> Stack:
+        """Replace each layer by the best one, and the base, until nothing is better."""
+        base, layers = stack[0], list(stack[1])
+        least: int | None = None
+        for _ in range(_SWEEPS):
+            over = [self.over(layers[number + 1 :]) for number in range(len(layers))]
+            below = self.below(base, ())
+            for number in range(len(layers)):
+                # The layers above are those of the last sweep: layers change from below upwards.
+                table = self.choices(below, over[number])
+                layers[number] = divmod(int(table.argmin()), _DYES)
+                below = self.lay(*layers[number], below)
+            errors = self.bases(self.over(layers))
+            base, error = int(errors.argmin()), int(errors.min())
+            if least is not None and error >= least:
+                break
+            least = error
+        return base, tuple(layers)
+
+    def pruned(self, stack: Stack) -> Stack:
+        """The stack without the layers that do not make it better."""
+        base, layers = stack
+        error, number = self.error(stack), 0
+        while number < len(layers):
+            fewer = base, (*layers[:number], *layers[number + 1 :])
+            if self.error(fewer) <= error:
+                layers, error, number = fewer[1], self.error(fewer), 0
+            else:
+                number += 1
+        return base, layers
+
+
+def _nothing() -> tuple[Floats, Floats]:
+    """What no layers add and let through."""
+    return np.zeros((_TEXELS, 3), np.float32), np.ones((_TEXELS, 1), np.float32)

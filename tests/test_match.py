@@ -1,0 +1,124 @@
+"""Designs that are found for a face: exactly where a design shows it, most nearly elsewhere."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from drapery import Banner, OptionError, draw_face
+from drapery.match import Matcher, match
+from drapery.match.art import read_art
+from drapery.match.exact import ExactSearch
+from drapery.match.nearest import NearestSearch
+from drapery.packs import MemoryPack, open_packs
+
+SIX = (
+    "red stripe_left:yellow flow:gray triangle_top:blue gradient:purple creeper:brown border:black"
+)
+
+
+def face_of(text: str, **options: Any) -> NDArray[np.uint8]:
+    return draw_face(Banner.parse(text), scale=1, **options).pixels[..., :3]
+
+
+@pytest.fixture(scope="module")
+def matcher() -> Matcher:
+    return Matcher()
+
+
+def test_a_face_is_painted_as_it_is_drawn(matcher: Matcher) -> None:
+    stack = (14, ((5, 4), (40, 7), (16, 11), (31, 10)))
+    painted = matcher.art.paint(*stack).reshape(40, 20, 3)
+    drawn = draw_face(matcher.art.banner(*stack), scale=1).pixels[..., :3]
+    np.testing.assert_array_equal(painted, drawn)
+
+
+@pytest.mark.parametrize(
+    "text", ["lime", "white cross:red", "white gradient:red gradient_up:blue", SIX]
+)
+def test_the_design_of_a_face_is_found(matcher: Matcher, text: str) -> None:
+    (found,) = matcher.match(face_of(text), alternatives=1, effort=0)
+    assert found.error == 0
+    np.testing.assert_array_equal(face_of(text), draw_face(found.banner, scale=1).pixels[..., :3])
+
+
+def test_random_designs_are_found_exactly() -> None:
+    rng, art = np.random.default_rng(3), read_art(open_packs(()))
+    search = ExactSearch(art)
+    for _ in range(5):
+        layers = [(int(rng.integers(42)), int(rng.integers(16))) for _ in range(6)]
+        face = art.paint(int(rng.integers(16)), layers)
+        found = search.find(face, 6)
+        assert found is not None
+        np.testing.assert_array_equal(art.paint(*found), face)
+
+
+def test_hidden_layers_are_left_out(matcher: Matcher) -> None:
+    text = "red creeper:lime border:pink half_vertical:white half_vertical_right:white cross:black"
+    (found,) = matcher.match(face_of(text), alternatives=1, effort=0)
+    assert found.error == 0
+    assert len(found.banner.layers) <= 3
+
+
+def test_a_face_that_is_slightly_off_is_found_within_a_tolerance() -> None:
+    art = read_art(open_packs(()))
+    layers = [(4, 3), (31, 9), (23, 1)]
+    face = art.paint(2, layers)
+    noisy = face + np.random.default_rng(0).integers(-1, 2, face.shape).astype(np.int32)
+    assert ExactSearch(art).find(noisy, 6) is None
+    assert ExactSearch(art).find(noisy, 6, tolerance=1) == (2, tuple(layers))
+
+
+def test_the_design_is_found_in_the_look_of_a_pack() -> None:
+    mask = np.zeros((64, 64), np.uint8)
+    mask[1:11, 1:21] = 255
+    pack = MemoryPack(patterns={"creeper": mask})
+    face = face_of("white creeper:red", packs=pack)
+    (found,) = match(face, packs=pack, alternatives=1, effort=0)
+    assert found.error == 0
+    np.testing.assert_array_equal(
+        draw_face(found.banner, packs=pack, scale=1).pixels[..., :3], face
+    )
+
+
+def test_errors_of_all_choices_are_those_of_the_faces() -> None:
+    art = read_art(open_packs(()))
+    goal = NearestSearch(art).goal(np.random.default_rng(0).integers(0, 256, 2400), np.ones(800))
+    base, layers = 3, ((5, 2), (33, 7), (10, 1), (32, 4))
+    table = goal.choices(goal.below(base, layers[:2]), goal.over(layers[3:]))
+    for choice in ((5, 5), (32, 2), (40, 9)):
+        true = goal.error((base, (*layers[:2], choice, layers[3])))
+        assert abs(table[choice] - true) < 0.002 * true
+
+
+def test_alternatives_differ_and_come_best_first(matcher: Matcher) -> None:
+    y, x = np.mgrid[:40, :20]
+    face = np.stack([6 * y, 250 - 12 * x, 90 + x], axis=-1).astype(np.uint8)
+    found = matcher.match(face, layers=2, alternatives=3, effort=1)
+    assert len({one.banner for one in found}) == 3
+    assert [one.error for one in found] == sorted(one.error for one in found)
+    assert found == matcher.match(face, layers=2, alternatives=3, effort=1)
+
+
+def test_texels_of_weight_0_do_not_count(matcher: Matcher) -> None:
+    face, weights = face_of("white half_horizontal:red"), np.zeros((40, 20))
+    weights[:18] = 1
+    (found,) = matcher.match(face, layers=0, weights=weights, alternatives=1, effort=0)
+    assert found.banner == Banner("red")
+
+
+@pytest.mark.parametrize(
+    ("face", "options", "message"),
+    [
+        ((20, 40, 3), {}, r"uint8 \[20, 40, 3\]"),
+        ((40, 20, 3), {"layers": 17}, "layers"),
+        ((40, 20, 3), {"weights": np.zeros((40, 20))}, "at least one texel"),
+        ((40, 20, 3), {"weights": np.ones((20, 40))}, "numbers from 0"),
+    ],
+)
+def test_bad_arguments_are_refused(
+    matcher: Matcher, face: tuple[int, ...], options: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(OptionError, match=message):
+        matcher.match(np.zeros(face, np.uint8), **options)
