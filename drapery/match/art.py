@@ -20,6 +20,9 @@ from drapery.packs import Packs, Texels
 Levels = NDArray[np.int32]
 """8-bit channels in wider integers."""
 
+Stack = tuple[int, tuple[tuple[int, int], ...]]
+"""A base dye and layers of (pattern, dye), lowest first, all by index."""
+
 HEIGHT, WIDTH = 40, 20
 """Texels of a face at the size of a 64 x 64 sheet."""
 

@@ -1,67 +1,42 @@
 """The design of a given face, texel for texel, by taking layers off from the top.
 
-What is known of the colours below a layer is an interval for each channel. A layer laid over a
-colour c shows f(c) = round((a s + (255 - a) c) / 255), which never falls as c rises, so the colours
-c for which f(c) lies in an interval are an interval again: nothing where no c fits, and every
-colour below an opaque texel. A layer can be the top one only if every interval below it has a
-colour. A depth-first search takes layers off until one of the sixteen bases fits, and so finds
-every design of a face; these facts keep it short:
+A depth-first search takes layers off until one of the sixteen bases fits, and so finds every design
+of a face; these facts keep it short:
 
-- What is below layer A holds every stack that is below layer B if A's intervals contain B's. B
-  need not be tried then.
+- If the intervals below layer A contain those below layer B, every stack below B fits below A, and
+  B need not be tried.
 - Two layers that may be taken off in either order are taken off in one order only ("sleep sets":
   Godefroid, Partial-Order Methods for the Verification of Concurrent Systems, LNCS 1032, 1996).
 - Each plain dye that still shows takes one layer, or the base.
 
-It is repeated with one more layer each time until a design is found, so the first is the shortest.
+It is repeated with one more layer each time, so the first design is the shortest. If it takes too
+long, a beam search takes layers off instead: it keeps the stacks of which the least is known.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from drapery.match.art import SIZE, FaceArt, Levels
-
-Bytes = NDArray[np.uint8]
-Indices = NDArray[np.intp]
-
-_TEXELS = SIZE // 3
-_SCREEN = 240
-"""Channels that are compared first; most layers fail there."""
-
-_SHOWN = 6
-"""A dye counts as shown if at least so many texels have its colour and that of no other dye."""
-
-_STRIDE = 301
-"""Texels are compared in steps of this many, so that the first ones lie all over the face."""
+from drapery.match.art import FaceArt, Levels, Stack
+from drapery.match.peel import Below, PeelTables, least_layers
 
 _DYES = 16
+_DEEPEST = 6
+"""The most layers of the depth-first search."""
+
+_BUDGET, _SMALL_BUDGET = 400, 60
+"""How many stacks it peels for each number of layers; the second, if more layers are allowed."""
+
+_BEAMS = (10, 40)
+"""How many stacks the beam searches keep."""
 
 
-@dataclass(frozen=True, eq=False)
-class Below:
-    """What is known of the colours below some layers: they lie from `low` to `high`, [..., N].
-
-    owners: the dye whose plain colour each texel must show, [..., N / 3]; 16 where any may be.
-    """
-
-    low: Bytes
-    high: Bytes
-    owners: Bytes
-
-    def __getitem__(self, index: int | np.integer[Any] | Indices) -> "Below":
-        return Below(self.low[index], self.high[index], self.owners[index])
-
-
-@dataclass(frozen=True, eq=False)
 class ExactSearch:
-    """The tables of a search for exact designs in one `FaceArt`."""
+    """Searches exact designs in one `FaceArt`, whose tables it keeps."""
 
-    art: FaceArt
+    def __init__(self, art: FaceArt) -> None:
+        self._tables = PeelTables(art)
 
     def find(
         self,
@@ -69,205 +44,81 @@ class ExactSearch:
         layers: int,
         *,
         tolerance: int = 0,
-        budget: int = 400,
         on_step: Callable[[], object] = lambda: None,
-    ) -> tuple[int, tuple[tuple[int, int], ...]] | None:
-        """The base and the layers (pattern, dye), lowest first, of a face [N], or None.
+    ) -> Stack | None:
+        """The stack whose face is a given one [N], or None if none is found.
 
-        layers: the most layers. tolerance: how far each channel may be off. budget: how many stacks
-        are looked below of for each number of layers. on_step: called for each of them.
+        layers: the most layers. tolerance: how far each channel may be off. on_step: called for
+        each stack that is peeled; an exception that it raises ends the search.
         """
-        start = self._start(face, tolerance)
-        base = self._base(start)
+        start = self._tables.start(face, tolerance)
+        base = self._tables.base(start)
         if base is not None:
             return base, ()
-        for count in range(1, layers + 1):
-            run = _Run(self, budget, on_step)
-            found = run.search(start, count, frozenset())
+        budget = _BUDGET if layers <= _DEEPEST else _SMALL_BUDGET
+        for count in range(1, min(layers, _DEEPEST) + 1):
+            found = _DepthFirst(self._tables, on_step, budget).search(start, count, frozenset())
+            if found is not None:
+                return found
+        for width in _BEAMS:
+            found = _beam(self._tables, start, layers, width, on_step)
             if found is not None:
                 return found
         return None
 
-    @cached_property
-    def _order(self) -> Indices:
-        texels = np.arange(_TEXELS) * _STRIDE % _TEXELS
-        return (texels[:, None] * 3 + np.arange(3)).reshape(-1)
 
-    @cached_property
-    def _bases(self) -> Bytes:
-        return self.art.bases[:, self._order].astype(np.uint8)
+@dataclass
+class _DepthFirst:
+    """One depth-first search. budget: how many stacks it may still peel."""
 
-    @cached_property
-    def _alpha(self) -> Levels:
-        return self.art.alpha[:, self._order]
+    tables: PeelTables
+    on_step: Callable[[], object]
+    budget: int
 
-    @cached_property
-    def _dyed(self) -> Levels:
-        return self.art.dyed[:, :, self._order].reshape(-1, SIZE)
-
-    @cached_property
-    def _hull(self) -> Below:
-        """The colours that any stack of layers may show."""
-        low, high = self.art.darkest[self._order], self.art.brightest[self._order]
-        unknown = np.full(_TEXELS, _DYES, np.uint8)
-        return Below(low.astype(np.uint8), high.astype(np.uint8), unknown)
-
-    @cached_property
-    def _range(self) -> tuple[Bytes, Bytes]:
-        """The least and the greatest value that each layer shows over any stack, [P 16, N]."""
-        alpha = self._alpha.repeat(_DYES, axis=0)
-        added = alpha * self._dyed + 127
-        least = (added + (255 - alpha) * self._hull.low) // 255
-        greatest = (added + (255 - alpha) * self._hull.high) // 255
-        return least.astype(np.uint8), greatest.astype(np.uint8)
-
-    @cached_property
-    def _opaque(self) -> NDArray[np.bool_]:
-        return np.asarray(self._alpha == 255)
-
-    @cached_property
-    def _translucent(self) -> list[Indices]:
-        """The channels of the translucent texels of each pattern."""
-        return [np.flatnonzero((row > 0) & (row < 255)) for row in self._alpha]
-
-    @cached_property
-    def _commute(self) -> NDArray[np.bool_]:
-        """Whether layers of two patterns may be taken off in either order, [P, P]."""
-        some = (self._alpha > 0).astype(np.int32)
-        part = some - self._opaque
-        clash = part @ some.T > 0
-        return np.asarray(~(clash | clash.T))
-
-    def _start(self, face: Levels, tolerance: int) -> Below:
-        shown = face[self._order].astype(np.int32)
-        low = np.clip(shown - tolerance, 0, 255).astype(np.uint8)
-        high = np.clip(shown + tolerance, 0, 255).astype(np.uint8)
-        return Below(low, high, self._owners(low, high, np.arange(_TEXELS)))
-
-    def _owners(self, low: Bytes, high: Bytes, texels: Indices) -> Bytes:
-        """The dye of each texel whose interval holds the plain colour of one dye only."""
-        plain = self._bases.reshape(_DYES, _TEXELS, 3)[:, texels]
-        low, high = low.reshape(-1, 3), high.reshape(-1, 3)
-        fits = ((plain >= low) & (plain <= high)).all(axis=2)
-        return np.where(fits.sum(axis=0) == 1, fits.argmax(axis=0), _DYES).astype(np.uint8)
-
-    def _base(self, below: Below) -> int | None:
-        fits = ((self._bases >= below.low) & (self._bases <= below.high)).all(axis=1)
-        return int(fits.argmax()) if fits.any() else None
-
-    def _base_of_any(self, below: Below) -> tuple[int, int] | None:
-        """The first of many stacks that may be a base alone, and that base."""
-        part, bases = slice(_SCREEN), self._bases[:, None, :_SCREEN]
-        may = ((bases >= below.low[:, part]) & (bases <= below.high[:, part])).all(axis=2)
-        for index in np.flatnonzero(may.any(axis=0)):
-            base = self._base(below[index])
-            if base is not None:
-                return int(index), base
-        return None
-
-    def _tops(self, below: Below) -> Indices:
-        """The layers (16 pattern + dye) that may be the top one; those that explain most first."""
-        least, greatest = self._range
-        part = slice(_SCREEN)
-        may = (least[:, part] <= below.high[part]) & (greatest[:, part] >= below.low[part])
-        tops = np.flatnonzero(may.all(axis=1))
-        fits = (least[tops] <= below.high) & (greatest[tops] >= below.low)
-        tops = tops[fits.all(axis=1)]
-        patterns = np.unique(tops // _DYES)
-        scores = np.zeros(len(self._alpha), np.int64)
-        scores[patterns] = self._alpha[patterns] @ _INFORMATION[below.high - below.low]
-        tops = tops[scores[tops // _DYES] > 0]
-        return tops[np.argsort(-scores[tops // _DYES], kind="stable")]
-
-    def _take_off(self, below: Below, tops: Indices) -> tuple[Indices, Below]:
-        """Those layers that can be the top one, and what is below each."""
-        patterns = tops // _DYES
-        opaque = self._opaque[patterns]
-        low = np.where(opaque, self._hull.low, below.low)
-        high = np.where(opaque, self._hull.high, below.high)
-        owners = np.where(opaque[:, ::3], np.uint8(_DYES), below.owners)
-        parts = [self._translucent[pattern] for pattern in patterns]
-        columns = np.concatenate(parts)
-        rows = np.arange(len(tops)).repeat([len(part) for part in parts])
-        alpha = self._alpha[patterns[rows], columns]
-        rest, added = 255.0 - alpha, alpha * self._dyed[tops[rows], columns]
-        least = np.ceil((255 * below.low[columns].astype(np.int32) - 127 - added) / rest)
-        most = np.floor((255 * below.high[columns].astype(np.int32) + 127 - added) / rest)
-        least = np.maximum(least, self._hull.low[columns])
-        most = np.minimum(most, self._hull.high[columns])
-        possible = np.ones(len(tops), np.bool_)
-        possible[rows[least > most]] = False
-        low[rows, columns], high[rows, columns] = least % 256, most % 256
-        texels = columns[::3] // 3
-        owners[rows[::3], texels] = self._owners(least, most, texels)
-        kept = np.flatnonzero(possible)
-        return tops[kept], Below(low, high, owners)[kept]
-
-    def _widest(self, below: Below) -> Indices:
-        """The stacks whose intervals are not within those of another one."""
-        known = (below.low != self._hull.low) | (below.high != self._hull.high)
-        bits = np.packbits(known, axis=1).view(np.uint32)
-        within = np.asarray(~(bits[:, None] & ~bits[None]).any(axis=2))
-        np.fill_diagonal(within, False)
-        gone = np.zeros(len(bits), np.bool_)
-        for inner in range(len(bits)):
-            outer = np.flatnonzero(within[:, inner] & ~gone)
-            contains = (below.low[outer] <= below.low[inner]).all(axis=1)
-            contains &= (below.high[outer] >= below.high[inner]).all(axis=1)
-            gone[inner] = contains.any()
-        return np.flatnonzero(~gone)
-
-
-_INFORMATION = np.round(16 * np.log2(256 / np.arange(1, 257))).astype(np.int32)
-"""How much is known of a channel whose interval spans 0, 1, 2, ... steps [1/16 bit]."""
-
-
-class _Run:
-    """One depth-first search with a number of layers."""
-
-    def __init__(self, tables: ExactSearch, budget: int, on_step: Callable[[], object]) -> None:
-        self.tables, self.budget, self.on_step = tables, budget, on_step
-
-    def search(
-        self, below: Below, layers: int, asleep: frozenset[int]
-    ) -> tuple[int, tuple[tuple[int, int], ...]] | None:
-        """The base and the layers that fit below, or None.
+    def search(self, below: Below, layers: int, asleep: frozenset[int]) -> Stack | None:
+        """The stack that fits below, or None.
 
         layers: the most of them. asleep: layers that were tried before in another order.
         """
-        if self.budget <= 0 or _least_layers(below.owners[None])[0] > layers:
+        if layers == 0 or self.budget <= 0 or least_layers(below.owners[None])[0] > layers:
             return None
         self.budget -= 1
         self.on_step()
-        tables = self.tables
-        tops = tables._tops(below)
-        if not len(tops):
-            return None
-        tops, under = tables._take_off(below, tops)
-        done = tables._base_of_any(under)
-        if done is not None:
-            index, base = done
-            return base, (divmod(int(tops[index]), _DYES),)
-        if layers == 1:
-            return None
-        few = np.flatnonzero(_least_layers(under.owners) < layers)
-        tops, under = tops[few], under[few]
-        widest = tables._widest(under)
-        tops, under = tops[widest], under[widest]
-        for number, top in enumerate(map(int, tops)):
-            if top in asleep:
+        peeled = self.tables.peel(below, layers)
+        tops = peeled.tops.tolist()
+        if peeled.base is not None:
+            return peeled.base, (divmod(tops[0], _DYES),)
+        for number, top in enumerate(tops):
+            if top in asleep or layers == 1:
                 continue
-            earlier = asleep.union(tops[:number].tolist())
-            commute = tables._commute[top // _DYES]
-            sleeping = frozenset(other for other in earlier if commute[other // _DYES])
-            found = self.search(under[number], layers - 1, sleeping)
+            commuting = self.tables.commuting[top // _DYES]
+            earlier = asleep.union(tops[:number])
+            sleeping = frozenset(other for other in earlier if commuting[other // _DYES])
+            found = self.search(peeled.below[number], layers - 1, sleeping)
             if found is not None:
                 return found[0], (*found[1], divmod(top, _DYES))
         return None
 
 
-def _least_layers(owners: Bytes) -> Indices:
-    """The fewest layers over a base that show all plain dyes of stacks [m, N / 3]."""
-    counts = (owners[:, None] == np.arange(_DYES, dtype=np.uint8)[:, None]).sum(axis=2)
-    least: Indices = np.maximum((counts >= _SHOWN).sum(axis=1) - 1, 0)
-    return least
+def _beam(
+    tables: PeelTables, start: Below, layers: int, width: int, on_step: Callable[[], object]
+) -> Stack | None:
+    """The stack that fits, or None; after each layer the `width` least known stacks are kept."""
+    stacks: list[tuple[Below, tuple[tuple[int, int], ...]]] = [(start, ())]
+    for more in range(layers, 0, -1):
+        grown: dict[bytes, tuple[Below, tuple[tuple[int, int], ...]]] = {}
+        for below, above in stacks:
+            if least_layers(below.owners[None])[0] > more:
+                continue
+            on_step()
+            peeled = tables.peel(below, more)
+            if peeled.base is not None:
+                return peeled.base, (divmod(int(peeled.tops[0]), _DYES), *above)
+            for number, top in enumerate(peeled.tops.tolist()):
+                one = peeled.below[number]
+                key = one.low.tobytes() + one.high.tobytes()
+                grown.setdefault(key, (one, (divmod(top, _DYES), *above)))
+        every = list(grown.values())
+        known = np.array([one.known for one, _ in every])
+        stacks = [every[place] for place in np.argsort(known, kind="stable")[:width]]
+    return None

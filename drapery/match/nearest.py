@@ -13,11 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.match.art import SIZE, FaceArt, Levels
+from drapery.match.art import SIZE, FaceArt, Levels, Stack
 from drapery.match.colours import Floats, Whole, distances, oklab, quick_oklab
-
-Stack = tuple[int, tuple[tuple[int, int], ...]]
-"""A base dye and layers of (pattern, dye), lowest first, all by index."""
 
 Totals = NDArray[np.int64]
 

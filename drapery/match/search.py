@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from drapery.banner import LOOM_LAYERS, MAX_LAYERS, Banner
 from drapery.errors import OptionError
-from drapery.match.art import HEIGHT, SIZE, WIDTH, FaceArt, read_art
+from drapery.match.art import HEIGHT, SIZE, WIDTH, FaceArt, Stack, read_art
 from drapery.match.colours import UNIT, Floats, distances, oklab
 from drapery.match.exact import ExactSearch
-from drapery.match.nearest import Goal, NearestSearch, Stack
+from drapery.match.nearest import Goal, NearestSearch
 from drapery.option import within
 from drapery.packs import PackLike, open_packs
 
