@@ -33,7 +33,7 @@ from drapery.style.board import moved
 from drapery.style.figure import figure_material
 from drapery.style.scenery import SKY, shadow
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
-from drapery.style.tailoring import ClothModel, dyed
+from drapery.style.tailoring import ClothModel
 
 BLOCK = BannerBlock((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=38, elevation=10, fov=26)
@@ -92,17 +92,14 @@ def _capes(
     cape_parameters = cape.CapeParameters(
         dye=parameters.dye, speed=parameters.speed, seed=parameters.seed
     )
-    gait, cloth = Gait(parameters.speed), cape.cape_cloth(cape_parameters.grid)
-    shell, wool = (
-        cape.cape_shell(cloth),
-        dyed(packs.texture("entity/player/cape"), cape_parameters.dye),
-    )
+    gait, sewn = Gait(parameters.speed), cape.cape_cloth(cape_parameters)
+    wool = sewn.pieces[0].material
     skin, causeway = figure_material(cape_parameters.skin, packs), ground(packs)
     view = camera(size)
-    for frame, state in enumerate(cape.cape_states(cape_parameters, cloth, gait, clip)):
+    for frame, state in enumerate(cape.cape_states(cape_parameters, sewn, gait, clip)):
         stiff = ClothModel(stiff_cape(cape_lean(parameters.speed, frame / clip.fps)), (wool,))
         lifted = moved(stiff.mesh, np.array([0, gait.lift(state.time), 0]))
-        soft = cape.cape_model(shell, state, 1.0, wool)
+        (soft,) = sewn.models(state.positions[0])
         figure = walker(gait, state.time, skin, causeway)
         left, right = (
             Scene((*figure, back), view, size, background=SKY, samples=4)
