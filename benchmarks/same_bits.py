@@ -31,6 +31,8 @@ def outputs() -> Iterator[tuple[str, Callable[[], bytes]]]:
     yield "small", lambda: draw(DESIGN, size=(48, 64), grid=(5, 9), time=0.2).pixels.tobytes()
     for solver in SOLVERS:
         yield f"solver {solver}", partial(pixels, solver=solver, grid=(11, 21))
+    for solver in ("desbrun", "xpbd"):
+        yield f"sheet {solver}", partial(pixels, solver=solver, grid=(33, 65))
     for view in VIEWS:
         yield f"view {view}", partial(pixels, view=view, samples=4, shadow=True)
     yield "animation", lambda: b"".join(frame.pixels.tobytes() for frame in loop())

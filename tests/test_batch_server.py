@@ -57,6 +57,7 @@ def _command(process: psutil.Process) -> list[str]:
     return []
 
 
+@pytest.mark.usefixtures("untraced_processes")
 def test_a_service_whose_workers_die_says_so_recovers_and_ends() -> None:
     with service("--deadline", "3", "--rate", "0") as (base, process):
         # The first picture of a worker loads the kernels.
@@ -74,13 +75,14 @@ def test_a_service_whose_workers_die_says_so_recovers_and_ends() -> None:
         assert get(f"{base}/banner.png?{SMALL}").status_code == 200, "it was drawn before"
         assert get(f"{base}/healthz").status_code == 200
         assert "drapery_ready 0.0" in get(f"{base}/metrics").text
-        time.sleep(4)
+        time.sleep(1)
         stop.set()
         killer.join()
         _wait_until(lambda: get(f"{base}/readyz").status_code == 200, 60)
         _wait_until(lambda: get(f"{base}/banner.png?{SMALL}&seed=1").status_code == 200)
 
 
+@pytest.mark.usefixtures("untraced_processes")
 def test_sigterm_ends_a_service_whose_workers_die_and_whose_clients_wait() -> None:
     with service("--deadline", "60", "--rate", "0") as (base, process):
         get(f"{base}/banner.png?{SMALL}")
@@ -157,7 +159,7 @@ def _kill_all(process: subprocess.Popen[str], stop: threading.Event) -> None:
         for worker in workers_of(process):
             with suppress(psutil.NoSuchProcess):
                 worker.kill()
-        time.sleep(0.01)
+        time.sleep(0.05)
 
 
 def _wait_until(condition: Callable[[], bool], seconds: float = 20) -> None:

@@ -80,7 +80,8 @@ def test_drawing_in_parts_changes_no_bit(scene: Scene, monkeypatch: pytest.Monke
     assert digest(scene) == whole
 
 
-def test_the_kind_of_processor_changes_no_bit(tmp_path: Path) -> None:
+@pytest.mark.usefixtures("untraced_processes")
+def test_the_kind_of_processor_changes_no_bit() -> None:
     """Compiled for any x86-64 (or whatever is plainest) and for this very processor."""
     program = "from test_render_soft import *; print(digest(medley()), digest(many_sheets()))"
     environment = os.environ | {
