@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 from studio_browser import chromium, compiled_kernels, studio
-from tracing import trace_no_compiler
+from tracing import PROCESSES, trace_no_compiler
 
 from drapery import cli
 
@@ -55,11 +55,8 @@ def strict_numerics() -> None:
 
 @pytest.fixture
 def untraced_processes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Coverage does not trace the processes that the test starts, whose lines other tests run.
-
-    A traced process takes about one second more of the processor at its start and end.
-    """
-    monkeypatch.delenv("COVERAGE_PROCESS_CONFIG", raising=False)
+    """Coverage does not trace the processes that the test starts, whose lines other tests run."""
+    monkeypatch.delenv(PROCESSES, raising=False)
 
 
 @pytest.fixture(scope="session")

@@ -19,6 +19,7 @@ from typing import Any
 
 import nbtlib
 import world_maker as make
+from tracing import untraced
 
 from drapery.banner.formats import (
     FORMS,
@@ -90,7 +91,8 @@ def judge(
     before, start = _memory("VmRSS"), time.process_time()
     _forget_peak()
     try:
-        number = len(list(read(given)))
+        with untraced():
+            number = len(list(read(given)))
         outcome = "no banner" if number == 0 else "a banner" if number == 1 else "banners"
     except DraperyError as error:
         outcome = kind_of(str(error))

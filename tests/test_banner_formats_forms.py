@@ -5,7 +5,7 @@ import re
 import forms_page
 import pytest
 from conftest import Run
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from drapery.banner import BinaryForm, Form, binary_forms
@@ -70,6 +70,7 @@ def can_hold(form: str, banner: Banner) -> bool:
 
 
 @pytest.mark.parametrize("form", FORMS)
+@settings(max_examples=40)
 @given(banner=BANNERS)
 def test_any_banner_comes_back_from_a_form_that_can_hold_it(form: str, banner: Banner):
     if can_hold(form, banner):

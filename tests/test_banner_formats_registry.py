@@ -18,6 +18,8 @@ from drapery.banner.formats import (
 )
 from drapery.errors import DesignError
 
+pytestmark = pytest.mark.usefixtures("untraced_processes")
+
 RED, BLUE = Banner("red"), Banner("blue")
 CHEST = (
     "/setblock ~ ~ ~ chest{Items:[{Slot:0b,id:'minecraft:red_banner',count:1},"

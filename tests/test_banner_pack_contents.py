@@ -66,7 +66,9 @@ print(time.process_time() - start, peak / 1024)
 """The peak is 0 where the system does not say it: `resource` counts the parent's memory too."""
 
 
-def test_a_report_on_gigabytes_of_texels_takes_bounded_memory_and_time(tmp_path: Path) -> None:
+def test_a_report_on_gigabytes_of_texels_takes_bounded_memory_and_time(
+    tmp_path: Path, untraced_processes: None
+) -> None:
     strip = plain(9, 9, 9, 99, side=4096)
     meta = '{"animation": {"width": 2048, "height": 2048}}'
     sheets = {BANNER + f"{name}{ending}.png": strip for name in PATTERN_NAMES for ending in MAPS}

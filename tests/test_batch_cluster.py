@@ -21,6 +21,8 @@ from drapery.batch.run import execute
 from drapery.batch.stores import RemoteStore, open_store
 from drapery.errors import BackendError, OutputError
 
+pytestmark = pytest.mark.usefixtures("untraced_processes")
+
 
 def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -> None:
     code_version.cache_clear()

@@ -20,6 +20,8 @@ from drapery.batch.jobs import Job, JobResult
 from drapery.batch.pool import JobLimits, ProcessPool
 from drapery.errors import BackendError
 
+pytestmark = pytest.mark.usefixtures("untraced_processes")
+
 SOON = RetryPolicy(limit=2, pause=0.01)
 
 

@@ -58,7 +58,7 @@ def make_package(folder, number=1):
 
 
 @pytest.fixture
-def package(tmp_path):
+def package(tmp_path, untraced_processes):
     """A function that runs a package with kernels in a new process."""
     folder = tmp_path / "scratch_kernels"
     make_package(folder)
@@ -112,7 +112,7 @@ def with_a_wrong_byte(content):
 DAMAGES = (lambda content: b"", lambda content: content[: len(content) // 2], with_a_wrong_byte)
 
 
-def test_damaged_cache_files_are_rebuilt(tmp_path):
+def test_damaged_cache_files_are_rebuilt(tmp_path, untraced_processes):
     """A package for each damage to each kind of file; one process uses all packages."""
     cases = [(kind, damage) for kind in ("*.nbi", "*.nbc") for damage in DAMAGES]
     program, numbers = "", range(len(cases))

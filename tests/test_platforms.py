@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.usefixtures("untraced_processes")
+
 PROGRAM = """
 import os, signal, sys
 

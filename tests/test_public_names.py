@@ -25,6 +25,8 @@ from drapery import (
     save_model,
 )
 
+pytestmark = pytest.mark.usefixtures("untraced_processes")
+
 DESIGN = Banner.parse("white creeper:lime")
 SMALL = Settings(size=(24, 32), time=0.1)
 PUBLIC = ("drapery", "drapery.cloth", "drapery.render", "drapery.packs")

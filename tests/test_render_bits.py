@@ -1,12 +1,12 @@
 """The same bits whatever kernels the BLAS chooses for its processor."""
 
 import ast
-import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from tracing import untraced_environment
 
 PROGRAM = """
 import hashlib
@@ -59,7 +59,7 @@ def usual(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 def results(folder: object, kernels: str) -> dict[str, str]:
     said = subprocess.run(
         [sys.executable, "-c", PROGRAM],
-        env={**os.environ, "OPENBLAS_CORETYPE": kernels},
+        env=untraced_environment() | {"OPENBLAS_CORETYPE": kernels},
         cwd=str(folder),
         capture_output=True,
         text=True,

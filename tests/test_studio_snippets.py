@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
+from tracing import untraced_environment
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.formats import parse_banner
@@ -30,14 +31,18 @@ SMALL_FLAG = find_garment("flag").settings(size=(48, 64), time=0.1, view="front"
 
 
 def run_shell(command: str, folder: Path) -> None:
-    environment = os.environ | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+    environment = untraced_environment() | {
+        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"
+    }
     subprocess.run(
         ["/bin/sh", "-c", command], cwd=folder, env=environment, check=True, capture_output=True
     )
 
 
 def run_python(lines: str, folder: Path) -> None:
-    subprocess.run([sys.executable, "-c", lines], cwd=folder, check=True, capture_output=True)
+    command = [sys.executable, "-c", lines]
+    environment = untraced_environment()
+    subprocess.run(command, cwd=folder, env=environment, check=True, capture_output=True)
 
 
 @pytest.fixture

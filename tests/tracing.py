@@ -1,5 +1,9 @@
-"""Where coverage's tracer is not wanted: in numba's compiler, and where time is measured."""
+"""Where coverage's tracer is not wanted: in numba's compiler, and where time is measured.
 
+A tracer makes loops of Python several times slower, and a process take a second more.
+"""
+
+import os
 import sys
 import threading
 from collections.abc import Iterator
@@ -8,16 +12,24 @@ from typing import Any
 
 from numba.core import event
 
+PROCESSES = "COVERAGE_PROCESS_CONFIG"
+"""The variable by which coverage traces the processes that tests start."""
+
 
 @contextmanager
 def untraced() -> Iterator[None]:
-    """Do not trace this thread: a tracer makes loops of Python several times slower."""
+    """Do not trace this thread."""
     tracer = sys.gettrace()
     sys.settrace(None)
     try:
         yield
     finally:
         sys.settrace(tracer)
+
+
+def untraced_environment() -> dict[str, str]:
+    """The environment of a process that coverage does not trace."""
+    return {name: value for name, value in os.environ.items() if name != PROCESSES}
 
 
 class UntracedCompiler(event.Listener):  # type: ignore[misc, name-defined]
