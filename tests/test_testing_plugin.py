@@ -93,3 +93,12 @@ def test_a_report_that_cannot_be_written_keeps_the_fault(pytester: pytest.Pytest
     result = pytester.runpytest_inprocess()
     result.assert_outcomes(failed=1)
     result.stdout.fnmatch_lines(["golden 'a': 16 pixels differ, max 1; *drapery-report*"])
+
+
+def test_a_tolerance_out_of_range_is_refused_without_a_traceback(
+    pytester: pytest.Pytester,
+) -> None:
+    pytester.makepyfile(HEAD + "\ndef test_one(golden):\n    golden(grey(0), tolerance=300)\n")
+    result = pytester.runpytest_inprocess()
+    result.stdout.fnmatch_lines(["*tolerance 300 of 0 pixels is out of range*"])
+    result.stdout.no_fnmatch_line("*golden.py*")
