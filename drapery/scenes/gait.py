@@ -11,8 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from drapery.cloth.colliders import Box, Collider, Path, Pose
-from drapery.cloth.exact import sine_of_turns
-from drapery.mesh import Array
+from drapery.cloth.exact import sine_of_turn
 from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed
 from drapery.style.horse import HORSE_PARTS
 
@@ -58,15 +57,14 @@ class Gait:
 
     def turn(self, time: float) -> float:
         """How far the right leg is turned backwards [degrees]."""
-        return self.swing * float(sine_of_turns(time / self.period))
+        return self.swing * sine_of_turn(float(time) / self.period)
 
     def lift(self, time: float) -> float:
         """Height of the hips above their place at rest [m]; the lower foot stays on the ground.
 
         The hip of a leg of length L, whose foot has the half length h, is L cos + h |sin| high.
         """
-        turns = self.turn(time) / 360
-        sine, cosine = float(sine_of_turns(turns)), float(sine_of_turns(turns + 0.25))
+        sine, cosine = _sine_cosine(self.turn(time))
         return LEG * cosine + HALF_FOOT * abs(sine) - LEG
 
     def colliders(self, names: tuple[str, ...]) -> tuple[Collider, ...]:
@@ -93,21 +91,23 @@ def _poses(gait: Gait, time: float) -> dict[str, Placed]:
         "right_arm": -arms * angle,
         "left_arm": arms * angle,
     }
-    lift = np.array([0.0, gait.lift(time), 0.0])
-    parts = gait.parts
+    lift, parts = gait.lift(time), gait.parts
     return {name: _about_joint(parts[name], turned, lift) for name, turned in angles.items()}
 
 
 @lru_cache(maxsize=8)
-def _about_x(degrees: float) -> Array:
-    """The bits of `rotation_about` for the x axis, in a fraction of its time."""
-    sine = float(sine_of_turns(degrees / 360))
-    cosine = float(sine_of_turns(degrees / 360 + 0.25))
+def _sine_cosine(degrees: float) -> tuple[float, float]:
+    return sine_of_turn(degrees / 360), sine_of_turn(degrees / 360 + 0.25)
+
+
+def _about_joint(part: FigurePart, degrees: float, lift: float) -> Placed:
+    """A part turned about the x axis, in numbers: arrays of three would take several times as long.
+
+    The bits are those of `rotation_about`.
+    """
+    sine, cosine = _sine_cosine(degrees)
     along = cosine + (1 - cosine)
-    return np.array([[along, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
-
-
-def _about_joint(part: FigurePart, degrees: float, lift: Array) -> Placed:
-    rotation = _about_x(degrees)
-    joint = part.pivot
-    return joint - (rotation * joint).sum(axis=1) + lift, rotation
+    x, y, z = part.pivot.tolist()
+    place = x - along * x, y - (cosine * y - sine * z) + lift, z - (sine * y + cosine * z)
+    rotation = np.array([[along, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+    return np.array(place), rotation
