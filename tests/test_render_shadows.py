@@ -10,7 +10,7 @@ from render_shapes import mesh, painted
 from drapery.mesh import Mesh, vertex_normals
 from drapery.render.camera import Camera
 from drapery.render.light import STUDIO_LIGHT, Light
-from drapery.render.scene import Material, Model, Scene
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 
 SUN = Light(((1.0, 1.0, 0.0),), 0.25, 0.75 * 2**0.5, shadows=True)
@@ -66,6 +66,18 @@ def test_without_shadows_the_light_is_that_of_the_game() -> None:
 )
 def test_what_glows_blends_or_is_cut_out_casts_no_shadow(material: Material) -> None:
     assert (reds(scene(GROUND, replace(BOARD, materials=(material,))))[100, :150] == 255).all()
+
+
+def test_a_hole_in_a_board_lets_the_light_through() -> None:
+    texels = np.full((1, 2, 4), 255, np.uint8)
+    texels[0, 0, 3] = 0  # the left half, whose shadow would lie at x -0.2 to -0.05
+    board = replace(
+        BOARD,
+        mesh=replace(BOARD.mesh, uvs=np.array([(0, 0), (1, 0), (0, 1), (1, 1)], np.float32)),
+        materials=(Material((TextureLayer(texels),), "cutout"),),
+    )
+    row = reds(scene(GROUND, board))[100]
+    assert (row[3:90] == 255).all() and (row[99:106] == 64).all()
 
 
 def test_a_curved_sheet_alone_in_the_light_has_no_shadow_of_its_own() -> None:

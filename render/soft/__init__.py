@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from drapery.errors import OptionError
 from drapery.mesh import Mesh, Triangles
 from drapery.render.buffers import Buffers
-from drapery.render.camera import Camera, Matrix, clip_matrix
-from drapery.render.drawlist import Float32, Topology, make_topology
+from drapery.render.camera import Matrix, clip_matrix
+from drapery.render.drawlist import DrawList, Float32, Topology, make_topology
 from drapery.render.flatten import composite_layers
 from drapery.render.frame import Frame
-from drapery.render.light import Light
+from drapery.render.light import UNLIT, Light
 from drapery.render.materials import BLEND, MaterialTables, material_numbers
 from drapery.render.relief import bake_normal_maps
 from drapery.render.scene import Scene
@@ -30,14 +30,9 @@ from drapery.render.soft.projection import BROKEN, NEAREST, VERTEX, project
 from drapery.render.soft.shadows import (
     NO_RECEIVERS,
     NO_SHADOWS,
+    ShadowLight,
     ShadowMap,
-    casts_shadow,
-    light_camera,
-    lit_vertices,
-    map_side,
-    map_spread,
-    openness_of,
-    split_light,
+    shadow_light,
 )
 from drapery.render.soft.surface import surface_tiles
 from drapery.render.soft.tiles import (
@@ -222,37 +217,32 @@ def _shadowed(
         np.concatenate([_vectors(getattr(model.mesh, name)) for model in scene.models])
         for name in ("positions", "normals")
     )
-    casting, lit = casts_shadow(constant), lit_vertices(constant)
-    if not lit.any():
+    found = shadow_light(scene.light, scene.size, DrawList(positions, normals, constant))
+    if found is None:
         return raster, NO_SHADOWS
-    camera = light_camera(scene.light, positions[lit])
-    width = float(camera.height or 0.0)
-    side = map_side(scene.size, width)
-    spread, lift = map_spread(side, width)
-    seen = _project_points(positions, scene.light, camera, side, workers)
-    lifted = positions + np.float32(lift) * normals
-    receivers = _project_points(lifted, scene.light, camera, side, workers)
-    openness = openness_of(positions, normals, lit, raster.triangles[casting])
-    raster.vertices["shade"], dark = split_light(scene.light, normals, openness)
+    side, casting = found.side, found.casting
+    seen = _project_points(positions, constant.uvs, found, workers)
+    receivers = _project_points(found.lifted, constant.uvs, found, workers)
+    raster.vertices["shade"] = found.bright
     # From the middle of the first sample to its corner, so that whole numbers are its index.
     places = [receivers[axis] / np.float32(256) + np.float32(0.5) for axis in ("x", "y")]
-    shaded = np.stack([*places, receivers["depth"], dark], axis=-1, dtype=np.float32)
+    shaded = np.stack([*places, receivers["depth"], found.dark], axis=-1, dtype=np.float32)
     casters = Raster(
         seen, raster.flags, raster.triangles[casting], raster.triangle_material[casting]
     )
     depths = np.zeros(side * side, np.int32)
     _draw_depths(casters, tables, side, workers, depths)
-    return replace(raster, receivers=shaded), ShadowMap(depths, side, spread)
+    return replace(raster, receivers=shaded), ShadowMap(depths, side, found.spread)
 
 
 def _project_points(
-    positions: Float32, light: Light, camera: Camera, side: int, workers: int
+    positions: Float32, uvs: Float32, light: ShadowLight, workers: int
 ) -> NDArray[np.void]:
-    """Vertices as a camera sees them in a square picture of this side."""
+    """Vertices as the light that casts shadows sees them."""
     vertices, flags = np.empty(len(positions), VERTEX), np.empty(len(positions), np.uint8)
-    uvs = np.zeros((len(positions), 2), np.float32)
-    size, matrix = (side, side), clip_matrix(camera, (side, side))
-    _project_part(positions, positions, light, matrix, size, (uvs, vertices, flags), workers)
+    size = light.side, light.side
+    matrix, arrays = clip_matrix(light.camera, size), (uvs, vertices, flags)
+    _project_part(positions, positions, UNLIT, matrix, size, arrays, workers)
     return vertices
 
 

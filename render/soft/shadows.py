@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from drapery.mesh import Array, Triangles
 from drapery.render.camera import Camera, Vector
-from drapery.render.drawlist import Float32, Topology
+from drapery.render.drawlist import DrawList, Float32, Topology
 from drapery.render.light import Light
 from drapery.render.materials import BLEND
 from drapery.render.soft.occlusion import occlude
@@ -58,8 +58,44 @@ class ShadowMap:
     spread: float
 
 
+@dataclass(frozen=True, eq=False)
+class ShadowLight:
+    """How the light that casts shadows falls on a scene.
+
+    camera: its parallel view of all that is lit. side: samples along a side of its map.
+    spread: see `ShadowMap`. lifted: vertices as they look themselves up in the map [m], shape
+    [V, 3]. bright, dark: their brightness in the light and in shadow, each [V].
+    casting: the triangles that cast shadows, shape [T], bool.
+    """
+
+    camera: Camera
+    side: int
+    spread: float
+    lifted: Float32
+    bright: Float32
+    dark: Float32
+    casting: NDArray[np.bool_]
+
+
 NO_SHADOWS = ShadowMap(np.empty(0, np.int32), 0, 0.0)
 NO_RECEIVERS = np.empty((0, 4), np.float32)
+
+
+def shadow_light(light: Light, size: tuple[int, int], drawing: DrawList) -> ShadowLight | None:
+    """The light on a draw list for a picture of this size [pixels]; None if nothing is lit."""
+    constant, positions, normals = drawing.topology, drawing.positions, drawing.normals
+    casting, lit = casts_shadow(constant), lit_vertices(constant)
+    if not lit.any():
+        return None
+    camera = light_camera(light, positions[lit])
+    width = float(camera.height or 0.0)
+    side = map_side(size, width)
+    spread, lift = map_spread(side, width)
+    openness = openness_of(positions, normals, lit, constant.triangles[casting])
+    lifted = positions + np.float32(lift) * normals
+    return ShadowLight(
+        camera, side, spread, lifted, *split_light(light, normals, openness), casting
+    )
 
 
 def casts_shadow(constant: Topology) -> NDArray[np.bool_]:
