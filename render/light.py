@@ -19,7 +19,8 @@ class Light:
     directions: towards each light; need not be unit vectors.
     tint: the light's colour, a factor for each of red, green and blue.
     shadows: whether the first direction casts shadows, and less of the other light reaches folds
-        and corners. Our own rasteriser draws them, on and by lit materials without normal maps.
+        and corners. Both backends draw them, on and by lit materials; pyrender only where no
+        material has LabPBR maps.
     """
 
     directions: tuple[Vector, ...]

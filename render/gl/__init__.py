@@ -61,16 +61,17 @@ def draw_scene(scene: Scene, *, stacked: bool = False) -> Frame:
     into one texture first. It is slower, and colours differ by up to 2/255.
     Raises OptionError for a scene that cannot be drawn, BackendError without OpenGL.
     """
-    if scene.light.shadows:
-        warnings.warn(
-            "backend pyrender draws no cast shadows; use backend soft, or light game",
-            UserWarning,
-            stacklevel=2,
-        )
     drawing = draw_list(scene.models)
     with _current() as context:
         _check(context, scene, drawing)
         if has_relief(scene):
+            if scene.light.shadows:
+                warnings.warn(
+                    "backend pyrender draws no cast shadows on LabPBR maps; use backend soft, or"
+                    " light game",
+                    UserWarning,
+                    stacklevel=2,
+                )
             return _draw_materials(context, scene)
         if context.topology is not drawing.topology or context.stacked != stacked:
             _set_up(context, drawing.topology, stacked)
@@ -186,7 +187,8 @@ def _draw(context: OffscreenContext, scene: Scene, drawing: DrawList) -> Pixels:
     renderer.viewport_width, renderer.viewport_height = (side * grid for side in scene.size)
     renderer.matrix = clip_matrix(scene.camera, scene.size)
     renderer.light_tint = np.array(scene.light.tint, np.float32)
-    context.vertices.upload(drawing.positions, scene.light.brightness(drawing.normals))
+    renderer.grid = grid
+    renderer.cast = _light(context.vertices, scene, drawing)
     for primitive, triangles in context.blends:
         primitive.reorder(far_to_near(triangles, drawing.positions, renderer.matrix))
     background = np.array(scene.background) / 255
@@ -194,6 +196,25 @@ def _draw(context: OffscreenContext, scene: Scene, drawing: DrawList) -> Pixels:
     flags = context.pyrender.RenderFlags
     samples: Pixels = renderer.render(context.scene, flags.OFFSCREEN | flags.RGBA | flags.FLAT)
     return samples
+
+
+def _light(vertices: Any, scene: Scene, drawing: DrawList) -> Any:
+    """Upload the vertices with their light; the `CastLight` of a light that casts shadows."""
+    found = None
+    if scene.light.shadows and len(drawing.positions):
+        # Imported here: the kernel of ambient occlusion is compiled only for such lights.
+        from drapery.render.soft.shadows import shadow_light
+
+        found = shadow_light(scene.light, scene.size, drawing)
+    if found is None:
+        vertices.upload(drawing.positions, scene.light.brightness(drawing.normals))
+        return None
+    from drapery.render.gl.shadow_map import CastLight
+
+    vertices.upload(drawing.positions, found.bright)
+    vertices.upload_lifted(found.lifted, found.dark)
+    matrix = clip_matrix(found.camera, (found.side, found.side))
+    return CastLight(matrix, found.side, found.spread)
 
 
 def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Triangles:

@@ -16,6 +16,8 @@ from OpenGL import GL
 from pyrender.constants import BufFlags
 from pyrender.shader_program import ShaderProgramCache
 
+from drapery.render.gl.shadow_map import UNIT, CastLight, DepthBuffer
+
 SHADERS = Path(__file__).parent / "shaders"
 
 Float32 = NDArray[np.float32]
@@ -29,18 +31,28 @@ class Vertices:
 
     def __init__(self, uvs: Float32, base_rects: NDArray[np.uint16]) -> None:
         self.values = np.zeros((max(len(uvs), 1), 4), np.float32)
+        # Read only where the light casts shadows.
+        self.lifted = filled(GL.GL_ARRAY_BUFFER, self.values, GL.GL_DYNAMIC_DRAW)
         self.moving = filled(GL.GL_ARRAY_BUFFER, self.values, GL.GL_DYNAMIC_DRAW)
         self.uvs = filled(GL.GL_ARRAY_BUFFER, uvs)
         self.base_rects = filled(GL.GL_ARRAY_BUFFER, base_rects)
 
     def upload(self, positions: Float32, light: Float32) -> None:
-        if len(positions):
-            self.values[:, :3], self.values[:, 3] = positions, light
-        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self.moving)
+        """positions: [m], shape [V, 3]. light: brightness, shape [V]."""
+        self._fill(self.moving, positions, light)
+
+    def upload_lifted(self, lifted: Float32, dark: Float32) -> None:
+        """Where vertices look themselves up in the shadow map, and their brightness in shadow."""
+        self._fill(self.lifted, lifted, dark)
+
+    def _fill(self, buffer: int, places: Float32, factors: Float32) -> None:
+        if len(places):
+            self.values[:, :3], self.values[:, 3] = places, factors
+        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, buffer)
         GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, self.values.nbytes, self.values)
 
     def delete(self) -> None:
-        GL.glDeleteBuffers(3, [self.moving, self.uvs, self.base_rects])
+        GL.glDeleteBuffers(4, [self.moving, self.lifted, self.uvs, self.base_rects])
 
 
 class LayeredPrimitive(pyrender.Primitive):  # type: ignore[misc]
@@ -76,6 +88,7 @@ class LayeredPrimitive(pyrender.Primitive):  # type: ignore[misc]
         whole_attribute(2, 2, rects)
         whole_attribute(3, 2, self.vertices.base_rects)
         whole_attribute(4, 1, tints)
+        attribute(5, 4, self.vertices.lifted)
         self._buffers = [rects, tints, filled(GL.GL_ELEMENT_ARRAY_BUFFER, self.triangles)]
         GL.glBindVertexArray(0)
 
@@ -115,12 +128,15 @@ class LayeredRenderer(pyrender.Renderer):  # type: ignore[misc]
 
     matrix: NDArray[np.float64]
     light_tint: Float32
+    grid: int
+    cast: CastLight | None
     _main_fb: int | None
     _main_fb_dims: tuple[int, int]
 
     def __init__(self) -> None:
         super().__init__(1, 1)
         self._program_cache = ShaderProgramCache(str(SHADERS))
+        self._shadow_map = DepthBuffer()
 
     @property
     def programs(self) -> ShaderProgramCache:
@@ -138,11 +154,52 @@ class LayeredRenderer(pyrender.Renderer):  # type: ignore[misc]
         GL.glEnable(GL.GL_BLEND)
         GL.glBlendFunc(GL.GL_ONE, GL.GL_ONE_MINUS_SRC_ALPHA)
 
+    def _forward_pass(self, scene: Any, flags: int, seg_node_map: Any = None) -> Any:
+        if self.cast is not None:
+            self._draw_shadow_map(scene)
+        return super()._forward_pass(scene, flags, seg_node_map)
+
+    def _draw_shadow_map(self, scene: Any) -> None:
+        """Draw the lowest layer of all solid triangles, which is the first primitive."""
+        assert self.cast is not None
+        primitives = [each for mesh in scene.meshes for each in mesh.primitives if not each.blend]
+        self._shadow_map.bind(self.cast.side)
+        GL.glEnable(GL.GL_DEPTH_TEST)
+        GL.glDepthFunc(GL.GL_LEQUAL)
+        GL.glDisable(GL.GL_CULL_FACE)
+        for primitive in primitives[:1]:
+            program = self._program("flat.vert", "depth.frag", {})
+            program._bind()
+            program.set_uniform("P", self.cast.matrix)
+            self._draw(primitive, program)
+            self._reset_active_textures()
+            program._unbind()
+
+    def _get_primitive_program(self, primitive: Any, flags: int, program_flags: int) -> Any:
+        return self._program("flat.vert", "flat.frag", {"CAST_SHADOWS": 1} if self.cast else {})
+
+    def _program(self, vertex: str, fragment: str, defines: dict[str, int]) -> Any:
+        program = self.programs.get_program(vertex, fragment, defines=defines)
+        if not program._in_context():
+            program._add_to_context()
+        return program
+
     def _bind_and_draw_primitive(self, primitive: Any, pose: Any, program: Any, flags: int) -> None:
+        program.set_uniform("light_tint", self.light_tint)
+        if self.cast is not None:
+            self._shadow_map.bind_texture()
+            program.set_uniform("shadow_map", UNIT)
+            program.set_uniform("light_matrix", self.cast.matrix)
+            program.set_uniform("map_side", float(self.cast.side))
+            program.set_uniform("spread", float(self.cast.spread))
+            program.set_uniform("grid", self.grid)
+            program.set_uniform("height", self.viewport_height)
+        GL.glDepthMask(GL.GL_FALSE if primitive.blend else GL.GL_TRUE)
+        self._draw(primitive, program)
+
+    def _draw(self, primitive: Any, program: Any) -> None:
         primitive._bind()
         self._bind_texture(primitive.material.baseColorTexture, "atlas", program)
-        program.set_uniform("light_tint", self.light_tint)
-        GL.glDepthMask(GL.GL_FALSE if primitive.blend else GL.GL_TRUE)
         GL.glDrawElements(
             GL.GL_TRIANGLES, primitive.triangles.size, GL.GL_UNSIGNED_INT, ctypes.c_void_p(0)
         )

@@ -9,6 +9,13 @@ layout(location = 4) in uint layer_tint;     // a byte each: red, green, blue, b
 
 uniform mat4 P;
 
+#ifdef CAST_SHADOWS
+layout(location = 5) in vec4 lifted_dark; // where it looks itself up in the map [m]; dark brightness
+uniform mat4 light_matrix;                // world to the map's clip space
+uniform float map_side;                   // its samples along one side
+out vec4 receiver;                        // place in the map [samples], depth, dark brightness
+#endif
+
 out vec3 uv_light;
 flat out uvec4 rects; // few values between the shaders: llvmpipe sets up each for every triangle
 flat out uint tint;
@@ -19,4 +26,8 @@ void main()
     uv_light = vec3(sprite_uv, position_light.w);
     rects = uvec4(layer_rect, base_rect);
     tint = layer_tint;
+#ifdef CAST_SHADOWS
+    vec3 seen = (light_matrix * vec4(lifted_dark.xyz, 1.0)).xyz * 0.5 + 0.5;
+    receiver = vec4(seen.xy * map_side, seen.z, lifted_dark.w);
+#endif
 }
