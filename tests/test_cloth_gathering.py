@@ -31,7 +31,7 @@ def test_folds_lie_in_front_and_run_straight_down():
     assert (places[:, :, [0, 2]] == places[:1, :, [0, 2]]).all()
 
 
-@pytest.mark.parametrize("columns, folds", [(2, 0), (5, 0), (11, 2), (16, 3), (129, 3)])
+@pytest.mark.parametrize("columns, folds", [(2, 0), (5, 0), (10, 0), (11, 2), (16, 3), (129, 3)])
 def test_a_fold_needs_five_cells(columns, folds):
     assert fold_count(columns) == folds
 

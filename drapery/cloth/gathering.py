@@ -9,7 +9,7 @@ from drapery.mesh import Array
 
 FOLD_COLUMNS = 5
 """The fewest columns of cells in a fold: with fewer, a fold is a crease."""
-MOST_FOLDS = 3
+LEAST_FOLDS, MOST_FOLDS = 2, 3
 UNEVEN = (0.12, 0.2), (0.08, 0.7)
 """Folds differ in width: how far a wave over the whole edge, and one over half of it, shift them
 [turns], and the phases of these waves [turns]."""
@@ -22,7 +22,8 @@ HALVINGS = 40
 
 def fold_count(columns: int) -> int:
     """How many folds a grid of so many columns of particles can show; 0 for coarse grids."""
-    return min(MOST_FOLDS, (columns - 1) // FOLD_COLUMNS)
+    folds = min(MOST_FOLDS, (columns - 1) // FOLD_COLUMNS)
+    return folds if folds >= LEAST_FOLDS else 0
 
 
 def gathered_state(cloth: Cloth, width: float) -> State:
