@@ -20,7 +20,7 @@ NOT_INSTALLED = ROOT / "assets" / "drawing"
 
 FOUNDATION = {
     *("errors", "mesh", "option", "options", "settings", "yaml_text", "jit", "jit_cache"),
-    *("lazy", "toml_text"),
+    *("lazy", "toml_text", "player_settings"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
@@ -38,6 +38,7 @@ ALLOWED: dict[str, set[str]] = {
     "option": {"errors"},
     "settings": {"errors", "option"},
     "options": {"errors", "option", "settings"},
+    "player_settings": {"option"},
     "yaml_text": {"errors"},
     "toml_text": {"errors"},
     "assets": set(),

@@ -14,6 +14,7 @@ from drapery.errors import OptionError
 from drapery.garments import dressed_player, find_garment, make_wearer, motion_names, tailor
 from drapery.garments.motions import MAX_BYTES, KeyPose, Motion, bone_poses, find_motion
 from drapery.packs import open_packs
+from drapery.player_settings import MOTIONS
 from drapery.scenes import Dressed
 from drapery.scenes.player_motion import player_poses
 from drapery.settings import Settings
@@ -220,6 +221,10 @@ def test_the_blocks_of_the_page_work(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert (tmp_path / "player.png").exists()
 
 
+def test_the_table_of_options_knows_all_motions() -> None:
+    assert sorted(MOTIONS) == sorted(motion_names())
+
+
 def command(*words: object) -> None:
     app([str(word) for word in words], standalone_mode=False)
 
@@ -231,7 +236,9 @@ def test_the_command_draws_a_player(tmp_path: Path) -> None:
     command("player", *own, "-o", tmp_path / "p.png", "--size", "32x32", "--shown", "head")
     with Image.open(tmp_path / "p.png") as picture:
         assert picture.size == (32, 32) and picture.getextrema()[3] == (0, 255)
-    with pytest.raises(OptionError, match=r"look 'up' is not two angles; write it like 30,10"):
+    with pytest.raises(
+        OptionError, match=r"look 'up' is not two angles or a point; write it like 30,10 or"
+    ):
         command("player", "--look", "up", "-o", tmp_path / "p.png")
 
 

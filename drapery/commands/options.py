@@ -3,6 +3,7 @@
 import inspect
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 import typer
@@ -44,7 +45,10 @@ NumberOption = Annotated[
 
 def from_table(name: str) -> Any:
     """A typer option from the table: its flag, help, limits and default."""
-    option = NAMED_OPTIONS.get(name) or LOOP_OPTIONS[name]
+    return _typer_option(NAMED_OPTIONS.get(name) or LOOP_OPTIONS[name])
+
+
+def _typer_option(option: Option) -> Any:
     return typer.Option(
         option.command_flag,
         metavar=option.metavar,
@@ -68,17 +72,21 @@ Command = TypeVar("Command", bound=Callable[..., None])
 _SOURCE = {"design": OptionalDesign, "form": FromOption, "number": NumberOption}
 
 
-def pictured(*without: str) -> Callable[[Command], Command]:
+def pictured(
+    *without: str, more: Mapping[str, Option] = MappingProxyType({})
+) -> Callable[[Command], Command]:
     """Add all options of a picture to a command that takes any keyword, after its own options.
 
     without: options that it does not use. An option that the command declares is not replaced.
+    more: options of another table, which come first.
     """
 
     def extend(command: Command) -> Command:
         own = dict(inspect.signature(command).parameters)
         del own["words"]
         source = {name: _parameter(name, None, kind) for name, kind in _SOURCE.items()}
-        shared = source | {name: _from_option(option) for name, option in NAMED_OPTIONS.items()}
+        table = {**more, **NAMED_OPTIONS}
+        shared = source | {name: _from_option(option) for name, option in table.items()}
         added = {n: p for n, p in shared.items() if n not in own and n not in without}
         every = [p.replace(kind=p.KEYWORD_ONLY) for p in (own | added).values()]
         command.__signature__ = inspect.Signature(every)  # type: ignore[attr-defined]
@@ -97,7 +105,7 @@ def _from_option(option: Option) -> inspect.Parameter:
         kind, default = list[kind], None
     if default is None:
         kind |= None
-    return _parameter(option.name, default, Annotated[kind, from_table(option.name)])
+    return _parameter(option.name, default, Annotated[kind, _typer_option(option)])
 
 
 def _parameter(name: str, default: object, kind: object) -> inspect.Parameter:

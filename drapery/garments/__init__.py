@@ -34,7 +34,8 @@ if TYPE_CHECKING:
         StripPiece,
     )
     from drapery.garments.motions import motion_names
-    from drapery.garments.players import dressed_player, make_wearer
+    from drapery.garments.players import dressed_player, make_wearer, player_of
+    from drapery.player_settings import PlayerSettings
 
 __all__ = [
     "UNUSED_OPTIONS",
@@ -47,6 +48,7 @@ __all__ = [
     "GarmentSeam",
     "GarmentWearer",
     "GridPiece",
+    "PlayerSettings",
     "PolygonPiece",
     "RingPiece",
     "SewnCloth",
@@ -57,6 +59,7 @@ __all__ = [
     "garment_names",
     "make_wearer",
     "motion_names",
+    "player_of",
     "tailor",
 ]
 
@@ -80,7 +83,8 @@ __getattr__, __dir__ = lazy_names(
             "StripPiece",
         ),
         "garments.motions": ("motion_names",),
-        "garments.players": ("dressed_player", "make_wearer"),
+        "garments.players": ("dressed_player", "make_wearer", "player_of"),
+        "player_settings": ("PlayerSettings",),
         "garments.assembly": ("SewnCloth", "SewnPiece", "tailor"),
     },
 )

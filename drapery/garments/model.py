@@ -27,9 +27,11 @@ from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
 from drapery.cloth import FABRICS, Fabric
 from drapery.errors import DraperyError, OptionError
+from drapery.garments.blends import read_blend
 from drapery.garments.loading import load_tables
 from drapery.option import shown
 from drapery.options import unknown_names
+from drapery.player_settings import MAX_SPEED
 from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings
 from drapery.style.equipment import POLES, parse_armor, parse_trim
 from drapery.toml_text import Place
@@ -40,8 +42,6 @@ MAX_PIECES = 64
 """The most pieces, pins, seams, poles and blocks of a garment, each."""
 MAX_PARTICLES = 65
 """The most particles along one side of a piece."""
-MAX_SPEED = 10.0
-"""The fastest walk of a wearer [m/s]."""
 UNUSED_OPTIONS = (
     *("kind", "pose", "placement", "facing", "grid", "fabric", "pins", "contact"),
     *("layers", "pbr", "thickness"),
@@ -517,8 +517,8 @@ class Garment(GarmentTable):
         textures = [each.texture or self.texture for each in self.piece]
         names: list[str | Path] = [each.file for each in textures if each.file is not None]
         if self.wearer is not None:
-            words = (self.wearer.skin, self.wearer.motion)
-            names += [word for word in words if word.lower().endswith((".png", ".json"))]
+            names += [self.wearer.skin] if self.wearer.skin.lower().endswith(".png") else []
+            names += read_blend(self.wearer.motion, self.folder).files
         own = (self.folder / name for name in names)
         return (*dict.fromkeys(own), *(path for each in self.over for path in each.paths))
 

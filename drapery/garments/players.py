@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from drapery.errors import OptionError
-from drapery.garments.catalogue import find_garment
+from drapery.garments.catalogue import ENDING, find_garment
 from drapery.garments.loading import complaint_of
 from drapery.garments.model import (
     ClothTexture,
@@ -16,6 +16,8 @@ from drapery.garments.model import (
     GarmentWearer,
     GridPiece,
 )
+from drapery.option import shown
+from drapery.player_settings import PlayerSettings
 from drapery.style.equipment import BANNER_TEXEL, FLAG_TOP, POLES
 
 PICTURE = {"view": "hero", "wind": 0.5, "direction": 180.0, "gusts": 0.2}
@@ -57,6 +59,33 @@ def dressed_player(
         plain = find_garment("cape").with_texture(cape)
         worn.append(plain)
     return Garment(name="player", piece=(), wearer=wearer, picture=PICTURE, over=tuple(worn))
+
+
+def player_of(settings: PlayerSettings, folder: Path = Path()) -> Garment:
+    """A player with all that it wears. folder: relative paths start here.
+
+    Raises OptionError, and DesignError for designs that cannot be read.
+    """
+    same = ("skin", "arms", "overlay", "motion", "speed", "shown", "head", "shield", "armor")
+    given = {name: getattr(settings, name) for name in (*same, "trim")}
+    wearer = make_wearer(look=_look_of(settings.look), **given)
+    cape = None if settings.cape is None else folder / settings.cape
+    wear = [folder / name if name.endswith(ENDING) else name for name in settings.wear]
+    player = dressed_player(wearer, cape=cape, elytra=settings.elytra, wear=wear)
+    return player.model_copy(update={"folder": folder})
+
+
+def _look_of(text: str) -> tuple[float, ...]:
+    """Two angles [degrees] or a point [m] as numbers. Raises OptionError."""
+    try:
+        numbers = tuple(float(number) for number in text.split(","))
+    except ValueError:
+        numbers = ()
+    if len(numbers) not in (2, 3):
+        raise OptionError(
+            f"look {shown(text)} is not two angles or a point; write it like 30,10 or 1,1.6,3"
+        )
+    return numbers
 
 
 def with_head_banner(garment: Garment) -> Garment:

@@ -13,11 +13,10 @@ from typing import Any
 import numpy as np
 
 from drapery.cloth.colliders import rotation_about
-from drapery.errors import OptionError
+from drapery.garments.blends import read_blend
 from drapery.garments.model import GarmentWearer
 from drapery.garments.motions import KeyPose, Motion, bone_poses, find_motion
 from drapery.mesh import Array
-from drapery.option import shown
 from drapery.scenes.gait import ARM_SHARE, Gait
 from drapery.style.figure import TEXEL, FigurePart, Placed, to_metres
 
@@ -25,8 +24,6 @@ STRIDE = 0.8
 """The period of a stride [s], unless a loop needs a whole number of them."""
 RAMP = 0.5
 """A wearer takes its pose in this time, so that its cloth can follow [s]."""
-MAX_BLENDED = 8
-"""The most motions of a blend."""
 EYES = np.array([0.0, 4 * TEXEL, 0.0])
 """The middle of the head from its joint [m]."""
 
@@ -93,8 +90,9 @@ def _moves(
 ) -> PosesAt:
     if who.motion == "walk":
         return walk(who, loop).poses
-    layers, is_mean = _layers(who, folder, loop)
-    blend = _mean if is_mean else _layered
+    found = read_blend(who.motion, folder)
+    layers = [_layer(name, weight, who, folder, loop) for name, weight in found.parts]
+    blend = _mean if found.is_mean else _layered
     grounded = max(layers, key=lambda layer: layer.weight).grounded
 
     @lru_cache(maxsize=64)
@@ -105,37 +103,6 @@ def _moves(
         return bone_poses(pose, parts, grounded)
 
     return poses
-
-
-def _layers(who: GarmentWearer, folder: Path, loop: float | None) -> tuple[list[MotionLayer], bool]:
-    """The motions of a text, and whether they are a mean."""
-    text = who.motion
-    is_mean = "+" not in text and "," in text
-    names = [name.strip() for name in text.split("," if is_mean else "+")]
-    if len(names) > MAX_BLENDED:
-        raise OptionError(f"motion {shown(text)} blends over {MAX_BLENDED} motions; use fewer")
-    layers = []
-    for each in names:
-        name, weight = _weighted(each) if is_mean else (each, 1.0)
-        layers.append(_layer(name, weight, who, folder, loop))
-    if not sum(layer.weight for layer in layers):
-        raise OptionError(f"motion {shown(text)} has only weights of 0; write walk:0.7,wave:0.3")
-    return layers, is_mean
-
-
-def _weighted(text: str) -> tuple[str, float]:
-    name, colon, number = text.rpartition(":")
-    if not colon:
-        return text, 1.0
-    try:
-        weight = float(number)
-    except ValueError:
-        weight = -1.0
-    if not 0 <= weight <= 1:
-        raise OptionError(
-            f"motion {shown(text)}: its weight is not 0 to 1; write walk:0.7,wave:0.3"
-        )
-    return name, weight
 
 
 def _layer(

@@ -1,0 +1,148 @@
+"""The table of a player's options: the command line, HTTP and manifests are made from it."""
+# ruff: noqa: RUF009 (`_option` returns a dataclass field)
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from types import MappingProxyType
+from typing import Any, Literal, get_args
+
+from drapery.option import Option
+
+ArmsOption = Literal["auto", "classic", "slim"]
+OverlayOption = Literal["flat", "voxels", "none"]
+ShownOption = Literal["full", "bust", "head"]
+
+MAX_SPEED = 10.0
+"""The fastest walk of a wearer [m/s]."""
+MOTIONS = (*("walk", "stand", "run", "sneak", "jump", "glide", "swim", "sit", "wave", "point"),)
+"""The motions of a player, as help lists them; `garments/motions.toml` describes them."""
+
+
+def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
+    return field(default=default, metadata={"help": help, "type": kind, **more})
+
+
+@dataclass(frozen=True)
+class PlayerSettings:
+    """Checked options of a player. Raises OptionError that names the option and its limits.
+
+    `drapery.garments.player_of` makes what is drawn.
+    """
+
+    skin: str = _option(
+        "traveller",
+        str,
+        "Skin: traveller, dancer, or a PNG file, 64 x 64 or 64 x 32 or a multiple",
+        metavar="FILE|NAME",
+        audience="anyone",
+    )
+    arms: ArmsOption = _option(
+        "auto",
+        str,
+        "Arms; auto reads them from the skin",
+        choices=get_args(ArmsOption),
+        audience="anyone",
+    )
+    overlay: OverlayOption = _option(
+        "flat",
+        str,
+        "The skin's second layer: flat, its texels as small boxes, or not at all",
+        choices=get_args(OverlayOption),
+        audience="anyone",
+    )
+    cape: str | None = _option(
+        None,
+        str,
+        "A cape: a PNG file, 64 x 32 or a multiple",
+        default_text="none",
+        metavar="FILE",
+        audience="anyone",
+    )
+    elytra: bool = _option(
+        False, bool, "Wings of cloth, with the texture of the cape", audience="anyone"
+    )
+    wear: tuple[str, ...] = _option(
+        (),
+        str,
+        "Garments by name or TOML file, the innermost first",
+        several=True,
+        metavar="NAME|FILE",
+        audience="anyone",
+    )
+    head: str | None = _option(
+        None,
+        str,
+        "A banner on the head",
+        default_text="none",
+        metavar="DESIGN",
+        audience="anyone",
+    )
+    shield: str | None = _option(
+        None,
+        str,
+        "A shield in the left hand",
+        default_text="none",
+        metavar="DESIGN",
+        audience="anyone",
+    )
+    armor: str | None = _option(
+        None,
+        str,
+        "Armour with textures of the packs: a material, or pieces such as helmet:iron,boots:gold",
+        default_text="none",
+        metavar="MATERIAL",
+        audience="anyone",
+    )
+    trim: str | None = _option(
+        None,
+        str,
+        "Trim of the armour, such as coast:gold",
+        default_text="none",
+        metavar="PATTERN:MATERIAL",
+        audience="anyone",
+    )
+    motion: str = _option(
+        "walk",
+        str,
+        f"{', '.join(MOTIONS)}, a pose in a JSON file, layers such as walk+wave,"
+        " or a mean such as walk:0.7,wave:0.3",
+        metavar="NAME|FILE",
+        audience="anyone",
+    )
+    speed: float = _option(
+        1.5,
+        float,
+        "Speed over the ground",
+        bounds=(0, MAX_SPEED),
+        unit="m/s",
+        audience="anyone",
+    )
+    look: str = _option(
+        "0,0",
+        str,
+        "How many degrees the head turns to its left and down, or the point at which it looks:"
+        " metres to its left, up and ahead",
+        metavar="LEFT,DOWN|X,Y,Z",
+        audience="anyone",
+    )
+    shown: ShownOption = _option(
+        "full", str, "What is shown", choices=get_args(ShownOption), audience="anyone"
+    )
+
+    def __post_init__(self) -> None:
+        for name, option in PLAYER_OPTIONS.items():
+            object.__setattr__(self, name, option.check(getattr(self, name)))
+
+
+PLAYER_OPTIONS: Mapping[str, Option] = MappingProxyType(
+    {f.name: Option(f.name, default=f.default, **f.metadata) for f in fields(PlayerSettings)}
+)
+"""The options of a player by name, in the order in which help lists them."""
+
+
+PlayerSettings.__doc__ = "\n".join(
+    [
+        f"{PlayerSettings.__doc__}\n",
+        *(f"    {name}: {o.describe()}" for name, o in PLAYER_OPTIONS.items()),
+    ]
+)
