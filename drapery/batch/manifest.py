@@ -13,6 +13,7 @@ from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
 from drapery.option import shown
 from drapery.options import check_options, one_line, unknown_names
+from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ ANIMATIONS = ("gif", "apng", "mp4", "webm")
 ENDINGS = (*STILLS, *EITHER, *ANIMATIONS)
 TEXTS = ("design", "garment", "name", "out")
 """The fields of a row that are texts; the others are options."""
+FILE_COLUMNS = ("garment", "skin", "cape", "wear", "motion")
+"""Fields that hold names, or paths of files with a certain ending."""
 MAX_TEXT = 1 << 20
 """The most characters of a text."""
 
@@ -136,12 +139,19 @@ def _from_current_folder(name: str, value: Any) -> Any:
     """Defaults' paths are relative to the current folder, so they are made absolute."""
     if name == "texture":
         return Path(value).absolute()
-    if name == "garment" and str(value).endswith(".toml"):
-        return str(Path(value).absolute())
+    if name in FILE_COLUMNS:
+        several = isinstance(value, list | tuple)
+        parts = value if several else str(value).split(";")
+        found = [str(Path(p).absolute()) if _names_file(str(p)) else p for p in parts]
+        return found if several else ";".join(map(str, found))
     if name in ("pack", "packs"):
         parts = value.split(";") if isinstance(value, str) else value
         return [Path(part).absolute() for part in parts if part]
     return value
+
+
+def _names_file(text: str) -> bool:
+    return text.lower().endswith((".toml", ".png", ".json"))
 
 
 def _request(
@@ -151,7 +161,8 @@ def _request(
     if "pack" in values:
         values["packs"] = values.pop("pack")
     options = {name: values.pop(name) for name in list(values) if name in OPTIONS}
-    known = frozenset((*TEXTS, *LOOP_OPTIONS, *OPTIONS))
+    player = {name: values.pop(name) for name in list(values) if name in PLAYER_OPTIONS}
+    known = frozenset((*TEXTS, *LOOP_OPTIONS, *OPTIONS, *PLAYER_OPTIONS))
     faults = unknown_names(values, known)
     fields = _fields(values, faults)
     settings = check_options(options, folder)
@@ -164,6 +175,11 @@ def _request(
     if fields.garment is not None and not isinstance(settings, list):
         given = {name: getattr(settings, name) for name in options}
         banner, settings = _garment(fields.garment, banner, folder, faults, given)
+    if player and not isinstance(settings, list):
+        if banner is not None:
+            faults.append("a player takes no design or garment; use head, shield or wear")
+        given = {name: getattr(settings, name) for name in options}
+        banner, settings = _player(player, folder, faults, given)
     out = _out(fields, row, number, ending, faults)
     times = _times(out, fields, faults)
     if faults or isinstance(settings, list):
@@ -256,6 +272,32 @@ def _garment(
     except OptionError as error:
         faults.append(one_line(str(error)))
         return None, Settings()
+
+
+def _player(
+    values: Mapping[str, Any], folder: Path, faults: list[str], given: Mapping[str, Any]
+) -> "tuple[Garment | None, Settings]":
+    """A player, and the settings of its picture with the options given."""
+    from drapery.garments import player_of
+
+    chosen: dict[str, Any] = {}
+    for name, value in values.items():
+        try:
+            chosen[name] = PLAYER_OPTIONS[name].parse(value)
+        except OptionError as error:
+            faults.append(one_line(str(error)))
+    if given.get("texture") is not None:
+        faults.append("texture does not apply to a player; use cape")
+    if faults:
+        return None, Settings()
+    try:
+        found = player_of(PlayerSettings(**chosen), folder.absolute())
+        settings = found.settings(**given)
+        found.check_settings(settings)
+    except (DesignError, OptionError) as error:
+        faults.append(one_line(str(error)))
+        return None, Settings()
+    return found, settings
 
 
 @lru_cache(maxsize=1024)
@@ -377,7 +419,7 @@ def _unusable(requests: Iterable[PictureRequest]) -> Iterator[ManifestFault]:
         s, drawn = request.settings, request.banner
         kind: object = getattr(drawn, "kind", None)
         if drawn is not None and not isinstance(drawn, Banner):
-            kind = (drawn.folder, drawn.name)
+            kind = (drawn.folder, drawn.name, drawn.wearer, drawn.paths)
         key = (s.packs, s.format, s.view, s.backend, s.kind, s.placement, s.texture, kind)
         if key not in verdicts:
             verdicts[key] = _verdict(request)

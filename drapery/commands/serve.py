@@ -1,5 +1,6 @@
 """`drapery serve`: pictures of banners over HTTP."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -24,6 +25,14 @@ def run(
     memory: Annotated[int, typer.Option(help="MiB that one picture may take.")] = 1024,
     cache: Annotated[int, typer.Option(help="MiB of pictures that are cached in memory.")] = 64,
     side: Annotated[int, typer.Option(help="The widest and tallest picture in pixels.")] = 1024,
+    skins: Annotated[
+        Path | None,
+        typer.Option(metavar="FOLDER", help="Skins that /player may name: PNG files."),
+    ] = None,
+    capes: Annotated[
+        Path | None,
+        typer.Option(metavar="FOLDER", help="Capes that /player may name: PNG files."),
+    ] = None,
     trusted_proxy: Annotated[
         list[str] | None,
         typer.Option(
@@ -32,7 +41,8 @@ def run(
         ),
     ] = None,
 ) -> None:
-    """Answer /banner.png?design=… and /banner.gif?design=…; /docs lists the parameters."""
+    """Answer /banner.png?design=…, /garment.png?name=… and /player.png?skin=…, and the same with
+    .gif; /docs lists the parameters."""
     import os
 
     from drapery.errors import BackendError
@@ -47,7 +57,7 @@ def run(
         raise BackendError('the service needs an extra; pip install "drapery[serve]"') from None
     from drapery.batch.pool import JobLimits
     from drapery.batch.warmup import warm_up
-    from drapery.serve.request_params import PictureLimits, ServiceConfig
+    from drapery.serve.request_params import PictureLimits, ServiceConfig, pictures_in
 
     count = (os.cpu_count() or 1) if workers is None else workers
     within("port", port, 0, 65535)
@@ -61,11 +71,12 @@ def run(
     proxies = check_proxies(trusted_proxy or ())
     base = Settings(packs=tuple(packs or ()), format=format, size=(min(256, side), min(320, side)))
     open_packs(base.packs, format=format)
+    listed = [{} if folder is None else pictures_in(folder) for folder in (skins, capes)]
     listening = listen(host, port)
     with compile_notice():
         warm_up()
     app = make_app(
-        ServiceConfig(base, PictureLimits(side=side)),
+        ServiceConfig(base, PictureLimits(side=side), *listed),
         workers=count,
         limits=JobLimits(timeout, memory << 20),
         rate=rate,

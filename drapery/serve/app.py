@@ -5,7 +5,7 @@ import logging
 import math
 import shutil
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
 from dataclasses import replace
 from functools import partial
@@ -25,7 +25,8 @@ from drapery.batch.jobs import OUT_OF_MEMORY, Job, JobResult, make_job, run_job
 from drapery.batch.keys import DigestCache, code_version
 from drapery.batch.pool import JobLimits, ProcessPool
 from drapery.batch.stores import LocalStore
-from drapery.errors import OptionError
+from drapery.errors import OptionError, PackError
+from drapery.options import one_line
 from drapery.serve.job_queue import BusyError, JobQueue, Unavailable
 from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import RateLimiter
@@ -37,6 +38,7 @@ from drapery.serve.request_params import (
     parse_query,
     read_request,
 )
+from drapery.serve.uploads import MAX_UPLOAD, SkinUploads
 
 Ending: TypeAlias = Literal[".png", ".gif"]
 MEDIA_TYPES: dict[Ending, str] = {".png": "image/png", ".gif": "image/gif"}
@@ -47,10 +49,12 @@ SUMMARIES: dict[Ending, str] = {
     ".png": "A {} as one picture.",
     ".gif": "A {} in the wind, as a seamless loop.",
 }
+SENT = " The body is its skin, a PNG file."
 CLOSED_REQUEST = 499
 """The status that metrics count for a client that disconnected; it is not sent."""
 REASONS = {
     304: "the picture that If-None-Match names is unchanged",
+    413: "the skin is too large",
     414: "the query is too long",
     422: "the address is wrong; `detail` says why",
     429: "too many requests; Retry-After says when to ask again",
@@ -90,13 +94,16 @@ class PictureService:
         pool: Callable[[], ProcessPool],
         metrics: Metrics,
         rates: RateLimiter,
+        uploads: SkinUploads,
         *,
         cache: int,
         waiting: int,
         deadline: float,
     ) -> None:
-        """Start the workers; see `make_app`. store: where workers write."""
+        """Start the workers; see `make_app`. store: where workers write. uploads: what they read
+        of clients."""
         self.config, self.store, self.metrics, self.rates = config, store, metrics, rates
+        self.uploads = uploads
         self.deadline = deadline
         self.cache = PictureCache(cache)
         self.digests = DigestCache()
@@ -115,8 +122,11 @@ class PictureService:
             query = parse_query(request.scope["query_string"])
         except OptionError as error:
             return _refusal(414, [str(error)])
+        sent = await _body(request) if request.method == "POST" else b""
+        if sent is None:
+            return _refusal(413, [f"the skin has over {MAX_UPLOAD} bytes; make it smaller"])
         # Use a thread, so that a long design does not block other requests.
-        job = await run_in_threadpool(self._job, query, subject, ending)
+        job = await run_in_threadpool(self._job, query, subject, ending, sent)
         if isinstance(job, list):
             return _refusal(422, job)
         headers = {"ETag": f'"{job.key}"', "Cache-Control": CACHE_CONTROL}
@@ -133,10 +143,17 @@ class PictureService:
         return Response(data, media_type=MEDIA_TYPES[ending], headers=headers)
 
     def _job(
-        self, query: list[tuple[str, str]], subject: Subject, ending: Ending
+        self, query: list[tuple[str, str]], subject: Subject, ending: Ending, sent: bytes
     ) -> Job | list[str]:
-        """The job of a query, whose key is its file name, or the errors of the query."""
-        request = read_request(query, ending, self.config, subject)
+        """The job of a query, whose key is its file name, or the errors of the query.
+
+        sent: the skin of a player; empty for none.
+        """
+        try:
+            skin = self.uploads.put(sent) if sent else None
+        except (OptionError, PackError) as error:
+            return [one_line(str(error))]
+        request = read_request(query, ending, self.config, subject, skin)
         if isinstance(request, list):
             return request
         job = make_job(request, self.digests)
@@ -203,11 +220,12 @@ def make_app(
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         with TemporaryDirectory(prefix="drapery-serve-", ignore_cleanup_errors=True) as folder:
             store = LocalStore(Path(folder, "pictures"))
-            own = await run_in_threadpool(_with_own_packs, chosen, Path(folder, "packs"))
+            own = await run_in_threadpool(_with_own_files, chosen, Path(folder, "own"))
             work = partial(run_job, store=store)
             pool = partial(ProcessPool, work, workers, bounds, restarts=WORKER_RESTARTS)
             service = PictureService(
                 *(own, store, pool, metrics, RateLimiter(rate)),
+                SkinUploads(Path(folder, "skins")),
                 cache=cache,
                 waiting=waiting,
                 deadline=deadline,
@@ -220,7 +238,7 @@ def make_app(
 
     app = FastAPI(
         title="Drapery",
-        description="Pictures of Minecraft banners and garments as cloth.",
+        description="Pictures of Minecraft banners, garments and players as cloth.",
         lifespan=lifespan,
     )
     app.add_middleware(CountRequests, metrics=metrics)
@@ -232,11 +250,12 @@ def make_app(
     return app
 
 
-def _with_own_packs(config: ServiceConfig, folder: Path) -> ServiceConfig:
-    """The configuration with private copies of its packs.
+def _with_own_files(config: ServiceConfig, folder: Path) -> ServiceConfig:
+    """The configuration with private copies of its packs, skins and capes.
 
     Without copies, a picture of a pack that was edited meanwhile would have the old ETag.
     """
+    lists = {name: _copied(getattr(config, name), folder / name) for name in ("skins", "capes")}
     packs = []
     for number, pack in enumerate(map(Path, config.base.pack_paths)):
         target = folder / str(number) / pack.name
@@ -247,7 +266,14 @@ def _with_own_packs(config: ServiceConfig, folder: Path) -> ServiceConfig:
         else:
             shutil.copyfile(pack, target)
         packs.append(target)
-    return replace(config, base=replace(config.base, packs=tuple(packs)))
+    return replace(config, base=replace(config.base, packs=tuple(packs)), **lists)
+
+
+def _copied(pictures: Mapping[str, Path], folder: Path) -> dict[str, Path]:
+    folder.mkdir(parents=True)
+    return {
+        name: Path(shutil.copyfile(path, folder / f"{name}.png")) for name, path in pictures.items()
+    }
 
 
 def _add_picture(app: FastAPI, subject: Subject, ending: Ending, config: ServiceConfig) -> None:
@@ -255,16 +281,22 @@ def _add_picture(app: FastAPI, subject: Subject, ending: Ending, config: Service
         service: PictureService = request.app.state.service
         return await service.answer(request, subject, ending)
 
-    app.add_api_route(
-        f"/{subject}{ending}",
-        handler,
-        methods=["GET"],
-        summary=SUMMARIES[ending].format(subject),
-        response_class=Response,
-        operation_id=f"{subject}_{ending[1:]}",
-        responses=_responses(MEDIA_TYPES[ending]),
-        openapi_extra={"parameters": parameters(ending == ".gif", config.limits, subject)},
-    )
+    described = parameters(ending == ".gif", config.limits, subject)
+    for method in ("GET", "POST") if subject == "player" else ("GET",):
+        extra: dict[str, Any] = {"parameters": described}
+        if method == "POST":
+            skin = {"schema": {"type": "string", "format": "binary"}}
+            extra["requestBody"] = {"content": {"image/png": skin}, "required": True}
+        app.add_api_route(
+            f"/{subject}{ending}",
+            handler,
+            methods=[method],
+            summary=SUMMARIES[ending].format(subject) + SENT * (method == "POST"),
+            response_class=Response,
+            operation_id=f"{subject}_{ending[1:]}" + "_sent" * (method == "POST"),
+            responses=_responses(MEDIA_TYPES[ending]),
+            openapi_extra=extra,
+        )
 
 
 def _responses(kind: str) -> dict[int | str, dict[str, Any]]:
@@ -340,6 +372,16 @@ class CountRequests:
             await send(message)
 
         await self.app(scope, receive, count)
+
+
+async def _body(request: Request) -> bytes | None:
+    """What a client sends, or None if that is too much."""
+    data = bytearray()
+    async for part in request.stream():
+        data += part
+        if len(data) > MAX_UPLOAD:
+            return None
+    return bytes(data)
 
 
 async def _disconnected(request: Request) -> None:

@@ -1,6 +1,7 @@
 """Converts the parameters of an address to a checked request, or to a list of their errors."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -10,6 +11,7 @@ from drapery.batch.manifest import PictureRequest
 from drapery.errors import DraperyError, OptionError
 from drapery.option import Option, shown, within
 from drapery.options import check_options, one_line, unknown
+from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 from drapery.styles import combined_style
 
@@ -17,11 +19,12 @@ if TYPE_CHECKING:
     from drapery import Banner
     from drapery.garments import Garment
 
-Subject: TypeAlias = Literal["banner", "garment"]
+Subject: TypeAlias = Literal["banner", "garment", "player"]
 """What an address shows."""
 SUBJECTS: dict[Subject, dict[str, bool]] = {
     "banner": {"design": True},
     "garment": {"name": True, "design": False},
+    "player": {},
 }
 """The texts that the address of each subject takes, and whether it needs them."""
 PUBLIC_OPTIONS = tuple(name for name, option in OPTIONS.items() if option.public)
@@ -43,7 +46,8 @@ class PictureLimits:
     """Limits of one picture.
 
     side [pixels], pixels of all frames, seconds and fps of a loop, particles along a side of the
-    cloth, simulated time before the picture [s], max_length of a design [characters].
+    cloth, simulated time before the picture [s], max_length of a design [characters],
+    garments that a player wears.
     """
 
     side: int = 1024
@@ -53,22 +57,50 @@ class PictureLimits:
     particles: int = 33
     time: float = 60.0
     max_length: int = 8000
+    garments: int = 4
 
 
 @dataclass(frozen=True)
 class ServiceConfig:
-    """What the service draws with. base: its packs and the pack format for reading them."""
+    """What the service draws with.
+
+    base: its packs and the pack format for reading them. skins, capes: PNG files by the names that
+    addresses give them.
+    """
 
     base: Settings = field(default_factory=lambda: Settings(size=(256, 320)))
     limits: PictureLimits = field(default_factory=PictureLimits)
+    skins: Mapping[str, Path] = field(default_factory=dict)
+    capes: Mapping[str, Path] = field(default_factory=dict)
+
+
+def pictures_in(folder: Path) -> dict[str, Path]:
+    """The PNG files of a folder by name, without their ending.
+
+    Raises OptionError for a folder that cannot be read, and for a name that no address can give.
+    """
+    try:
+        found = {path.stem: path for path in sorted(folder.iterdir()) if path.suffix == ".png"}
+    except OSError as error:
+        raise OptionError(f"{folder} cannot be read: {error.strerror}; check the path") from None
+    for name, path in found.items():
+        if not re.fullmatch(r"[A-Za-z0-9_-]{1,64}", name):
+            raise OptionError(f"{path}: use letters, digits, - and _ in its name, 64 at most")
+    return found
 
 
 def options_of(subject: Subject) -> tuple[str, ...]:
     """The options that the address of a subject takes."""
     from drapery.garments import UNUSED_OPTIONS
 
-    left_out = UNUSED_OPTIONS if subject == "garment" else ()
+    left_out = () if subject == "banner" else UNUSED_OPTIONS
     return tuple(name for name in PUBLIC_OPTIONS if name not in left_out)
+
+
+def _player_options(subject: Subject) -> tuple[str, ...]:
+    """The options of a player that the address of a subject takes."""
+    public = (name for name, option in PLAYER_OPTIONS.items() if option.public)
+    return tuple(public) if subject == "player" else ()
 
 
 def parameters(
@@ -80,6 +112,7 @@ def parameters(
     length = {"minLength": 1, "maxLength": limits.max_length}
     texts = {"design": {"type": "string", **length}, "name": {"enum": [*garment_names()]}}
     schemas: dict[str, dict[str, Any]] = {name: texts[name] for name in SUBJECTS[subject]}
+    schemas |= {name: _schema(PLAYER_OPTIONS[name]) for name in _player_options(subject)}
     schemas |= {name: _schema(OPTIONS[name]) for name in options_of(subject)}
     schemas["time"]["maximum"] = limits.time
     if animated:
@@ -128,10 +161,12 @@ def read_request(
     ending: str,
     config: ServiceConfig,
     subject: Subject = "banner",
+    skin: Path | None = None,
 ) -> PictureRequest | list[str]:
     """The request of a query, or the errors in the query, one line each.
 
     query: names and values from the address. ending: `.png` or `.gif`. subject: what it shows.
+    skin: a file that the client sent, for a player.
     """
     faults = _faults(query, ending, subject)
     values = dict(query)
@@ -146,8 +181,11 @@ def read_request(
     chosen = {n: getattr(settings, n) for n in PUBLIC_OPTIONS if n in values}
     try:
         combined_style(settings.style)
-        if subject == "garment":
-            garment = _garment(values, config.limits)
+        if subject != "banner":
+            is_player = subject == "player"
+            garment = (
+                _player(values, config, skin) if is_player else _garment(values, config.limits)
+            )
             settings = replace(config.base, **{**garment.picture, **chosen})
             return _request(values, garment, settings, ending, config.limits)
         settings, banner = replace(config.base, **chosen), _banner(values, config.limits)
@@ -160,7 +198,7 @@ def read_request(
 def _faults(query: Sequence[tuple[str, str]], ending: str, subject: Subject) -> list[str]:
     """The errors in the names of a query."""
     loop = tuple(LOOP_OPTIONS) if ending == ".gif" else ()
-    known = frozenset({*SUBJECTS[subject], *options_of(subject), *loop})
+    known = frozenset({*SUBJECTS[subject], *_player_options(subject), *options_of(subject), *loop})
     names = [name for name, _ in query]
     strange = [name for name in dict.fromkeys(names) if name not in known]
     twice = sorted({name for name in names if name in known and names.count(name) > 1})
@@ -199,6 +237,43 @@ def _garment(values: dict[str, str], limits: PictureLimits) -> "Garment":
         raise OptionError(f"{what}; use one of: {', '.join(garment_names())}")
     found = find_garment(name)
     return found.with_design(_banner(values, limits)) if "design" in values else found
+
+
+def _player(values: dict[str, str], config: ServiceConfig, skin: Path | None) -> "Garment":
+    """The player of an address. skin: a file that the client sent."""
+    from drapery.garments import garment_names, player_of
+    from drapery.style.figure import SKINS
+
+    given = {name: values[name] for name in PLAYER_OPTIONS if name in values}
+    for name in ("head", "shield"):
+        if len(given.get(name, "")) > config.limits.max_length:
+            raise OptionError(f"{name} has over {config.limits.max_length} characters")
+    chosen = {name: PLAYER_OPTIONS[name].parse(value) for name, value in given.items()}
+    # A client's text must not name a file, which `player_of` would open.
+    if ".json" in chosen.get("motion", "").lower():
+        raise OptionError("motion names a file, which an address cannot; use the name of a motion")
+    worn = chosen.get("wear", ())
+    within("wear", len(worn), 0, config.limits.garments, "garments")
+    for name in worn:
+        _known("wear", name, garment_names())
+    if skin is not None and "skin" in chosen:
+        raise OptionError("skin is in the address and in the body; leave one out")
+    if skin is not None:
+        chosen["skin"] = str(skin)
+    elif "skin" in chosen and chosen["skin"] not in SKINS:
+        _known("skin", chosen["skin"], (*SKINS, *config.skins))
+        chosen["skin"] = str(config.skins[chosen["skin"]])
+    if "cape" in chosen:
+        _known("cape", chosen["cape"], tuple(config.capes))
+        chosen["cape"] = str(config.capes[chosen["cape"]])
+    return player_of(PlayerSettings(**chosen))
+
+
+def _known(option: str, name: str, names: Sequence[str]) -> None:
+    if name not in names:
+        listed = ", ".join([*names[:MAX_REASONS], *["..."] * (len(names) > MAX_REASONS)])
+        remedy = f"use one of: {listed}" if names else "the service has none; leave it out"
+        raise OptionError(f"{option} {shown(name)} is not known; {remedy}")
 
 
 def _request(

@@ -1,0 +1,52 @@
+"""Skins that clients send, as files that the workers read."""
+
+import hashlib
+from collections import OrderedDict
+from pathlib import Path
+from threading import Lock
+
+from drapery.banner.packs.png_file import read_png_file
+from drapery.errors import OptionError
+from drapery.style.skins import read_skin
+
+MAX_UPLOAD = 1 << 20
+"""The most bytes of a skin."""
+MAX_SIDE = 512
+"""The widest skin [px]."""
+KEPT = 512
+"""So many skins are on the disk; a picture of one that has left must be asked for again."""
+
+
+class SkinUploads:
+    """A folder of the last skins that clients sent, named after their bytes."""
+
+    def __init__(self, folder: Path, kept: int = KEPT) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        self._folder, self._kept, self._lock = folder, kept, Lock()
+        self._known: OrderedDict[str, Path] = OrderedDict()
+
+    def put(self, data: bytes) -> Path:
+        """The file of a skin. Raises OptionError or PackError for what is not a skin."""
+        name = hashlib.sha256(data).hexdigest()
+        with self._lock:
+            if name in self._known:
+                self._known.move_to_end(name)
+                return self._known[name]
+            path = self._folder / f"{name}.png"
+            path.write_bytes(data)
+            try:
+                _check(path)
+            except Exception:
+                path.unlink()
+                raise
+            self._known[name] = path
+            while len(self._known) > self._kept:
+                self._known.popitem(last=False)[1].unlink(missing_ok=True)
+            return path
+
+
+def _check(path: Path) -> None:
+    texels = read_png_file(path, "skin")
+    if texels.shape[1] > MAX_SIDE:
+        raise OptionError(f"skin is {texels.shape[1]} px wide; use at most {MAX_SIDE} px")
+    read_skin(texels)
