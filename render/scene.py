@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.mesh import Mesh
+from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, Light
 
@@ -58,6 +58,37 @@ class Model:
     mesh: Mesh
     materials: tuple[Material, ...]
     material_index: NDArray[np.int32] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """Stiff parts on bones: what is the same in all poses.
+
+    bones: their names. joints: about which they turn, at rest [m], shape [B, 3].
+    member: the bone of each vertex, shape [V], int32. rest: the mesh before bones move it.
+    """
+
+    bones: tuple[str, ...]
+    joints: Array
+    member: NDArray[np.int32]
+    rest: Mesh
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PosedBones:
+    """Where the bones of a rig are: a vertex x at rest is at rotation x + place.
+
+    places: [m], shape [B, 3]. rotations: shape [B, 3, 3].
+    """
+
+    rig: Rig
+    places: Array
+    rotations: Array
+
+
+@dataclass(frozen=True, eq=False)
+class RiggedModel(Model, PosedBones):
+    """A model of stiff parts on bones, from which 3-D files get a skeleton."""
 
 
 @dataclass(frozen=True, eq=False)

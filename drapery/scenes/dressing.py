@@ -19,7 +19,7 @@ from drapery.garments.assembly import SewnCloth, tailor
 from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
-from drapery.render.scene import Model, Scene
+from drapery.render.scene import Model, RiggedModel, Scene
 from drapery.scenes.moving import in_wind
 from drapery.scenes.stager import (
     FADE,
@@ -34,10 +34,12 @@ from drapery.scenes.stager import (
 from drapery.scenes.styling import moved_by_style, tailored
 from drapery.scenes.wearers import Wearer, wearer_of
 from drapery.settings import Settings
+from drapery.style.block import turn_matrix
 from drapery.style.block_world import Cell, blocks
 from drapery.style.board import moved
 from drapery.style.body import Body, Part
 from drapery.style.ground import ground_of
+from drapery.style.rig import moved_rig
 from drapery.style.scenery import pole, pole_frame
 
 WORN_STEP = STEP / 2
@@ -256,8 +258,11 @@ class Dressed:
         return self.wearer.models(time, BUST if who.shown == "bust" else self._bones)
 
     def _placed(self, stager: Stager, model: Model) -> Model:
-        placed = _shifted(model, MIDDLE)
-        return replace(placed, mesh=stager.turned(placed.mesh))
+        mesh = stager.turned(moved(model.mesh, MIDDLE))
+        if isinstance(model, RiggedModel):
+            # A picture is turned about MIDDLE.
+            return moved_rig(model, mesh, turn_matrix(self.settings.turned), MIDDLE)
+        return replace(model, mesh=mesh)
 
     def _ground(self) -> tuple[Part, ...]:
         """Blocks below a garment and its poles; none where the garment has its own."""

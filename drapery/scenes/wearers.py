@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache, cached_property
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +15,9 @@ from drapery.errors import OptionError
 from drapery.garments.model import Garment, GarmentWearer
 from drapery.garments.textures import read_texture
 from drapery.mesh import Mesh
-from drapery.render.scene import Material, Model, TextureLayer
+from drapery.render.scene import Material, Model, Rig, TextureLayer
 from drapery.scenes.player_motion import Poses, player_poses, walk
-from drapery.style.boxes import box_mesh, join, upright
+from drapery.style.boxes import box_mesh, upright
 from drapery.style.equipment import (
     Equipment,
     armor_growth,
@@ -25,8 +26,9 @@ from drapery.style.equipment import (
     pole_solids,
     shield_in_hand,
 )
-from drapery.style.figure import SKINS, TEXEL, FigurePart, posed
+from drapery.style.figure import SKINS, TEXEL, FigurePart
 from drapery.style.horse import HORSE_BOXES, HORSE_PARTS, SHEET
+from drapery.style.rig import make_rig, rigged_model
 from drapery.style.skins import Skin, read_skin
 
 Draw = Callable[[Poses, tuple[str, ...] | None], tuple[Model, ...]]
@@ -48,11 +50,15 @@ class Wearer:
         """The figure at a time [s], at the origin. bones: those that are drawn; None for all."""
         poses = self.poses(time)
         held = (
-            Model(each.posed(poses[each.bone]), (each.material,))
-            for each in self.equipment
+            rigged_model(self._held[number], poses, each.material)
+            for number, each in enumerate(self.equipment)
             if bones is None or each.bone in bones
         )
         return (*self.draw(poses, bones), *held)
+
+    @cached_property
+    def _held(self) -> list[Rig]:
+        return [make_rig([(each.bone, each.mesh)], self.parts) for each in self.equipment]
 
     def colliders(self, bones: tuple[str, ...] | None = None) -> tuple[Collider, ...]:
         """The parts of some bones, or of all, as moving boxes with their armour.
@@ -93,8 +99,10 @@ def wearer_of(garment: Garment, packs: Packs, period: float | None = None) -> We
     material = Material((TextureLayer(skin.texels),), "cutout")
     poses = player_poses(who, garment.folder, skin.parts, period)
 
+    rig = cache(skin.rig)
+
     def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
-        return (Model(skin.mesh(poses, bones), (material,)),)
+        return (rigged_model(rig(bones), poses, material),)
 
     growth = {} if who.armor is None else armor_growth(who.armor)
     return Wearer(skin.parts, poses, draw, _equipment(who, packs, skin.parts), growth)
@@ -134,15 +142,15 @@ def _horse(packs: Packs) -> Draw:
         rest[each.dye].append((each.bone, upright(box_mesh(each.box, SHEET), TEXEL, (0, 0, 0))))
     materials = {dye: Material((TextureLayer(coat, DYES[dye].rgb),)) for dye in dyes}
 
-    def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
+    @cache
+    def rigs(bones: tuple[str, ...] | None) -> dict[str, Rig]:
         shown = {
             dye: [(bone, mesh) for bone, mesh in rest[dye] if bones is None or bone in bones]
             for dye in dyes
         }
-        return tuple(
-            Model(join([posed(mesh, poses[bone]) for bone, mesh in parts]), (materials[dye],))
-            for dye, parts in shown.items()
-            if parts
-        )
+        return {dye: make_rig(parts, HORSE_PARTS) for dye, parts in shown.items() if parts}
+
+    def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
+        return tuple(rigged_model(rig, poses, materials[dye]) for dye, rig in rigs(bones).items())
 
     return draw

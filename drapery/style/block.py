@@ -58,15 +58,20 @@ def turn(mesh: Mesh, degrees: float) -> Mesh:
     mesh: positions and normals, each [..., V, 3]. degrees: clockwise as seen from above, so +z
         (south) turns towards -x (west), as the game's rotations and facings do.
     """
-    angle = np.radians(-degrees)
-    cos, sin = np.cos(angle), np.sin(angle)
-    matrix = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
+    matrix = turn_matrix(degrees)
     centre = np.array(_ORIGIN)
     # einsum adds in a fixed order; BLAS may not.
     positions = np.einsum("ij,...j->...i", matrix, mesh.positions - centre) + centre
     return Mesh(
         positions, np.einsum("ij,...j->...i", matrix, mesh.normals), mesh.triangles, mesh.uvs
     )
+
+
+def turn_matrix(degrees: float) -> Array:
+    """The rotation of `turn`, shape [3, 3]."""
+    angle = np.radians(-degrees)
+    cos, sin = np.cos(angle), np.sin(angle)
+    return np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
 
 
 def flag_origin(placement: Placement) -> Array:

@@ -20,7 +20,7 @@ from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
 from drapery.style.block import solids, wood
 from drapery.style.boxes import ModelBox, box_mesh, upright
-from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed, posed
+from drapery.style.figure import PARTS, TEXEL, FigurePart
 from drapery.style.kinds.shield import HANDLE, PLATE
 from drapery.style.layers import handle_material_at, plate_material_at, wood_material
 
@@ -60,10 +60,6 @@ class Equipment:
     bone: str
     mesh: Mesh
     material: Material
-
-    def posed(self, pose: Placed) -> Mesh:
-        """The mesh where the bone is."""
-        return posed(self.mesh, pose)
 
 
 def banner_pole(packs: Packs) -> Equipment:

@@ -88,7 +88,7 @@ def _all_walls(
     return [_walls(box, places[alone], *rest)]
 
 
-def _borders(side: Side, shown: Visible) -> list[tuple[Array, Array, Array]]:
+def _borders(side: Side, shown: Visible) -> list[tuple[Array, NDArray[np.intp], Array]]:
     """Where visible texels of a side end: both ends of each border in fractions of the box, shape
     [N, 2, 3], the column and row of its texel, shape [N, 2], and the direction it faces [3]."""
     start, right, down = (np.array(each, np.float64) for each in side[:3])
@@ -103,7 +103,8 @@ def _borders(side: Side, shown: Visible) -> list[tuple[Array, Array, Array]]:
                 start + share * along + (rows + n)[:, None] / len(cells) * across for n in (0, 1)
             ]
             texel = np.stack([columns, rows] if along is right else [rows, columns], axis=-1)
-            found.append((np.stack(ends, axis=1), texel, sign * along * REVERSED))
+            facing: Array = sign * along * REVERSED
+            found.append((np.stack(ends, axis=1), texel, facing))
     return found
 
 

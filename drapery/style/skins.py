@@ -14,8 +14,10 @@ import numpy as np
 from drapery.banner.packs.png import Texels
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
+from drapery.render.scene import Rig
 from drapery.style.boxes import ModelBox, box_mesh, join, upright
 from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed, posed
+from drapery.style.rig import make_rig
 from drapery.style.skin_layer import layer_meshes
 
 Arms = Literal["classic", "slim"]
@@ -63,8 +65,14 @@ class Skin:
 
     def mesh(self, poses: Mapping[str, Placed], bones: tuple[str, ...] | None = None) -> Mesh:
         """Both layers, each part in its pose. bones: those that are drawn; all unless given."""
-        drawn = [(n, m) for n, m in self._rest if bones is None or n in bones]
-        return join([posed(mesh, poses.get(name)) for name, mesh in drawn])
+        return join([posed(mesh, poses.get(name)) for name, mesh in self._drawn(bones)])
+
+    def rig(self, bones: tuple[str, ...] | None = None) -> Rig:
+        """Both layers on their bones. bones: those that are drawn; all unless given."""
+        return make_rig(self._drawn(bones), self.parts)
+
+    def _drawn(self, bones: tuple[str, ...] | None) -> list[tuple[str, Mesh]]:
+        return [(n, m) for n, m in self._rest if bones is None or n in bones]
 
     @cached_property
     def _rest(self) -> tuple[tuple[str, Mesh], ...]:

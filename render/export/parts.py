@@ -3,18 +3,18 @@
 A 3-D file has one texture for a surface, so the layers are composited first.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.errors import OptionError
-from drapery.mesh import Triangles
+from drapery.mesh import Array, Triangles
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
 from drapery.render.flatten import composite_layers
 from drapery.render.materials import ALPHA_CODES, MaterialTables
-from drapery.render.scene import Alpha, Scene, Texels
+from drapery.render.scene import Alpha, RiggedModel, Scene, Texels
 
 MAX_NUMBERS = 1 << 27
 """The most coordinates of a 3-D file's frames; half a GiB."""
@@ -26,6 +26,7 @@ class MeshPart:
 
     positions, normals: [m], shape [F, V, 3]; F is 1 if the part does not move.
     triangles: shape [T, 3]. uvs: fractions of the atlas, v downwards, shape [V, 2].
+    skin: the bones that move it; None for meshes without bones.
     """
 
     name: str
@@ -35,6 +36,25 @@ class MeshPart:
     uvs: Float32
     alpha: Alpha
     lit: bool
+    skin: "MeshSkin | None" = None
+
+
+@dataclass(frozen=True, eq=False)
+class MeshSkin:
+    """The bones of a part. member: of each vertex, shape [V], int32.
+
+    bones: their names. joints: at rest [m], shape [B, 3]. positions, normals: of the part before
+    bones move it, shape [V, 3]. places, rotations: of the bones in each frame, shape [F, B, 3] and
+    [F, B, 3, 3]: a vertex x at rest is at rotation x + place.
+    """
+
+    bones: tuple[str, ...]
+    joints: Array
+    member: NDArray[np.int32]
+    positions: Float32
+    normals: Float32
+    places: Array
+    rotations: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +73,11 @@ def take_apart(scenes: Iterable[Scene]) -> MeshParts:
     """
     first: DrawList | None = None
     positions, normals = [], []
+    rigged: dict[int, list[RiggedModel]] = {}
     for number, scene in enumerate(scenes):
+        for place, model in enumerate(scene.models):
+            if isinstance(model, RiggedModel):
+                rigged.setdefault(place, []).append(model)
         drawing = draw_list(scene.models)
         first = first or drawing
         if not _same(first.topology, drawing.topology):
@@ -70,7 +94,7 @@ def take_apart(scenes: Iterable[Scene]) -> MeshParts:
     moments = np.stack(positions), np.stack(normals)
     if not all(np.isfinite(values).all() for values in moments):
         raise OptionError("the meshes have positions or normals that are not finite numbers")
-    return _parts(first.topology, *moments)
+    return _parts(first.topology, *moments, rigged)
 
 
 def _same(one: Topology, other: Topology) -> bool:
@@ -80,7 +104,12 @@ def _same(one: Topology, other: Topology) -> bool:
     )
 
 
-def _parts(topology: Topology, positions: Float32, normals: Float32) -> MeshParts:
+def _parts(
+    topology: Topology,
+    positions: Float32,
+    normals: Float32,
+    rigged: Mapping[int, Sequence[RiggedModel]],
+) -> MeshParts:
     material_tables = composite_layers(topology.material_tables)
     if (material_tables.material_layers[:, 1] > 1).any():
         raise OptionError(
@@ -99,8 +128,26 @@ def _parts(topology: Topology, positions: Float32, normals: Float32) -> MeshPart
                 chosen = topology.triangles[inside & alike[topology.triangle_material]]
                 if len(chosen):
                     name = _name(number, alpha, lit)
-                    parts.append(_part(name, positions, normals, chosen, uvs, alpha, lit))
+                    part = _part(name, positions, normals, chosen, uvs, alpha, lit)
+                    if number in rigged:
+                        used = np.unique(chosen) - start
+                        part = replace(part, skin=_skin(rigged[number], used))
+                    parts.append(part)
     return MeshParts(tuple(parts), material_tables.atlas, len(positions))
+
+
+def _skin(models: Sequence[RiggedModel], used: NDArray[np.int64]) -> MeshSkin:
+    """The bones of the vertices that a part uses, of a model in all frames."""
+    rig = models[0].rig
+    return MeshSkin(
+        rig.bones,
+        rig.joints,
+        rig.member[used],
+        rig.rest.positions[used].astype(np.float32),
+        rig.rest.normals[used].astype(np.float32),
+        np.stack([model.places for model in models]),
+        np.stack([model.rotations for model in models]),
+    )
 
 
 def _name(number: int, alpha: Alpha, lit: bool) -> str:

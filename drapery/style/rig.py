@@ -1,0 +1,44 @@
+"""Stiff parts on bones, as one model whose constant part is shared by all of its poses."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from drapery.mesh import Array, Mesh
+from drapery.render.scene import Material, Rig, RiggedModel
+from drapery.style.boxes import join
+from drapery.style.figure import FigurePart, Placed
+
+
+def make_rig(parts: Sequence[tuple[str, Mesh]], figure: Mapping[str, FigurePart]) -> Rig:
+    """The rig of meshes at rest, each on a bone. figure: the joints of all bones."""
+    bones = tuple(dict.fromkeys(bone for bone, _ in parts))
+    count = [len(mesh.uvs) for _, mesh in parts]
+    member = np.repeat([bones.index(bone) for bone, _ in parts], count).astype(np.int32)
+    joints = np.array([figure[bone].pivot for bone in bones])
+    return Rig(bones, joints, member, join([mesh for _, mesh in parts]))
+
+
+def rigged_model(rig: Rig, poses: Mapping[str, Placed], material: Material) -> RiggedModel:
+    """The rig in poses of its bones."""
+    placed = [poses[bone] for bone in rig.bones]
+    places, rotations = (np.array([pose[part] for pose in placed]) for part in (0, 1))
+    positions, normals = np.empty_like(rig.rest.positions), np.empty_like(rig.rest.normals)
+    for number, (place, rotation) in enumerate(placed):
+        own = rig.member == number
+        # einsum adds in a fixed order; BLAS may not.
+        positions[own] = np.einsum("ij,vj->vi", rotation, rig.rest.positions[own]) + place
+        normals[own] = np.einsum("ij,vj->vi", rotation, rig.rest.normals[own])
+    mesh = Mesh(positions, normals, rig.rest.triangles, rig.rest.uvs)
+    return RiggedModel(mesh, (material,), rig=rig, places=places, rotations=rotations)
+
+
+def moved_rig(model: RiggedModel, mesh: Mesh, rotation: Array, place: Array) -> RiggedModel:
+    """A model that is turned, then moved, as a whole. mesh: its mesh there."""
+    return replace(
+        model,
+        mesh=mesh,
+        places=np.einsum("ij,bj->bi", rotation, model.places) + place,
+        rotations=np.einsum("ij,bjk->bik", rotation, model.rotations),
+    )
