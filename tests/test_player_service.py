@@ -69,7 +69,7 @@ def test_bodies_that_are_not_skins_are_refused(client: TestClient) -> None:
     large = client.post("/player.png", content=b"x" * (MAX_UPLOAD + 1))
     assert large.status_code == 413 and "make it smaller" in large.text
     wide = np.zeros((1024, 1024, 4), np.uint8)
-    for body in (b"GIF89a", png(marked()[:, :48]), png(wide)):
+    for body in (b"", b"GIF89a", png(marked()[:, :48]), png(wide)):
         got = client.post("/player.png", content=body)
         assert got.status_code == 422 and len(got.json()["detail"]) == 1, got.text
         assert "/" not in got.json()["detail"][0].replace("512 px", "")

@@ -54,6 +54,7 @@ CLOSED_REQUEST = 499
 """The status that metrics count for a client that disconnected; it is not sent."""
 REASONS = {
     304: "the picture that If-None-Match names is unchanged",
+    408: "the skin did not arrive in time",
     413: "the skin is too large",
     414: "the query is too long",
     422: "the address is wrong; `detail` says why",
@@ -122,9 +123,12 @@ class PictureService:
             query = parse_query(request.scope["query_string"])
         except OptionError as error:
             return _refusal(414, [str(error)])
-        sent = await _body(request) if request.method == "POST" else b""
-        if sent is None:
-            return _refusal(413, [f"the skin has over {MAX_UPLOAD} bytes; make it smaller"])
+        sent = b""
+        if request.method == "POST":
+            body = await self._body(request, end)
+            if isinstance(body, Response):
+                return body
+            sent = body
         # Use a thread, so that a long design does not block other requests.
         job = await run_in_threadpool(self._job, query, subject, ending, sent)
         if isinstance(job, list):
@@ -141,6 +145,18 @@ class PictureService:
         else:
             self.metrics.cache_hits.inc()
         return Response(data, media_type=MEDIA_TYPES[ending], headers=headers)
+
+    async def _body(self, request: Request, end: float) -> bytes | Response:
+        """What a client sends until a time, or why it is refused."""
+        try:
+            body = await asyncio.wait_for(_read_body(request), end - time.monotonic())
+        except TimeoutError:
+            return _refusal(
+                408, [f"the skin did not arrive within {self.deadline:g} s; send again"]
+            )
+        if body is None:
+            return _refusal(413, [f"the skin has over {MAX_UPLOAD} bytes; make it smaller"])
+        return body or _refusal(422, ["the body is empty; send the PNG file of a skin"])
 
     def _job(
         self, query: list[tuple[str, str]], subject: Subject, ending: Ending, sent: bytes
@@ -374,7 +390,7 @@ class CountRequests:
         await self.app(scope, receive, count)
 
 
-async def _body(request: Request) -> bytes | None:
+async def _read_body(request: Request) -> bytes | None:
     """What a client sends, or None if that is too much."""
     data = bytearray()
     async for part in request.stream():
