@@ -171,10 +171,11 @@ def _request(
         settings = _with_styles(settings)
     if isinstance(settings, list):
         faults += settings
-    banner: Banner | Garment | None = row.banner or _design(fields.design, folder, faults)
+    design = row.banner or _design(fields.design, folder, faults)
+    banner: Banner | Garment | None = design
     if fields.garment is not None and not isinstance(settings, list):
         given = {name: getattr(settings, name) for name in options}
-        banner, settings = _garment(fields.garment, banner, folder, faults, given)
+        banner, settings = _garment(fields.garment, design, folder, faults, given)
     if player and not isinstance(settings, list):
         if banner is not None:
             faults.append("a player takes no design or garment; use head, shield or wear")

@@ -188,4 +188,5 @@ def _head(poses: Poses, parts: Mapping[str, FigurePart], rotation: Array) -> Pla
 
 
 def _unit(vector: Array) -> Array:
-    return vector / np.sqrt((vector * vector).sum())
+    unit: Array = vector / np.sqrt((vector * vector).sum())
+    return unit

@@ -271,7 +271,10 @@ def _with_own_files(config: ServiceConfig, folder: Path) -> ServiceConfig:
 
     Without copies, a picture of a pack that was edited meanwhile would have the old ETag.
     """
-    lists = {name: _copied(getattr(config, name), folder / name) for name in ("skins", "capes")}
+    skins, capes = (
+        _copied(listed, folder / name)
+        for name, listed in (("skins", config.skins), ("capes", config.capes))
+    )
     packs = []
     for number, pack in enumerate(map(Path, config.base.pack_paths)):
         target = folder / str(number) / pack.name
@@ -282,7 +285,7 @@ def _with_own_files(config: ServiceConfig, folder: Path) -> ServiceConfig:
         else:
             shutil.copyfile(pack, target)
         packs.append(target)
-    return replace(config, base=replace(config.base, packs=tuple(packs)), **lists)
+    return replace(config, base=replace(config.base, packs=tuple(packs)), skins=skins, capes=capes)
 
 
 def _copied(pictures: Mapping[str, Path], folder: Path) -> dict[str, Path]:

@@ -110,7 +110,10 @@ def parameters(
     from drapery.garments import garment_names
 
     length = {"minLength": 1, "maxLength": limits.max_length}
-    texts = {"design": {"type": "string", **length}, "name": {"enum": [*garment_names()]}}
+    texts: dict[str, dict[str, Any]] = {
+        "design": {"type": "string", **length},
+        "name": {"enum": [*garment_names()]},
+    }
     schemas: dict[str, dict[str, Any]] = {name: texts[name] for name in SUBJECTS[subject]}
     schemas |= {name: _schema(PLAYER_OPTIONS[name]) for name in _player_options(subject)}
     schemas |= {name: _schema(OPTIONS[name]) for name in options_of(subject)}
