@@ -1,6 +1,8 @@
 """A ready-made scene or a garment, played in a loop at its own frame rate."""
 
+import threading
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,11 +12,11 @@ from drapery.packs import Packs
 from drapery.render import Scene
 from drapery.scenes import (
     Clip,
+    Dressed,
     Picture,
     PictureGrid,
     find_scene,
     garment_loop,
-    garment_moments,
 )
 from drapery.studio.panes import ViewerState, shown_picture
 
@@ -53,7 +55,8 @@ def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:
         return garment_loop(garment, packs, _sized(clip), clip.count, clip.fps)
 
     def first(clip: Clip) -> Picture:
-        return next(garment_moments(garment, packs, _sized(clip), (0.0,)))
+        dressed = Dressed(garment, packs, _sized(clip))
+        return next(dressed.scenes([each.start[None] for each in dressed.cloths], [0.0]))
 
     def _sized(clip: Clip) -> Settings:
         return replace(settings, size=clip.size, pixel=1)
@@ -70,7 +73,7 @@ class Player:
     def __init__(self, show: Show, size: tuple[int, int] = (640, 480)) -> None:
         self.show = show
         self._clip: Clip = replace(show.clip, size=_framed_size(size))
-        self._first = show.first
+        self._prepared: Future[list[ViewerState]] | None = None
         self._cache: list[ViewerState] | None = []
         self._free = MAX_CACHED
         self._counted: set[int] = set()
@@ -83,17 +86,32 @@ class Player:
         return self._clip.fps
 
     def step(self) -> ViewerState:
-        """The next moment; after the last moment comes the first."""
-        if self._first is not None:
-            first, self._first = self._first(self._clip), None
-            self.now = replace(shown_picture(first), cut=(self.show.name, "first"))
-            return self.now
+        """The next moment; after the last moment comes the first.
+
+        A show with a first picture shows it until a thread has simulated all moments.
+        """
+        if self.show.first is not None and self._prepared is None:
+            self._prepared = Future()
+            first = shown_picture(self.show.first(self._clip))
+            self.now = replace(first, cut=(self.show.name, "first"))
+            threading.Thread(target=self._prepare, name="show", daemon=True).start()
+        if self._prepared is not None:
+            if not self._prepared.done() and self.now is not None:
+                return self.now
+            self._cache = self._prepared.result()
         shown = next(self._upcoming, None)
         if shown is None:
             self.restart()
             shown = next(self._upcoming)
         self.now = replace(shown, cut=(self.show.name, self._clip.size))
         return self.now
+
+    def _prepare(self) -> None:
+        assert self._prepared is not None
+        try:
+            self._prepared.set_result([*map(shown_picture, self.show.play(self._clip))])
+        except Exception as error:  # `step` raises it
+            self._prepared.set_exception(error)
 
     def restart(self) -> None:
         """Restart at the first moment."""

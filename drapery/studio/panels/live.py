@@ -17,6 +17,8 @@ OWN = "your banner"
 """The choice that shows the design instead of a scene."""
 NONE = "none"
 """The choice that shows the banner instead of a garment."""
+SEEN = ("view", "rotation", "wind", "direction", "gusts")
+"""The options that begin anew with each garment."""
 LATER = 1.5
 """The delay between building the page and listing the scenes [s]."""
 
@@ -77,7 +79,10 @@ def _view(session: Session, controls: Controls, name: str) -> None:
 def wear(session: Session, name: str | None) -> None:
     """Show a garment in the wind and view of its file; None shows the banner again."""
     if name is not None:
-        session.adjust(placement="standing", facing=None, **find_garment(name).picture)
+        found = find_garment(name)
+        own = found.settings()
+        seen = {option: getattr(own, option) for option in SEEN}
+        session.adjust(placement="standing", facing=None, **{**seen, **found.picture})
     session.viewport.update(garment=name, scene=None)
 
 
