@@ -10,10 +10,9 @@ from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.collision_world import THINNEST, CollisionWorld
-from drapery.cloth.colliders.pose import still
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.colliders.shapes import Box, Plane
-from drapery.cloth.contact.box_data import NO_CONTACT, BoxContact, boxes_of
+from drapery.cloth.contact.box_data import NOTHING, BoxColliders, box_colliders
 from drapery.cloth.contact.self_contact import meet_all
 from drapery.cloth.contact.self_contact_data import SelfContact, make_self_contact
 from drapery.cloth.lanes import run_blocks, thread_count
@@ -32,7 +31,8 @@ class Collisions:
     apart: least distance between parts of the cloth itself [m], such as its thickness; None lets
         it pass through itself. Cloths that `sew` joins without seams meet each other.
     limit: longest length of a structural spring over its rest length. Springs that colliders
-        stretched more are shortened, and colliders are applied again.
+        stretched more are shortened, and colliders are applied again. Boxes and planes are met
+        without it, see docs/solvers.md.
     rounds: how often colliders are applied in a step.
     threads: None for as many as there are processors.
 
@@ -74,18 +74,14 @@ def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
     )
 
 
-def boxes_met(cloth: Cloth, collisions: Collisions) -> BoxContact | None:
-    """The colliders of a cloth as boxes; None where one is neither a Box nor a Plane, moves or
-    bounces."""
-    simple = all(
-        isinstance(c.shape, Box | Plane) and c.path is still and not c.restitution
-        for c in collisions.colliders
-    )
-    if not simple:
+def boxes_met(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
+    """The colliders of a cloth as boxes; None where one is of another shape or bounces."""
+    colliders = collisions.colliders
+    if not all(isinstance(c.shape, Box | Plane) and not c.restitution for c in colliders):
         return None
     radius = max(collisions.thickness / 2, THINNEST)
     surface = cloth.inv_mass, cloth.triangles, cloth.rest_positions
-    return boxes_of(*surface, collisions.colliders, radius) if collisions.colliders else NO_CONTACT
+    return box_colliders(*surface, colliders, radius) if colliders else NOTHING
 
 
 def resolver(cloth: Cloth, collisions: Collisions) -> Callable[[State, State], State]:
@@ -99,26 +95,29 @@ def resolver(cloth: Cloth, collisions: Collisions) -> Callable[[State, State], S
 
 @dataclass(frozen=True, eq=False)
 class ContactStage:
-    """Contact of cloths with themselves and with boxes that rest, after each step."""
+    """Contact of cloths with themselves and with boxes, after each step."""
 
     contact: SelfContact
-    boxes: BoxContact
+    boxes: BoxColliders
     threads: int | None
 
     def resolve(self, before: State, after: State) -> State:
         """The state after a step, without contacts. before: the state at its start."""
         start, wanted = (np.array(s.positions, float, order="C") for s in (before, after))
-        x = wanted.copy()
+        x, carried = wanted.copy(), np.zeros(wanted.shape[:2])
+        boxes, dt = self.boxes.step(before.time, after.time), after.time - before.time
 
         def work(first: int, last: int) -> None:
-            meet_all(start, x, first, last, self.contact, self.boxes)
+            meet_all(start, x, carried, first, last, self.contact, boxes)
 
         run_blocks(work, len(x), 1, thread_count(self.threads))
         velocities = np.array(after.velocities, float)
-        seen = (x - start) / (after.time - before.time)
+        seen = (x - start) / dt
         limit, length = (np.sqrt((v * v).sum(axis=-1)) for v in (velocities, seen))
+        limit = np.maximum(limit, carried / dt)
         # Particles of a cloth with contact have the velocity of their motion over the step, at most
-        # as fast as before: what a solver does to the neighbours of stopped ones is not motion.
+        # as fast as before or as the boxes that moved them: what a solver does to the neighbours of
+        # stopped ones is not motion.
         part = np.minimum(1.0, limit / np.maximum(length, 1e-300))[..., None]
         changed = (x != wanted).any(axis=(1, 2), keepdims=True)
         moving = np.where(changed, part * seen, velocities)

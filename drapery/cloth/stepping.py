@@ -18,7 +18,7 @@ from drapery.errors import OptionError
 
 if TYPE_CHECKING:
     from drapery.cloth.collisions import Collisions
-    from drapery.cloth.contact.box_data import BoxContact
+    from drapery.cloth.contact.box_data import BoxColliders
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,7 @@ class MovingCloth:
     state: State
     solver_state: Any
     resolve: Callable[[State, State], State] | None = None
-    boxes: BoxContact | None = None
+    boxes: BoxColliders | None = None
 
     @staticmethod
     def begin(
@@ -75,7 +75,7 @@ class MovingCloth:
 
 def _contact_of(
     cloth: Cloth, solver: Solver, collisions: Collisions | None
-) -> tuple[Callable[[State, State], State] | None, BoxContact | None]:
+) -> tuple[Callable[[State, State], State] | None, BoxColliders | None]:
     """The `resolve` and `boxes` of a `MovingCloth`. Raises OptionError."""
     if collisions is None:
         return None, None

@@ -104,7 +104,8 @@ class CollisionWorld:
         """Cloths first..last of a batch; each is one thread's alone, so threads change no bit."""
         solved, speeds = motion.x[first:last].copy(), motion.v[first:last].copy()
         if self.self_contact is not None:
-            meet_all(motion.start, motion.x, first, last, self.self_contact, NO_CONTACT)
+            none = np.empty(motion.bounced.shape)
+            meet_all(motion.start, motion.x, none, first, last, self.self_contact, NO_CONTACT)
         active = np.ones(len(motion.x), np.bool_)
         for number in range(self.rounds):
             for collider, sweep in zip(self.colliders, sweeps, strict=True):

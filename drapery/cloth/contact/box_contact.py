@@ -8,7 +8,14 @@ contacts repeat; what they leave in a box, `box_guard` takes out.
 
 from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, row, scale, subtract
 from drapery.cloth.contact.box_data import BoxContact, Candidates
-from drapery.cloth.contact.box_depths import edge_depth, face_depth, face_of, particle_depth
+from drapery.cloth.contact.box_depths import (
+    edge_depth,
+    edge_radius,
+    face_depth,
+    face_of,
+    face_radius,
+    particle_depth,
+)
 from drapery.cloth.contact.box_frame import (
     END,
     MOVED,
@@ -83,14 +90,16 @@ def solve_box(contact: BoxContact, k: int, frame: Array, near: Candidates) -> fl
             deepest = max(deepest, depth)
     for n in range(near.counts[k, 1]):
         i, j = contact.edges[edges[n], 0], contact.edges[edges[n], 1]
-        part, depth, normal = edge_depth(half, radius, frame, i, j)
+        kept = edge_radius(w, radius, frame, i, j)
+        part, depth, normal = edge_depth(half, kept, frame, i, j)
         weights = (1.0 - part, part, 0.0)
         if depth > TOUCH and push(half, w, friction, frame, (i, j, j), weights, depth, normal):
             deepest = max(deepest, depth)
     for n in range(near.counts[k, 2]):
         face = face_of(contact, faces[n])
+        kept = face_radius(half, w, radius, frame, face)
         for corner in range(8):
-            weights, depth, normal = face_depth(half, radius, frame, face, corner)
+            weights, depth, normal = face_depth(half, kept, frame, face, corner)
             if depth > TOUCH and push(half, w, friction, frame, face, weights, depth, normal):
                 deepest = max(deepest, depth)
     return deepest

@@ -1,13 +1,14 @@
 """The boxes that a cloth meets, as the kernels of contact read them; planes are large boxes."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.colliders.collider import Collider
-from drapery.cloth.colliders.pose import Pose
+from drapery.cloth.colliders.pose import Path, Pose, still
 from drapery.cloth.colliders.shapes import Box, Plane, Shape
 from drapery.jit import kernel
 from drapery.mesh import Array
@@ -21,14 +22,15 @@ FAR = 1e3
 class BoxContact(NamedTuple):
     """The boxes that a cloth meets, and what their kernels need of the cloth.
 
-    poses: place [m] and rotation of each box, [K, 12].
+    starts, ends: place [m] and rotation of each box at the start and the end of a step, [K, 12].
     halves: half its edge lengths [m], [K, 3]. friction: [K].
     radius: distance that the cloth keeps [m].
     reach: no edge of the cloth is longer [m]. edges: [E, 2]. triangles: [T, 3]. inv_mass: [1/kg],
     [N].
     """
 
-    poses: Array
+    starts: Array
+    ends: Array
     halves: Array
     friction: Array
     radius: float
@@ -39,6 +41,7 @@ class BoxContact(NamedTuple):
 
 
 NO_CONTACT = BoxContact(
+    np.zeros((0, 12)),
     np.zeros((0, 12)),
     np.zeros((0, 3)),
     np.zeros(0),
@@ -51,14 +54,52 @@ NO_CONTACT = BoxContact(
 """The contact of cloths that meet nothing."""
 
 
-def boxes_of(
+@dataclass(frozen=True, eq=False)
+class BoxColliders:
+    """Colliders that are boxes or planes, and what contact with them needs of a cloth.
+
+    contact: with the boxes in their own frames. paths: of each box.
+    """
+
+    contact: BoxContact
+    paths: tuple[Path, ...]
+
+    def poses(self, times: Sequence[float]) -> Array:
+        """Place [m] and rotation of each box at some times [s], [T, K, 12]; one entry for all times
+        where no box moves."""
+        if all(path is still for path in self.paths):
+            return self.contact.ends[None]
+        return np.stack([self._poses_at(time) for time in times])
+
+    def step(self, start: float, end: float) -> BoxContact:
+        """The contact in a step from one time to another [s]."""
+        poses = self.poses((start, end))
+        return self.contact._replace(starts=poses[0], ends=poses[-1])
+
+    def _poses_at(self, time: float) -> Array:
+        poses = self.contact.ends.copy()
+        for row, path in zip(poses, self.paths, strict=True):
+            if path is not still:
+                at = path(time)
+                turn, own = np.asarray(at.rotation, float), row[3:].reshape(3, 3)
+                # Sums in a fixed order; BLAS may not add in one.
+                row[:3] = (turn * row[:3]).sum(axis=1) + at.position
+                row[3:] = (turn[:, :, None] * own).sum(axis=1).ravel()
+        return poses
+
+
+NOTHING = BoxColliders(NO_CONTACT, ())
+"""No colliders at all."""
+
+
+def box_colliders(
     inv_mass: Array,
     triangles: NDArray[np.int32],
     rest: Array,
     colliders: Sequence[Collider],
     radius: float,
-) -> BoxContact:
-    """The contact with colliders whose shapes are a Box or a Plane, which rest and do not bounce.
+) -> BoxColliders:
+    """Colliders whose shapes are a Box or a Plane and which do not bounce.
 
     inv_mass: [1/kg], [N]. triangles: [T, 3]. rest: places at rest [m], [N, 3]. radius: distance
     that the cloth keeps [m].
@@ -67,8 +108,10 @@ def boxes_of(
     edges = np.unique(np.sort(pairs, axis=1), axis=0).astype(np.int32)
     lengths = np.sqrt(np.square(rest[edges[:, 0]] - rest[edges[:, 1]]).sum(axis=1))
     rests, halves = zip(*(_box_of(collider.shape) for collider in colliders), strict=True)
-    return BoxContact(
-        np.stack([np.append(pose.position, pose.rotation) for pose in rests]),
+    poses = np.stack([np.append(pose.position, pose.rotation) for pose in rests])
+    contact = BoxContact(
+        poses,
+        poses,
         np.stack(halves),
         np.array([collider.friction for collider in colliders], float),
         radius,
@@ -77,6 +120,7 @@ def boxes_of(
         np.ascontiguousarray(triangles, np.int32),
         np.ascontiguousarray(inv_mass, float),
     )
+    return BoxColliders(contact, tuple(collider.path for collider in colliders))
 
 
 def _box_of(shape: Shape) -> tuple[Pose, Array]:

@@ -22,6 +22,8 @@ SEARCH = 16
 FLAT, NEAREST = 1e-4, 1e-4
 """That search ends where the slope of the distance is less, and where it cannot find a distance
 that is less by more than this [m]."""
+HELD = 0.9
+"""What is fastened to a pin near a box keeps this part of the pin's distance."""
 
 
 @kernel
@@ -36,6 +38,35 @@ def particle_depth(half: Vector, radius: float, frame: Array, i: int) -> tuple[f
         if d0 > 0.0 and (d < 0.0 or passes(half, start, motion)):
             return radius - d0 - dot(normal0, motion), normal0
     return radius - d, normal
+
+
+@kernel
+def edge_radius(w: Array, radius: float, frame: Array, i: int, j: int) -> float:
+    """The distance [m] that an edge can keep: less than the radius where a pin holds it nearer, and
+    below 0 where a pin is inside the box."""
+    return min(particle_radius(w, radius, frame, i), particle_radius(w, radius, frame, j))
+
+
+@kernel
+def face_radius(
+    half: Vector, w: Array, radius: float, frame: Array, face: tuple[int, int, int]
+) -> float:
+    """The same for a face, of which two particles may be pinned."""
+    i, j, k = face
+    kept = min(edge_radius(w, radius, frame, i, j), particle_radius(w, radius, frame, k))
+    for a, b in ((i, j), (j, k), (k, i)):
+        if w[a] == 0.0 and w[b] == 0.0:
+            _part, depth, _normal = edge_depth(half, radius, frame, a, b)
+            if depth > 0.001 * radius:
+                kept = min(kept, HELD * (radius - depth))
+    return kept
+
+
+@kernel
+def particle_radius(w: Array, radius: float, frame: Array, i: int) -> float:
+    """The same for what is close to a particle."""
+    d = frame[i, DISTANCE]
+    return HELD * d if w[i] == 0.0 and d < 0.999 * radius else radius
 
 
 @kernel
@@ -64,9 +95,11 @@ def edge_depth(
     half: Vector, radius: float, frame: Array, i: int, j: int
 ) -> tuple[float, float, Vector]:
     """The part of an edge from i to j at which it is nearest to the box, if that is inside the
-    edge, the depth [m] to push it there, and the direction."""
+    edge, the depth [m] to push it there, and the direction. A radius below 0 is never kept."""
     a, along = end_of(frame, i), subtract(end_of(frame, j), end_of(frame, i))
     none = (0.0, 0.0, UP)
+    if radius < 0.0:
+        return none
     total = frame[i, DISTANCE] + frame[j, DISTANCE] - 2.0 * radius
     if total > 0.0 and total * total >= dot(along, along):
         return none
@@ -135,6 +168,8 @@ def face_depth(
         half[1] if corner & 2 else -half[1],
         half[2] if corner & 4 else -half[2],
     )
+    if radius < 0.0:
+        return UP, 0.0, UP
     a, b, c = end_of(frame, face[0]), end_of(frame, face[1]), end_of(frame, face[2])
     low, high = lower(a, lower(b, c)), higher(a, higher(b, c))
     if not overlap(grown(low, -radius), grown(high, radius), point, point):

@@ -1,16 +1,37 @@
-"""The particles of a cloth in the frame of a box, in which the box is upright and at rest."""
+"""The particles of a cloth in the frame of a box, in which the box is upright and at rest.
+
+The start of a step is taken to the frame of the box at its start, the end to that at its end. So
+the motion of the box counts as motion of the cloth. (If a box rotates, the true path of a particle
+in its frame is curved; the error is of second order in the angle of the rotation in a step.)
+"""
 
 from drapery.cloth.colliders.primitives import cuboid_distance
-from drapery.cloth.colliders.vectors import Vector, add_scaled, rotated, rotated_back, row, subtract
+from drapery.cloth.colliders.vectors import (
+    Vector,
+    add_scaled,
+    norm,
+    rotated,
+    rotated_back,
+    row,
+    subtract,
+)
 from drapery.cloth.contact.box_data import BoxContact, Candidates
 from drapery.cloth.contact.geometry import put
 from drapery.jit import kernel
 from drapery.mesh import Array
 
-START, END, DISTANCE, OUTWARD, MOVED, COLUMNS = 0, 3, 6, 7, 10, 11
+START, END, DISTANCE, OUTWARD, MOVED, CARRIED, COLUMNS = 0, 3, 6, 7, 10, 11, 12
 """The columns of a cloth in the frame of a box, [N, COLUMNS]: the place at the start and the end of
 a step [m], the distance at the end [m] and its direction (infinite and unknown for particles that
-are not near), and whether the particle was moved. One array is passed on much faster than five."""
+are not near), whether the particle was moved, and how far the boxes that moved it moved there [m].
+One array is passed on much faster than six."""
+
+
+@kernel
+def reset_frame(frame: Array) -> None:
+    """Prepare for a step: no particle was moved."""
+    for i in range(len(frame)):
+        frame[i, CARRIED] = 0.0
 
 
 @kernel
@@ -18,11 +39,12 @@ def enter_frame(
     x0: Array, x: Array, contact: BoxContact, k: int, frame: Array, near: Candidates
 ) -> None:
     """Set the places of near particles relative to a box, and their distances."""
-    turn, centre = contact.poses[k, 3:].reshape(3, 3), row(contact.poses, k)
+    turn0, centre0 = contact.starts[k, 3:].reshape(3, 3), row(contact.starts, k)
+    turn, centre = contact.ends[k, 3:].reshape(3, 3), row(contact.ends, k)
     half = row(contact.halves, k)
     for n in range(near.counts[k, 0]):
         i = near.particles[k, n]
-        put(frame, i, START, rotated_back(turn, subtract(row(x0, i), centre)))
+        put(frame, i, START, rotated_back(turn0, subtract(row(x0, i), centre0)))
         put(frame, i, END, rotated_back(turn, subtract(row(x, i), centre)))
         measure(half, frame, i)
         frame[i, MOVED] = 0.0
@@ -31,11 +53,15 @@ def enter_frame(
 @kernel
 def leave_frame(x: Array, contact: BoxContact, k: int, frame: Array, near: Candidates) -> None:
     """Write the new places of the particles that were moved."""
-    turn, centre = contact.poses[k, 3:].reshape(3, 3), row(contact.poses, k)
+    turn0, centre0 = contact.starts[k, 3:].reshape(3, 3), row(contact.starts, k)
+    turn, centre = contact.ends[k, 3:].reshape(3, 3), row(contact.ends, k)
     for n in range(near.counts[k, 0]):
         i = near.particles[k, n]
         if frame[i, MOVED] > 0.0:
-            put(x, i, 0, add_scaled(centre, 1.0, rotated(turn, end_of(frame, i))))
+            place = add_scaled(centre, 1.0, rotated(turn, end_of(frame, i)))
+            before = add_scaled(centre0, 1.0, rotated(turn0, end_of(frame, i)))
+            frame[i, CARRIED] = max(frame[i, CARRIED], norm(subtract(place, before)))
+            put(x, i, 0, place)
 
 
 @kernel

@@ -7,7 +7,13 @@ could not solve.
 
 from drapery.cloth.colliders.vectors import Vector, row
 from drapery.cloth.contact.box_data import BoxContact, Candidates
-from drapery.cloth.contact.box_depths import edge_depth, face_depth, face_of
+from drapery.cloth.contact.box_depths import (
+    edge_depth,
+    edge_radius,
+    face_depth,
+    face_of,
+    face_radius,
+)
 from drapery.cloth.contact.box_frame import (
     DISTANCE,
     END,
@@ -48,14 +54,16 @@ def return_some(contact: BoxContact, k: int, frame: Array, near: Candidates) -> 
             found = to_start(half, contact.inv_mass, frame, i) or found
     for n in range(near.counts[k, 1]):
         i, j = contact.edges[near.edges[k, n], 0], contact.edges[near.edges[k, n], 1]
-        _part, depth, _normal = edge_depth(half, 0.0, frame, i, j)
+        kept = edge_radius(contact.inv_mass, 0.0, frame, i, j)
+        _part, depth, _normal = edge_depth(half, kept, frame, i, j)
         if depth > 0.0:
             found = to_start(half, contact.inv_mass, frame, i) or found
             found = to_start(half, contact.inv_mass, frame, j) or found
     for n in range(near.counts[k, 2]):
         face = face_of(contact, near.faces[k, n])
+        kept = face_radius(half, contact.inv_mass, 0.0, frame, face)
         for corner in range(8):
-            _weights, depth, _normal = face_depth(half, 0.0, frame, face, corner)
+            _weights, depth, _normal = face_depth(half, kept, frame, face, corner)
             if depth > 0.0:
                 for i in face:
                     found = to_start(half, contact.inv_mass, frame, i) or found

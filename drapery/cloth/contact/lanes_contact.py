@@ -14,7 +14,7 @@ import numpy as np
 from drapery.cloth.colliders.vectors import norm, row, scale, subtract
 from drapery.cloth.contact.box_contact import solve_boxes
 from drapery.cloth.contact.box_data import NO_CONTACT, BoxContact, Candidates, candidate_arrays
-from drapery.cloth.contact.box_frame import COLUMNS
+from drapery.cloth.contact.box_frame import CARRIED, COLUMNS, reset_frame
 from drapery.cloth.contact.geometry import put
 from drapery.cloth.contact.near_boxes import find_boxes
 from drapery.cloth.sheet_kernels import lane_of
@@ -53,10 +53,23 @@ def contact_work(cloths: int, contact: BoxContact) -> ContactWork:
 
 
 @entry_point
-def resolve(cloth: Any, work: Any, contact: Any, dt: Any) -> bool:
-    """Resolve the contacts of cloth number `cloth` of the block in a step of dt [s] that ends at
-    work.end with work.speeds. Returns whether it had any."""
-    start = work.starts[cloth]
+def resolve(cloth: Any, work: Any, boxes: Any, poses: Any, turn: Any, dt: Any) -> bool:
+    """Resolve the contacts of cloth number `cloth` of the block in step number `turn` of dt [s],
+    which ends at work.end with work.speeds. poses: of the boxes before the first step and after
+    each, [T, K, 12]. Returns whether it had any."""
+    start, last = work.starts[cloth], len(poses) - 1
+    contact = BoxContact(
+        poses[min(turn, last)],
+        poses[min(turn + 1, last)],
+        boxes.halves,
+        boxes.friction,
+        boxes.radius,
+        boxes.reach,
+        boxes.edges,
+        boxes.triangles,
+        boxes.inv_mass,
+    )
+    reset_frame(work.frame)
     if not find_boxes(start, work.end, contact, work.frame, work.near):
         return False
     for i in range(len(start)):  # a slice would compile numba's messages about shapes, for seconds
@@ -72,6 +85,8 @@ _PARAMETERS = (
     numba.int64,
     _typeof(contact_work(0, NO_CONTACT)),
     _typeof(NO_CONTACT),
+    _typeof(NO_CONTACT.ends[None]),
+    numba.int64,
     numba.float64,
 )
 _resolve_at = call_by_address(numba.boolean, _PARAMETERS)
@@ -94,15 +109,16 @@ def begin_lanes(y: Any, batch: Any, start: Any) -> None:
 
 
 @kernel
-def meet_lanes(y: Any, u: Any, batch: Any, start: Any, dt: Any) -> None:
-    """Resolve the contacts of a block y, u [3N, L] at the end of a step of dt [s]."""
+def meet_lanes(y: Any, u: Any, batch: Any, start: Any, turn: Any, dt: Any) -> None:
+    """Resolve the contacts of a block y, u [3N, L] at the end of step number `turn` of dt [s]."""
     work = batch.work
     for cloth in range(min(work.starts.shape[0], batch.cloths - start)):
         for i in range(work.end.shape[0]):
             for axis in range(3):
                 work.end[i, axis] = y[3 * i + axis, cloth]
                 work.speeds[i, axis] = u[3 * i + axis, cloth]
-        met = _resolve_at(batch.resolve, (cloth, work, batch.contact, np.float64(dt)))
+        arguments = cloth, work, batch.contact, batch.poses, turn, np.float64(dt)
+        met = _resolve_at(batch.resolve, arguments)
         for i in range(work.end.shape[0]):
             for axis in range(3):
                 if met:
@@ -122,8 +138,8 @@ def begin_plane(y: Any, batch: Any, sheet: Any) -> None:
 
 
 @kernel
-def meet_plane(y: Any, u: Any, batch: Any, dt: Any, sheet: Any) -> None:
-    """Resolve the contacts of a plane y, u [3, lanes] at the end of a step of dt [s]."""
+def meet_plane(y: Any, u: Any, batch: Any, turn: Any, dt: Any, sheet: Any) -> None:
+    """Resolve the contacts of a plane y, u [3, lanes] at the end of step `turn` of dt [s]."""
     work = batch.work
     if work.starts.shape[0] == 0:
         return
@@ -131,7 +147,7 @@ def meet_plane(y: Any, u: Any, batch: Any, dt: Any, sheet: Any) -> None:
         for axis in range(3):
             work.end[i, axis] = y[axis, lane_of(i, sheet)]
             work.speeds[i, axis] = u[axis, lane_of(i, sheet)]
-    met = _resolve_at(batch.resolve, (0, work, batch.contact, np.float64(dt)))
+    met = _resolve_at(batch.resolve, (0, work, batch.contact, batch.poses, turn, np.float64(dt)))
     for i in range(work.end.shape[0]):
         lane = lane_of(i, sheet)
         for axis in range(3):
@@ -144,13 +160,13 @@ def meet_plane(y: Any, u: Any, batch: Any, dt: Any, sheet: Any) -> None:
 @kernel
 def limit_speed(work: Any, start: Any, i: Any, dt: Any) -> None:
     """Give a particle that contact moved the velocity of its motion over the step, at most as fast
-    as before. Otherwise a cloth that its solver pulls into a surface at every step would keep the
-    speed of that pull."""
+    as before or as the boxes that moved it. Otherwise a cloth that its solver pulls into a surface
+    at every step would keep the speed of that pull."""
     end, solved = row(work.end, i), row(work.solved, i)
     if end[0] == solved[0] and end[1] == solved[1] and end[2] == solved[2]:
         return
     seen = scale(1.0 / dt, subtract(end, row(start, i)))
-    limit, length = norm(row(work.speeds, i)), norm(seen)
+    limit, length = max(norm(row(work.speeds, i)), work.frame[i, CARRIED] / dt), norm(seen)
     part = limit / length if length > limit else 1.0
     for axis in range(3):
         work.speeds[i, axis] = part * seen[axis]

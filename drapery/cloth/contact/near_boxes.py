@@ -22,13 +22,13 @@ def find_boxes(x0: Array, x: Array, contact: BoxContact, frame: Array, near: Can
 
 
 @kernel
-def extent_of(contact: BoxContact, k: int) -> tuple[Vector, Vector]:
-    """The lowest and the highest coordinates of what a box keeps free."""
-    pose, half = contact.poses[k], row(contact.halves, k)
+def extent_of(contact: BoxContact, poses: Array, k: int) -> tuple[Vector, Vector]:
+    """The lowest and the highest coordinates of what a box keeps free in one of its poses."""
+    pose, half = poses[k], row(contact.halves, k)
     x = abs(pose[3]) * half[0] + abs(pose[4]) * half[1] + abs(pose[5]) * half[2]
     y = abs(pose[6]) * half[0] + abs(pose[7]) * half[1] + abs(pose[8]) * half[2]
     z = abs(pose[9]) * half[0] + abs(pose[10]) * half[1] + abs(pose[11]) * half[2]
-    centre, extent = row(contact.poses, k), grown((x, y, z), contact.radius)
+    centre, extent = row(poses, k), grown((x, y, z), contact.radius)
     return subtract(centre, extent), add(centre, extent)
 
 
@@ -45,7 +45,9 @@ def find_near(
 ) -> None:
     """List what is so near a box that it may touch it in this step. low, high: of the cloth."""
     near.counts[k, 0] = near.counts[k, 1] = near.counts[k, 2] = 0
-    first, last = extent_of(contact, k)
+    first, last = extent_of(contact, contact.starts, k)
+    first1, last1 = extent_of(contact, contact.ends, k)
+    first, last = lower(first, first1), higher(last, last1)
     margin = 2.0 * contact.radius + contact.reach
     if not overlap(low, high, first, last):
         return

@@ -11,7 +11,7 @@ import numpy as np
 from drapery.cloth.colliders.vectors import add_scaled, dot, norm, row, scale, subtract
 from drapery.cloth.contact.box_contact import meet_boxes
 from drapery.cloth.contact.box_data import BoxContact, Candidates, empty_candidates
-from drapery.cloth.contact.box_frame import COLUMNS
+from drapery.cloth.contact.box_frame import CARRIED, COLUMNS, reset_frame
 from drapery.cloth.contact.box_guard import guard_boxes
 from drapery.cloth.contact.geometry import put
 from drapery.cloth.contact.pair_distance import nearest
@@ -35,15 +35,25 @@ FRICTION = 0.3
 
 @entry_point
 def meet_all(
-    x0: Array, x: Array, begin: int, end: int, contact: SelfContact, boxes: BoxContact
+    x0: Array,
+    x: Array,
+    carried: Array,
+    begin: int,
+    end: int,
+    contact: SelfContact,
+    boxes: BoxContact,
 ) -> None:
     """Resolve the contacts of cloths begin..end with themselves and with boxes.
 
     x0, x: places at the start and the end of a step [m], [B, N, 3]; x is changed.
+    carried: is set to how far the boxes that moved a particle moved there [m], [B, N].
     """
     frame, near = np.empty((len(contact.inv_mass), COLUMNS)), empty_candidates(boxes)
     for cloth in range(begin, end):
+        reset_frame(frame)
         meet_one(x0[cloth], x[cloth], contact, boxes, frame, near)
+        for i in range(len(frame)):
+            carried[cloth, i] = frame[i, CARRIED]
 
 
 @kernel

@@ -163,7 +163,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, dt)
             if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, batch, start, dt * substeps)
+                lanes_contact.meet_lanes(y, u, batch, start, step // substeps, dt * substeps)
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -201,6 +201,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             )
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
             if (step + 1) % substeps == 0:
-                lanes_contact.meet_plane(y, u, batch, dt * substeps, sheet)
+                turn = step // substeps
+                lanes_contact.meet_plane(y, u, batch, turn, dt * substeps, sheet)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

@@ -14,7 +14,7 @@ from drapery.cloth import kernels, lanes, simd
 from drapery.cloth.bending import Stencils, fastest_bending, force_stencils
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.contact.box_data import NO_CONTACT, BoxContact
+from drapery.cloth.contact.box_data import NO_CONTACT, BoxColliders, BoxContact
 from drapery.cloth.contact.lanes_contact import ContactWork, contact_work, resolve_address
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
@@ -63,8 +63,9 @@ class Batch(NamedTuple):
 
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
     targets: positions of the pins after each substep. push: accelerations by user-defined forces.
-    contact: the boxes that the cloths meet. resolve: address of the function that resolves it;
-        0 without contact. work: arrays for it, which no other thread uses.
+    contact: the boxes that the cloths meet. poses: of the boxes before the first contact and at
+        each, [T, K, 12]; one entry where no box moves. resolve: address of the function that
+        resolves it; 0 without contact. work: arrays for it, which no other thread uses.
     often: see `SolverState`. cloths: their number, B.
     width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
@@ -82,6 +83,7 @@ class Batch(NamedTuple):
     width: int
     residuals: Array
     contact: BoxContact
+    poses: Array
     resolve: int
     work: ContactWork
     often: bool
@@ -148,7 +150,7 @@ class KernelSolver:
         *,
         steps: int = 1,
         pins: PinPath | None = None,
-        boxes: BoxContact | None = None,
+        boxes: BoxColliders | None = None,
     ) -> tuple[State, SolverState]:
         """See `base.Solver`. boxes: what the cloths meet at the end of each step."""
         check_step(dt, steps)
@@ -182,7 +184,7 @@ def _advance(
     steps: int,
     pins: PinPath | None,
     threads: int,
-    boxes: BoxContact | None,
+    boxes: BoxColliders | None,
 ) -> tuple[State, float]:
     plan = solver_state.of(state.positions.dtype)
     batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads, boxes)
@@ -214,7 +216,7 @@ def batch_of(
     steps: int,
     pins: PinPath | None,
     threads: int,
-    boxes: BoxContact | None,
+    boxes: BoxColliders | None,
 ) -> Batch:
     dtype = state.positions.dtype
     x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
@@ -236,12 +238,24 @@ def batch_of(
         lanes.to_lanes(custom_accelerations(loads, cloth, state)),
         lanes.block_width(len(cloth.inv_mass), x, threads),
         np.zeros(x.shape[1]),
-        NO_CONTACT if boxes is None else boxes,
-        0 if boxes is None or not len(boxes.halves) else resolve_address(),
+        NO_CONTACT if boxes is None else boxes.contact,
+        _box_poses(boxes, state.time, solver_state, steps),
+        0 if boxes is None or not boxes.paths else resolve_address(),
         contact_work(0, NO_CONTACT),
         solver_state.often,
         len(state.positions),
     )
+
+
+def _box_poses(
+    boxes: BoxColliders | None, time: float, solver_state: SolverState, steps: int
+) -> Array:
+    """The poses of a `Batch` that starts at a time [s]."""
+    if boxes is None:
+        return NO_CONTACT.ends[None]
+    each = solver_state.substeps if solver_state.often else 1
+    dt = solver_state.dt / each
+    return boxes.poses([time + number * dt for number in range(steps * each + 1)])
 
 
 def explicit_substeps(cloth: Cloth, dt: float) -> int:

@@ -386,5 +386,5 @@ def _advance(
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
             if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, batch, start, h * substeps)
+                lanes_contact.meet_lanes(y, u, batch, start, step // substeps, h * substeps)
         store_block(batch, y, u, start)

@@ -299,5 +299,5 @@ def _advance(
             shorten_too_long(y, plan.springs, sweeps, work)
             kernels.set_velocities(u, y, old, h)
             if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, batch, start, h * substeps)
+                lanes_contact.meet_lanes(y, u, batch, start, step // substeps, h * substeps)
         store_block(batch, y, u, start)

@@ -133,5 +133,5 @@ def _advance(
             kernels.set_velocities(u, y, old, h)
             kick(u, y, g, body, batch, wind, half, start, work)
             if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, batch, start, h * substeps)
+                lanes_contact.meet_lanes(y, u, batch, start, step // substeps, h * substeps)
         store_block(batch, y, u, start)

@@ -391,10 +391,10 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
                 if (substeps - substep) % INTERVAL == 1:
                     apply_attachments(y, plan.attachments)
                 if batch.often:
-                    lanes_contact.meet_lanes(y, u, batch, start, h)
+                    lanes_contact.meet_lanes(y, u, batch, start, turn, h)
             kernels.set_velocities(u, y, old, h)
             if not batch.often:
-                lanes_contact.meet_lanes(y, u, batch, start, dt)
+                lanes_contact.meet_lanes(y, u, batch, start, step, dt)
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -435,7 +435,8 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                     rate, back = damping / h, -h * bend_time
                     bend(old, y, old, plan.bending, sheet, back, rate, -rate, work)
                 sheet_kernels.drift(y, old, u, sheet, batch.numbers, substep)
-                sheet_kernels.place(y, sheet, batch.targets, step * substeps + substep, cloth)
+                turn = step * substeps + substep
+                sheet_kernels.place(y, sheet, batch.targets, turn, cloth)
                 begin, end = plan.begin[substep], plan.begin[substep + 1]
                 sheet_kernels.solve_batches(
                     y, plan.constraints, begin, end, sheet_kernels.SOLVE, work
@@ -446,7 +447,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                         y, plan.attachments, 0, last, sheet_kernels.LIMIT, work
                     )
                 if batch.often:
-                    lanes_contact.meet_plane(y, u, batch, h, sheet)
+                    lanes_contact.meet_plane(y, u, batch, turn, h, sheet)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
@@ -456,6 +457,6 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 )
                 sheet_kernels.add_velocities(u, y, old, dt, sheet)
             if not batch.often:
-                lanes_contact.meet_plane(y, u, batch, dt, sheet)
+                lanes_contact.meet_plane(y, u, batch, step, dt, sheet)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

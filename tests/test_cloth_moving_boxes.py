@@ -1,0 +1,105 @@
+"""Contact with boxes that move, inside the steps of the solvers."""
+
+from typing import get_args
+
+import numpy as np
+import pytest
+
+from drapery.cloth import (
+    Box,
+    Collider,
+    Collisions,
+    Gravity,
+    MovingCloth,
+    Plane,
+    SolverXPBD,
+    State,
+    Wind,
+    grid,
+    rest_state,
+)
+from drapery.cloth.colliders import Pose, straight, swinging
+from drapery.cloth.colliders.check import sample_distances
+from drapery.cloth.solvers.registry import solver
+from drapery.mesh import Array
+from drapery.settings import SolverName
+
+ROD = Box(np.array([0.0, -0.9, -0.2]), np.array([2.0, 0.02, 0.02]))
+"""It is thinner than half the distance between particles of the cloth."""
+PUSHED = Collider(ROD, straight((0.0, 0.1, 1.0)))
+
+
+def depth(state: State, collider: Collider, triangles: Array) -> float:
+    """How deep the particles, and points along all edges of the faces, are in a shape [m]."""
+    pose = collider.path(state.time)
+    local = (state.positions[0].astype(float) - pose.position) @ pose.rotation
+    corners = local[triangles]
+    parts = np.linspace(0, 1, 33)[:, None, None, None]
+    edges = corners + parts * (np.roll(corners, 1, axis=1) - corners)
+    return -float(sample_distances(collider.packed, edges.reshape(-1, 3)).min())
+
+
+@pytest.mark.parametrize("name", get_args(SolverName))
+def test_a_thin_rod_pushes_a_coarse_cloth_and_never_passes_it(name: str) -> None:
+    cloth = grid(5, 9, 0.8, 1.6)
+    moving = MovingCloth.begin(cloth, solver(name), collisions=Collisions([PUSHED], thickness=0.02))
+    for _ in range(40):
+        moving = moving.advance((Gravity(),))
+        assert depth(moving.state, PUSHED, cloth.triangles) < 1e-4
+    assert moving.state.positions[0, 4 * 5 : 5 * 5, 2].min() > 0.3
+
+
+def test_cloth_rides_on_a_box_that_turns_and_rises() -> None:
+    table = Box(np.array([0.0, -0.5, 0.0]), np.array([0.5, 0.1, 0.5]))
+    turning = swinging((0.0, 0.0, 0.0), swing=10, period=2.0, phase=0.0)
+
+    def path(time: float) -> Pose:
+        pose = turning(time)
+        return Pose(pose.position + np.array([0.0, 0.3 * time, 0.0]), pose.rotation)
+
+    cloth = grid(9, 9, 0.6, 0.6, pins="none")
+    start = rest_state(cloth, dtype=np.float64).positions[..., [0, 2, 1]] * (1, 1, -1)
+    start = start - start.mean(axis=1, keepdims=True) + (0.0, -0.43, 0.0)
+    lifted = Collider(table, path, friction=0.8)
+    moving = MovingCloth.begin(
+        cloth,
+        SolverXPBD(),
+        start=State(start, np.zeros_like(start)),
+        collisions=Collisions([lifted], thickness=0.02),
+    )
+    for _ in range(60):
+        moving = moving.advance((Gravity(),))
+        assert depth(moving.state, lifted, cloth.triangles) < 1e-4
+    assert moving.state.positions[0, :, 1].max() > -0.2
+
+
+def test_many_steps_in_one_call_are_the_same_as_one_each_while_a_box_moves() -> None:
+    cloth = grid(5, 9, 0.8, 1.6)
+    met = Collisions([PUSHED, Collider(Plane(np.array([0, -1.2, 0]), np.array([0, 1.0, 0])))])
+    once = MovingCloth.begin(cloth, collisions=met).advance((Gravity(),), 30)
+    each = MovingCloth.begin(cloth, collisions=met)
+    for _ in range(30):
+        each = each.advance((Gravity(),))
+    assert np.allclose(once.state.positions, each.state.positions, atol=1e-5)
+
+
+def test_a_box_on_a_path_that_stays_gives_the_bits_of_one_at_rest() -> None:
+    cloth, wind = grid(5, 9, 0.8, 1.6), Wind((0.0, 0.0, -6.0))
+    runs = []
+    for collider in (Collider(ROD), Collider(ROD, lambda time: Pose())):
+        moving = MovingCloth.begin(cloth, collisions=Collisions([collider]))
+        runs.append(moving.advance((Gravity(), wind), 40).state)
+    assert np.array_equal(runs[0].positions, runs[1].positions)
+    assert np.array_equal(runs[0].velocities, runs[1].velocities)
+
+
+@pytest.mark.parametrize("low", [-0.02, 0.01])
+def test_a_box_at_pins_does_not_throw_the_cloth_that_hangs_from_them(low: float) -> None:
+    """low: the height of the box's underside, below or above the pinned edge that it crosses."""
+    cloth = grid(3, 3, 0.4, 0.4)
+    size = np.array([0.1, 0.1, 0.1])
+    box = Collider(Box(np.array([0.1, low + 0.05, 0.03]), size))
+    moving = MovingCloth.begin(cloth, collisions=Collisions([box], thickness=0.04))
+    for _ in range(30):
+        moving = moving.advance((Gravity(),))
+        assert np.abs(moving.state.positions[0] - cloth.rest_positions).max() < 0.06
