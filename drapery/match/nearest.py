@@ -20,6 +20,8 @@ Totals = NDArray[np.int64]
 
 _TEXELS = SIZE // 3
 _DYES = 16
+_HARDLY = 0.005
+"""A layer is left out if the error grows by no more than this share of it."""
 _SWEEPS = 6
 """The most times that descent goes over all layers of a stack."""
 
@@ -213,12 +215,12 @@ class Goal:
         return base, tuple(layers)
 
     def pruned(self, stack: Stack) -> Stack:
-        """The stack without the layers that do not make it better."""
+        """The stack without the layers that hardly make it better, or do not."""
         base, layers = stack
         error, number = self.error(stack), 0
         while number < len(layers):
             fewer = base, (*layers[:number], *layers[number + 1 :])
-            if self.error(fewer) <= error:
+            if self.error(fewer) <= error * (1 + _HARDLY):
                 layers, error, number = fewer[1], self.error(fewer), 0
             else:
                 number += 1

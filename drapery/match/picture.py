@@ -1,0 +1,237 @@
+"""Any picture as the face that designs are searched for: read, cropped, fitted and weighted."""
+
+import warnings
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageOps, UnidentifiedImageError
+
+from drapery.banner import DYES
+from drapery.errors import OptionError
+from drapery.match.art import HEIGHT, WIDTH
+from drapery.match.colours import distances, oklab
+from drapery.packs import Texels
+
+Fit = Literal["cover", "contain", "stretch"]
+Weighting = Literal["even", "centre", "edges"]
+
+FITS: tuple[Fit, ...] = get_args(Fit)
+WEIGHTINGS: tuple[Weighting, ...] = get_args(Weighting)
+
+MAX_BYTES = 64 << 20
+MAX_PIXELS = 4096 * 4096
+FORMATS = ("PNG", "JPEG", "WEBP")
+
+PITCH = (24, 48)
+"""From one banner of a mural to the next, across and down [texels]; 24 are a block."""
+
+_EXTRA = 2.0
+"""The weight in the centre by `centre`, and at the strongest edge by `edges`, is 1 + this."""
+
+
+@dataclass(frozen=True, eq=False)
+class PictureFace:
+    """A picture at the size of a face.
+
+    face: sRGB, uint8 [40, 20, 3]. weights: how much each texel counts, [40, 20], 0 where nothing
+    is shown.
+    """
+
+    face: NDArray[np.uint8]
+    weights: NDArray[np.float64]
+
+
+def read_picture(path: str | Path) -> Texels:
+    """The pixels of a PNG, JPEG or WebP file, upright, uint8 [H, W, 4].
+
+    Raises OptionError for a file that cannot be read, is not such a picture, or is too large.
+    """
+    name = Path(path).name
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise OptionError(f"{name} cannot be read ({reason}); give a picture") from None
+    return decode_picture(data, name)
+
+
+def decode_picture(data: bytes, name: str = "the picture") -> Texels:
+    """The pixels of the bytes of a PNG, JPEG or WebP file, upright, uint8 [H, W, 4].
+
+    name: the picture's name in errors. Raises OptionError.
+    """
+    if len(data) > MAX_BYTES:
+        raise OptionError(f"{name} has over {MAX_BYTES >> 20} MB; shrink it")
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            image = Image.open(BytesIO(data), formats=FORMATS)
+            width, height = image.size
+            if width * height > MAX_PIXELS:
+                raise OptionError(
+                    f"{name} is {width} x {height} px; at most {MAX_PIXELS >> 20} million pixels"
+                    " are read: shrink it"
+                )
+            return np.asarray(ImageOps.exif_transpose(image).convert("RGBA"))
+    except Image.DecompressionBombError:
+        raise OptionError(
+            f"{name} has over {MAX_PIXELS >> 20} million pixels, which are not read: shrink it"
+        ) from None
+    except UnidentifiedImageError:
+        raise OptionError(
+            f"{name} is not a picture that can be read; save it as PNG, JPEG or WebP"
+        ) from None
+    except (OSError, SyntaxError, ValueError, EOFError, IndexError, KeyError) as error:
+        raise OptionError(f"{name} is a broken picture ({error}); save it again") from None
+
+
+def fit_picture(
+    pixels: Texels,
+    *,
+    fit: Fit = "cover",
+    crop: tuple[int, int, int, int] | None = None,
+    background: tuple[int, int, int] | None = None,
+    mask: Texels | None = None,
+    weighting: Weighting = "even",
+    name: str = "the picture",
+) -> PictureFace:
+    """A picture [H, W, 4] at the size of a face.
+
+    fit: `cover` cuts off what does not fit, `contain` leaves empty stripes, `stretch` distorts.
+    crop: left, top, right and bottom of the part to use [px]. background: sRGB behind transparent
+    pixels and in empty stripes; None gives them no weight. mask: a picture that is bright where
+    pixels count, and of the same size. weighting: `even`, or more in the `centre` or at `edges`.
+    name: the picture's name in errors. Raises OptionError.
+    """
+    (part,) = _windows(pixels, [(0, 0)], (WIDTH, HEIGHT), fit, crop, name)
+    counts = np.ones((HEIGHT, WIDTH))
+    if mask is not None:
+        if mask.shape[:2] != pixels.shape[:2]:
+            raise OptionError(
+                f"the mask is {mask.shape[1]} x {mask.shape[0]} px, and {name} is"
+                f" {pixels.shape[1]} x {pixels.shape[0]} px; make them alike"
+            )
+        (bright,) = _windows(mask, [(0, 0)], (WIDTH, HEIGHT), fit, crop, "the mask")
+        counts = bright[..., :3].max(axis=2) / 255 * (bright[..., 3] / 255)
+    return _weighted(part, counts, background, weighting, name)
+
+
+def fit_mural(
+    pixels: Texels,
+    across: int,
+    down: int,
+    *,
+    fit: Fit = "cover",
+    crop: tuple[int, int, int, int] | None = None,
+    background: tuple[int, int, int] | None = None,
+    name: str = "the picture",
+) -> list[PictureFace]:
+    """The faces of `across` x `down` banners on a wall that show one picture, row by row.
+
+    Banners hang one block apart and two blocks below each other. What lies between their cloths is
+    not shown. The options are those of `fit_picture`. Raises OptionError.
+    """
+    corners = [(x * PITCH[0], y * PITCH[1]) for y in range(down) for x in range(across)]
+    size = (across - 1) * PITCH[0] + WIDTH, (down - 1) * PITCH[1] + HEIGHT
+    parts = _windows(pixels, corners, size, fit, crop, name)
+    even = np.ones((HEIGHT, WIDTH))
+    black = background or (0, 0, 0)
+    empty = not any(part[..., 3].any() for part in parts)
+    if empty and background is None:
+        raise OptionError(_transparent(name))
+    # A banner of which nothing is seen is wholly background.
+    return [
+        _weighted(part, even, background if part[..., 3].any() else black, "even", name)
+        for part in parts
+    ]
+
+
+def nearest_dye(rgb: NDArray[np.generic]) -> str:
+    """The name of the dye that looks most like an sRGB colour [3]."""
+    dyes = oklab(np.array([dye.rgb for dye in DYES.values()]))
+    return list(DYES)[int(distances(dyes, oklab(rgb)).argmin())]
+
+
+def _windows(
+    pixels: Texels,
+    corners: list[tuple[int, int]],
+    size: tuple[int, int],
+    fit: Fit,
+    crop: tuple[int, int, int, int] | None,
+    name: str,
+) -> list[Texels]:
+    """Faces at corners of a picture that is fitted to a size [texels], each [40, 20, 4]."""
+    left, top, right, bottom = _checked_crop(pixels, crop, name)
+    image = Image.fromarray(np.ascontiguousarray(pixels[top:bottom, left:right])).convert("RGBa")
+    if fit == "contain":
+        image = ImageOps.pad(image, _at_least(image.size, size), Image.Resampling.BOX)
+    box = (0.0, 0.0, float(image.width), float(image.height))
+    if fit == "cover":
+        scale = min(image.width / size[0], image.height / size[1])
+        x, y = (image.width - size[0] * scale) / 2, (image.height - size[1] * scale) / 2
+        box = (x, y, x + size[0] * scale, y + size[1] * scale)
+    whole = np.asarray(image.resize(size, Image.Resampling.BOX, box).convert("RGBA"))
+    return [whole[y : y + HEIGHT, x : x + WIDTH] for x, y in corners]
+
+
+def _at_least(given: tuple[int, int], size: tuple[int, int]) -> tuple[int, int]:
+    """The smallest multiple of a size that holds a picture without shrinking it."""
+    times = max(-(-given[0] // size[0]), -(-given[1] // size[1]))
+    return size[0] * times, size[1] * times
+
+
+def _checked_crop(
+    pixels: Texels, crop: tuple[int, int, int, int] | None, name: str
+) -> tuple[int, int, int, int]:
+    height, width = pixels.shape[:2]
+    left, top, right, bottom = crop or (0, 0, width, height)
+    if not (0 <= left < right <= width and 0 <= top < bottom <= height):
+        raise OptionError(
+            f"crop {left},{top},{right},{bottom} is not within {name}, which is {width} x {height}"
+            " px; give left, top, right and bottom"
+        )
+    return left, top, right, bottom
+
+
+def _transparent(name: str) -> str:
+    return f"{name} is transparent everywhere; give a background colour, or another picture"
+
+
+def _weighted(
+    part: Texels,
+    counts: NDArray[np.float64],
+    background: tuple[int, int, int] | None,
+    weighting: Weighting,
+    name: str,
+) -> PictureFace:
+    colour = part[..., :3].astype(np.int32)
+    alpha = part[..., 3:].astype(np.int32)
+    if background is None:
+        counts = counts * (alpha[..., 0] / 255)
+        if not counts.any():
+            raise OptionError(_transparent(name))
+    else:
+        colour = (alpha * colour + (255 - alpha) * np.array(background) + 127) // 255
+    face = colour.astype(np.uint8)
+    return PictureFace(face, counts * _importance(face, weighting))
+
+
+def _importance(face: NDArray[np.uint8], weighting: Weighting) -> NDArray[np.float64]:
+    """How much texels count by their places or contrast, [40, 20]."""
+    if weighting == "centre":
+        y = np.linspace(-1, 1, HEIGHT)[:, None] ** 2
+        x = np.linspace(-1, 1, WIDTH) ** 2
+        return 1 + _EXTRA * np.clip(1 - (x + y) / 2, 0, 1)
+    if weighting == "edges":
+        lab = oklab(face).astype(np.float64)
+        steps = np.zeros((HEIGHT, WIDTH))
+        for axis in (0, 1):
+            change = np.gradient(lab, axis=axis)
+            steps += (change * change).sum(axis=2)
+        strength = np.sqrt(steps)
+        return 1 + _EXTRA * strength / max(float(strength.max()), 1e-9)
+    return np.ones((HEIGHT, WIDTH))

@@ -1,0 +1,30 @@
+"""A picture beside the banners that look most like it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.banner.packs import Packs
+from drapery.match.search import Match
+from drapery.pictures import face_pixels
+from drapery.sheets import PictureSheet, SheetCell
+
+SCALE = 8
+"""Pixels of a sheet for each texel of a face."""
+
+
+def matches_sheet(
+    face: NDArray[np.uint8], matches: Sequence[Match], packs: Packs, *, scale: int = SCALE
+) -> PictureSheet:
+    """A face, uint8 [40, 20, 3], and beside it the banners that were found for it.
+
+    scale: pixels for each texel of a 64 x 64 pack. Raises PackError.
+    """
+    large = np.asarray(face).repeat(scale, axis=0).repeat(scale, axis=1)
+    cells = [SheetCell("picture", np.dstack([large, np.full_like(large[..., 0], 255)]))]
+    cells += [
+        SheetCell(f"{number}. {100 * one.error:.1f} %", face_pixels(one.banner, packs, scale))
+        for number, one in enumerate(matches, 1)
+    ]
+    return PictureSheet("The nearest banners", tuple(cells), min(len(cells), 8))
