@@ -6,7 +6,7 @@ import numpy as np
 
 from drapery.cloth import Cloth, State
 from drapery.cloth.colliders import Collider
-from drapery.cloth.colliders.packing import distance
+from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Clip, find_scene
@@ -29,5 +29,6 @@ def clearance(cloth: Cloth, state: State, colliders: Sequence[Collider], order: 
         for collider in colliders:
             pose = collider.path(state.time)
             own = np.einsum("ij,mi->mj", pose.rotation, places - pose.position)
-            least = min(least, *(distance(collider.packed, tuple(p), np.inf)[0] for p in own))
+            distances = sample_distances(collider.packed, np.ascontiguousarray(own))
+            least = min(least, distances.min())
     return float(least)

@@ -29,6 +29,7 @@ from drapery.cloth.colliders import (
     straight,
     swinging,
 )
+from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.colliders.collision_world import CollisionWorld
 from drapery.cloth.colliders.packing import distance, pack
 from drapery.cloth.colliders.sampling import sample_points
@@ -94,9 +95,8 @@ packed = functools.cache(pack)
 
 
 def gap(shape, points):
-    """Signed distances [m] of points [M, 3] to a shape, point by point."""
-    field = packed(shape)
-    return np.array([distance(field, tuple(map(float, p)), np.inf)[0] for p in points])
+    """Signed distances [m] of points [M, 3] to a shape."""
+    return sample_distances(packed(shape), np.ascontiguousarray(points, float))
 
 
 ICOSPHERE = trimesh.creation.icosphere(subdivisions=2, radius=1.0)

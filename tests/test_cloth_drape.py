@@ -19,7 +19,8 @@ from drapery.cloth.colliders import (
     mesh_collider,
     swinging,
 )
-from drapery.cloth.colliders.packing import distance, pack
+from drapery.cloth.colliders.check import sample_distances
+from drapery.cloth.colliders.packing import pack
 from drapery.cloth.collisions import Collisions
 from drapery.cloth.solvers.registry import SOLVERS, solver
 from drapery.errors import OptionError
@@ -69,8 +70,7 @@ def level(cloth, height):
 
 def gaps(shape, points):
     """Signed distances [m] to a shape."""
-    field = pack(shape)
-    return np.array([distance(field, tuple(map(float, p)), np.inf)[0] for p in points])
+    return sample_distances(pack(shape), np.ascontiguousarray(points, float))
 
 
 @pytest.mark.parametrize("shape", SHAPES)
