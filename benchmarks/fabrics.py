@@ -1,0 +1,151 @@
+"""How fabrics drape and flags flap: `python -m benchmarks.fabrics [--rings N]`.
+
+Drape: Cusick's test (J. Textile Inst. 56 and 59, 1965 and 1968; ISO 9073-9). A disc of 30 cm lies
+on a support of 18 cm. The drape coefficient is the shadow of its rim over the area of the flat rim.
+The coefficient grows with the bending length, and the edge falls in 4 to 8 folds, the nodes; their
+number varies when the same fabric is laid again (Jeong, J. Textile Inst. 89, 1998; Kenkare,
+May-Plumlee, "Mechanics of fabric drape", 2004).
+
+Flapping: a flag without gravity in a steady wind along it. Published flags begin to flap above an
+onset speed. Heavy flags in air flap in a low mode near the resonance of a pivoted wing, so the
+frequency grows with the speed, and lighter flags flap faster (Argentina, Mahadevan, PNAS 102, 2005;
+Shelley, Vandenberghe, Zhang, PRL 94, 2005). The amplitude stays below the flag's length.
+"""
+
+import argparse
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial import Delaunay
+
+from drapery.cloth import (
+    FABRICS,
+    Cloth,
+    Gravity,
+    MovingCloth,
+    SolverXPBD,
+    Wind,
+    from_triangles,
+    grid,
+    rest_state,
+)
+from drapery.mesh import Array
+
+RADIUS, SUPPORT = 0.15, 0.09
+"""Of the disc and of what it lies on [m]."""
+AIR = 3.0
+"""Drag that brings the disc to rest [1/s]."""
+NUDGE = 1e-3
+"""Rms of the heights at the start [m]; a disc that is exactly level has no place to fold."""
+
+
+@dataclass(frozen=True)
+class Drape:
+    """A disc at rest. coefficient: 0 hangs straight down, 1 is flat. nodes: folds of its edge."""
+
+    coefficient: float
+    nodes: int
+
+
+def round_cloth(fabric: str, rings: int) -> Cloth:
+    """A disc held on its support. Its rings are not multiples of six, so folds are free."""
+    points = [np.zeros((1, 2))]
+    for ring in range(1, rings + 1):
+        count = round(2 * np.pi * ring)
+        angles = 2 * np.pi * (np.arange(count) + 0.618 * ring) / count
+        points.append(RADIUS * ring / rings * np.stack([np.cos(angles), np.sin(angles)], axis=1))
+    flat = np.concatenate(points)
+    rest = np.stack([flat[:, 0], np.zeros(len(flat)), -flat[:, 1]], axis=1)
+    held = np.flatnonzero((flat * flat).sum(axis=1) <= (1.001 * SUPPORT) ** 2)
+    faces = Delaunay(flat).simplices.astype(np.int32)
+    return from_triangles(rest, faces, pins=held, fabric=FABRICS[fabric], uvs=flat)
+
+
+def drape(fabric: str, rings: int = 10, seed: int = 1, seconds: float = 4.0) -> Drape:
+    """A disc of a fabric after it has come to rest on its support."""
+    cloth = replace(round_cloth(fabric, rings), drag=AIR)
+    start = rest_state(cloth)
+    free = cloth.inv_mass > 0
+    start.positions[0, free, 1] += NUDGE * np.random.default_rng(seed).standard_normal(free.sum())
+    moving = MovingCloth.begin(cloth, SolverXPBD(), start=start)
+    places = moving.advance([Gravity()], round(60 * seconds)).state.positions[0]
+    edge = places[-round(2 * np.pi * rings) :, [0, 2]].astype(np.float64)
+    flat = cloth.rest_positions[-len(edge) :, [0, 2]]
+    rim = [abs(_area(ring)) - np.pi * SUPPORT**2 for ring in (edge, flat)]
+    return Drape(rim[0] / rim[1], _nodes(edge))
+
+
+def _area(ring: Array) -> float:
+    """The signed area within a closed line [m²], shape [N, 2]."""
+    after = np.roll(ring, -1, axis=0)
+    return float((ring[:, 0] * after[:, 1] - ring[:, 1] * after[:, 0]).sum() / 2)
+
+
+def _nodes(edge: Array) -> int:
+    """Maxima of the distance from the axis, of waves of at least an eighteenth of the edge."""
+    waves = np.fft.rfft(np.sqrt((edge * edge).sum(axis=1)))
+    waves[19:] = 0
+    away = np.fft.irfft(waves, len(edge))
+    top = (away > np.roll(away, 1)) & (away >= np.roll(away, -1)) & (away > away.mean())
+    return int(top.sum())
+
+
+@dataclass(frozen=True)
+class Flapping:
+    """Of a flag's free end. amplitude: over the flag's length. frequency: [Hz]."""
+
+    amplitude: float
+    frequency: float
+
+
+def flap(fabric: str, speed: float, *, length: float = 1.0, seconds: float = 12.0) -> Flapping:
+    """A flag held by one edge in a steady wind along it, in the second half of the time.
+
+    speed: [m/s]. length: of the flag, which is half as high [m].
+    """
+    columns, rows = 21, 11
+    cloth = grid(
+        columns,
+        rows,
+        length,
+        length / 2,
+        pins=lambda rest: rest[:, 0] <= rest[:, 0].min() + 1e-9,
+        fabric=FABRICS[fabric],
+    )
+    start = rest_state(cloth, dtype=np.float64)
+    along = (cloth.rest_positions[:, 0] - cloth.rest_positions[0, 0]) / length
+    start.positions[0, :, 2] += 0.02 * length * along * along
+    wind = Wind((speed, 0, 0), gusts=0, sine=0)
+    moving, tip = MovingCloth.begin(cloth, SolverXPBD(), start=start), []
+    for _ in range(round(60 * seconds)):
+        moving = moving.advance([wind])
+        tip.append(moving.state.positions[0, rows // 2 * columns + columns - 1, 2])
+    late = np.array(tip[len(tip) // 2 :])
+    power = np.abs(np.fft.rfft((late - late.mean()) * np.hanning(len(late)), 8 * len(late)))
+    frequency = (1 + int(power[1:].argmax())) * 60 / (8 * len(late))
+    return Flapping(float(np.ptp(late)) / 2 / length, frequency)
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rings", type=int, default=15)
+    rings = parser.parse_args().rings
+    print(f"Cusick's test, {rings} rings, three times: drape coefficient [%], nodes")
+    for name, fabric in FABRICS.items():
+        bent = 100 * np.cbrt(fabric.bending / (fabric.density * 9.81))
+        found = [drape(name, rings, seed) for seed in (1, 2, 3)]
+        shares = ", ".join(f"{100 * each.coefficient:.0f} %" for each in found)
+        nodes = ", ".join(str(each.nodes) for each in found)
+        print(f"  {name:8} bending length {bent:.1f} cm: {shares}; nodes {nodes}")
+    print("flag of 1 x 0.5 m: amplitude over length, frequency [Hz], frequency · length / speed")
+    for name in ("wool", "cotton", "silk"):
+        for speed in (0.25, 0.5, 1.0, 2.0, 4.0, 8.0):
+            found_flap = flap(name, speed)
+            amplitude, rate = found_flap.amplitude, found_flap.frequency
+            numbers = f"{amplitude:.3f}, {rate:.2f}, {rate / speed:.2f}"
+            print(f"  {name:8} {speed:4} m/s: {numbers}")
+
+
+if __name__ == "__main__":
+    main()
