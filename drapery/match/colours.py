@@ -37,17 +37,26 @@ def oklab(rgb: NDArray[np.generic]) -> Floats:
 
 def quick_oklab(rgb: Floats) -> Floats:
     """The OKLab of the nearest colours of a table, [..., 3], for values from 0 to 255."""
-    near = (rgb * np.float32(1 / _STEP) + np.float32(0.5)).astype(np.int32)
+    scaled = rgb * np.float32(1 / _STEP)
+    scaled += np.float32(0.5)
+    near = scaled.astype(np.int32)
     side = 256 // _STEP + 1
-    return _table().take((near[..., 0] * side + near[..., 1]) * side + near[..., 2], axis=0)
+    place = near[..., 0] * side
+    place += near[..., 1]
+    place *= side
+    place += near[..., 2]
+    return _table().take(place, axis=0)
 
 
 def distances(lab: Floats, other: Floats) -> Whole:
     """Between colours in OKLab [..., 3], in UNIT."""
     away = lab - other
     away *= away
-    length = np.sqrt(away[..., 0] + away[..., 1] + away[..., 2])
-    return np.asarray(np.rint(length * np.float32(UNIT)), np.int32)
+    length = away[..., 0] + away[..., 1]
+    length += away[..., 2]
+    np.sqrt(length, out=length)
+    length *= np.float32(UNIT)
+    return np.asarray(np.rint(length, out=length), np.int32)
 
 
 @cache

@@ -39,12 +39,14 @@ class _Parts:
     entries: NDArray[np.intp]
     starts: NDArray[np.intp]
 
-    def sums(self, values: Totals) -> Totals:
-        """The sums over each pattern's entries of values [n, ...]."""
-        total = np.zeros((len(values) and len(self.entries) + 1, *values.shape[1:]), np.int64)
-        np.cumsum(values[self.entries], axis=0, out=total[1:])
-        ends = np.append(self.starts[1:], len(self.entries))
-        return np.asarray(total[ends] - total[self.starts])
+    def sums(self, values: Whole) -> Totals:
+        """The sums over each pattern's entries of values [n, 16], as [P, 16]."""
+        total = np.zeros((len(self.starts), _DYES), np.int64)
+        has = np.diff(self.starts, append=len(self.entries)) > 0
+        if has.any():
+            rows = values[self.entries]
+            total[has] = np.add.reduceat(rows, self.starts[has], axis=0, dtype=np.int64)
+        return total
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,12 +77,13 @@ class NearestSearch:
 
     @cached_property
     def _translucent(self) -> _Parts:
+        """Translucent texels, with colours that are multiplied by alpha."""
         colours, texels, starts, count = [], [], [], 0
         for pattern, alpha in enumerate(self.art.alpha[:, ::3]):
             starts.append(count)
             part = np.flatnonzero((alpha > 0) & (alpha < 255))
             dyed = self.art.dyed[pattern].reshape(_DYES, _TEXELS, 3)[:, part]
-            colours.append(dyed.transpose(1, 0, 2))
+            colours.append(dyed.transpose(1, 0, 2) * (alpha[part] / 255)[:, None, None])
             texels.append(part)
             count += len(part)
         made = np.concatenate(colours).astype(np.float32)
@@ -102,7 +105,7 @@ class NearestSearch:
     def goal(self, face: NDArray[np.generic], weights: NDArray[np.generic]) -> "Goal":
         """What is searched for: a face [N], and the weight of each texel [N / 3]."""
         lab = oklab(np.asarray(face).reshape(_TEXELS, 3))
-        return Goal(self, lab, np.asarray(weights, np.int64).reshape(_TEXELS))
+        return Goal(self, lab, np.asarray(weights, np.int32).reshape(_TEXELS))
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,18 +117,20 @@ class Goal:
 
     search: NearestSearch
     lab: Floats
-    weights: Totals
+    weights: Whole
 
     def error(self, stack: Stack) -> int:
         """Of the face that a stack of layers shows."""
         face = self.search.art.paint(*stack).reshape(_TEXELS, 3)
-        return int((distances(oklab(face), self.lab) * self.weights).sum())
+        return int((distances(oklab(face), self.lab) * self.weights).sum(dtype=np.int64))
 
     def bases(self, over: tuple[Floats, Floats] | None = None) -> Totals:
         """The errors of the sixteen bases below layers that add and let through `over`, [16]."""
         colours = self.search.art.bases.reshape(_DYES, _TEXELS, 3).astype(np.float32)
         added, through = over or _nothing()
-        return np.asarray(self._errors(added + through * colours, slice(None)).sum(axis=1))
+        return np.asarray(
+            self._errors(added + through * colours, slice(None)).sum(axis=1, dtype=np.int64)
+        )
 
     def choices(self, below: Floats, over: tuple[Floats, Floats] | None = None) -> Totals:
         """The errors of all patterns in all dyes as one layer, the others held, [P, 16].
@@ -133,26 +138,33 @@ class Goal:
         below: what is below the layer, [N / 3, 3]. over: what the layers above add [N / 3, 3], and
         let through [N / 3, 1].
         """
-        opaque, part, shares = self.search._opaque, self.search._translucent, self.search._shares
         added, through = over or _nothing()
         before = self._errors(added + through * below, slice(None))
-        seen = added[opaque.texels, None] + through[opaque.texels, None] * opaque.colours
-        gained = self._errors(seen, opaque.texels) - before[opaque.texels, None]
-        total = before.sum() + opaque.sums(gained)
-        mixed = shares[:, None, None] * part.colours
-        mixed += ((1 - shares)[:, None] * below[part.texels])[:, None]
-        seen = added[part.texels, None] + through[part.texels, None] * mixed
-        gained = self._errors(seen, part.texels) - before[part.texels, None]
+        opaque, part = self.search._opaque, self.search._translucent
+        seen = through[opaque.texels, None] * opaque.colours
+        seen += added[opaque.texels, None]
+        gained = self._errors(seen, opaque.texels)
+        gained -= before[opaque.texels, None]
+        total = before.sum(dtype=np.int64) + opaque.sums(gained)
+        # What is below shows through translucent texels.
+        shown = added[part.texels] + through[part.texels] * (
+            (1 - self.search._shares)[:, None] * below[part.texels]
+        )
+        seen = through[part.texels, None] * part.colours
+        seen += shown[:, None]
+        gained = self._errors(seen, part.texels)
+        gained -= before[part.texels, None]
         total += part.sums(gained)
         return np.asarray(total)
 
-    def _errors(self, seen: Floats, texels: slice | NDArray[np.intp]) -> Totals:
-        """Of colours [n, 16, 3] or [16, N / 3, 3] at texels."""
+    def _errors(self, seen: Floats, texels: slice | NDArray[np.intp]) -> Whole:
+        """Of colours [n, 16, 3] at texels [n], or [..., N / 3, 3] at all of them."""
         lab, weights = self.lab[texels], self.weights[texels]
-        if seen.ndim == 3 and not isinstance(texels, slice):
+        if not isinstance(texels, slice):
             lab, weights = lab[:, None], weights[:, None]
-        found: Whole = distances(quick_oklab(seen), lab)
-        return np.asarray(found * weights)
+        found = distances(quick_oklab(seen), lab)
+        found *= weights
+        return found
 
     def below(self, base: int, layers: Sequence[tuple[int, int]]) -> Floats:
         """What a base and layers show, [N / 3, 3]."""

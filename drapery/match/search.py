@@ -15,7 +15,7 @@ from drapery.match.nearest import Goal, NearestSearch
 from drapery.option import within
 from drapery.packs import PackLike, open_packs
 
-EFFORT = 60
+EFFORT = 24
 """How many stacks are changed at random and improved, unless another number is given."""
 
 MAX_EFFORT = 100_000
