@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from drapery.banner import DYES
 from drapery.match import Matcher
 from drapery.match.art import HEIGHT, WIDTH, FaceArt, Levels, Stack
 from drapery.match.exact import ExactSearch
@@ -25,6 +26,12 @@ from drapery.match.exact import ExactSearch
 SEED = 19
 SIZE = (160, 320)
 KINDS = ("flag", "letter", "icon", "painting")
+PAINTS = (
+    "f4f1ea1a1c22c8102ee8731af2c230ffe08a1e7a3c6bbf59a8d8b00b2e6f2f6fd08ec6ef"
+    "5a2d82b06ab3f2a9c0d94f7a6b4226b98a5ac9b79c8a8f98546a7b0f766ec2e3d0702632"
+)
+"""The colours of the pictures, six hexadecimal digits each."""
+
 SHORT_LIST = 24
 """Layers whose structural similarity the greedy search looks at: those of the least CIEDE2000."""
 
@@ -36,11 +43,11 @@ def random_stack(art: FaceArt, layers: int, rng: np.random.Generator) -> Stack:
     return int(base), tuple(zip(patterns.tolist(), map(int, dyes), strict=True))
 
 
-def print_faces(packs: tuple[Path, ...], layers: int, count: int, first: int) -> None:
+def print_faces(packs: tuple[Path, ...], layers: int, numbers: range) -> None:
     """The share of faces of random designs that are found, and the times."""
     art = Matcher(packs).art
     search, times, found, fewest = ExactSearch(art), [], 0, Counter[int]()
-    for number in range(first, first + count):
+    for number in numbers:
         stack = random_stack(art, layers, np.random.default_rng((SEED, layers, number)))
         face = art.paint(*stack)
         begin = time.process_time()
@@ -51,7 +58,7 @@ def print_faces(packs: tuple[Path, ...], layers: int, count: int, first: int) ->
             fewest[len(made[1])] += 1
     median, most, worst = np.percentile(times, [50, 99, 100])
     print(
-        f"{layers:2} layers: {found} of {count} exact ({found / count:.2%}); processor time"
+        f"{layers:2} layers: {found} of {len(numbers)} exact ({found / len(numbers):.2%}); processor time"
         f" median {median:.3f} s, 99 % {most:.2f} s, longest {worst:.2f} s;"
         f" layers of the designs found {dict(sorted(fewest.items()))}",
         flush=True,
@@ -70,7 +77,11 @@ def picture(number: int) -> Image.Image:
 
 
 def colour(rng: np.random.Generator) -> tuple[int, int, int]:
-    red, green, blue = rng.integers(10, 250, 3).tolist()
+    """One of a paintbox, a little lighter or darker; none is a dye."""
+    part = int(rng.integers(len(PAINTS) // 6)) * 6
+    value = int(PAINTS[part : part + 6], 16)
+    change = int(rng.integers(-24, 25))
+    red, green, blue = (min(max(value >> shift & 255, 24), 231) + change for shift in (16, 8, 0))
     return red, green, blue
 
 
@@ -214,13 +225,17 @@ def greedy(art: FaceArt, goal: Levels, layers: int) -> Stack:
 
 
 def print_pictures(
-    packs: tuple[Path, ...], layers: int, count: int, effort: int, sheet: Path | None
+    packs: tuple[Path, ...],
+    layers: int,
+    numbers: range,
+    effort: int,
+    sheet: Path | None,
 ) -> None:
     """The mean CIEDE2000 of both searches on each kind of picture."""
     matcher = Matcher(packs)
     sums: dict[str, list[tuple[float, float, float, float]]] = {kind: [] for kind in KINDS}
     shown = []
-    for number in range(count):
+    for number in numbers:
         image = picture(number).resize((WIDTH, HEIGHT), Image.Resampling.BOX)
         face = np.asarray(image)
         goal = face.reshape(-1).astype(np.int32)
@@ -230,12 +245,11 @@ def print_pictures(
         (best,) = matcher.match(face, layers=layers, alternatives=1, effort=effort)
         taken = time.process_time() - between
         names = {name: index for index, name in enumerate(matcher.art.patterns)}
-        dyes = list(matcher_dyes())
-        stack = tuple((names[one.pattern], dyes.index(one.dye)) for one in best.banner.layers)
-        ours = matcher.art.paint(dyes.index(best.banner.base), stack)
+        stack = tuple((names[one.pattern], DYES[one.dye].number) for one in best.banner.layers)
+        ours = matcher.art.paint(DYES[best.banner.base].number, stack)
         row = mean_difference(ours, goal), mean_difference(other, goal), taken, between - begin
         sums[KINDS[number % len(KINDS)]].append(row)
-        shown.append((face, ours.reshape(face.shape), other.reshape(face.shape)))
+        shown.append((face, ours.reshape(face.shape)))
     every = [row for rows in sums.values() for row in rows]
     for kind, rows in (*sums.items(), ("all", every)):
         ours_mean, greedy_mean, seconds, greedy_seconds = np.mean(rows, axis=0)
@@ -249,14 +263,8 @@ def print_pictures(
         save_sheet(shown, sheet)
 
 
-def matcher_dyes() -> tuple[str, ...]:
-    from drapery.banner import DYE_NAMES
-
-    return DYE_NAMES
-
-
 def save_sheet(shown: list[tuple[NDArray[np.generic], ...]], path: Path) -> None:
-    """Each picture, the best design and the greedy one side by side, four to a row."""
+    """Each picture beside the best design, six to a row."""
     from drapery.render import Frame
 
     cells = []
@@ -264,9 +272,9 @@ def save_sheet(shown: list[tuple[NDArray[np.generic], ...]], path: Path) -> None
         gap = np.full((HEIGHT, 2, 3), 255, np.uint8)
         row = np.hstack([part for face in faces for part in (face.astype(np.uint8), gap)])
         cells.append(np.pad(row, ((2, 2), (2, 2), (0, 0)), constant_values=255))
-    while len(cells) % 4:
+    while len(cells) % 6:
         cells.append(np.full_like(cells[0], 255))
-    rows = [np.hstack(cells[start : start + 4]) for start in range(0, len(cells), 4)]
+    rows = [np.hstack(cells[start : start + 6]) for start in range(0, len(cells), 6)]
     pixels = np.vstack(rows).repeat(3, axis=0).repeat(3, axis=1)
     Frame(np.dstack([pixels, np.full_like(pixels[..., 0], 255)])).save(path)
 
@@ -276,17 +284,18 @@ def main() -> None:
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     words.add_argument("what", choices=("faces", "pictures"))
     words.add_argument("--count", type=int, default=12)
-    words.add_argument("--first", type=int, default=0, help="number of the first face")
+    words.add_argument("--first", type=int, default=0, help="number of the first one")
     words.add_argument("--layers", type=int, nargs="+", default=[6])
     words.add_argument("--effort", type=int, default=24)
     words.add_argument("--pack", type=Path, action="append", default=[])
     words.add_argument("--sheet", type=Path)
     given = words.parse_args()
     for layers in given.layers:
+        numbers = range(given.first, given.first + given.count)
         if given.what == "faces":
-            print_faces(tuple(given.pack), layers, given.count, given.first)
+            print_faces(tuple(given.pack), layers, numbers)
         else:
-            print_pictures(tuple(given.pack), layers, given.count, given.effort, given.sheet)
+            print_pictures(tuple(given.pack), layers, numbers, given.effort, given.sheet)
 
 
 if __name__ == "__main__":
