@@ -9,7 +9,7 @@ import pytest
 from conftest import Run
 
 from drapery import Banner, Layer
-from drapery.banner import DYE_NAMES, PATTERN_NAMES, recognise, write_banner
+from drapery.banner import DYE_NAMES, PATTERN_NAMES, alt_text, recognise, write_banner
 from drapery.banner.blazon import parse_blazon, write_blazon
 from drapery.banner.blazon.terms import MAX_BLAZON
 from drapery.errors import DesignError
@@ -221,3 +221,9 @@ def test_hundreds_of_unknown_words_are_refused_soon(join: str) -> None:
     begin = time.process_time()
     assert "a banner cannot show" in fault("Azure, a " + join.join(words))
     assert time.process_time() - begin < 1
+
+
+def test_pictures_on_pages_have_the_words_of_their_banner() -> None:
+    assert alt_text(Banner.parse("blue stripe_downright:yellow")) == "Banner: Azure, a bend Or"
+    assert alt_text(Banner.parse("shield red")) == "On a shield Gules"
+    assert alt_text(Banner.parse("light_gray cross:light_gray")).startswith("Banner: ")

@@ -104,6 +104,7 @@ def test_every_form_of_report_is_written(drapery: Run, tmp_path: Path) -> None:
         assert flicker.n_frames == 2
     page = targets[2].read_text()
     assert page.count("data:image/png") == 2 and "ssim" in page and "http" not in page
+    assert 'alt="side by side: Banner: Gules; Banner: Azure, a saltire Argent"' in page
 
 
 def test_stacked_and_flat_agree(drapery: Run) -> None:

@@ -18,6 +18,7 @@ from drapery.banner.design import use_parser
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.banner.blazon.writing import alt_text
     from drapery.banner.crafting import CraftingItem, crafting_items
     from drapery.banner.design import LOOM_LAYERS, MAX_LAYERS, Banner, Layer
     from drapery.banner.dyes import DYE_NAMES, DYES, Dye
@@ -67,6 +68,7 @@ __all__ = [
     "LoomStep",
     "Pattern",
     "SheetRegion",
+    "alt_text",
     "binary_forms",
     "choose_banner",
     "composite",
@@ -93,6 +95,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
+        "banner.blazon.writing": ("alt_text",),
         "banner.crafting": ("CraftingItem", "crafting_items"),
         "banner.design": ("LOOM_LAYERS", "MAX_LAYERS", "Banner", "Layer"),
         "banner.dyes": ("DYES", "DYE_NAMES", "Dye"),

@@ -44,7 +44,8 @@ _PAGE = """<!doctype html>
 {% endif %}
 <h2>Pictures{% if shown < total %}, {{ shown }} of {{ total }}{% endif %}</h2>
 <div class="grid">{% for out, data in pictures %}
-<figure><img alt="" src="{{ data }}"><figcaption>{{ out }}</figcaption></figure>{% endfor %}
+<figure><img alt="{{ out }}" src="{{ data }}">
+<figcaption>{{ out }}</figcaption></figure>{% endfor %}
 </div>
 </html>
 """

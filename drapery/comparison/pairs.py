@@ -117,9 +117,18 @@ def _step_name(variant: Variant, count: int) -> str:
 
 def pair_entry(pair: Comparison) -> ReportEntry:
     """The pair as a part of a report."""
+    # Imported here: the words of blazon load a grammar, which only reports need.
+    from drapery.banner import alt_text
+
     pictures = [("side by side", data_address(pair_sheet(pair)))]
     sheet = build_up_sheet(pair)
     if sheet is not None:
         pictures.append(("built up layer by layer", data_address(sheet)))
     facts = {k: v for k, v in pair.difference.as_dict().items() if v is not None}
-    return ReportEntry(pair.other.label, pair.difference.same, pair.line(), facts, tuple(pictures))
+    banners = dict.fromkeys(
+        one.banner for one in (pair.first, pair.other) if one.banner is not None
+    )
+    shown = "; ".join(alt_text(banner) for banner in banners)
+    return ReportEntry(
+        *(pair.other.label, pair.difference.same, pair.line(), facts, tuple(pictures), shown)
+    )

@@ -28,7 +28,8 @@ _PAGE = """<!doctype html>
 <p>{{ entry.line }}</p>
 {% if entry.facts %}<table>{% for key, value in entry.facts.items() %}
 <tr><th>{{ key }}</th><td>{{ value }}</td></tr>{% endfor %}</table>{% endif %}
-{% for label, data in entry.pictures %}<figure><img alt="{{ label }}" src="{{ data }}">
+{% for label, data in entry.pictures %}<figure><img
+alt="{{ label }}{% if entry.shown %}: {{ entry.shown }}{% endif %}" src="{{ data }}">
 <figcaption>{{ label }}</figcaption></figure>{% endfor %}
 </section>
 {% endfor %}
@@ -38,13 +39,17 @@ _PAGE = """<!doctype html>
 
 @dataclass(frozen=True)
 class ReportEntry:
-    """One part of a report: its name and result, facts, and pictures as data addresses."""
+    """One part of a report: its name and result, facts, and pictures as data addresses.
+
+    shown: what the pictures show, in words.
+    """
 
     name: str
     same: bool
     line: str
     facts: Mapping[str, object] = field(default_factory=dict)
     pictures: tuple[tuple[str, str], ...] = ()
+    shown: str = ""
 
 
 def data_address(frame: Frame) -> str:

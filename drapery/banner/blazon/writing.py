@@ -30,6 +30,13 @@ def write_blazon(banner: Banner) -> str:
     return f"Arms: {words}" if named_alike and banner.layers else words
 
 
+def alt_text(banner: Banner) -> str:
+    """A banner in words, for people who cannot see its picture: `Banner: Azure, a bend Or`."""
+    # The words of a shield begin with `On a shield`.
+    words = write_blazon(banner).removeprefix("Arms: ")
+    return words if banner.kind == "shield" else f"Banner: {words}"
+
+
 def _dyes(banner: Banner) -> list[str]:
     return [banner.base, *(layer.dye for layer in banner.layers)]
 
