@@ -1,6 +1,7 @@
 """Small pictures of designs and patterns, drawn from the session's packs, as PNG files."""
 
 import threading
+from base64 import b64encode
 from weakref import WeakKeyDictionary
 from zlib import crc32
 
@@ -34,6 +35,11 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
     else:
         region, layers = SHIELD_REGIONS["front"], shield_layers(banner, packs)
     return png_bytes(region.sample(composite(layers), scale))
+
+
+def face_address(banner: Banner, packs: Packs, scale: int = 2) -> str:
+    """The flat face as a `data:` address. Raises PackError."""
+    return f"data:image/png;base64,{b64encode(face_png(banner, packs, scale)).decode()}"
 
 
 def pattern_names(packs: Packs) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ MAX_PLACE = 60
 
 _PLACEHOLDER = (
     "Paste a /give command, an item, JSON, the address of a banner editor,"
-    " or write: white creeper:lime"
+    " or write: white creeper:lime, or a blazon: Azure, a bend Or"
 )
 
 

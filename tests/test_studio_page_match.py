@@ -1,0 +1,47 @@
+"""The tabs that make designs from words."""
+
+from typing import Any
+
+import pytest
+from selenium.webdriver import Keys
+from selenium.webdriver.common.by import By
+from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
+
+from drapery.banner import alt_text, letter_banners, write_banner
+
+
+@pytest.fixture
+def page(chromium: Any, studio: Studio) -> Any:
+    resize(chromium, WIDE)
+    open_page(chromium, studio)
+    chromium.find_element(By.CSS_SELECTOR, ".live-bar button[aria-label=Pause]").click()
+    return chromium
+
+
+def open_tab(page: Any, name: str) -> Any:
+    page.find_element(By.ID, f"tab-{name}").click()
+    panel = page.find_element(By.ID, f"panel-{name}")
+    wait_until(panel.is_displayed)
+    return panel
+
+
+def value(page: Any, element_id: str) -> str:
+    return page.execute_script(f"return document.getElementById('{element_id}').value")
+
+
+def test_a_word_is_written_and_a_letter_opened(page: Any) -> None:
+    panel = open_tab(page, "letters")
+    word = panel.find_element(By.CSS_SELECTOR, "input[type=text]")
+    word.send_keys(Keys.CONTROL + "a")
+    word.send_keys("go 4", Keys.TAB)
+    banners = letter_banners("GO 4")
+    wait_until(
+        lambda: value(page, "letters-text") == "\n".join(write_banner(b, "give") for b in banners)
+    )
+    letters = panel.find_elements(By.CSS_SELECTOR, ".letters button")
+    assert [letter.find_element(By.TAG_NAME, "img").get_attribute("alt") for letter in letters] == [
+        alt_text(banner) for banner in banners
+    ]
+    letters[0].click()
+    wait_until(lambda: value(page, "written") == write_banner(banners[0], "give"))
+    assert not console_errors(page)
