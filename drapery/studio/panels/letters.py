@@ -1,6 +1,7 @@
 """Words as rows of banners: write, look, and open a letter as the design."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from nicegui import ui
 
@@ -40,7 +41,7 @@ def build(session: Session) -> None:
     dyes = {name: dye_title(name) for name in DYE_NAMES}
     borders = {"": "Like the ground", "none": "None", **dyes}
 
-    def change(**changes: str | None) -> None:
+    def change(**changes: Any) -> None:
         nonlocal chosen
         after = replace(chosen, **changes)
         after.banners()
