@@ -159,7 +159,8 @@ def runner(garment: str) -> Case:
         sewn = skirt.skirt_cloth(skirt.SkirtParameters())
     cloth, met = sewn.cloth, gait.colliders(sewn.solid or ())
     collisions = Collisions(met, TEXEL, order=3, apart=TEXEL / 2)
-    moving = MovingCloth.begin(cloth, None, 1 / 120, collisions=collisions)
+    start = State(sewn.start[None], np.zeros_like(sewn.start)[None])
+    moving = MovingCloth.begin(cloth, None, 1 / 120, start=start, collisions=collisions)
     wind = Wind((0.0, 0.0, -5.5), period=4.0)
     forces: list[Force] = [Gravity(), wind]
     pins, hem = sewn.pin_path(gait.poses), garment == "skirt"
