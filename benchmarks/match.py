@@ -58,8 +58,8 @@ def print_faces(packs: tuple[Path, ...], layers: int, numbers: range) -> None:
             fewest[len(made[1])] += 1
     median, most, worst = np.percentile(times, [50, 99, 100])
     print(
-        f"{layers:2} layers: {found} of {len(numbers)} exact ({found / len(numbers):.2%}); processor time"
-        f" median {median:.3f} s, 99 % {most:.2f} s, longest {worst:.2f} s;"
+        f"{layers:2} layers: {found} of {len(numbers)} exact ({found / len(numbers):.2%});"
+        f" processor time median {median:.3f} s, 99 % {most:.2f} s, longest {worst:.2f} s;"
         f" layers of the designs found {dict(sorted(fewest.items()))}",
         flush=True,
     )

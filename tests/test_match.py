@@ -46,7 +46,7 @@ def test_the_design_of_a_face_is_found(matcher: Matcher, text: str) -> None:
 def test_random_designs_are_found_exactly() -> None:
     rng, art = np.random.default_rng(3), read_art(open_packs(()))
     search = ExactSearch(art)
-    for _ in range(5):
+    for _ in range(3):
         layers = [(int(rng.integers(42)), int(rng.integers(16))) for _ in range(6)]
         face = art.paint(int(rng.integers(16)), layers)
         found = search.find(face, 6)
@@ -68,6 +68,14 @@ def test_a_face_that_is_slightly_off_is_found_within_a_tolerance() -> None:
     noisy = face + np.random.default_rng(0).integers(-1, 2, face.shape).astype(np.int32)
     assert ExactSearch(art).find(noisy, 6) is None
     assert ExactSearch(art).find(noisy, 6, tolerance=1) == (2, tuple(layers))
+
+
+def test_a_face_with_a_hole_is_found_exactly(matcher: Matcher) -> None:
+    face, weights = face_of("white creeper:lime border:black").copy(), np.ones((40, 20))
+    face[22:26, 3:17], weights[22:26, 3:17] = (9, 200, 250), 0
+    (found,) = matcher.match(face, weights=weights, alternatives=1, effort=0)
+    assert found.error == 0
+    assert {layer.pattern for layer in found.banner.layers} >= {"border", "creeper"}
 
 
 def test_the_design_is_found_in_the_look_of_a_pack() -> None:

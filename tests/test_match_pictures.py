@@ -121,13 +121,17 @@ def test_what_is_not_a_picture_is_refused(tmp_path: Path) -> None:
         decode_picture(b"GIF89a or a text")
     data = BytesIO()
     Image.fromarray(picture(20, 40)).save(data, "PNG")
-    with pytest.raises(OptionError, match="broken picture"):
+    with pytest.raises(OptionError, match="broken PNG file"):
         decode_picture(data.getvalue()[:80])
+    data = BytesIO()
+    Image.fromarray(picture(200, 400)).convert("RGB").save(data, "JPEG")
+    with pytest.raises(OptionError, match="broken picture"):
+        decode_picture(data.getvalue()[:900])
 
 
 @pytest.mark.parametrize(
     ("side", "message"),
-    [(5000, "5000 x 5000 px; at most 16 million"), (50_000, "over 16 million pixels")],
+    [(5000, "5000 x 5000 px; at most 8192 px a side and 16 million"), (50_000, "50000 x 50000")],
 )
 def test_a_bomb_is_refused_before_it_is_decoded(side: int, message: str) -> None:
     data = BytesIO()
@@ -137,6 +141,13 @@ def test_a_bomb_is_refused_before_it_is_decoded(side: int, message: str) -> None
     bomb = plain[:12] + header + crc32(header).to_bytes(4, "big") + plain[33:]
     with pytest.raises(OptionError, match=message):
         decode_picture(bomb)
+
+
+def test_a_large_picture_is_refused_before_it_is_decoded() -> None:
+    data = BytesIO()
+    Image.new("L", (4200, 4200)).save(data, "JPEG")
+    with pytest.raises(OptionError, match="4200 x 4200 px; at most 16 million pixels"):
+        decode_picture(data.getvalue())
 
 
 def test_the_nearest_dye_is_named() -> None:
