@@ -1,0 +1,85 @@
+"""Banners in photos: set upright, in unknown light."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import Run
+from PIL import Image
+
+from drapery import Banner
+from drapery.errors import OptionError
+from drapery.match import match_photo
+from drapery.match.perspective import PhotoView, find_corners
+from drapery.pictures import draw_face
+
+DESIGN = Banner.parse("white creeper:red border:black")
+CORNERS = ((52.0, 21.0), (118.0, 30.0), (112.0, 171.0), (47.0, 160.0))
+
+
+def photo(banner: Banner, gain: tuple[float, float, float] = (0.8, 0.75, 0.7)) -> np.ndarray:
+    """A face in perspective before green, in light of this gain, uint8 [200, 160, 3]."""
+    face = draw_face(banner, scale=8).pixels[..., :3] * np.array(gain)
+    view = PhotoView(np.zeros((200, 160, 3), np.uint8), CORNERS)
+    back = np.linalg.inv(view._map)
+    y, x = np.mgrid[:200, :160] + 0.5
+    u, v, w = (row[0] * x + row[1] * y + row[2] for row in back)
+    inside = (u > 0) & (u < w) & (v > 0) & (v < w)
+    rows = (v / w * len(face)).astype(int).clip(0, len(face) - 1)
+    columns = (u / w * face.shape[1]).astype(int).clip(0, face.shape[1] - 1)
+    picture = np.where(inside[..., None], face[rows, columns], (90, 200, 90))
+    noise = np.random.default_rng(1).normal(0, 2, picture.shape)
+    return np.clip(picture + noise, 0, 255).astype(np.uint8)
+
+
+def test_texels_are_read_through_the_corners() -> None:
+    seen = PhotoView(photo(DESIGN, (1, 1, 1)), CORNERS).face()
+    face = draw_face(DESIGN, scale=1).pixels[..., :3].reshape(-1, 3)
+    assert np.median(np.abs(seen - face)) < 4
+
+
+def test_corners_are_found_before_one_colour() -> None:
+    found = find_corners(photo(DESIGN))
+    assert np.abs(np.array(found) - CORNERS).max() < 3
+
+
+def test_a_design_is_found_in_unknown_light() -> None:
+    best = match_photo(photo(DESIGN), CORNERS, layers=2)[0]
+    face, wanted = (draw_face(one, scale=1).pixels.astype(int) for one in (best.banner, DESIGN))
+    assert np.abs(face - wanted).mean() < 2.5
+
+
+def test_the_same_photo_gives_the_same_designs() -> None:
+    picture = photo(Banner.parse("red cross:white"))
+    found = [match_photo(picture, layers=1) for _ in range(2)]
+    assert found[0] == found[1] and found[0][0].banner == Banner.parse("red cross:white")
+
+
+@pytest.mark.parametrize(
+    ("corners", "line"),
+    [
+        (((0, 0), (50, 0), (50, 90)), "four corners"),
+        (((0, 0), (0, 90), (50, 90), (50, 0)), "do not span a flag"),
+        (((0, 0), (3, 0), (3, 90), (0, 90)), "at least 8 pixels apart"),
+    ],
+)
+def test_bad_corners_are_refused(corners: tuple[tuple[float, float], ...], line: str) -> None:
+    with pytest.raises(OptionError, match=line):
+        match_photo(photo(DESIGN), corners)
+
+
+def test_pictures_without_a_flag_are_refused() -> None:
+    with pytest.raises(OptionError, match="no flag was found"):
+        match_photo(np.full((90, 90, 3), 80, np.uint8))
+    with pytest.raises(OptionError, match="the photo is float64"):
+        match_photo(np.zeros((90, 90, 3)))
+
+
+def test_the_command_takes_corners(drapery: Run, tmp_path: Path) -> None:
+    path = tmp_path / "photo.png"
+    Image.fromarray(photo(Banner.parse("red cross:white"))).save(path)
+    corners = [f"{x},{y}" for x, y in CORNERS]
+    code, out, _ = drapery("match", path, "--corners", *corners, "--layers", 1)
+    assert code == 0 and out.splitlines()[0].endswith("red cross:white")
+    code, _, err = drapery("match", path, "--corners", "1,2", "3", "4,5", "6,7")
+    assert code == 2 and "'3' is not two numbers" in err
