@@ -243,7 +243,8 @@ def strings(memory: int) -> bytes:
 
 
 def test_the_memory_of_a_file_ends_at_its_limit():
-    assert read_nbt(strings(MAX_MEMORY - 1000), "f")["a"][0] == ""
+    with untraced():
+        assert read_nbt(strings(MAX_MEMORY - 1000), "f")["a"][0] == ""
     with pytest.raises(DesignError, match="over 48 MiB of memory by byte"):
         read_nbt(strings(MAX_MEMORY + 1000), "f")
 

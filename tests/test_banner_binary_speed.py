@@ -4,6 +4,7 @@ import random
 import time
 
 import world_maker as make
+from tracing import untraced
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYE_NAMES
@@ -33,7 +34,8 @@ def test_a_megabyte_with_a_thousand_banners_is_read_under_a_second():
     times = []
     for _ in range(3):
         start = time.process_time()
-        found = [one.banner for one in find_in_bytes(data, "f")]
+        with untraced():
+            found = [one.banner for one in find_in_bytes(data, "f")]
         times.append(time.process_time() - start)
     assert sorted(map(repr, found)) == sorted(map(repr, banners))
     assert min(times) < 1
