@@ -1,4 +1,4 @@
-"""How fabrics drape and flags flap: `python -m benchmarks.fabrics [--rings N]`.
+"""How fabrics drape and flags flap: `python -m benchmarks.fabrics [--rings N] [--sheet FILE]`.
 
 Drape: Cusick's test (J. Textile Inst. 56 and 59, 1965 and 1968; ISO 9073-9). A disc of 30 cm lies
 on a support of 18 cm. The drape coefficient is the shadow of its rim over the area of the flat rim.
@@ -14,10 +14,13 @@ Shelley, Vandenberghe, Zhang, PRL 94, 2005). The amplitude stays below the flag'
 
 import argparse
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.spatial import Delaunay
 
+from drapery.banner import read_design
 from drapery.cloth import (
     FABRICS,
     Cloth,
@@ -30,6 +33,12 @@ from drapery.cloth import (
     rest_state,
 )
 from drapery.mesh import Array
+from drapery.packs import open_packs
+from drapery.render import Frame
+from drapery.render.contact import contact_table
+from drapery.render.soft import draw_scene
+from drapery.scenes.stager import still
+from drapery.settings import Settings
 
 RADIUS, SUPPORT = 0.15, 0.09
 """Of the disc and of what it lies on [m]."""
@@ -37,6 +46,16 @@ AIR = 3.0
 """Drag that brings the disc to rest [1/s]."""
 NUDGE = 1e-3
 """Rms of the heights at the start [m]; a disc that is exactly level has no place to fold."""
+
+
+SHOWN = ("silk", "wool", "leather")
+LOOK: dict[str, Any] = {"view": "hero", "size": (250, 310), "samples": 4, "time": 4.0}
+PLACES: dict[str, dict[str, Any]] = {
+    "4 m/s": {"wind": 4.0},
+    "7 m/s": {"wind": 7.0},
+    "7 m/s, onto the pole": {"wind": 7.0, "direction": 180.0},
+    "7 m/s, on a wall": {"wind": 7.0, "placement": "wall"},
+}
 
 
 @dataclass(frozen=True)
@@ -126,11 +145,27 @@ def flap(fabric: str, speed: float, *, length: float = 1.0, seconds: float = 12.
     return Flapping(float(np.ptp(late)) / 2 / length, frequency)
 
 
+def sheet() -> Frame:
+    """Banners of three fabrics in the hero view, in several winds and places."""
+    design, packs = read_design("white creeper:lime border:black"), open_packs()
+    pictures = [
+        draw_scene(still(design, packs, Settings(fabric=name, **LOOK, **place))).pixels
+        for name in SHOWN
+        for place in PLACES.values()
+    ]
+    return contact_table(tuple(PLACES), SHOWN, pictures)
+
+
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rings", type=int, default=15)
-    rings = parser.parse_args().rings
+    parser.add_argument("--sheet", type=Path, help="only draw banners of fabrics to this file")
+    options = parser.parse_args()
+    if options.sheet:
+        sheet().save(options.sheet)
+        return
+    rings = options.rings
     print(f"Cusick's test, {rings} rings, three times: drape coefficient [%], nodes")
     for name, fabric in FABRICS.items():
         bent = 100 * np.cbrt(fabric.bending / (fabric.density * 9.81))
