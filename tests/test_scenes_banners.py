@@ -72,11 +72,12 @@ def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
 
 def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
     parameters = flag.FlagParameters()
-    cloth = flag.banner_on_its_side(parameters.grid)
-    for state in flag.flag_states(parameters, cloth, SHORT):
+    sewn = flag.flag_cloth(parameters)
+    cloth = sewn.cloth
+    for state in flag.flag_states(parameters, sewn, SHORT):
         hoist, fly = state.positions[0, :4], state.positions[0, -4:]
         np.testing.assert_allclose(hoist, cloth.rest_positions[:4], atol=1e-12)
-        assert (fly[:, 0] - hoist[:, 0]).min() > 0.6 * 40 / 24 * flag.GROWN
+        assert (fly[:, 0] - hoist[:, 0]).min() > 0.6 * 44 * sewn.texel
         assert fly[:, 1].mean() < hoist[:, 1].mean()  # its weight shows
 
 

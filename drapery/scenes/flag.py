@@ -1,18 +1,18 @@
 """A flag on a tower, seen from afar: few bend points are enough for much wind."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, Drag, Fabric, Gravity, State, Wind, grid
-from drapery.cloth.colliders import rotation_about
+from drapery.cloth import State, Wind
+from drapery.garments.assembly import SewnCloth
 from drapery.render.camera import Camera
 from drapery.render.scene import Scene
-from drapery.scenes.banners import flag_materials, flag_shell
+from drapery.scenes.banners import flag_materials
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.moving import motion, placed
+from drapery.scenes.moving import in_wind, motion
 from drapery.scenes.parameters import (
     SceneParameters,
     grid_parameter,
@@ -21,22 +21,18 @@ from drapery.scenes.parameters import (
     thickness_parameter,
     wind_parameter,
 )
-from drapery.style.block import FLAG_SIZE, SCALE
+from drapery.scenes.stroll import cloths_of
 from drapery.style.block_world import Cell, blocks
 from drapery.style.scenery import SKY, post
-from drapery.style.tailoring import garment
 
 LOOP = 4.0
-GROWN = 2.2
-"""The flag is this many times as large as a banner; the banner's top edge is at the pole."""
+RESOLUTION = 12
+"""The flag is 4/3 as large as the garment."""
 TOWER, POLE = 5, 6.0
 """Height of the tower [blocks] and of the pole on it [m]."""
-BUNTING = Fabric(stretch=10.0, shear=4.0, flexion=0.6)
-"""Stiffness of the flag's springs [N/m], high enough that its free end does not crumple."""
-FRICTION = 1.8
-"""Friction of the air along the flag [1/s]; the wind itself presses only on faces."""
-GROWN_SIZE = FLAG_SIZE[0] * GROWN, FLAG_SIZE[1] * GROWN
 FOOT = np.array([0.0, TOWER + 1.0, 0.0])
+RAISED = FOOT + np.array([0.0, 0.8, 0.0])
+"""From the garment's origin, so that the flag ends below the top of the pole [m]."""
 
 
 @dataclass(frozen=True)
@@ -55,32 +51,25 @@ class FlagParameters(SceneParameters):
 
 def play(parameters: FlagParameters, clip: Clip) -> Iterator[Scene]:
     """The tower on its hill; only the flag moves."""
-    packs = open_packs(())
-    cloth = banner_on_its_side(parameters.grid)
-    shell, materials = flag_shell(cloth), flag_materials((parameters.design,), packs)
+    packs, sewn = open_packs(()), flag_cloth(parameters)
     still = (*blocks(_hill(), packs), post(FOOT, POLE, packs, 0.12))
-    for state in flag_states(parameters, cloth, clip):
-        sheet = state.positions[0]
-        thick = parameters.thickness * SCALE * GROWN
-        flag = garment(shell, sheet, thick, *materials, size=GROWN_SIZE, texel=SCALE * GROWN)
-        yield Scene((*still, flag), _camera(), clip.size, background=SKY, samples=4)
+    for state in flag_states(parameters, sewn, clip):
+        flag = sewn.models(state.positions[0] + RAISED)
+        yield Scene((*still, *flag), _camera(), clip.size, background=SKY, samples=4)
 
 
-def banner_on_its_side(shape: tuple[int, int]) -> Cloth:
-    """The flag, its hoist along the top of the pole."""
-    cloth = grid(*shape, *GROWN_SIZE, fabric=BUNTING)
-    top = FOOT + np.array([0.1, POLE - 0.1 - GROWN_SIZE[0] / 2, 0.0])
-    return placed(cloth, top, rotation_about((0, 0, 1), 90))
+def flag_cloth(parameters: FlagParameters) -> SewnCloth:
+    """The garment `flag` with another design."""
+    (sewn,) = cloths_of("flag", parameters.thickness, parameters.grid, RESOLUTION)
+    (material,) = flag_materials((parameters.design,), open_packs(()))
+    return replace(sewn, pieces=(replace(sewn.pieces[0], material=material),))
 
 
-def flag_states(parameters: FlagParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
+def flag_states(parameters: FlagParameters, sewn: SewnCloth, clip: Clip) -> Iterator[State]:
     """The flag at each frame, in a wind from the left."""
     velocity = (0.97 * parameters.wind, 0.0, 0.24 * parameters.wind)
     wind = Wind(velocity, gusts=0.7, gust_size=2.5, seed=parameters.seed, period=LOOP)
-    # Friction in moving air, rate * (wind - v), is a constant push, plus drag in still air.
-    push = Gravity((FRICTION * velocity[0], 0.0, FRICTION * velocity[2]))
-    forces = (Gravity(), wind, push, Drag(FRICTION))
-    return motion(cloth, clip, forces=forces, settle=LOOP)
+    return motion(sewn.cloth, clip, forces=in_wind(sewn.cloth, wind), settle=LOOP)
 
 
 def _hill() -> dict[Cell, str]:

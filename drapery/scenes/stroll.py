@@ -30,14 +30,18 @@ Worn = tuple[SewnCloth, Iterator[State]]
 
 @lru_cache(maxsize=8)
 def cloths_of(
-    name: str, thickness: float, points: tuple[int, int] | None = None
+    name: str, thickness: float, points: tuple[int, int] | None = None, resolution: int = 16
 ) -> tuple[SewnCloth, ...]:
-    """The cloths of a garment of the package. thickness: [texels]. points: of its pieces."""
+    """The cloths of a garment of the package.
+
+    thickness: [texels]. points: of its pieces. resolution: texels to a block.
+    """
     garment = find_garment(name)
     pieces = garment.piece
     if points is not None:
         pieces = tuple(each.model_copy(update={"points": points}) for each in pieces)
-    made = garment.model_copy(update={"piece": pieces, "thickness": thickness})
+    own = {"piece": pieces, "thickness": thickness, "resolution": resolution}
+    made = garment.model_copy(update=own)
     return tailor(made, open_packs(()))
 
 
