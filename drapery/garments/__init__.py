@@ -34,7 +34,13 @@ if TYPE_CHECKING:
         StripPiece,
     )
     from drapery.garments.motions import motion_names
-    from drapery.garments.players import dressed_player, make_wearer, player_of
+    from drapery.garments.players import (
+        check_skin,
+        dressed_player,
+        make_wearer,
+        player_of,
+        skin_names,
+    )
     from drapery.player_settings import PlayerSettings
 
 __all__ = [
@@ -54,12 +60,14 @@ __all__ = [
     "SewnCloth",
     "SewnPiece",
     "StripPiece",
+    "check_skin",
     "dressed_player",
     "find_garment",
     "garment_names",
     "make_wearer",
     "motion_names",
     "player_of",
+    "skin_names",
     "tailor",
 ]
 
@@ -83,7 +91,13 @@ __getattr__, __dir__ = lazy_names(
             "StripPiece",
         ),
         "garments.motions": ("motion_names",),
-        "garments.players": ("dressed_player", "make_wearer", "player_of"),
+        "garments.players": (
+            "check_skin",
+            "dressed_player",
+            "make_wearer",
+            "player_of",
+            "skin_names",
+        ),
         "player_settings": ("PlayerSettings",),
         "garments.assembly": ("SewnCloth", "SewnPiece", "tailor"),
     },

@@ -6,6 +6,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from drapery.banner.packs.png_file import read_png_file
 from drapery.errors import OptionError
 from drapery.garments.catalogue import ENDING, find_garment
 from drapery.garments.loading import complaint_of
@@ -19,6 +20,8 @@ from drapery.garments.model import (
 from drapery.option import shown
 from drapery.player_settings import PlayerSettings
 from drapery.style.equipment import BANNER_TEXEL, FLAG_TOP, POLES
+from drapery.style.figure import SKINS
+from drapery.style.skins import read_skin
 
 PICTURE = {"view": "hero", "wind": 0.5, "direction": 180.0, "gusts": 0.2}
 """Options of a player's picture unless others are given: a light wind from ahead."""
@@ -86,6 +89,19 @@ def _look_of(text: str) -> tuple[float, ...]:
             f"look {shown(text)} is not two angles or a point; write it like 30,10 or 1,1.6,3"
         )
     return numbers
+
+
+def skin_names() -> tuple[str, ...]:
+    """The names of the built-in skins."""
+    return SKINS
+
+
+def check_skin(path: Path, widest: int) -> None:
+    """Raise OptionError or PackError unless a PNG file is a skin. widest: its limit [px]."""
+    texels = read_png_file(path, "skin")
+    if texels.shape[1] > widest:
+        raise OptionError(f"skin is {texels.shape[1]} px wide; use at most {widest} px")
+    read_skin(texels)
 
 
 def with_head_banner(garment: Garment) -> Garment:

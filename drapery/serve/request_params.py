@@ -244,8 +244,7 @@ def _garment(values: dict[str, str], limits: PictureLimits) -> "Garment":
 
 def _player(values: dict[str, str], config: ServiceConfig, skin: Path | None) -> "Garment":
     """The player of an address. skin: a file that the client sent."""
-    from drapery.garments import garment_names, player_of
-    from drapery.style.figure import SKINS
+    from drapery.garments import garment_names, player_of, skin_names
 
     given = {name: values[name] for name in PLAYER_OPTIONS if name in values}
     for name in ("head", "shield"):
@@ -263,8 +262,8 @@ def _player(values: dict[str, str], config: ServiceConfig, skin: Path | None) ->
         raise OptionError("skin is in the address and in the body; leave one out")
     if skin is not None:
         chosen["skin"] = str(skin)
-    elif "skin" in chosen and chosen["skin"] not in SKINS:
-        _known("skin", chosen["skin"], (*SKINS, *config.skins))
+    elif "skin" in chosen and chosen["skin"] not in skin_names():
+        _known("skin", chosen["skin"], (*skin_names(), *config.skins))
         chosen["skin"] = str(config.skins[chosen["skin"]])
     if "cape" in chosen:
         _known("cape", chosen["cape"], tuple(config.capes))

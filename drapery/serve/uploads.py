@@ -5,9 +5,7 @@ from collections import OrderedDict
 from pathlib import Path
 from threading import Lock
 
-from drapery.banner.packs.png_file import read_png_file
-from drapery.errors import OptionError
-from drapery.style.skins import read_skin
+from drapery.garments import check_skin
 
 MAX_UPLOAD = 1 << 20
 """The most bytes of a skin."""
@@ -35,7 +33,7 @@ class SkinUploads:
             path = self._folder / f"{name}.png"
             path.write_bytes(data)
             try:
-                _check(path)
+                check_skin(path, MAX_SIDE)
             except Exception:
                 path.unlink()
                 raise
@@ -43,10 +41,3 @@ class SkinUploads:
             while len(self._known) > self._kept:
                 self._known.popitem(last=False)[1].unlink(missing_ok=True)
             return path
-
-
-def _check(path: Path) -> None:
-    texels = read_png_file(path, "skin")
-    if texels.shape[1] > MAX_SIDE:
-        raise OptionError(f"skin is {texels.shape[1]} px wide; use at most {MAX_SIDE} px")
-    read_skin(texels)
