@@ -5,7 +5,7 @@ import pytest
 
 from drapery import Banner, draw
 from drapery.errors import OptionError
-from drapery.garments import dressed_player, make_wearer
+from drapery.garments import dressed_player, make_wearer, tailor
 from drapery.packs import MemoryPack, open_packs
 from drapery.scenes import Dressed
 from drapery.settings import Settings
@@ -173,3 +173,16 @@ def test_armour_stops_cloth() -> None:
     dressed = Dressed(player, ARMED, Settings())
     boxes = dressed.wearer.colliders(("body",))  # type: ignore[union-attr]
     np.testing.assert_allclose(boxes[0].shape.size / TEXEL, [10, 14, 6], atol=1e-9)
+
+
+@pytest.mark.parametrize(("armor", "moved"), [("diamond", (0.85, -1.1)), ("boots:iron", (0, 0))])
+def test_a_cape_hangs_behind_a_chestplate(armor: str, moved: tuple[float, float]) -> None:
+    def pins(player: object) -> np.ndarray:
+        (cape,) = tailor(player, NONE)  # type: ignore[arg-type]
+        return cape.start[cape.cloth.inv_mass == 0] / TEXEL
+
+    plain, armed = (
+        pins(dressed_player(make_wearer(**fields, **STAND), wear=("cape",)))
+        for fields in ({}, {"armor": armor})
+    )
+    np.testing.assert_allclose(armed - plain, np.tile([0, *moved], (len(plain), 1)), atol=1e-9)

@@ -19,12 +19,16 @@ from drapery.garments.model import (
 )
 from drapery.option import shown
 from drapery.player_settings import PlayerSettings
-from drapery.style.equipment import BANNER_TEXEL, FLAG_TOP, POLES
+from drapery.style.equipment import BANNER_TEXEL, FLAG_TOP, POLES, parse_armor
 from drapery.style.figure import SKINS
 from drapery.style.skins import read_skin
 
 PICTURE = {"view": "hero", "wind": 0.5, "direction": 180.0, "gusts": 0.2}
 """Options of a player's picture unless others are given: a light wind from ahead."""
+BEHIND = ("cape", "elytra")
+"""Garments that hang from the shoulders, behind a chestplate."""
+CHESTPLATE = (0.85, 1.1)
+"""How far a chestplate moves them up and back [texels]."""
 WING = {"front": (24.0, 2.0, 10.0, 20.0), "back": (36.0, 2.0, 10.0, 20.0), "sheet": (64.0, 32.0)}
 """Where a wing lies on the texture of a cape."""
 
@@ -61,7 +65,19 @@ def dressed_player(
     elif cape is not None:
         plain = find_garment("cape").with_texture(cape)
         worn.append(plain)
+    if wearer.armor is not None and "chestplate" in parse_armor(wearer.armor):
+        worn = [_over_chestplate(each) if each.name in BEHIND else each for each in worn]
     return Garment(name="player", piece=(), wearer=wearer, picture=PICTURE, over=tuple(worn))
+
+
+def _over_chestplate(garment: Garment) -> Garment:
+    """A cape or wings, moved up and back by the distance that the game gives it there."""
+    up, back = CHESTPLATE
+    pieces = []
+    for piece in garment.piece:
+        x, y, z = piece.place
+        pieces.append(piece.model_copy(update={"place": (x, y + up, z - back)}))
+    return garment.model_copy(update={"piece": tuple(pieces)})
 
 
 def player_of(settings: PlayerSettings, folder: Path = Path()) -> Garment:
