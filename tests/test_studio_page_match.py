@@ -1,5 +1,6 @@
-"""The tabs that make designs from words."""
+"""The tabs that make designs from words and from pictures."""
 
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -7,6 +8,7 @@ from selenium.webdriver import Keys
 from selenium.webdriver.common.by import By
 from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
 
+from drapery import Banner, draw_face
 from drapery.banner import alt_text, letter_banners, write_banner
 
 
@@ -45,3 +47,18 @@ def test_a_word_is_written_and_a_letter_opened(page: Any) -> None:
     letters[0].click()
     wait_until(lambda: value(page, "written") == write_banner(banners[0], "give"))
     assert not console_errors(page)
+
+
+def test_a_picture_becomes_candidates_and_one_is_opened(page: Any, tmp_path: Path) -> None:
+    design = Banner.parse("red cross:white")
+    draw_face(design, scale=2).save(tmp_path / "face.png")
+    (tmp_path / "words.png").write_text("not a picture")
+    panel = open_tab(page, "picture")
+    panel.find_element(By.CSS_SELECTOR, "input[type=file]").send_keys(str(tmp_path / "face.png"))
+    wait_until(lambda: "click one" in panel.find_element(By.CSS_SELECTOR, ".hint").text)
+    pictures = panel.find_elements(By.CSS_SELECTOR, ".candidates img")
+    assert pictures[0].get_attribute("alt") == alt_text(design)
+    pictures[0].click()
+    wait_until(lambda: value(page, "written") == write_banner(design, "give"))
+    panel.find_element(By.CSS_SELECTOR, "input[type=file]").send_keys(str(tmp_path / "words.png"))
+    wait_until(lambda: "words.png" in page.find_element(By.TAG_NAME, "body").text)

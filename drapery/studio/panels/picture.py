@@ -1,0 +1,107 @@
+"""From a picture to a design: drop a picture, watch the candidates improve, and open one."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from nicegui import context, ui
+from starlette.concurrency import run_in_threadpool
+
+from drapery import DraperyError
+from drapery.banner import LOOM_LAYERS, alt_text
+from drapery.match import Match, Matcher, MatchProgress, fit_picture, match_photo, read_picture
+from drapery.packs import Packs
+from drapery.studio.art import face_address
+from drapery.studio.descriptions import described
+from drapery.studio.file_field import FileField
+from drapery.studio.panels.fields import Fields
+from drapery.studio.session import Session
+from drapery.studio.sketch import sketch_of
+from drapery.studio.widgets import text_element
+
+ENDINGS = ".png,.jpg,.jpeg,.webp"
+COUNT = 6
+"""The most candidates."""
+EFFORT = 12
+"""How many designs are changed at random and improved: a few seconds."""
+
+
+def build(session: Session) -> None:
+    """A field for a picture, and the candidates."""
+    client, fields = context.client, Fields()
+    is_photo = False
+    newest = 0
+
+    def set_photo(on: bool) -> None:
+        nonlocal is_photo
+        is_photo = on
+
+    async def take(number: int) -> None:
+        nonlocal newest
+        newest = number
+        upload = session.uploads.get(number, "picture")
+        status.set_text(f"Looking for designs like {upload.name} …")
+        try:
+            states = _states(upload.path, upload.name, session.packs(), is_photo)
+            shown: tuple[Match, ...] = ()
+            while (state := await run_in_threadpool(next, states, None)) is not None:
+                if session.closed or newest != number:
+                    return
+                if state.matches != shown:
+                    shown = state.matches
+                    with client:
+                        _show(session, row, shown)
+            status.set_text(f"The designs most like {upload.name}: click one to open it.")
+        except DraperyError:
+            status.set_text("")
+            raise
+        finally:
+            session.uploads.remove(number)
+
+    text_element("Picture", "h2").classes("heading")
+    FileField(
+        session,
+        "picture",
+        "Drop a picture here, or choose one",
+        take,
+        endings=ENDINGS,
+        tab="picture",
+    )
+    with ui.element("div").classes("options"):
+        fields.tick("It is a photo of a banner: set it upright", lambda: is_photo, set_photo)
+    status = text_element("", "p").classes("hint").props('role="status"')
+    row = ui.element("div").classes("letters candidates").props('role="group"')
+    row.props.update({"aria-label": "Candidates"})
+
+
+def _states(path: Path, name: str, packs: Packs, is_photo: bool) -> Iterator[MatchProgress]:
+    """The states of the search for a picture's designs. Raises OptionError or PackError."""
+    pixels = read_picture(path)
+    if is_photo:
+        yield MatchProgress(1.0, tuple(match_photo(pixels, packs=packs)))
+        return
+    seen = fit_picture(pixels, name=name)
+    yield from Matcher(packs).iter_matches(
+        seen.face, weights=seen.weights, layers=LOOM_LAYERS, alternatives=COUNT, effort=EFFORT
+    )
+
+
+def _show(session: Session, row: ui.element, matches: tuple[Match, ...]) -> None:
+    row.clear()
+    with row:
+        for number, match in enumerate(matches, 1):
+            _candidate(session, number, match)
+
+
+def _candidate(session: Session, number: int, match: Match) -> None:
+    sketch = sketch_of(match.banner)
+    words = f"{number}: {described(sketch)}"
+    choice = ui.element("button").classes("found").props("type=button")
+    choice.props.update({"aria-label": f"Open {words}", "title": words})
+    choice.on(
+        "click",
+        lambda: session.selection.lay_out(sketch_of(match.banner, session.sketch.title)),
+    )
+    with choice:
+        picture = ui.element("img").props("width=50 height=100")
+        address = face_address(match.banner, session.packs(), 3)
+        picture.props.update({"src": address, "alt": alt_text(match.banner)})
