@@ -49,6 +49,18 @@ def test_a_thin_rod_pushes_a_coarse_cloth_and_never_passes_it(name: str) -> None
     assert moving.state.positions[0, 4 * 5 : 5 * 5, 2].min() > 0.3
 
 
+def test_a_rod_pushes_cloth_that_also_meets_itself() -> None:
+    cloth = grid(5, 9, 0.8, 1.6)
+    met = Collisions([PUSHED], thickness=0.02, apart=0.02)
+    moving = MovingCloth.begin(cloth, collisions=met)
+    for _ in range(40):
+        moving = moving.advance((Gravity(),))
+        assert depth(moving.state, PUSHED, cloth.triangles) < 1e-4
+    positions, velocities = moving.state.positions[0], moving.state.velocities[0]
+    assert positions[4 * 5 : 5 * 5, 2].min() > 0.3
+    assert velocities[4 * 5 : 5 * 5, 2].min() > 0.3  # contact leaves it the speed of the rod
+
+
 def test_cloth_rides_on_a_box_that_turns_and_rises() -> None:
     table = Box(np.array([0.0, -0.5, 0.0]), np.array([0.5, 0.1, 0.5]))
     turning = swinging((0.0, 0.0, 0.0), swing=10, period=2.0, phase=0.0)
