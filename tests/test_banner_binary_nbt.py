@@ -101,7 +101,7 @@ TREES = compounds(
 )
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(TREES, st.sampled_from(ORDERS), st.sampled_from(sorted(WRAPPINGS)), TEXTS)
 def test_it_reads_what_nbtlib_writes(root, order: str, wrapping: str, name: str):
     data = WRAPPINGS[wrapping](encode(root, order, name))

@@ -155,6 +155,7 @@ def test_every_age_and_spelling_of_one_banner_is_that_banner(text: str):
     assert parse_banner(text) == CREEPER
 
 
+@settings(max_examples=40)
 @given(banner=BANNERS.filter(lambda banner: can_hold("give-1.12", banner)))
 def test_the_ages_agree_on_every_dye_and_pattern(banner: Banner):
     texts = [write_banner(banner, form) for form in ("give", "give-legacy", "give-1.12", "bedrock")]
