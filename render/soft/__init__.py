@@ -25,7 +25,10 @@ from drapery.render.materials import BLEND, MaterialTables, material_numbers
 from drapery.render.relief import bake_normal_maps
 from drapery.render.scene import Scene
 from drapery.render.soft.bins import RECORD, TILE, sort_into_tiles
+from drapery.render.soft.blending import FULL_LIGHT
+from drapery.render.soft.cast import find_shaded
 from drapery.render.soft.clipping import Corners, clip
+from drapery.render.soft.coverage import depth_tiles
 from drapery.render.soft.projection import BROKEN, NEAREST, VERTEX, project
 from drapery.render.soft.shadows import (
     NO_RECEIVERS,
@@ -35,12 +38,7 @@ from drapery.render.soft.shadows import (
     shadow_light,
 )
 from drapery.render.soft.surface import surface_tiles
-from drapery.render.soft.tiles import (
-    FULL_LIGHT,
-    depth_tiles,
-    draw_tiles,
-    find_shaded,
-)
+from drapery.render.soft.tiles import draw_tiles
 from drapery.render.workers import run_parts, worker_count
 
 MAX_SIZE = 16384

@@ -21,8 +21,8 @@ from drapery.render.camera import Camera, Vector
 from drapery.render.drawlist import DrawList, Float32, Topology
 from drapery.render.light import Light
 from drapery.render.materials import BLEND
+from drapery.render.soft.cast import TAPS, TAPS_MIDDLE
 from drapery.render.soft.occlusion import occlude
-from drapery.render.soft.tiles import TAPS, TAPS_MIDDLE
 from drapery.render.vectors import unit
 
 SOFTNESS = 0.02

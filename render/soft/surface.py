@@ -6,8 +6,8 @@ import numpy as np
 
 from drapery.jit import entry_point
 from drapery.render.soft.bins import ID_MASK, TILE
+from drapery.render.soft.coverage import KEY_BITS, LAYER, STRIDE, cover_solid, weights_at
 from drapery.render.soft.projection import NEAREST
-from drapery.render.soft.tiles import KEY_BITS, LAYER, STRIDE, _weights, cover_solid
 
 
 @entry_point
@@ -50,7 +50,7 @@ def surface_tiles(
                 if key == 0:
                     continue
                 t = (key & ID_MASK) - 1
-                wa, wb, wc, _, _, _ = _weights(t, x0 + k, y0 + row, vertices, triangles)
+                wa, wb, wc, _, _, _ = weights_at(t, x0 + k, y0 + row, vertices, triangles)
                 w = 1.0 / (wa + wb + wc)
                 i, j, m = triangles[t, 0], triangles[t, 1], triangles[t, 2]
                 a, b, c = vertices[i], vertices[j], vertices[m]

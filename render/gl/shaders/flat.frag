@@ -19,10 +19,10 @@ uniform float spread; // distance of the places of the map that are compared [sa
 uniform int grid;     // samples along a pixel's side
 uniform int height;   // of the picture [samples]
 
-const int TAPS = 4; // places along one side of the square that is compared, as in soft/tiles.py
+const int TAPS = 4; // places along one side of the square that is compared, as in soft/cast.py
 
 // The share of places around that of a sample which the light reaches. Each sample of a pixel
-// compares its own share of them. Rows are counted from the top here, as in soft/tiles.py.
+// compares its own share of them. Rows are counted from the top here, as in soft/cast.py.
 float sunlit()
 {
     int side = textureSize(shadow_map, 0).x, lit = 0;

@@ -1,0 +1,138 @@
+"""Cast shadows: the share of light that reaches the samples of a triangle; see `shadows`."""
+
+from typing import Any
+
+import numpy as np
+
+from drapery.jit import entry_point, kernel
+from drapery.render.soft.blending import FULL_LIGHT
+from drapery.render.soft.coverage import LANES
+
+FLAT_AREA = 1e-3
+LARGE = 131072.0
+"""Triangles of a smaller area, and in larger rectangles, are not tested as a whole [samples^2]."""
+
+TAPS = 4
+TAPS_MIDDLE = 1.5
+"""Places of the shadow map along one side of the square that is compared, and their middle."""
+
+
+@kernel
+def _sunlit(place: Any, column: Any, line: Any, grid: Any, shadows: Any) -> Any:
+    """The share 0..1 of places around a place of the shadow map that the light reaches.
+
+    column, line: which of the pixel's samples it is, 0..grid - 1. There are TAPS x TAPS places for
+    each pixel, and each of its samples compares its own share of them.
+    """
+    (x, y, depth), (depths, side, spread) = place, shadows
+    lit = 0
+    for j in range(line, TAPS, grid):
+        down = min(max(np.int64(y + (j - TAPS_MIDDLE) * spread), 0), side - 1)
+        for i in range(column, TAPS, grid):
+            across = min(max(np.int64(x + (i - TAPS_MIDDLE) * spread), 0), side - 1)
+            lit += depths[np.uint64(down * side + across)] <= depth
+    return np.float64(lit * (grid * grid)) / (TAPS * TAPS)
+
+
+@kernel
+def cast_shadows(
+    t: Any,
+    x: Any,
+    y: Any,
+    count: Any,
+    weights: Any,
+    triangles: Any,
+    receivers: Any,
+    shadows: Any,
+    grid: Any,
+    light: Any,
+    scratch: Any,
+) -> Any:
+    """Darken the light of a run of `count` samples of triangle t from x, y on, where it lies in
+    shadow.
+
+    weights: as `weights_at` gives them. scratch: place, depth and darkness of each sample.
+    """
+    _, side, _ = shadows
+    across, down, deep, dark = scratch
+    wa, wb, wc, da, db, dc = weights
+    a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+    w0, dw = wa + wb + wc, da + db + dc
+    x0 = wa * receivers[a, 0] + wb * receivers[b, 0] + wc * receivers[c, 0]
+    dx = da * receivers[a, 0] + db * receivers[b, 0] + dc * receivers[c, 0]
+    y0 = wa * receivers[a, 1] + wb * receivers[b, 1] + wc * receivers[c, 1]
+    dy = da * receivers[a, 1] + db * receivers[b, 1] + dc * receivers[c, 1]
+    z0 = wa * receivers[a, 2] + wb * receivers[b, 2] + wc * receivers[c, 2]
+    dz = da * receivers[a, 2] + db * receivers[b, 2] + dc * receivers[c, 2]
+    s0 = (wa * receivers[a, 3] + wb * receivers[b, 3] + wc * receivers[c, 3]) * FULL_LIGHT
+    ds = (da * receivers[a, 3] + db * receivers[b, 3] + dc * receivers[c, 3]) * FULL_LIGHT
+    highest = np.float64(side - 1)
+    for k in range(((count - 1) // LANES + 1) * LANES):
+        at = np.float64(k)
+        w = 1.0 / (w0 + at * dw)
+        column = min(max((x0 + at * dx) * w, 0.0), highest)
+        line = min(max((y0 + at * dy) * w, 0.0), highest)
+        across[np.uint64(k)], down[np.uint64(k)] = column, line
+        deep[np.uint64(k)] = np.int32((z0 + at * dz) * w)
+        dark[np.uint64(k)] = np.int32((s0 + at * ds) * w)
+    for k in range(count):
+        more = light[np.uint64(k)] - dark[np.uint64(k)]
+        if more > 0:
+            place = across[np.uint64(k)], down[np.uint64(k)], deep[np.uint64(k)]
+            share = _sunlit(place, (x + k) % grid, y % grid, grid, shadows)
+            light[np.uint64(k)] = dark[np.uint64(k)] + np.int32(more * share)
+
+
+@entry_point
+def find_shaded(
+    vertices: Any, triangles: Any, receivers: Any, depths: Any, side: Any, spread: Any, shaded: Any
+) -> Any:
+    """Find the triangles that may lie in shadow, as most are wholly lit or turned away.
+
+    depths, side, spread: see `ShadowMap`. shaded: the result, shape [T], bool. All else: see
+    `draw_tiles`.
+    """
+    reach = TAPS_MIDDLE * spread
+    for t in range(len(triangles)):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        more = max(
+            vertices[a].shade - receivers[a, 3],
+            vertices[b].shade - receivers[b, 3],
+            vertices[c].shade - receivers[c, 3],
+        )
+        shaded[t] = more > 0 and not _is_lit(a, b, c, receivers, depths, side, reach)
+
+
+@kernel
+def _is_lit(a: Any, b: Any, c: Any, receivers: Any, depths: Any, side: Any, reach: Any) -> Any:
+    """Whether nothing within reach of a triangle on the shadow map is nearer than its plane there.
+
+    reach: of the places that a sample compares, across and down.
+    """
+    radius = np.int64(np.ceil(reach))
+    ax, ay, az = receivers[a, 0], receivers[a, 1], receivers[a, 2]
+    bx, by, bz = receivers[b, 0] - ax, receivers[b, 1] - ay, receivers[b, 2] - az
+    cx, cy, cz = receivers[c, 0] - ax, receivers[c, 1] - ay, receivers[c, 2] - az
+    left = np.int64(ax + min(bx, cx, np.float32(0))) - radius
+    right = np.int64(ax + max(bx, cx, np.float32(0))) + radius
+    top = np.int64(ay + min(by, cy, np.float32(0))) - radius
+    bottom = np.int64(ay + max(by, cy, np.float32(0))) + radius
+    area = np.float64(bx * cy - by * cx)
+    is_outside = left < 0 or top < 0 or right >= side or bottom >= side
+    if is_outside or abs(area) < FLAT_AREA or (right - left) * (bottom - top) > LARGE:
+        return False
+    along = (bz * cy - cz * by) / area
+    down = (cz * bx - bz * cx) / area
+    # The least depth of the plane at any place that compares itself with the sample.
+    slack = (reach + 0.5) * (abs(along) + abs(down))
+    lowest = az + min(bz, cz, np.float32(0))
+    first = az + (left + 0.5 - ax) * along + (top + 0.5 - ay) * down - slack
+    for row in range(bottom - top + 1):
+        start, at = first + row * down, np.uint64((top + row) * side + left)
+        is_near = False
+        for k in range(right - left + 1):
+            depth = max(start + k * along, lowest)
+            is_near |= depths[at + np.uint64(k)] > depth
+        if is_near:
+            return False
+    return True
