@@ -168,11 +168,16 @@ def test_armour_without_a_texture_names_the_file() -> None:
         draw(player, size=(16, 16))
 
 
-def test_armour_stops_cloth() -> None:
-    player = dressed_player(make_wearer(armor="diamond", **STAND), wear=("cape",))
+def test_armour_stops_a_cape_and_other_garments_are_worn_under_it() -> None:
+    player = dressed_player(make_wearer(armor="diamond", **STAND), wear=("cape", "skirt"))
     dressed = Dressed(player, ARMED, Settings())
-    boxes = dressed.wearer.colliders(("body",))  # type: ignore[union-attr]
-    np.testing.assert_allclose(boxes[0].shape.size / TEXEL, [10, 14, 6], atol=1e-9)
+    extents = [
+        [box.shape.size[0] / TEXEL for box in dressed.wearer.colliders(sewn.solid)]  # type: ignore[union-attr]
+        for sewn in dressed.cloths
+    ]
+    cape, skirt = extents
+    assert 10 in np.round(cape, 9) and 10 not in np.round(skirt, 9)
+    assert dressed.cloths[0].solid[-1] == "armor"  # type: ignore[index]
 
 
 @pytest.mark.parametrize(("armor", "moved"), [("diamond", (0.85, -1.1)), ("boots:iron", (0, 0))])

@@ -33,7 +33,7 @@ from drapery.option import shown
 from drapery.options import unknown_names
 from drapery.player_settings import MAX_SPEED
 from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings
-from drapery.style.equipment import POLES, parse_armor, parse_trim
+from drapery.style.equipment import SOLIDS, parse_armor, parse_trim
 from drapery.toml_text import Place
 
 MAX_LENGTH = 1024
@@ -365,7 +365,7 @@ class GarmentWearer(GarmentTable):
     look: how far a player's head turns to its left and downwards [degrees], or the point that it
     looks at: to its left, upwards from the ground, and ahead [m].
     solid: the bones that stop its cloth; all of them unless given. `pole` and `bar` are those of a
-    banner on the head.
+    banner on the head, `armor` adds the armour on the bones.
     shown: what the picture shows: full, bust or head.
     head: the design of a banner on a player's head. shield: that of a shield in the left hand.
     armor: a material such as `diamond`, or pieces such as `helmet:iron,boots:gold`; the packs have
@@ -400,7 +400,7 @@ class GarmentWearer(GarmentTable):
     @model_validator(mode="after")
     def _knows_its_bones(self) -> Self:
         for bone in self.solid or ():
-            if bone not in (*BONES[self.kind], *POLES):
+            if bone not in (*BONES[self.kind], *SOLIDS):
                 known = ", ".join(BONES[self.kind])
                 raise ValueError(f"solid {shown(bone)} is not a bone; use some of: {known}")
         if self.kind == "horse" and self.motion != "walk":

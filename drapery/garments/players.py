@@ -11,6 +11,7 @@ from drapery.errors import OptionError
 from drapery.garments.catalogue import ENDING, find_garment
 from drapery.garments.loading import complaint_of
 from drapery.garments.model import (
+    BONES,
     ClothTexture,
     Garment,
     GarmentPin,
@@ -19,7 +20,7 @@ from drapery.garments.model import (
 )
 from drapery.option import shown
 from drapery.player_settings import PlayerSettings
-from drapery.style.equipment import BANNER_TEXEL, FLAG_TOP, POLES, parse_armor
+from drapery.style.equipment import ARMOR_SOLID, BANNER_TEXEL, FLAG_TOP, POLES, parse_armor
 from drapery.style.figure import SKINS
 from drapery.style.skins import read_skin
 
@@ -71,13 +72,16 @@ def dressed_player(
 
 
 def _over_chestplate(garment: Garment) -> Garment:
-    """A cape or wings, moved up and back by the distance that the game gives it there."""
+    """A cape or wings outside the armour, as far up and back as in the game."""
     up, back = CHESTPLATE
+    who = garment.wearer or GarmentWearer()
+    solid = (*(BONES[who.kind] if who.solid is None else who.solid), ARMOR_SOLID)
     pieces = []
     for piece in garment.piece:
         x, y, z = piece.place
         pieces.append(piece.model_copy(update={"place": (x, y + up, z - back)}))
-    return garment.model_copy(update={"piece": tuple(pieces)})
+    outside = who.model_copy(update={"solid": solid})
+    return garment.model_copy(update={"piece": tuple(pieces), "wearer": outside})
 
 
 def player_of(settings: PlayerSettings, folder: Path = Path()) -> Garment:

@@ -19,6 +19,7 @@ from drapery.render.scene import Material, Model, Rig, TextureLayer
 from drapery.scenes.player_motion import Poses, player_poses, walk
 from drapery.style.boxes import box_mesh, upright
 from drapery.style.equipment import (
+    ARMOR_SOLID,
     Equipment,
     armor_growth,
     armor_on,
@@ -61,10 +62,11 @@ class Wearer:
         return [make_rig([(each.bone, each.mesh)], self.parts) for each in self.equipment]
 
     def colliders(self, bones: tuple[str, ...] | None = None) -> tuple[Collider, ...]:
-        """The parts of some bones, or of all, as moving boxes with their armour.
+        """The parts of some bones, or of all, as moving boxes.
 
-        bones: may also name POLES, those of a banner on the head.
+        bones: may also name SOLIDS: the pole and bar of a banner on the head, and the armour.
         """
+        growth = self.growth if bones is not None and ARMOR_SOLID in bones else {}
         poles = (
             Collider(Box((low + high) / 2, high - low), self._path("head"))
             for name, (low, high) in pole_solids().items()
@@ -72,7 +74,7 @@ class Wearer:
         )
         body = (
             Collider(
-                Box(part.centre, part.extent + 2 * self.growth.get(name, 0.0) * TEXEL),
+                Box(part.centre, part.extent + 2 * growth.get(name, 0.0) * TEXEL),
                 self._path(name),
             )
             for name, part in self.parts.items()

@@ -32,6 +32,10 @@ FLAG_TOP = (0.0, 58.0, -3.4375)
 """The middle of the upper edge of its flag [texels, y up]."""
 POLES = ("pole", "bar")
 """What stops that flag beside the head, by name."""
+ARMOR_SOLID = "armor"
+"""What makes cloth keep outside the armour, not only outside the body."""
+SOLIDS = (*POLES, ARMOR_SOLID)
+"""What can stop cloth beside the bones of a wearer."""
 SHIELD_ARM = "left_arm"
 
 ARMOR_SHEET = (64, 32)
