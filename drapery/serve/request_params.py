@@ -32,6 +32,8 @@ PUBLIC_OPTIONS = tuple(name for name, option in OPTIONS.items() if option.public
 MAX_QUERY = 32 << 10
 """The most bytes of a query; enough for a design of 8000 characters with three bytes each."""
 MAX_PARAMETERS = 64
+MAX_WORN = 4
+"""The most garments of a player."""
 MAX_REASONS = 8
 """The most errors that one response lists."""
 
@@ -57,7 +59,7 @@ class PictureLimits:
     particles: int = 33
     time: float = 60.0
     max_length: int = 8000
-    garments: int = 4
+    garments: int = MAX_WORN
 
 
 @dataclass(frozen=True)
