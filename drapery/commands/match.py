@@ -80,6 +80,15 @@ def run(
     from drapery.sheets import check_sheet_target
 
     if mural is not None:
+        given = {
+            "--as": written is not None,
+            "--json": as_json,
+            "--mask": mask is not None,
+            "--weights": weighting != "even",
+            "--photo": photo,
+            "--corners": corners is not None,
+        }
+        _refuse_for_mural([name for name, used in given.items() if used])
         _mural(picture, mural, out or [], layers, effort, fit, crop, background, packs, format)
         return
     for path in out or ():
@@ -126,6 +135,14 @@ def _found(matcher: "Matcher", seen: "PictureFace", wanted: dict[str, Any]) -> "
             raise
         say("stopped; these are the best designs so far")
     return found
+
+
+def _refuse_for_mural(names: list[str]) -> None:
+    """Raises OptionError for options that a mural does not use."""
+    from drapery.errors import OptionError
+
+    if names:
+        raise OptionError(f"{names[0]} does not apply to a mural; leave it out")
 
 
 def _mural(
