@@ -11,7 +11,7 @@ from drapery.commands.notices import progress, say
 
 if TYPE_CHECKING:
     from drapery.match import Match, Matcher, PictureFace
-    from drapery.packs import Packs
+    from drapery.packs import Packs, Texels
 
 MURAL_EFFORT = 8
 """The effort for each banner of a mural, unless one is given."""
@@ -63,6 +63,18 @@ def run(
         str | None,
         typer.Option(metavar="WxH", help="Show the picture on so many banners, such as 4x3."),
     ] = None,
+    photo: Annotated[
+        bool,
+        typer.Option("--photo", help="The picture is a photo of a banner before one colour."),
+    ] = False,
+    corners: Annotated[
+        tuple[str, str, str, str] | None,
+        typer.Option(
+            metavar="X,Y X,Y X,Y X,Y",
+            help="The flag's corners in a photo, in pixels: upper left, upper right, lower right,"
+            " lower left.",
+        ),
+    ] = None,
     written: Annotated[
         str | None,
         typer.Option("--as", metavar="FORM", help="Print the best design as give, json, ..."),
@@ -95,20 +107,23 @@ def run(
         check_sheet_target(path)
     opened = open_packs(tuple(packs or ()), format=format)
     pixels = read_picture(picture)
-    seen = fit_picture(
-        pixels,
-        fit=fit,
-        crop=_box(crop),
-        background=_colour(background),
-        mask=None if mask is None else read_picture(mask),
-        weighting=weighting,
-        name=picture.name,
-    )
-    _check_colours(seen, picture.name)
-    wanted: dict[str, Any] = {"layers": layers, "alternatives": alternatives}
-    if effort is not None:
-        wanted["effort"] = effort
-    found = _found(Matcher(opened), seen, wanted)
+    if photo or corners:
+        face, found = _seen_in_photo(pixels, corners, opened, layers, alternatives)
+    else:
+        seen = fit_picture(
+            pixels,
+            fit=fit,
+            crop=_box(crop),
+            background=_colour(background),
+            mask=None if mask is None else read_picture(mask),
+            weighting=weighting,
+            name=picture.name,
+        )
+        _check_colours(seen, picture.name)
+        wanted: dict[str, Any] = {"layers": layers, "alternatives": alternatives}
+        if effort is not None:
+            wanted["effort"] = effort
+        face, found = seen.face, _found(Matcher(opened), seen, wanted)
     if written is not None:
         print(write_banner(found[0].banner, written))
     elif as_json:
@@ -117,8 +132,37 @@ def run(
         for one in found:
             print(f"{one.error:.4f}\t{write_banner(one.banner, 'text')}")
     for path in out or ():
-        matches_sheet(seen.face, found, opened).save(path)
+        matches_sheet(face, found, opened).save(path)
     _warn(opened)
+
+
+def _seen_in_photo(
+    pixels: "Texels",
+    corners: tuple[str, str, str, str] | None,
+    packs: "Packs",
+    layers: int,
+    alternatives: int,
+) -> "tuple[Texels, tuple[Match, ...]]":
+    """The face that is seen in a photo, and the designs."""
+    from drapery.match import find_corners, flat_face, match_photo
+
+    picture = pixels[..., :3]
+    places = find_corners(picture) if corners is None else tuple(map(_corner, corners))
+    found = match_photo(picture, places, layers=layers, packs=packs, alternatives=alternatives)
+    return flat_face(picture, places), tuple(found)
+
+
+def _corner(text: str) -> tuple[float, float]:
+    from drapery.errors import OptionError
+
+    try:
+        x, y = map(float, text.split(","))
+    except ValueError:
+        raise OptionError(
+            f"--corners {text[:40]!r} is not two numbers; use such as --corners 52,21 118,30"
+            " 112,171 47,160"
+        ) from None
+    return x, y
 
 
 def _found(matcher: "Matcher", seen: "PictureFace", wanted: dict[str, Any]) -> "tuple[Match, ...]":

@@ -16,6 +16,8 @@ from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.match.mural import Mural, check_mural_size, shared_materials
+    from drapery.match.perspective import find_corners, flat_face
+    from drapery.match.photo import match_photo
     from drapery.match.picture import (
         FITS,
         WEIGHTINGS,
@@ -40,9 +42,12 @@ __all__ = [
     "PictureFace",
     "check_mural_size",
     "decode_picture",
+    "find_corners",
     "fit_mural",
     "fit_picture",
+    "flat_face",
     "match",
+    "match_photo",
     "matches_sheet",
     "nearest_dye",
     "read_picture",
@@ -53,6 +58,8 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "match.mural": ("Mural", "check_mural_size", "shared_materials"),
+        "match.perspective": ("find_corners", "flat_face"),
+        "match.photo": ("match_photo",),
         "match.picture": (
             "FITS",
             "WEIGHTINGS",

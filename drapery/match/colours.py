@@ -29,10 +29,11 @@ _TO_LAB = (
 
 def oklab(rgb: NDArray[np.generic]) -> Floats:
     """The OKLab of 8-bit sRGB colours [..., 3], also of values between whole ones."""
-    share = np.asarray(rgb, np.float32) / np.float32(255)
-    bent = ((share + np.float32(0.055)) / np.float32(1.055)) ** np.float32(2.4)
-    linear = np.where(share <= 0.04045, share / np.float32(12.92), bent)
-    return _mixed(np.cbrt(_mixed(linear, _TO_CONES)), _TO_LAB)
+    # In double precision, so that the last bits of a machine's powers are rounded off.
+    share = np.asarray(rgb, np.float64) / 255
+    linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
+    lab = _mixed(np.cbrt(_mixed(linear, _TO_CONES)), _TO_LAB)
+    return lab.astype(np.float32)
 
 
 def quick_oklab(rgb: Floats) -> Floats:
@@ -66,10 +67,9 @@ def _table() -> Floats:
     return oklab(grid.reshape(-1, 3))
 
 
-def _mixed(values: Floats, rows: tuple[tuple[float, float, float], ...]) -> Floats:
+def _mixed(
+    values: NDArray[np.float64], rows: tuple[tuple[float, float, float], ...]
+) -> NDArray[np.float64]:
     """Three weighted sums of the last axis, added in a fixed order."""
     x, y, z = values[..., 0], values[..., 1], values[..., 2]
-    sums = [
-        x * np.float32(row[0]) + y * np.float32(row[1]) + z * np.float32(row[2]) for row in rows
-    ]
-    return np.stack(sums, axis=-1)
+    return np.stack([x * row[0] + y * row[1] + z * row[2] for row in rows], axis=-1)

@@ -17,6 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.match.art import FaceArt, Levels, Stack
 from drapery.match.peel import Below, PeelTables, least_layers
@@ -44,14 +45,17 @@ class ExactSearch:
         layers: int,
         *,
         tolerance: int = 0,
+        counts: NDArray[np.bool_] | None = None,
         on_step: Callable[[], object] = lambda: None,
     ) -> Stack | None:
         """The stack whose face is a given one [N], or None if none is found.
 
-        layers: the most layers. tolerance: how far each channel may be off. on_step: called for
-        each stack that is peeled; an exception that it raises ends the search.
+        layers: the most layers. tolerance: how far each channel may be off. counts: the texels that
+        must be the same, [N / 3]; None is all. on_step: called for each stack that is peeled; an
+        exception that it raises ends the search.
         """
-        start = self._tables.start(face, tolerance)
+        every = np.ones(len(face) // 3, np.bool_)
+        start = self._tables.start(face, tolerance, every if counts is None else counts)
         base = self._tables.base(start)
         if base is not None:
             return base, ()

@@ -125,11 +125,16 @@ class PeelTables:
         clash = part @ some.T > 0
         return np.asarray(~(clash | clash.T))
 
-    def start(self, face: Levels, tolerance: int) -> Below:
-        """What is known of a face [N] whose channels may be off by a tolerance."""
+    def start(self, face: Levels, tolerance: int, counts: NDArray[np.bool_]) -> Below:
+        """What is known of a face [N] whose channels may be off by a tolerance.
+
+        counts: the texels of which something is known, [N / 3].
+        """
+        counts = counts.repeat(3)[self._order]
         shown = face[self._order].astype(np.int32)
         low = np.clip(shown - tolerance, 0, 255).astype(np.uint8)
         high = np.clip(shown + tolerance, 0, 255).astype(np.uint8)
+        low, high = np.where(counts, low, self._hull.low), np.where(counts, high, self._hull.high)
         return Below(low, high, self._owners(low, high, np.arange(_TEXELS)))
 
     def _owners(self, low: Bytes, high: Bytes, texels: Indices) -> Bytes:

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from PIL import Image, ImageOps, UnidentifiedImageError
 
 from drapery.banner import DYES
-from drapery.errors import OptionError
+from drapery.errors import OptionError, PackError
 from drapery.match.art import HEIGHT, WIDTH
 from drapery.match.colours import distances, oklab
-from drapery.packs import Texels
+from drapery.packs import Texels, read_png
 
 Fit = Literal["cover", "contain", "stretch"]
 Weighting = Literal["even", "centre", "edges"]
@@ -24,7 +24,8 @@ WEIGHTINGS: tuple[Weighting, ...] = get_args(Weighting)
 
 MAX_BYTES = 64 << 20
 MAX_PIXELS = 4096 * 4096
-FORMATS = ("PNG", "JPEG", "WEBP")
+_PNG = b"\x89PNG\r\n\x1a\n"
+_OTHERS = ("JPEG", "WEBP")
 
 PITCH = (24, 48)
 """From one banner of a mural to the next, across and down [texels]; 24 are a block."""
@@ -67,9 +68,14 @@ def decode_picture(data: bytes, name: str = "the picture") -> Texels:
     """
     if len(data) > MAX_BYTES:
         raise OptionError(f"{name} has over {MAX_BYTES >> 20} MB; shrink it")
+    if data.startswith(_PNG):
+        try:
+            return read_png(data, name)
+        except PackError as error:
+            raise OptionError(str(error)) from None
     try:
         with warnings.catch_warnings(action="ignore"):
-            image = Image.open(BytesIO(data), formats=FORMATS)
+            image = Image.open(BytesIO(data), formats=_OTHERS)
             width, height = image.size
             if width * height > MAX_PIXELS:
                 raise OptionError(

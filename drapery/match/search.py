@@ -27,6 +27,9 @@ _DYES = 16
 _WEIGHT = 1000
 """Weights are rounded to this many steps."""
 
+_MOST_COUNT = 0.75
+"""The least share of texels that count for a search for exact designs."""
+
 _APART = UNIT // 100
 """The least mean distance between the faces of two alternatives."""
 
@@ -109,7 +112,9 @@ class Matcher:
     ) -> Iterator[MatchProgress]:
         goal = self._nearest.goal(face, weights)
         pool = _Pool(goal, alternatives)
-        exact = self._exact.find(face, layers) if weights.all() else None
+        counts = weights > 0
+        many = counts.mean() >= _MOST_COUNT
+        exact = self._exact.find(face, layers, counts=counts) if many else None
         if exact is not None:
             pool.add(exact)
             if alternatives == 1:
@@ -137,8 +142,9 @@ def match(
     `Settings`; the designs are those that look so with these packs. weights: how much each texel
     counts, [40, 20], from 0; None counts all alike. alternatives: the most designs.
     effort: how many designs are changed at random and improved.
-    If a design shows exactly this face and all texels count, it is first, with the fewest layers
-    that the search found. Raises OptionError or PackError.
+    If a design shows exactly this face, where texels count, it is first, with the fewest layers
+    that the search found; not so if fewer than three texels in four count.
+    Raises OptionError or PackError.
     """
     matcher = Matcher(packs, format=format)
     return matcher.match(
