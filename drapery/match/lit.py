@@ -116,7 +116,7 @@ class LitSearch:
 
     def paint(self, base: int, layers: Iterable[tuple[int, int]]) -> Reals:
         """The face [n, 3] of a design, without rounding."""
-        below = self.bases[base]
+        below: Reals = self.bases[base]
         for layer in layers:
             below = self._laid(below, layer)
         return below

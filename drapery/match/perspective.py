@@ -168,7 +168,8 @@ def _edge_lines(part: NDArray[np.bool_]) -> list[tuple[float, float]]:
     rows = rows[cut : len(rows) - cut]
     first = part[rows].argmax(axis=1).astype(np.float64)
     last = part.shape[1] - part[rows, ::-1].argmax(axis=1).astype(np.float64)
-    return [_line(rows + 0.5, first), _line(rows + 0.5, last)]
+    middles = rows.astype(np.float64) + 0.5
+    return [_line(middles, first), _line(middles, last)]
 
 
 def _line(y: Reals, x: Reals) -> tuple[float, float]:

@@ -167,7 +167,7 @@ def _aligned(view: PhotoView, bend: Reals, wanted: Reals) -> Reals:
         times = 2 if step < 2 else 1
         seen, goal = _softened(view.face(bend), times), _softened(wanted, times)
         levels = seen.reshape(HEIGHT, WIDTH, 3)
-        slopes = [np.gradient(levels, axis=axis).reshape(-1, 3) for axis in (1, 0)]
+        slopes = [np.asarray(np.gradient(levels, axis=axis)).reshape(-1, 3) for axis in (1, 0)]
         rest = goal - seen
         weights = 1 / (1 + (np.abs(rest).mean(axis=1) / 25) ** 2)
         rows = np.concatenate([terms[:, :, None] * slope for slope in slopes])
