@@ -9,7 +9,7 @@ from drapery.errors import OptionError
 from drapery.mesh import vertex_normals
 from drapery.scenes import cape, scarf, skirt
 from drapery.scenes.catalogue import Clip, find_scene
-from drapery.scenes.gait import LEG, Gait, _about_x
+from drapery.scenes.gait import LEG, Gait, _about_joint
 from drapery.style.extrusion import boundary_edges
 from drapery.style.figure import PARTS, TEXEL
 
@@ -30,7 +30,8 @@ def test_the_lower_foot_of_a_walk_stays_on_the_ground() -> None:
 
 def test_a_walk_turns_limbs_by_the_bits_of_any_rotation() -> None:
     for degrees in (0.0, 1.5, -36.7, 64.158):
-        assert np.array_equal(_about_x(degrees), rotation_about((1, 0, 0), degrees))
+        _, turned = _about_joint(PARTS["right_leg"], degrees, 0.0)
+        assert np.array_equal(turned, rotation_about((1, 0, 0), degrees))
 
 
 def test_a_foot_moves_back_as_far_as_the_ground() -> None:
