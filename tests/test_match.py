@@ -109,6 +109,12 @@ def test_alternatives_differ_and_come_best_first(matcher: Matcher) -> None:
     assert found == matcher.match(face, layers=2, alternatives=3, effort=1)
 
 
+def test_there_is_an_answer_before_the_search_for_exact_designs(matcher: Matcher) -> None:
+    first = next(matcher.iter_matches(face_of(SIX), alternatives=1))
+    assert first.share == 0
+    assert first.matches[0].error > 0
+
+
 def test_texels_of_weight_0_do_not_count(matcher: Matcher) -> None:
     face, weights = face_of("white half_horizontal:red"), np.zeros((40, 20))
     weights[:18] = 1

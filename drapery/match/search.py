@@ -112,6 +112,10 @@ class Matcher:
     ) -> Iterator[MatchProgress]:
         goal = self._nearest.goal(face, weights)
         pool = _Pool(goal, alternatives)
+        # A first answer at once: the search for an exact design may take some seconds.
+        *_, grown = goal.grow(layers, 1)
+        pool.add(grown[0])
+        yield MatchProgress(0.0, pool.matches())
         counts = weights > 0
         many = counts.mean() >= _MOST_COUNT
         exact = self._exact.find(face, layers, counts=counts) if many else None
