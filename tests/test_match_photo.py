@@ -83,3 +83,5 @@ def test_the_command_takes_corners(drapery: Run, tmp_path: Path) -> None:
     assert code == 0 and out.splitlines()[0].endswith("red cross:white")
     code, _, err = drapery("match", path, "--corners", "1,2", "3", "4,5", "6,7")
     assert code == 2 and "'3' is not two numbers" in err
+    code, _, err = drapery("match", path, "--photo", "--crop", "0,0,9,9")
+    assert code == 2 and "--crop does not apply to a photo" in err

@@ -100,7 +100,7 @@ def run(
             "--photo": photo,
             "--corners": corners is not None,
         }
-        _refuse_for_mural([name for name, used in given.items() if used])
+        _refuse("a mural", given)
         _mural(picture, mural, out or [], layers, effort, fit, crop, background, packs, format)
         return
     for path in out or ():
@@ -108,6 +108,15 @@ def run(
     opened = open_packs(tuple(packs or ()), format=format)
     pixels = read_picture(picture)
     if photo or corners:
+        unused = {
+            "--fit": fit != "cover",
+            "--crop": crop is not None,
+            "--background": background != "transparent",
+            "--mask": mask is not None,
+            "--weights": weighting != "even",
+            "--effort": effort is not None,
+        }
+        _refuse("a photo", unused)
         face, found = _seen_in_photo(pixels, corners, opened, layers, alternatives)
     else:
         seen = fit_picture(
@@ -181,12 +190,13 @@ def _found(matcher: "Matcher", seen: "PictureFace", wanted: dict[str, Any]) -> "
     return found
 
 
-def _refuse_for_mural(names: list[str]) -> None:
-    """Raises OptionError for options that a mural does not use."""
+def _refuse(what: str, given: dict[str, bool]) -> None:
+    """Raises OptionError for the first option that was given and is not used."""
     from drapery.errors import OptionError
 
-    if names:
-        raise OptionError(f"{names[0]} does not apply to a mural; leave it out")
+    for name, used in given.items():
+        if used:
+            raise OptionError(f"{name} does not apply to {what}; leave it out")
 
 
 def _mural(
