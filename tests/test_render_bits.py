@@ -78,6 +78,7 @@ EXACT_PRODUCTS = {
     "drapery/cloth/colliders/check.py": 1,  # compared with a tolerance
     "drapery/cloth/colliders/meshes.py": 3,  # of whole numbers
     "drapery/cloth/filters.py": 1,  # of whole numbers
+    "drapery/match/peel.py": 2,  # of whole numbers
     "render/encode/palette.py": 1,  # of whole numbers
 }
 
