@@ -162,7 +162,9 @@ def test_loops_have_limits_of_their_own(client: TestClient) -> None:
 
 def test_the_api_describes_itself(client: TestClient) -> None:
     api = client.get("/openapi.json").json()
-    pictures = {f"/{name}{end}" for name in ("banner", "garment") for end in (".png", ".gif")}
+    pictures = {
+        f"/{name}{end}" for name in ("banner", "garment", "player") for end in (".png", ".gif")
+    }
     assert set(api["paths"]) == pictures | {"/metrics", "/healthz", "/readyz"}
     taken = {p["name"] for p in api["paths"]["/garment.png"]["get"]["parameters"]}
     assert {"name", "design", "wind"} <= taken and not {"grid", "kind"} & taken
