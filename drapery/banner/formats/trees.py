@@ -4,11 +4,12 @@ import json
 import re
 from collections.abc import Iterator
 from contextlib import suppress
+from itertools import accumulate
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import loom_assistant, loot, own_json, wynncraft
 from drapery.banner.formats.found import FoundBanner, children_of, find_banners
-from drapery.banner.formats.snbt import MAX_TEXT, parse_snbt
+from drapery.banner.formats.snbt import MAX_DEPTH, MAX_TEXT, parse_snbt
 from drapery.banner.formats.tree import DataTree, banner_from_block_entity, banner_from_tag, get
 from drapery.banner.names import shown
 from drapery.errors import DesignError
@@ -73,7 +74,7 @@ def _locations(tree: DataTree) -> Iterator[str]:
 def read_text(text: str) -> DataTree:
     """The tree of a text, parsed as JSON if possible, otherwise as SNBT."""
     start = max(text.find("{"), 0) if DATA_ANSWER in text[:200] else 0
-    if start == 0 and len(text) <= MAX_TEXT:
+    if start == 0 and len(text) <= MAX_TEXT and _depth(text) <= MAX_DEPTH:
         with suppress(ValueError, RecursionError):
             return json.loads(text)
         if "//" in text:  # as in Bedrock's files
@@ -81,6 +82,20 @@ def read_text(text: str) -> DataTree:
                 return json.loads(_COMMENT.sub(lambda match: match[1] or "", text))
     # Spaces replace the words before the tree, so that columns are those of the text.
     return parse_snbt(" " * start + text[start:])
+
+
+def _depth(text: str) -> int:
+    """How deep brackets nest, 0 if there are few; those in strings count too.
+
+    The json module has no limit of its own, and that of the interpreter changes with its version.
+    """
+    if text.count("[") + text.count("{") <= MAX_DEPTH:
+        return 0
+    steps = (1 if mark in "[{" else -1 for mark in _BRACKET.findall(text))
+    return max(accumulate(steps))
+
+
+_BRACKET = re.compile(r"[][{}]")
 
 
 def _found(tree: DataTree) -> Iterator[FoundBanner]:
