@@ -104,7 +104,7 @@ def _faces_around(triangles: Triangles, count: int) -> NDArray[np.intp]:
     order = np.argsort(corners, kind="stable")
     degrees = np.bincount(corners, minlength=count)
     place = np.arange(len(order)) - (np.cumsum(degrees) - degrees)[corners[order]]
-    around = np.full((count, max(1, degrees.max(initial=0))), len(triangles))
+    around = np.full((count, max(1, int(degrees.max(initial=0)))), len(triangles))
     around[corners[order], place] = order % max(1, len(triangles))
     return around
 

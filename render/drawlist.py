@@ -106,7 +106,9 @@ def _merge(models: Sequence[Model]) -> Topology:
     empty = np.zeros((0, 3), np.int32)
     return Topology(
         np.concatenate([np.zeros((0, 2), np.float32), *(_uvs(model) for model in models)]),
-        np.concatenate([empty, *(_triangles(m, s) for m, s in zip(models, starts, strict=False))]),
+        np.concatenate(
+            [empty, *(_triangles(m, int(s)) for m, s in zip(models, starts, strict=False))]
+        ),
         np.concatenate(
             [empty[:, 0], *(_materials(m, f) for m, f in zip(models, first_material, strict=False))]
         ),

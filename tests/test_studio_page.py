@@ -236,9 +236,9 @@ def test_a_file_of_several_offers_a_choice(page: Any) -> None:
     designs = ["white creeper:lime", "red border:black", "blue skull:white"]
     lines = [write_banner(Banner.parse(text), "give") for text in designs]
     drop(page, "banners.mcfunction", "\n".join(lines).encode())
-    wait_until(lambda: len(page.find_elements(By.CSS_SELECTOR, ".found")) == 3)
+    wait_until(lambda: len(page.find_elements(By.CSS_SELECTOR, "#panel-text .found")) == 3)
     assert find(page, "#panel-text").is_displayed()
-    page.find_elements(By.CSS_SELECTOR, ".found")[1].click()
+    page.find_elements(By.CSS_SELECTOR, "#panel-text .found")[1].click()
     is_now(page, "red border:black")
 
 
