@@ -11,11 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from drapery.match.art import HEIGHT, WIDTH, FaceArt
+from drapery.match.art import HEIGHT, WIDTH, FaceArt, Stack
 from drapery.match.perspective import Reals
-
-Stack = tuple[int, tuple[tuple[int, int], ...]]
-"""A base dye and layers of (pattern, dye), lowest first, all by index."""
 
 _TEXELS = HEIGHT * WIDTH
 _LAYER = 60.0

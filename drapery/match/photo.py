@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner import DYES, LOOM_LAYERS, MAX_LAYERS
-from drapery.match.art import HEIGHT, WIDTH, read_art
+from drapery.match.art import HEIGHT, WIDTH, Stack, read_art
 from drapery.match.colours import UNIT, distances, oklab
-from drapery.match.lit import LitFace, LitSearch, Stack, lit_face
+from drapery.match.lit import LitFace, LitSearch, lit_face
 from drapery.match.perspective import (
     BENDS,
     TEXEL_TERMS,
