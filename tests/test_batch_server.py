@@ -61,7 +61,7 @@ def _command(process: psutil.Process) -> list[str]:
 def test_a_service_whose_workers_die_says_so_recovers_and_ends() -> None:
     with service("--deadline", "3", "--rate", "0") as (base, process):
         # The first picture of a worker loads the kernels.
-        _wait_until(lambda: get(f"{base}/banner.png?{SMALL}").status_code == 200)
+        _wait_until(lambda: get(f"{base}/banner.png?{SMALL}").status_code == 200, 60)
         assert get(f"{base}/readyz").status_code == 200
         stop = threading.Event()
         killer = threading.Thread(target=_kill_all, args=(process, stop))
