@@ -1,4 +1,4 @@
-"""The part of `docs/forms.md` that is generated from the registry of forms.
+"""The part of `docs/reference/forms.md` that is generated from the registry of forms.
 
 `python tests/forms_page.py` writes it anew; a test compares the page with the registry.
 """
@@ -19,7 +19,7 @@ from drapery.banner import (
 )
 from drapery.errors import DraperyError
 
-PAGE = Path(__file__).parents[1] / "docs" / "forms.md"
+PAGE = Path(__file__).parents[1] / "docs" / "reference" / "forms.md"
 
 
 def texts() -> str:

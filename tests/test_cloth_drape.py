@@ -165,7 +165,7 @@ def test_solvers_are_found_by_name_with_their_options():
 
 
 def test_the_page_on_solvers_runs_as_it_is_written():
-    page = (Path(__file__).parents[1] / "docs" / "solvers.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[1] / "docs" / "explanation" / "solvers.md").read_text("utf-8")
     names: dict[str, object] = {}
     for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
         exec(block.replace("180", "3"), names)

@@ -39,7 +39,7 @@ from drapery.testing import check_garment
 from drapery.testing.plugin import Golden
 
 ROOT = Path(__file__).parents[1]
-PAGE = (ROOT / "docs" / "garments.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "guides" / "garments.md").read_text(encoding="utf-8")
 FILES = ROOT / "drapery" / "garments" / "files"
 CAPE = """\
 description = "A cape"

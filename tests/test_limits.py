@@ -1,4 +1,4 @@
-"""The bounds in docs/limits.md: the table is true, and what goes over a bound is refused."""
+"""The bounds in limits.md: the table is true, and what goes over a bound is refused."""
 
 import ast
 import importlib
@@ -29,7 +29,7 @@ ROW = re.compile(
 
 
 def rows() -> list[tuple[str, ...]]:
-    lines = (ROOT / "docs" / "limits.md").read_text(encoding="utf-8").splitlines()
+    lines = (ROOT / "docs" / "reference" / "limits.md").read_text(encoding="utf-8").splitlines()
     table = [line for line in lines if line.startswith("|")]
     found = [match.groups("") for line in table if (match := ROW.fullmatch(line))]
     heads = sum(line.startswith(("| bound |", "|---")) for line in table)

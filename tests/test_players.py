@@ -26,7 +26,7 @@ from drapery.testing import check_garment
 from drapery.testing.plugin import Golden
 
 ROOT = Path(__file__).parents[1]
-PAGE = (ROOT / "docs" / "players.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "guides" / "players.md").read_text(encoding="utf-8")
 FACES = 6
 
 

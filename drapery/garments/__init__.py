@@ -8,7 +8,7 @@ draw(find_garment("cape"), size=(320, 480)).save("cape.png")
 ```
 
 A `Garment` has pieces of cloth, seams, pins and a wearer; `Garment.load` reads a file. See
-`docs/garments.md`. Names are imported when they are first used.
+`docs/guides/garments.md`. Names are imported when they are first used.
 """
 
 from typing import TYPE_CHECKING

@@ -409,7 +409,7 @@ class GarmentWearer(GarmentTable):
 
 
 class Garment(GarmentTable):
-    """Cloth as data; see docs/garments.md.
+    """Cloth as data; see docs/guides/garments.md.
 
     name: shown in lists; the name of its file. description: one line about it.
     fabric: the name of a preset, or a table of the fields of `Fabric`. thickness: [texels].

@@ -22,7 +22,7 @@ StepTables = Annotated[list[dict[str, Any]], Field(max_length=MAX_STEPS)]
 
 
 class StyleFile(BaseModel):
-    """The contents of a file: see docs/styles.md."""
+    """The contents of a file: see docs/guides/styles.md."""
 
     model_config = ConfigDict(extra="forbid")
 
