@@ -1,0 +1,55 @@
+"""The kernels of the simulation as a WebAssembly module, and how a page plays them.
+
+No physics is written in JavaScript: `python -m drapery.web.wasm.build` compiles the kernels of
+`drapery.cloth` from their Python source to one module, and a page plays plans, one for each panel
+of cloth. A plan is one binary file that Python writes: a picture of the memory that the kernels
+read. `cloth.js` is an ES module without dependencies; it copies plans into the module's memory and
+calls the kernels.
+
+    import { Cloth } from "./cloth.js";
+    const cloth = await Cloth.load(moduleBytes, planBytes);
+    cloth.step(1);                     // one time step of `cloth.info.step` seconds
+    draw(cloth.vertices, cloth.light);
+
+`Cloth.load(module, plan)`: module is an ArrayBuffer, Uint8Array or WebAssembly.Module; cloths that
+are loaded with the same object share one instance and its memory. plan: an ArrayBuffer or
+Uint8Array. The promise is rejected with an Error of one line where WebAssembly, its SIMD or its
+compilation (a content policy without `wasm-unsafe-eval`) is missing, and for a plan that is damaged
+or written for another version of the module.
+
+| of a cloth | what |
+|---|---|
+| `info` | the header of the plan: see below |
+| `step(n = 1)` | makes n time steps; throws an Error if the cloth has blown up |
+| `time` | simulated time [s] |
+| `positions` | Float32Array [N * 3]: the particles in the panel's own frame [m], row by row |
+| `vertices` | Float32Array [V * 3]: the thick cloth in the frame of the body [m] |
+| `normals` | Float32Array [V * 3]: unit normals |
+| `light` | Float32Array [V]: brightness 0..1 of each vertex, of the plan's light without shadows |
+| `setWind(x, y, z)` | the free mean wind in the frame of the body [m/s]; gusts do not jump |
+| `pull(index, x, y, z)` | pulls a particle and those near it to a place in the panel's frame |
+| `release()` | ends the pull |
+| `reset()` | back to the start: rest shape, time 0, the plan's own wind |
+| `free()` | gives the memory back; the cloth cannot be used any more |
+
+The four arrays are views of the module's memory. Read the properties again after every call of this
+module: memory that grows moves. They hold the start before the first step.
+
+The header of a plan (`info`), JSON: `columns`, `rows` of the grid; `step` [s]; `size` of the panel
+[m]; `origin` of the panel in the body [m]; `pins`: numbers of pinned particles; `wind`: the plan's
+mean wind [m/s]; `vertices`: V; `solver`. Triangles, texture coordinates and materials of the thick
+cloth do not move: the viewer has them from the scene, in the same order of vertices (front sheet,
+back sheet, four for each edge of the rim).
+
+A plan as bytes, little-endian: the length of the header (4 bytes), the header, padded with blanks
+to a multiple of 16 bytes, then the memory image. The header also has what the loader needs:
+`entry`: the name of the exported kernel; `image`: the image's length in memory, which is at least
+that in the file, the rest is 0; `pointers`: places of 32-bit pointers in the image, whose values
+count from its start; `functions`: places of the addresses of kernels that kernels call, with their
+names; `fields`: the places, types and lengths of the arrays and numbers that the loader uses;
+`module`: the hash of the sources for which it is valid. The order of a kernel's arguments in the
+image is that of numba's data models; nothing about it is written by hand.
+
+From Python: `drapery.web.wasm.plan.plans_of(body, settings)` gives the plans of a body's panels,
+and `drapery.web.wasm.module.read_module()` the module.
+"""
