@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from drapery.render.camera import Camera, clip_matrix
-from drapery.studio.messages import pack
+from drapery.web.messages import pack
 
 NODE = shutil.which("node")
 HERE = Path(__file__).parent
-VIEWER = HERE.parent / "drapery" / "studio" / "viewer"
+VIEWER = HERE.parent / "drapery" / "web" / "viewer"
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
 

@@ -22,7 +22,6 @@ from drapery.scenes.stager import STEP, ClothSpec, still
 from drapery.settings import Settings
 from drapery.studio.live import Live, Ray
 from drapery.studio.live_cloth import new_live_cloth
-from drapery.studio.messages import MessageEncoder, pack, unpack
 from drapery.studio.player import Player, scene_show
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import sketch_of
@@ -34,6 +33,7 @@ from drapery.studio.wind_controls import (
     steered,
     wind_of,
 )
+from drapery.web.messages import MessageEncoder, pack, unpack
 
 DESIGN = Banner.parse("white creeper:lime border:black")
 SETTINGS = Settings(wind=6.0, time=1.5, size=(96, 96))

@@ -19,7 +19,6 @@ from drapery.render import Camera, Model
 from drapery.scenes import STEP, Stager, cloth_spec, floor_under
 from drapery.settings import Settings
 from drapery.studio.live_cloth import LiveCloth, new_live_cloth
-from drapery.studio.panes import Pane, ViewerState
 from drapery.studio.wind_controls import (
     WindControls,
     carried_on,
@@ -28,6 +27,7 @@ from drapery.studio.wind_controls import (
     wind_of,
 )
 from drapery.style import Body, body_of, turn
+from drapery.web.panes import Pane, ViewerState
 
 SHADOW_STEPS = 6
 """The number of time steps after which a contact shadow is drawn again."""

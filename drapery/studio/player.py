@@ -18,7 +18,7 @@ from drapery.scenes import (
     find_scene,
     garment_loop,
 )
-from drapery.studio.panes import ViewerState, shown_picture
+from drapery.web.panes import ViewerState, shown_picture
 
 MAX_CACHED = 96 << 20
 """The most memory for cached moments of a scene [bytes]; cached moments are simulated once."""

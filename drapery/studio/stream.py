@@ -17,10 +17,10 @@ from fastapi import FastAPI, WebSocket, WebSocketDisconnect
 
 from drapery import DraperyError, OptionError
 from drapery.studio.live import Ray
-from drapery.studio.messages import MessageEncoder
 from drapery.studio.session import Sessions
 from drapery.studio.viewport import Viewport, in_thread
 from drapery.studio.wind_controls import KEYS
+from drapery.web.messages import MessageEncoder
 
 UNDER_WAY = 2
 """The most messages that are sent before the viewer reports that it has drawn them."""

@@ -1,10 +1,14 @@
-"""The live cloth as an element of the page; `viewer/` draws it, `stream` sends it the data."""
+"""The live cloth as an element of the page: `drapery.web` draws it, and `stream` sends the data."""
 
+from pathlib import Path
 from typing import Literal
 
 from nicegui import ui
 
+from drapery import web
 from drapery.studio.session import Session
+
+VIEWER = str(Path(web.__file__).parent / "viewer")
 
 Which = Literal["all", "left", "right"]
 
@@ -15,7 +19,7 @@ LABEL = (
 )
 
 
-class ViewerElement(ui.element, component="viewer.js", esm={"drapery-viewer": "viewer"}):
+class ViewerElement(ui.element, component="viewer.js", esm={"drapery-viewer": VIEWER}):
     """A canvas on which a session's cloth moves.
 
     which: which of two designs side by side it shows: all, or only the left or the right one. All

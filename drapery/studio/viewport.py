@@ -22,11 +22,11 @@ from drapery.scenes import STEP
 from drapery.studio.document import Document
 from drapery.studio.live import Live
 from drapery.studio.pack_store import PackStore
-from drapery.studio.panes import ViewerState
 from drapery.studio.player import Player, garment_show, scene_show
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import ExportRequest, options_for, subject_of
 from drapery.studio.wind_controls import wind_controls_of
+from drapery.web.panes import ViewerState
 
 BEHIND = 4
 """The most ticks in one turn; more delayed ticks are skipped, so simulated time runs slower."""

@@ -5,7 +5,7 @@ import globals from "globals";
 export default [
   js.configs.recommended,
   {
-    files: ["drapery/studio/**/*.js"],
+    files: ["drapery/{studio,web}/**/*.js"],
     languageOptions: { sourceType: "module", globals: globals.browser },
     rules: {
       eqeqeq: "error",

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { axes, clipMatrix, cross, dot, sightRay, unit } from "../../drapery/studio/viewer/matrices.js";
+import { axes, clipMatrix, cross, dot, sightRay, unit } from "../../drapery/web/viewer/matrices.js";
 import { near, orthographic, perspective, project } from "./vectors.js";
 
 test("the axes of a camera are orthonormal and right-handed", () => {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { unpack } from "../../drapery/studio/viewer/messages.js";
+import { unpack } from "../../drapery/web/viewer/messages.js";
 
 function message(header, parts) {
   const text = new TextEncoder().encode(JSON.stringify(header));

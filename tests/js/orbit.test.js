@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { length, subtract } from "../../drapery/studio/viewer/matrices.js";
-import { azimuth, Orbit } from "../../drapery/studio/viewer/orbit.js";
+import { length, subtract } from "../../drapery/web/viewer/matrices.js";
+import { azimuth, Orbit } from "../../drapery/web/viewer/orbit.js";
 import { near, orthographic, perspective } from "./vectors.js";
 
 const CAMERA = perspective([0, 1, 4], [0, 1, 0]);

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { meetsCloth } from "../../drapery/studio/viewer/picking.js";
+import { meetsCloth } from "../../drapery/web/viewer/picking.js";
 
 // Two squares, each of two triangles: the first at z = 0, the second before it at z = 1.
 const square = (z, left) => [left, 0, z, left + 1, 0, z, left + 1, 1, z, left, 1, z];

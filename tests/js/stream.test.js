@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, mock, test } from "node:test";
 
-import { Stream } from "../../drapery/studio/viewer/stream.js";
+import { Stream } from "../../drapery/web/viewer/stream.js";
 
 // Node 20 has no WebSocket; this one is opened, closed and fed by the tests.
 class Socket {

@@ -1,7 +1,7 @@
 // What several tests use: cameras as the server sends them, and comparison within rounding.
 import assert from "node:assert/strict";
 
-import { readCamera } from "../../drapery/studio/viewer/matrices.js";
+import { readCamera } from "../../drapery/web/viewer/matrices.js";
 
 const UP = [0, 1, 0];
 

@@ -28,7 +28,7 @@ from drapery.render import (
     composite_layers,
     make_topology,
 )
-from drapery.studio.panes import Pane, ViewerState
+from drapery.web.panes import Pane, ViewerState
 
 TYPES = {"float32": "<f4", "uint32": "<u4", "int32": "<i4", "uint8": "|u1"}
 Run = tuple[int, int]
