@@ -47,6 +47,7 @@ if TYPE_CHECKING:
         flag_layers,
         shield_layers,
     )
+    from drapery.banner.tables import reader_tables
 
 __all__ = [
     "DYES",
@@ -85,6 +86,7 @@ __all__ = [
     "pattern_id",
     "read_design",
     "read_designs",
+    "reader_tables",
     "recognise",
     "shield_layers",
     "simplify",
@@ -124,6 +126,7 @@ __getattr__, __dir__ = lazy_names(
             "flag_layers",
             "shield_layers",
         ),
+        "banner.tables": ("reader_tables",),
     },
 )
 

@@ -82,6 +82,16 @@ def _pattern_table() -> dict[str, str]:
     return titles | _ALSO | _BUKKIT | bedrock | codes | ids
 
 
+def pattern_aliases() -> dict[str, str]:
+    """The id of a pattern for each of its names, as `plain` spells them."""
+    return dict(_pattern_table())
+
+
+def dye_aliases() -> dict[str, str]:
+    """The name of a dye for each of its names, as `plain` spells them."""
+    return {name: name for name in DYES} | _DYE_ALSO
+
+
 def is_custom(name: str) -> bool:
     """Whether the name is `namespace:path` of a data pack: not the game's own, and a safe path."""
     namespace, colon, path = name.partition(":")

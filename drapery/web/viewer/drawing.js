@@ -61,11 +61,13 @@ void main() {
 const BLEND = 2;
 const WIDE = 1024;
 
+const programs = new WeakMap(); // one for each context, for all its drawings
+
 export class Drawing {
   constructor(gl) {
     this.gl = gl;
     this.scene = null;
-    this.program = link(gl);
+    this.program = programOf(gl);
     this.at = Object.fromEntries(
       ["clip", "atlas", "materials", "layers", "tint"].map((name) => [name, gl.getUniformLocation(this.program, name)])
     );
@@ -88,8 +90,13 @@ export class Drawing {
     this.indices = this.filled("indices", gl.ELEMENT_ARRAY_BUFFER, allIndices(this.scene.panes), gl.DYNAMIC_DRAW);
     const [width, height] = header.atlas;
     this.texture("atlas", gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, width, height, arrays.atlas);
-    this.table("materials", arrays.materials, 4);
-    this.table("layers", widened(arrays.layers), 4);
+    this.setMaterials(arrays.materials, arrays.layers);
+  }
+
+  // Replace the materials by others of the same number and alpha.
+  setMaterials(materials, layers) {
+    this.table("materials", materials);
+    this.table("layers", widened(layers));
   }
 
   // Update the vertices that have moved.
@@ -199,8 +206,13 @@ export class Drawing {
     Object.values(this.buffers).forEach((buffer) => gl.deleteBuffer(buffer));
     Object.values(this.textures).forEach((texture) => gl.deleteTexture(texture));
     gl.deleteVertexArray(this.vertexArray);
-    gl.deleteProgram(this.program);
   }
+}
+
+function programOf(gl) {
+  // A program of a context that was lost and restored is not a program any more.
+  if (!gl.isProgram(programs.get(gl) ?? null)) programs.set(gl, link(gl));
+  return programs.get(gl);
 }
 
 function link(gl) {

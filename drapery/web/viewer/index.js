@@ -2,22 +2,20 @@
 
 import { Drawing } from "./drawing.js";
 import { InputHandler } from "./input.js";
-import { clipMatrix, readCamera, sightRay } from "./matrices.js";
-import { azimuth, Orbit } from "./orbit.js";
-import { meetsCloth } from "./picking.js";
+import { readCamera } from "./matrices.js";
 import { Stream } from "./stream.js";
+import { View } from "./view.js";
 
 const SLOW = 40; // time to draw a picture [ms]
 const NO_WEBGL =
   "The live cloth needs WebGL 2, which this browser does not offer: turn on its hardware acceleration, or use another browser.";
 
-export class Viewer {
+export class Viewer extends View {
   // onStatus: takes a line for the user; labels: an element for the panes' labels; onState: takes
   // the wind and the number of pictures drawn per second.
   constructor(canvas, labels, address, onStatus, onState) {
-    Object.assign(this, { canvas, labels, onStatus, onState });
-    this.orbit = new Orbit();
-    this.cameras = [];
+    super(canvas);
+    Object.assign(this, { labels, onStatus, onState });
     this.undrawn = 0;
     this.drawn = 0;
     const gl = canvas.getContext("webgl2", { alpha: true, antialias: false, premultipliedAlpha: true });
@@ -111,11 +109,9 @@ export class Viewer {
 
   draw() {
     // The first moment of a scene brings its cameras; it may arrive one frame after the scene.
-    if (this.gl.isContextLost() || this.cameras.length !== this.drawing.scene?.header.panes.length) return;
-    const rects = this.rects(this.canvas.width, this.canvas.height);
-    const matrices = rects.map(([, , width, height], number) => clipMatrix(this.camera(number), width / height));
+    if (this.gl.isContextLost() || !this.complete) return;
     const start = performance.now();
-    this.drawing.draw(rects, matrices);
+    this.drawPanes(this.canvas.width, this.canvas.height);
     if (this.untimed) this.measure(start);
     if (this.wind) this.onState({ wind: this.wind, azimuth: this.azimuth() });
     else this.onState({ wind: null });
@@ -129,51 +125,13 @@ export class Viewer {
     if (this.tooSlow) this.resize();
   }
 
-  camera(number) {
-    const base = this.cameras[number];
-    return this.drawing.scene.header.panes[number].flat ? base : this.orbit.camera(base);
-  }
-
-  // Each pane's rectangle in a canvas of this size, from the lower left.
-  rects(width, height) {
-    const { panes, columns } = this.drawing.scene.header;
-    const rows = Math.ceil(panes.length / columns);
-    const [wide, high] = [Math.floor(width / columns), Math.floor(height / rows)];
-    return panes.map((pane, number) => {
-      const row = Math.floor(number / columns);
-      return [(number % columns) * wide, height - (row + 1) * high, wide, high];
-    });
-  }
-
-  // The pane at a point of the canvas [CSS pixels], and the line of sight through that point.
   rayAt(x, y) {
-    if (!this.cameras.length) return null;
-    const { clientWidth, clientHeight } = this.canvas;
-    const up = clientHeight - y;
-    const rects = this.rects(clientWidth, clientHeight);
-    const number = rects.findIndex(([l, b, w, h]) => x >= l && x < l + w && up >= b && up < b + h);
-    // A drag may leave its pane and the canvas; it still uses the camera of its pane.
-    const pane = this.input?.pulling && this.pane !== undefined ? this.pane : number;
-    if (pane < 0 || !this.cameras[pane]) return null;
-    const [left, bottom, width, height] = rects[pane];
-    const [cx, cy] = [(2 * (x - left)) / width - 1, (2 * (up - bottom)) / height - 1];
-    return { pane, ray: sightRay(this.camera(pane), width / height, cx, cy) };
-  }
-
-  hitsCloth(x, y) {
-    const found = this.rayAt(x, y);
-    if (!found || !this.drawing.scene.header.grip.length) return false;
-    this.pane = found.pane;
-    return meetsCloth(this.drawing.scene, found.pane, found.ray);
+    return super.rayAt(x, y, this.input?.pulling ? this.pane : undefined);
   }
 
   ray(x, y) {
     const { ray } = this.rayAt(x, y);
     return [...ray.origin, ...ray.along, ...ray.facing];
-  }
-
-  azimuth() {
-    return this.cameras.length ? azimuth(this.camera(0)) : 0;
   }
 
   send(message) {

@@ -1,0 +1,89 @@
+"""The tables with which a program in another language reads designs as `drapery.banner` does."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from drapery.banner.design import MAX_LAYERS, Banner
+from drapery.banner.dyes import DYE_NAMES, DYES
+from drapery.banner.formats import (
+    gamergeeks,
+    minecraft_tools,
+    needcoolshoes,
+    planet_minecraft,
+    urls,
+)
+from drapery.banner.formats.tree import OMINOUS
+from drapery.banner.names import dye_aliases, pattern_aliases
+from drapery.banner.patterns import BY_CODE
+
+_Names = Iterable[tuple[str, str]]
+
+
+def reader_tables() -> dict[str, Any]:
+    """Names and codes of dyes, patterns and links, as JSON can hold them.
+
+    dyes: the names by number. rgb: of each dye, 8-bit sRGB. dyeNames, patterns: from every name,
+    spelt as ids are, to the id. bukkit: names of the server API that are read only in capitals.
+    ominous: the illagers' banner. sites: how the links of editors are read, see `_site`.
+    """
+    return {
+        "dyes": list(DYE_NAMES),
+        "rgb": {name: list(dye.rgb) for name, dye in DYES.items()},
+        "dyeNames": dye_aliases(),
+        "patterns": pattern_aliases(),
+        "bukkit": {"DIAGONAL_RIGHT": "diagonal_up_right"},
+        "ominous": _plain(OMINOUS),
+        "maxLayers": MAX_LAYERS,
+        "sites": [_planet_minecraft(), _needcoolshoes(), _minecraft_tools(), _gamergeeks()],
+    }
+
+
+def _site(
+    hosts: Sequence[str], code: str, base: str, layer: str, dyes: _Names, patterns: _Names
+) -> dict[str, Any]:
+    """How a link is read, with regular expressions that JavaScript knows too.
+
+    code: finds the code of a design in a link. base, layer: the parts of the code, with groups
+    `dye` and `pattern`, whose texts `dyes` and `patterns` name.
+    """
+    found = {"hosts": list(hosts), "code": code, "base": base, "layer": layer}
+    return found | {"dyes": dict(dyes), "patterns": dict(patterns)}
+
+
+def _planet_minecraft() -> dict[str, Any]:
+    site = planet_minecraft
+    dyes = zip(site.ALPHABET, urls.COLOURS, strict=False)
+    patterns = zip(site.ALPHABET[site.FIRST_PATTERN :], site.PATTERN_ORDER, strict=False)
+    code = "[?&][be]=([^&#]+)"
+    return _site([site.HOST], code, "(?<dye>.)", "(?<dye>.)(?<pattern>.)", dyes, patterns)
+
+
+def _needcoolshoes() -> dict[str, Any]:
+    site = needcoolshoes
+    dyes = ((letter, urls.COLOURS[n % 16]) for n, letter in enumerate(site.ALPHABET))
+    patterns = zip(site.ALPHABET, site.PATTERN_ORDER, strict=False)
+    code = "[?&](?:b|banner)?=([^&#]+)"
+    base, layer = "(?<dye>[\\w+/])[\\w+/]", "(?<dye>[a-p])(?<pattern>.)"
+    return _site(site.HOSTS, code, base, layer, dyes, patterns)
+
+
+def _minecraft_tools() -> dict[str, Any]:
+    """Its links have a parameter for each number, which the reader puts in order first."""
+    site = minecraft_tools
+    dyes = ((str(n), dye) for n, dye in enumerate(urls.COLOURS))
+    patterns = ((str(n), name) for n, name in enumerate(site.PATTERN_ORDER, 1))
+    layer = "(?<pattern>[^:]+):(?<dye>[^;]+);"
+    return _site([site.HOST], "", "(?<dye>[^;]+);", layer, dyes, patterns)
+
+
+def _gamergeeks() -> dict[str, Any]:
+    site = gamergeeks
+    dyes = ((str(n), dye) for n, dye in enumerate(DYE_NAMES))
+    patterns = ((code, pattern.name) for code, pattern in BY_CODE.items())
+    base, dye = "(?<dye>\\d{1,2})(?!\\d)", "(?<dye>\\d{1,2})(?!\\d)"
+    return _site(site.HOSTS, "#mcb=a(.+)", base, f"(?<pattern>[a-z]{{1,3}}){dye}", dyes, patterns)
+
+
+def _plain(banner: Banner) -> dict[str, Any]:
+    layers = [{"pattern": layer.pattern, "dye": layer.dye} for layer in banner.layers]
+    return {"base": banner.base, "layers": layers, "kind": banner.kind}
