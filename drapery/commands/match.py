@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from drapery.commands import options as o
+from drapery.commands.garment import is_given
 from drapery.commands.notices import progress, say
 
 if TYPE_CHECKING:
-    from drapery.match import Match, Matcher, PictureFace
+    from drapery.match import Match, Matcher, Mural, PictureFace
     from drapery.packs import Packs, Texels
 
 MURAL_EFFORT = 8
@@ -18,160 +19,184 @@ MURAL_EFFORT = 8
 
 MURAL_ENDINGS = (".schem", ".mcfunction", ".png")
 
+NOT_FOR_MURALS = ("alternatives", "mask", "weighting", "photo", "corners", "written", "as_json")
+NOT_FOR_PHOTOS = ("effort", "fit", "crop", "background", "mask", "weighting")
+"""Parameters of the command that murals and photos do not use."""
+
+PictureArgument = Annotated[
+    Path, typer.Argument(metavar="PICTURE", help="A PNG, JPEG or WebP file.")
+]
+OutOption = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "-o",
+        "--out",
+        metavar="FILE",
+        help="The picture beside the banners, as .png or .html. With --mural: .png,"
+        " .mcfunction or .schem; several files may be given.",
+    ),
+]
+LayersOption = Annotated[
+    int, typer.Option(metavar="N", help="The most layers (0 to 16); the loom makes 6.")
+]
+AlternativesOption = Annotated[int, typer.Option(metavar="N", help="The most designs (1 to 64).")]
+EffortOption = Annotated[
+    int | None,
+    typer.Option(metavar="N", help="How many attempts are made to improve the designs."),
+]
+FitOption = Annotated[
+    Literal["cover", "contain", "stretch"],
+    typer.Option(help="How a picture of another shape is fitted to the banner."),
+]
+CropOption = Annotated[
+    str | None,
+    typer.Option(metavar="L,T,R,B", help="The part of the picture to use, in pixels."),
+]
+BackgroundOption = Annotated[
+    str,
+    typer.Option(metavar="COLOUR", help="Behind transparent pixels; transparent ignores them."),
+]
+MaskOption = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="A picture that is bright where pixels count."),
+]
+WeightingOption = Annotated[
+    Literal["even", "centre", "edges"],
+    typer.Option("--weights", help="Which part of the picture counts most."),
+]
+MuralOption = Annotated[
+    str | None,
+    typer.Option(metavar="WxH", help="Show the picture on so many banners, such as 4x3."),
+]
+PhotoOption = Annotated[
+    bool,
+    typer.Option("--photo", help="The picture is a photo of a banner before one colour."),
+]
+CornersOption = Annotated[
+    tuple[str, str, str, str] | None,
+    typer.Option(
+        metavar="X,Y X,Y X,Y X,Y",
+        help="The flag's corners in a photo, in pixels: upper left, upper right, lower right,"
+        " lower left.",
+    ),
+]
+FormOption = Annotated[
+    str | None,
+    typer.Option("--as", metavar="FORM", help="Print the best design as give, json, ..."),
+]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Print the designs and their errors as JSON.")
+]
+
 
 def run(
-    picture: Annotated[Path, typer.Argument(metavar="PICTURE", help="A PNG, JPEG or WebP file.")],
-    out: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "-o",
-            "--out",
-            metavar="FILE",
-            help="The picture beside the banners, as .png or .html. With --mural: .png,"
-            " .mcfunction or .schem; several files may be given.",
-        ),
-    ] = None,
-    layers: Annotated[
-        int, typer.Option(metavar="N", help="The most layers (0 to 16); the loom makes 6.")
-    ] = 6,
-    alternatives: Annotated[int, typer.Option(metavar="N", help="The most designs (1 to 64).")] = 5,
-    effort: Annotated[
-        int | None,
-        typer.Option(metavar="N", help="How many attempts are made to improve the designs."),
-    ] = None,
-    fit: Annotated[
-        Literal["cover", "contain", "stretch"],
-        typer.Option(help="How a picture of another shape is fitted to the banner."),
-    ] = "cover",
-    crop: Annotated[
-        str | None,
-        typer.Option(metavar="L,T,R,B", help="The part of the picture to use, in pixels."),
-    ] = None,
-    background: Annotated[
-        str,
-        typer.Option(metavar="COLOUR", help="Behind transparent pixels; transparent ignores them."),
-    ] = "transparent",
-    mask: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="A picture that is bright where pixels count."),
-    ] = None,
-    weighting: Annotated[
-        Literal["even", "centre", "edges"],
-        typer.Option("--weights", help="Which part of the picture counts most."),
-    ] = "even",
-    mural: Annotated[
-        str | None,
-        typer.Option(metavar="WxH", help="Show the picture on so many banners, such as 4x3."),
-    ] = None,
-    photo: Annotated[
-        bool,
-        typer.Option("--photo", help="The picture is a photo of a banner before one colour."),
-    ] = False,
-    corners: Annotated[
-        tuple[str, str, str, str] | None,
-        typer.Option(
-            metavar="X,Y X,Y X,Y X,Y",
-            help="The flag's corners in a photo, in pixels: upper left, upper right, lower right,"
-            " lower left.",
-        ),
-    ] = None,
-    written: Annotated[
-        str | None,
-        typer.Option("--as", metavar="FORM", help="Print the best design as give, json, ..."),
-    ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the designs and their errors as JSON.")
-    ] = False,
+    context: typer.Context,
+    picture: PictureArgument,
+    out: OutOption = None,
+    layers: LayersOption = 6,
+    alternatives: AlternativesOption = 5,
+    effort: EffortOption = None,
+    fit: FitOption = "cover",
+    crop: CropOption = None,
+    background: BackgroundOption = "transparent",
+    mask: MaskOption = None,
+    weighting: WeightingOption = "even",
+    mural: MuralOption = None,
+    photo: PhotoOption = False,
+    corners: CornersOption = None,
+    written: FormOption = None,
+    as_json: JsonOption = False,
     packs: o.PackOption = None,
     format: o.FormatOption = None,
 ) -> None:
     """Find the banners that look most like a picture. Ctrl-C shows the best that were found."""
-    from drapery.banner import write_banner
-    from drapery.match import Matcher, fit_picture, matches_sheet, read_picture
+    from drapery.match import read_picture
     from drapery.packs import open_packs
-    from drapery.sheets import check_sheet_target
 
+    is_photo = photo or corners is not None
     if mural is not None:
-        given = {
-            "--as": written is not None,
-            "--json": as_json,
-            "--mask": mask is not None,
-            "--weights": weighting != "even",
-            "--photo": photo,
-            "--corners": corners is not None,
-        }
-        _refuse("a mural", given)
-        _mural(picture, mural, out or [], layers, effort, fit, crop, background, packs, format)
-        return
-    for path in out or ():
-        check_sheet_target(path)
+        _refuse(context, NOT_FOR_MURALS, "a mural")
+    elif is_photo:
+        _refuse(context, NOT_FOR_PHOTOS, "a photo")
+    size = None if mural is None else _checked_size(mural)
+    _check_targets(out or [], is_mural=size is not None)
     opened = open_packs(tuple(packs or ()), format=format)
     pixels = read_picture(picture)
-    if photo or corners:
-        unused = {
-            "--fit": fit != "cover",
-            "--crop": crop is not None,
-            "--background": background != "transparent",
-            "--mask": mask is not None,
-            "--weights": weighting != "even",
-            "--effort": effort is not None,
-        }
-        _refuse("a photo", unused)
-        face, found = _seen_in_photo(pixels, corners, opened, layers, alternatives)
+    framing = {
+        "fit": fit,
+        "crop": _box(crop),
+        "background": _colour(background),
+        "name": picture.name,
+    }
+    wanted: dict[str, Any] = {"layers": layers}
+    if effort is not None:
+        wanted["effort"] = effort
+    if size is not None:
+        _save_mural(_matched_mural(pixels, size, opened, framing, wanted), out or [], opened)
     else:
-        seen = fit_picture(
-            pixels,
-            fit=fit,
-            crop=_box(crop),
-            background=_colour(background),
-            mask=None if mask is None else read_picture(mask),
-            weighting=weighting,
-            name=picture.name,
-        )
-        _check_colours(seen, picture.name)
-        wanted: dict[str, Any] = {"layers": layers, "alternatives": alternatives}
-        if effort is not None:
-            wanted["effort"] = effort
-        face, found = seen.face, _found(Matcher(opened), seen, wanted)
-    if written is not None:
-        print(write_banner(found[0].banner, written))
-    elif as_json:
-        print(json.dumps([_fields(one) for one in found], indent=1))
-    else:
-        for one in found:
-            print(f"{one.error:.4f}\t{write_banner(one.banner, 'text')}")
-    for path in out or ():
-        matches_sheet(face, found, opened).save(path)
-    _warn(opened)
+        wanted["alternatives"] = alternatives
+        if is_photo:
+            face, found = _seen_in_photo(pixels, corners, opened, wanted)
+        else:
+            shown = None if mask is None else read_picture(mask)
+            face, found = _seen_in_picture(
+                pixels, opened, {**framing, "mask": shown, "weighting": weighting}, wanted
+            )
+        _print_matches(found, written, as_json)
+        _save_sheets(face, found, out or [], opened)
+    for line in opened.warnings():
+        say(line)
+
+
+def _refuse(context: typer.Context, names: tuple[str, ...], what: str) -> None:
+    """Raises OptionError for the first of some options that was given."""
+    from drapery.errors import OptionError
+
+    flags = {parameter.name: parameter.opts[-1] for parameter in context.command.params}
+    for name in names:
+        if is_given(context, name):
+            raise OptionError(f"{flags[name]} does not apply to {what}; leave it out")
+
+
+def _check_targets(paths: list[Path], *, is_mural: bool) -> None:
+    """Raises OptionError or RenderError for a file that cannot be written."""
+    from drapery.errors import OptionError
+    from drapery.render import check_writable
+    from drapery.sheets import check_sheet_target
+
+    for path in paths:
+        if not is_mural:
+            check_sheet_target(path)
+        elif path.suffix.lower() not in MURAL_ENDINGS:
+            raise OptionError(f"{path.name} ends in none of {', '.join(MURAL_ENDINGS)}; use one")
+        else:
+            check_writable(path)
+
+
+def _seen_in_picture(
+    pixels: "Texels", packs: "Packs", framing: dict[str, Any], wanted: dict[str, Any]
+) -> "tuple[Texels, tuple[Match, ...]]":
+    """The face that is seen in a picture, and the designs."""
+    from drapery.match import Matcher, fit_picture
+
+    seen = fit_picture(pixels, **framing)
+    _check_colours(seen, framing["name"])
+    return seen.face, _found(Matcher(packs), seen, wanted)
 
 
 def _seen_in_photo(
     pixels: "Texels",
     corners: tuple[str, str, str, str] | None,
     packs: "Packs",
-    layers: int,
-    alternatives: int,
+    wanted: dict[str, Any],
 ) -> "tuple[Texels, tuple[Match, ...]]":
     """The face that is seen in a photo, and the designs."""
     from drapery.match import find_corners, flat_face, match_photo
 
     picture = pixels[..., :3]
     places = find_corners(picture) if corners is None else tuple(map(_corner, corners))
-    found = match_photo(picture, places, layers=layers, packs=packs, alternatives=alternatives)
+    found = match_photo(picture, places, packs=packs, **wanted)
     return flat_face(picture, places), tuple(found)
-
-
-def _corner(text: str) -> tuple[float, float]:
-    from drapery.errors import OptionError
-
-    try:
-        x, y = map(float, text.split(","))
-    except ValueError:
-        raise OptionError(
-            f"--corners {text[:40]!r} is not two numbers; use such as --corners 52,21 118,30"
-            " 112,171 47,160"
-        ) from None
-    return x, y
 
 
 def _found(matcher: "Matcher", seen: "PictureFace", wanted: dict[str, Any]) -> "tuple[Match, ...]":
@@ -190,69 +215,62 @@ def _found(matcher: "Matcher", seen: "PictureFace", wanted: dict[str, Any]) -> "
     return found
 
 
-def _refuse(what: str, given: dict[str, bool]) -> None:
-    """Raises OptionError for the first option that was given and is not used."""
-    from drapery.errors import OptionError
+def _print_matches(found: "tuple[Match, ...]", form: str | None, as_json: bool) -> None:
+    from drapery.banner import write_banner
 
-    for name, used in given.items():
-        if used:
-            raise OptionError(f"{name} does not apply to {what}; leave it out")
+    if form is not None:
+        print(write_banner(found[0].banner, form))
+    elif as_json:
+        print(json.dumps([_fields(one) for one in found], indent=1))
+    else:
+        for one in found:
+            print(f"{one.error:.4f}\t{write_banner(one.banner, 'text')}")
 
 
-def _mural(
-    picture: Path,
-    size: str,
-    out: list[Path],
-    layers: int,
-    effort: int | None,
-    fit: Literal["cover", "contain", "stretch"],
-    crop: str | None,
-    background: str,
-    packs: list[Path] | None,
-    format: int | None,
+def _save_sheets(
+    face: "Texels", found: "tuple[Match, ...]", paths: list[Path], packs: "Packs"
 ) -> None:
-    from drapery.errors import OptionError
-    from drapery.match import Matcher, Mural, check_mural_size, fit_mural, read_picture
-    from drapery.packs import open_packs
-    from drapery.render import check_writable, replacing
+    from drapery.match import matches_sheet
 
-    across, down = _pair(size)
-    check_mural_size(across, down)
-    for path in out:
-        if path.suffix.lower() not in MURAL_ENDINGS:
-            raise OptionError(f"{path.name} ends in none of {', '.join(MURAL_ENDINGS)}; use one")
-        check_writable(path)
-    opened = open_packs(tuple(packs or ()), format=format)
-    faces = fit_mural(
-        read_picture(picture),
-        across,
-        down,
-        fit=fit,
-        crop=_box(crop),
-        background=_colour(background),
-        name=picture.name,
-    )
-    matcher, banners = Matcher(opened), []
-    attempts = MURAL_EFFORT if effort is None else effort
+    for path in paths:
+        matches_sheet(face, found, packs).save(path)
+
+
+def _matched_mural(
+    pixels: "Texels",
+    size: tuple[int, int],
+    packs: "Packs",
+    framing: dict[str, Any],
+    wanted: dict[str, Any],
+) -> "Mural":
+    """The banners of a mural, each found by itself."""
+    from drapery.match import Matcher, Mural, fit_mural
+
+    faces = fit_mural(pixels, *size, **framing)
+    matcher, banners = Matcher(packs), []
+    chosen = {"effort": MURAL_EFFORT, **wanted, "alternatives": 1}
     with progress("mural", len(faces)) as update:
         for number, seen in enumerate(faces, 1):
-            (best,) = matcher.match(
-                seen.face, weights=seen.weights, layers=layers, alternatives=1, effort=attempts
-            )
+            (best,) = matcher.match(seen.face, weights=seen.weights, **chosen)
             banners.append(best.banner)
             update(number, len(faces))
-    made = Mural(across, down, tuple(banners))
+    return Mural(*size, tuple(banners))
+
+
+def _save_mural(made: "Mural", paths: list[Path], packs: "Packs") -> None:
+    """Print the materials of a mural, and write its files."""
+    from drapery.render import replacing
+
     for item in made.materials():
         print(f"{item.count}\t{item.item}")
-    for path in out:
+    for path in paths:
         ending = path.suffix.lower()
         if ending == ".png":
-            made.picture(opened).save(path)
+            made.picture(packs).save(path)
             continue
         data = made.schematic() if ending == ".schem" else made.function().encode()
         with replacing(path) as target:
             target.write_bytes(data)
-    _warn(opened)
 
 
 def _fields(one: "Match") -> dict[str, Any]:
@@ -287,6 +305,19 @@ def _colour(text: str) -> tuple[int, int, int] | None:
     return (rgb[0], rgb[1], rgb[2]) if alpha else None
 
 
+def _corner(text: str) -> tuple[float, float]:
+    from drapery.errors import OptionError
+
+    try:
+        x, y = map(float, text.split(","))
+    except ValueError:
+        raise OptionError(
+            f"--corners {text[:40]!r} is not two numbers; use such as --corners 52,21 118,30"
+            " 112,171 47,160"
+        ) from None
+    return x, y
+
+
 def _box(text: str | None) -> tuple[int, int, int, int] | None:
     from drapery.errors import OptionError
 
@@ -301,15 +332,14 @@ def _box(text: str | None) -> tuple[int, int, int, int] | None:
     return left, top, right, bottom
 
 
-def _pair(text: str) -> tuple[int, int]:
+def _checked_size(text: str) -> tuple[int, int]:
+    """The size of a mural, such as 4x3. Raises OptionError."""
     from drapery.errors import OptionError
+    from drapery.match import check_mural_size
 
     first, times, second = text.lower().partition("x")
     if not (times and first.isdecimal() and second.isdecimal()):
         raise OptionError(f"--mural {text[:40]!r} is not two whole numbers; use such as 4x3")
-    return int(first), int(second)
-
-
-def _warn(packs: "Packs") -> None:
-    for line in packs.warnings():
-        say(line)
+    size = int(first), int(second)
+    check_mural_size(*size)
+    return size
