@@ -18,6 +18,8 @@ _intrinsic: Any = intrinsic
 _if_unlikely: Any = if_unlikely
 INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 OUTER = {"error_model": "numpy", "nogil": True}
+REGISTER = 64
+"""Bytes of the widest register for which kernels are written; see `drapery.cloth.simd`."""
 
 
 def kernel(function: Function) -> Function:

@@ -15,7 +15,7 @@ for a wind that repeats.
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,6 +30,7 @@ OCTAVES = 2.0
 """Their lengths are spread over so many octaves around the size of the ripples."""
 CARRIED = 0.45, 0.75
 """Speeds of waves over that of the wind: Corcos's range."""
+MEAN_CARRIED = sum(CARRIED) / 2
 SPREAD = 0.2
 """Waves run up to this part of a turn to either side of the flow."""
 STROUHAL = 0.145
@@ -92,27 +93,20 @@ def _no_waves(particles: int) -> Waves:
 
 
 def _ripples(wind: Wind, speed: float, along: Array, across: Array) -> Waves:
-    jitter, angle, pace, turns = _random(wind.seed, 4, WAVES)
-    octaves = OCTAVES * ((np.arange(WAVES) + jitter) / WAVES - 0.5)
-    lengths = wind.ripple_size * 2.0**octaves
-    heading = SPREAD * (2 * angle - 1)
-    forward, sideways = sine_of_turns(heading + 0.25), sine_of_turns(heading)
-    rates = speed * (CARRIED[0] + (CARRIED[1] - CARRIED[0]) * pace) * forward / lengths
-    places = (forward[:, None] * along + sideways[:, None] * across) / lengths[:, None]
-    # Longer waves are stronger, as the cube root of their length (Kolmogorov 1941).
-    strength = np.cbrt(lengths)
-    strength *= wind.ripples * speed * np.sqrt(2 / (strength * strength).sum())
-    return _at_places(rates, turns, places, np.repeat(strength[:, None], len(along), axis=1))
+    made = ripple_tables(wind)
+    rates = ripple_rate(speed, made.carried, made.forward, made.lengths)
+    headings = made.forward[:, None], made.sideways[:, None]
+    places = ripple_place(*headings, along, across, made.lengths[:, None])
+    strength = ripple_strength(made.roots, wind.ripples, speed, made.norm[0])
+    return _at_places(rates, made.turns, places, strength[:, None])
 
 
 def _vortices(wind: Wind, speed: float, along: Array, across: Array) -> Waves:
-    width = float(np.ptp(across))
-    rate = STROUHAL * speed / width
-    side = (2 * across - across.min() - across.max()) / width
-    place = along * rate / (speed * sum(CARRIED) / 2)
-    turns = _random(wind.seed, 5, 1)[4]
-    strength = wind.vortices * speed * side
-    return _at_places(np.array([rate]), turns, place[None], strength[None])
+    low, high = across.min(), across.max()
+    rate = vortex_rate(speed, high - low)
+    place = vortex_place(along, rate, speed)
+    strength = vortex_strength(wind.vortices, speed, across, low, high)
+    return _at_places(np.array([rate]), vortex_turns(wind), place[None], strength[None])
 
 
 def _at_places(rates: Array, turns: Array, places: Array, strength: Array) -> Waves:
@@ -120,19 +114,99 @@ def _at_places(rates: Array, turns: Array, places: Array, strength: Array) -> Wa
     return Waves(rates, turns, sines, cosines)
 
 
+class RippleTables(NamedTuple):
+    """What does not depend on the velocity of a wind, of K ripples.
+
+    lengths: [m], [K]. carried: their speed over that of the wind, [K]. forward, sideways: of the
+    direction in which they run, to the flow along the cloth, [K]. roots: cube roots of the lengths,
+    [K]: longer waves are stronger so (Kolmogorov 1941). turns: their phases, [K]. norm: 1 over the
+    rms of all roots together, [1].
+    """
+
+    lengths: Array
+    carried: Array
+    forward: Array
+    sideways: Array
+    roots: Array
+    turns: Array
+    norm: Array
+
+
+def ripple_tables(wind: Wind) -> RippleTables:
+    """The tables of a wind's ripples."""
+    jitter, angle, pace, turns = _random(wind.seed, 4, WAVES)
+    octaves = OCTAVES * ((np.arange(WAVES) + jitter) / WAVES - 0.5)
+    lengths = wind.ripple_size * 2.0**octaves
+    heading = SPREAD * (2 * angle - 1)
+    roots = np.cbrt(lengths)
+    return RippleTables(
+        lengths,
+        CARRIED[0] + (CARRIED[1] - CARRIED[0]) * pace,
+        sine_of_turns(heading + 0.25),
+        sine_of_turns(heading),
+        roots,
+        turns,
+        np.sqrt(2 / (roots * roots).sum(keepdims=True)),
+    )
+
+
+def vortex_turns(wind: Wind) -> Array:
+    """The phase of a wind's vortices, [1]."""
+    return _random(wind.seed, 5, 1)[4]
+
+
+# Of numbers or of arrays: the kernel that turns a wind uses the same formulas, see `live`.
+
+
+def ripple_rate(speed: Any, carried: Any, forward: Any, length: Any) -> Any:
+    """The frequency of a ripple [1/s]."""
+    return speed * carried * forward / length
+
+
+def ripple_place(forward: Any, sideways: Any, along: Any, across: Any, length: Any) -> Any:
+    """The phase of a ripple at a place [m] along and across the flow [turns]."""
+    return (forward * along + sideways * across) / length
+
+
+def ripple_strength(root: Any, ripples: Any, speed: Any, norm: Any) -> Any:
+    """The amplitude of a ripple [m/s]."""
+    return root * (ripples * speed * norm)
+
+
+def vortex_rate(speed: Any, width: Any) -> Any:
+    """The frequency of vortices behind a cloth of a width across the flow [m]: [1/s]."""
+    return STROUHAL * speed / width
+
+
+def vortex_place(along: Any, rate: Any, speed: Any) -> Any:
+    """The phase of the vortices at a place along the flow [m]: [turns]."""
+    return along * rate / (speed * MEAN_CARRIED)
+
+
+def vortex_strength(vortices: Any, speed: Any, across: Any, low: Any, high: Any) -> Any:
+    """The amplitude of the vortices at a place across a flow from low to high [m]: [m/s]."""
+    return vortices * speed * ((2 * across - low - high) / (high - low))
+
+
 def _places(velocity: Array, cloth: Cloth) -> tuple[Array, Array]:
     """How far each particle lies along the flow over the cloth, and across it [m], [N] each."""
+    rest, normal, down = resting_frame(cloth)
+    head_on = float((velocity * normal).sum())
+    along = _unit(velocity - head_on * normal + abs(head_on) * down, down)
+    across = np.cross(normal, along)
+    return (rest * along).sum(axis=1), (rest * across).sum(axis=1)
+
+
+def resting_frame(cloth: Cloth) -> tuple[Array, Array, Array]:
+    """Particles at rest about their middle [m], [N, 3]; the normal of the cloth, and from its pins
+    down along it, [3] each."""
     rest = cloth.rest_positions - cloth.rest_positions.mean(axis=0)
     normal = _unit(face_normals(rest, cloth.triangles).sum(axis=0), np.array([0.0, 0.0, 1.0]))
     pinned = cloth.inv_mass == 0
     down = np.array([0.0, -1.0, 0.0])
     if pinned.any() and not pinned.all():
         down = rest[~pinned].mean(axis=0) - rest[pinned].mean(axis=0)
-    down = _unit(down - (down * normal).sum() * normal, np.array([0.0, -1.0, 0.0]))
-    head_on = float((velocity * normal).sum())
-    along = _unit(velocity - head_on * normal + abs(head_on) * down, down)
-    across = np.cross(normal, along)
-    return (rest * along).sum(axis=1), (rest * across).sum(axis=1)
+    return rest, normal, _unit(down - (down * normal).sum() * normal, np.array([0.0, -1.0, 0.0]))
 
 
 def _unit(vector: Array, otherwise: Array) -> Array:

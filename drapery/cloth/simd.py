@@ -16,9 +16,9 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
 
-from drapery.jit import kernel
+from drapery.jit import REGISTER, kernel
 
-BYTES = 64
+BYTES = REGISTER
 """Size of a register and of a cache line."""
 
 _intrinsic: Any = intrinsic

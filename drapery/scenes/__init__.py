@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from drapery.scenes.exploded import exploded_view
     from drapery.scenes.parameters import SceneParameters
     from drapery.scenes.picture_grid import Picture, PictureGrid
+    from drapery.scenes.playing import LiveKernel, LivePanel, live_panels
     from drapery.scenes.stager import (
         STEP,
         WIND_AXIS,
@@ -45,6 +46,8 @@ __all__ = [
     "Clip",
     "ClothSpec",
     "Dressed",
+    "LiveKernel",
+    "LivePanel",
     "Picture",
     "PictureGrid",
     "SceneEntry",
@@ -60,6 +63,7 @@ __all__ = [
     "garment_loop",
     "garment_moments",
     "garment_still",
+    "live_panels",
     "loop",
     "scene_frames",
     "scene_names",
@@ -75,6 +79,7 @@ __getattr__, __dir__ = lazy_names(
         "scenes.exploded": ("exploded_view",),
         "scenes.parameters": ("SceneParameters",),
         "scenes.picture_grid": ("Picture", "PictureGrid"),
+        "scenes.playing": ("LiveKernel", "LivePanel", "live_panels"),
         "scenes.stager": (
             "STEP",
             "WIND_AXIS",

@@ -37,7 +37,7 @@ from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
-from drapery.render.light import STUDIO_LIGHT, UNLIT, lit_at
+from drapery.render.light import STUDIO_LIGHT, UNLIT, Light, lit_at
 from drapery.render.scene import Model, Scene
 from drapery.render.shadow import contact_shadow, shadow_corners
 from drapery.render.vectors import unit
@@ -250,16 +250,22 @@ class Stager:
         if settings.shadow:
             under = shadow or self.contact(models, floor_under([m.mesh for m in models]))
             models = [under, *models]
-        lights = {"flat": UNLIT, "studio": STUDIO_LIGHT, "game": self.body.light}
-        light = lights[settings.lighting]
         return Scene(
             (*self.ground, *models),
             camera,
             settings.drawn_size,
-            lit_at(light, settings.block_light, settings.sky_light, settings.daylight),
+            self.light,
             background_colour(settings.background),
             settings.sample_count,
         )
+
+    @property
+    def light(self) -> Light:
+        """The light of the settings."""
+        settings = self.settings
+        lights = {"flat": UNLIT, "studio": STUDIO_LIGHT, "game": self.body.light}
+        light = lights[settings.lighting]
+        return lit_at(light, settings.block_light, settings.sky_light, settings.daylight)
 
     def moved(self, motions: Sequence[Array]) -> list[Array]:
         """The motion of each panel after the style's steps. motions: [m], each [F, N, 3]."""
@@ -277,7 +283,7 @@ class Stager:
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
         if self.style.has("shape"):
             return self.turned(self.style.mesh(self._sheet(panel, sheet + panel.origin)))
-        shell = _grid_shell(self.settings.grid, panel.uv_mapping)
+        shell = grid_shell(self.settings.grid, panel.uv_mapping)
         thickness = self.settings.thickness * panel.texel
         return self.turned(thicken(shell, sheet + panel.origin, thickness))
 
@@ -383,7 +389,7 @@ def _specs(body: Body, settings: Settings) -> list[ClothSpec]:
 
 
 @lru_cache(maxsize=16)
-def _grid_shell(shape: tuple[int, int], uv_mapping: UVMapping) -> Shell:
+def grid_shell(shape: tuple[int, int], uv_mapping: UVMapping) -> Shell:
     """The shell of a grid of this shape: one object, which renderers recognise by identity."""
     cloth = grid(*shape, 1.0, 1.0, pins="none")
     return make_shell(cloth.triangles, cloth.uvs, uv_mapping)

@@ -59,7 +59,7 @@ def turn(mesh: Mesh, degrees: float) -> Mesh:
         (south) turns towards -x (west), as the game's rotations and facings do.
     """
     matrix = turn_matrix(degrees)
-    centre = np.array(_ORIGIN)
+    centre = turn_centre()
     # einsum adds in a fixed order; BLAS may not.
     positions = np.einsum("ij,...j->...i", matrix, mesh.positions - centre) + centre
     return Mesh(
@@ -72,6 +72,11 @@ def turn_matrix(degrees: float) -> Array:
     angle = np.radians(-degrees)
     cos, sin = np.cos(angle), np.sin(angle)
     return np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
+
+
+def turn_centre() -> Array:
+    """The point about which `turn` turns [m], shape [3]."""
+    return np.array(_ORIGIN)
 
 
 def flag_origin(placement: Placement) -> Array:

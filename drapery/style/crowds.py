@@ -24,12 +24,12 @@ def cover_crowd(shell: Shell, positions: Array, thickness: float) -> Mesh:
     count = len(sheets)
     shape = count, len(shell.uvs), 3
     points, normals = np.empty(shape, np.float32), np.empty(shape, np.float32)
-    starts, faces = _faces_around(shell)
+    starts, faces = faces_around(shell)
     parts = 8 * worker_count()
 
     def run(part: int) -> None:
         first, last = (count * (part + step) // parts for step in range(2))
-        _cover(
+        cover_sheets(
             first,
             last,
             sheets,
@@ -38,6 +38,7 @@ def cover_crowd(shell: Shell, positions: Array, thickness: float) -> Mesh:
             faces,
             shell.rim,
             np.float32(thickness / 2.0),
+            least_lengths(np.float32),
             points,
             normals,
         )
@@ -46,7 +47,13 @@ def cover_crowd(shell: Shell, positions: Array, thickness: float) -> Mesh:
     return Mesh(points, normals, shell.triangles, shell.uvs)
 
 
-def _faces_around(shell: Shell) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def least_lengths(dtype: type[np.floating[Any]]) -> tuple[Any, Any]:
+    """Shorter sums of normals give a vertex (0, 0, 1); the least length of a rim's normal."""
+    tiny = np.finfo(dtype).tiny
+    return dtype(tiny**0.5), dtype(tiny)
+
+
+def faces_around(shell: Shell) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The faces at vertex i are faces[starts[i] : starts[i + 1]]."""
     corners = shell.sheet.T.reshape(-1)
     order = np.argsort(corners, kind="stable")
@@ -60,7 +67,7 @@ def _cross(ux: Any, uy: Any, uz: Any, vx: Any, vy: Any, vz: Any) -> Any:
 
 
 @entry_point
-def _cover(
+def cover_sheets(
     first: Any,
     last: Any,
     sheets: Any,
@@ -69,14 +76,17 @@ def _cover(
     faces: Any,
     rim: Any,
     half: Any,
+    least: Any,
     points: Any,
     normals: Any,
 ) -> None:
-    """Write the shells of sheets first..last - 1; arrays as in `cover_crowd` and `Shell`."""
-    count = sheets.shape[1]
-    across = np.empty((len(triangles), 3), np.float32)
-    tiny = np.float32(np.finfo(np.float32).tiny)
-    flat = np.float32(np.finfo(np.float32).tiny ** 0.5)
+    """Write the shells of sheets first..last - 1; arrays as in `cover_crowd` and `Shell`.
+
+    least: see `least_lengths`. All are of one floating-point type.
+    """
+    count, F = sheets.shape[1], sheets.dtype.type
+    across = np.empty((len(triangles), 3), sheets.dtype)
+    flat, tiny = least
     for b in range(first, last):
         for t in range(len(triangles)):
             i, j, k = triangles[t, 0], triangles[t, 1], triangles[t, 2]
@@ -90,13 +100,13 @@ def _cover(
                 sheets[b, k, 2] - z,
             )
         for v in range(count):
-            nx = ny = nz = np.float32(0)
+            nx = ny = nz = F(0)
             for at in range(starts[v], starts[v + 1]):
                 face = faces[at]
                 nx, ny, nz = nx + across[face, 0], ny + across[face, 1], nz + across[face, 2]
             length = np.sqrt(nx * nx + ny * ny + nz * nz)
             if length < flat:
-                nx, ny, nz = np.float32(0), np.float32(0), np.float32(1)
+                nx, ny, nz = F(0), F(0), F(1)
             else:
                 nx, ny, nz = nx / length, ny / length, nz / length
             normals[b, v, 0], normals[b, v, 1], normals[b, v, 2] = nx, ny, nz

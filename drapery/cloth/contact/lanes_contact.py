@@ -81,7 +81,7 @@ def resolve(cloth: Any, work: Any, boxes: Any, poses: Any, turn: Any, dt: Any) -
     return bool(met)
 
 
-_PARAMETERS = (
+PARAMETERS = (
     numba.int64,
     _typeof(contact_work(0, NO_CONTACT)),
     _typeof(NO_CONTACT),
@@ -89,13 +89,13 @@ _PARAMETERS = (
     numba.int64,
     numba.float64,
 )
-_resolve_at = call_by_address(numba.boolean, _PARAMETERS)
+_resolve_at = call_by_address(numba.boolean, PARAMETERS)
 
 
 @cache
 def resolve_address() -> int:
     """Where `resolve` is in memory."""
-    return address_of(resolve, _PARAMETERS)
+    return address_of(resolve, PARAMETERS)
 
 
 @kernel

@@ -1,0 +1,125 @@
+"""Cloth of a body that plays on without Python: the kernels to call, and their arguments.
+
+`drapery.web.wasm` compiles the kernels to WebAssembly and writes the arguments to a file.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.cloth.contact import lanes_contact
+from drapery.cloth.live import aim, live_call, play
+from drapery.errors import OptionError
+from drapery.mesh import Array
+from drapery.scenes.stager import (
+    LEE,
+    STEP,
+    Stager,
+    cloth_at_rest,
+    cloth_spec,
+    forces_of,
+    grid_shell,
+    wind_of,
+)
+from drapery.settings import Settings
+from drapery.style.block import turn_centre, turn_matrix
+from drapery.style.body import Body, Panel
+from drapery.style.live_shell import cover, make_live_shell
+
+
+@dataclass(frozen=True)
+class LiveKernel:
+    """A call that a host makes: a compiled function that returns 0, and its arguments.
+
+    name: of the function for these types of arguments.
+    """
+
+    name: str
+    function: Callable[..., Any]
+    arguments: tuple[Any, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class LivePanel:
+    """A panel of cloth at the start of its motion.
+
+    header: what a host wants to know, for JSON. calls: by what they do: `aim` turns the wind,
+    `play` makes time steps, `cover` writes the vertices of the thick cloth.
+    arrays: parts of the arguments that the host reads and writes, by name.
+    functions: what kernels call by an address, and the types of its parameters; fields of named
+    tuples that hold such an address have the name of the function.
+    """
+
+    header: Mapping[str, Any]
+    calls: Mapping[str, LiveKernel]
+    arrays: Mapping[str, NDArray[Any]]
+    functions: Mapping[str, tuple[Callable[..., Any], tuple[Any, ...]]]
+
+
+def live_panels(body: Body, settings: Settings, lanes: int | None = None) -> list[LivePanel]:
+    """The panels of a body, to be played in the wind of the settings.
+
+    lanes: of the arrays; by default a register of this processor.
+    Raises OptionError for settings that cannot be played without Python.
+    """
+    stager = Stager(body, settings, ())
+    for kind in ("motion", "shape"):
+        if stager.style.has(kind):
+            raise OptionError(
+                f"a style with steps of {kind} cannot be played without Python; "
+                "use styles of materials and pictures only"
+            )
+    if stager.settings.pose != "cloth":
+        raise OptionError(f"pose {stager.settings.pose} has no cloth to play; use pose cloth")
+    return [_live_panel(stager, panel, lanes) for panel in body.panels]
+
+
+def _live_panel(stager: Stager, panel: Panel, lanes: int | None) -> LivePanel:
+    settings = stager.settings
+    spec = cloth_spec(panel, settings, stager.body.solids)
+    wind = wind_of(settings)
+    sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
+    lee = (1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0)
+    call = live_call(cloth_at_rest(spec), forces_of(settings, wind), wind, lee, lanes)
+    live, blown, plan, batch, substeps = call
+    turned = (turn_matrix(settings.turned), turn_centre()) if settings.turned else _NOT_TURNED
+    shell = make_live_shell(
+        grid_shell(settings.grid, panel.uv_mapping),
+        panel.origin,
+        settings.thickness * panel.texel,
+        stager.light,
+        *turned,
+    )
+    columns, rows = settings.grid
+    method = type(plan).__name__.removesuffix("Plan").lower()
+    return LivePanel(
+        {
+            "columns": columns,
+            "rows": rows,
+            "step": STEP,
+            "size": list(map(float, panel.size)),
+            "origin": list(map(float, panel.origin)),
+            "pins": live.pins.tolist(),
+            "wind": blown.velocity.tolist(),
+            "vertices": len(shell.light),
+            "method": method,
+        },
+        {
+            "aim": LiveKernel("aim", aim, (live, blown, batch.gusts)),
+            "play": LiveKernel(f"play_{method}", play, (live, plan, batch, substeps)),
+            "cover": LiveKernel("cover", cover, (live.positions, shell)),
+        },
+        {
+            **{name: getattr(live, name) for name in ("clock", "grab", "target")},
+            **{name: getattr(live, name) for name in ("positions", "velocities")},
+            "wind": blown.velocity,
+            **{name: getattr(shell, name) for name in ("vertices", "normals", "light")},
+        },
+        {"resolve": (lanes_contact.resolve, lanes_contact.PARAMETERS)},
+    )
+
+
+_NOT_TURNED: tuple[Array, Array] = np.eye(3), np.zeros(3)
