@@ -1,0 +1,44 @@
+"""The process that compiles the module; `drapery.web.wasm.build` starts it."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+from drapery import jit
+
+# No kernel is imported yet. Registers of WebAssembly have 16 bytes; and Python does not call the
+# code, which is not optimised, so it needs no wrappers and must not be kept.
+jit.REGISTER = 16
+vars(jit)["entry_point"] = jit.kernel
+
+from drapery import Banner, Settings  # noqa: E402
+from drapery.packs import open_packs  # noqa: E402
+from drapery.scenes import live_panels  # noqa: E402
+from drapery.style import body_of  # noqa: E402
+from drapery.web.wasm.build import METHODS  # noqa: E402
+from drapery.web.wasm.compiler import ExportedKernel, compile_module  # noqa: E402
+from drapery.web.wasm.image import types_of  # noqa: E402
+from drapery.web.wasm.module import sources_hash  # noqa: E402
+from drapery.web.wasm.plan import LANES, types_hash  # noqa: E402
+
+
+def main(path: Path, methods: list[str]) -> None:
+    """Write the module with the kernels of some methods."""
+    kernels: dict[str, ExportedKernel] = {}
+    hashes: dict[str, str] = {}
+    for method in methods:
+        options: Any = METHODS[method]
+        settings = Settings(**options, light="game")
+        body = body_of(Banner.parse("white"), open_packs(()), settings)
+        panel = live_panels(body, settings, LANES)[0]
+        for call in panel.calls.values():
+            kernels[call.name] = ExportedKernel(call.name, call.function, types_of(call.arguments))
+            hashes[call.name] = types_hash(call.arguments)
+        for name, (function, types) in panel.functions.items():
+            kernels[name] = ExportedKernel(name, function, types, by_address=True)
+    info = {"sources": sources_hash(), "kernels": hashes}
+    path.write_bytes(compile_module(list(kernels.values()), info, path.parent))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2:])

@@ -1,0 +1,67 @@
+"""The built module: where it is, and for which sources it is valid."""
+
+import hashlib
+import json
+from functools import cache
+from pathlib import Path
+
+import drapery.cloth
+import drapery.style
+from drapery.jit_cache import kernel_cache_status
+from drapery.web.wasm.image import WasmBuildError
+
+HERE = Path(__file__).parent
+
+
+@cache
+def sources_hash() -> str:
+    """A hash of all sources of which the module and its plans are made."""
+    total = hashlib.sha256()
+    folders = [Path(str(package.__file__)).parent for package in (drapery.cloth, drapery.style)]
+    for folder in (*folders, HERE):
+        for path in sorted([*folder.rglob("*.py"), *folder.rglob("*.c")]):
+            total.update(hashlib.sha256(path.read_bytes()).digest())
+    return total.hexdigest()[:16]
+
+
+def module_places() -> list[Path]:
+    """Where the module may be: in the package, else with the kernels that numba compiled."""
+    name, folder = f"kernels-{sources_hash()}.wasm", kernel_cache_status().folder
+    return [HERE / name, *([folder / "web" / name] if folder else [])]
+
+
+def read_module() -> bytes:
+    """The module. Raises WasmBuildError where it is not built for these sources."""
+    for path in module_places():
+        if path.is_file():
+            return path.read_bytes()
+    raise WasmBuildError(
+        "the WebAssembly module of the kernels is not built; "
+        "run python -m drapery.web.wasm.build (needs drapery[web-build])"
+    )
+
+
+def module_info(module: bytes) -> dict[str, object]:
+    """What the build wrote into the module: `sources`, and `kernels` by name with their types."""
+    at = 8
+    while at < len(module):
+        kind, at = module[at], at + 1
+        size, at = _length(module, at)
+        if kind == 0:
+            length, start = _length(module, at)
+            if module[start : start + length] == b"drapery":
+                found: dict[str, object] = json.loads(module[start + length : at + size])
+                return found
+        at += size
+    raise WasmBuildError("the WebAssembly module was not built by drapery.web.wasm.build")
+
+
+def _length(module: bytes, at: int) -> tuple[int, int]:
+    """A number in LEB128, and where it ends."""
+    number = shift = 0
+    while True:
+        byte, at = module[at], at + 1
+        number |= (byte & 127) << shift
+        shift += 7
+        if byte < 128:
+            return number, at
