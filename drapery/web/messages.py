@@ -65,10 +65,12 @@ class MessageEncoder:
     """Encodes messages for one viewer; each moment holds only what has changed since the last.
 
     which: "all" panes, or only the first or last. shape: width and height of the viewer [pixels].
+    flat: whether layers that always look the same become one texture, which draws faster.
     """
 
     which: str = "all"
     shape: tuple[int, int] = (1, 1)
+    flat: bool = True
     _version: int = 0
     _topology: Topology | None = None
     _layout: object = None
@@ -130,7 +132,9 @@ class MessageEncoder:
     def _scene(self, topology: Topology, shown: ViewerState, panes: list["_DrawnPane"]) -> bytes:
         starts, materials = topology.vertex_start, np.zeros(len(topology.uvs), np.int32)
         materials[topology.triangles] = topology.triangle_material[:, None]
-        tables = composite_layers(topology.material_tables)
+        tables = topology.material_tables
+        if self.flat:
+            tables = composite_layers(tables)
         kinds = np.stack([tables.material_alpha, tables.material_lit], axis=1)
         header = {
             "kind": "scene",
