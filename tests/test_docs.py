@@ -31,3 +31,11 @@ def test_links_lead_somewhere(page: str) -> None:
     path = ROOT / page
     for target in re.findall(r"\]\((?!https?:)([^)#]+)", path.read_text()):
         assert (path.parent / target).exists(), target
+
+
+def test_every_picture_of_the_docs_has_its_command() -> None:
+    folder = ROOT / "docs" / "pictures"
+    page = (ROOT / "docs" / "reference" / "pictures.md").read_text("utf-8")
+    named = set(re.findall(r"`([\w/-]+\.(?:png|webp|gif))`", page.replace("NAME", "cel")))
+    shown = {p.relative_to(folder).as_posix() for p in folder.rglob("*.*")}
+    assert named == {name for name in shown if not name.startswith("styles/")} | {"styles/cel.png"}

@@ -1,0 +1,128 @@
+"""What the site's builder adds to the pages: tables of options and commands, links, and llms.txt.
+
+A page writes `<!-- table: NAME -->` where a table of `TABLES` comes.
+"""
+
+import logging
+import re
+import shutil
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import typer.main
+
+from drapery.cli import app
+from drapery.option import Option
+from drapery.player_settings import PLAYER_OPTIONS
+from drapery.settings import LOOP_OPTIONS, OPTIONS
+
+ROOT = Path(__file__).parent.parent
+AUDIENCES = {"anyone": "yes", "local": "no", "python": "Python only"}
+pages: dict[str, tuple[str, str]] = {}
+"""The title and the Markdown of each page, by its path."""
+
+
+def on_config(config: Any) -> None:
+    """Copy the sources for mkdocstrings, with `render/` in `drapery/` as it is installed."""
+    copy = ROOT / "build" / "api" / "drapery"
+    shutil.rmtree(copy, ignore_errors=True)
+    sources = shutil.ignore_patterns("__pycache__", "*.png", "*.js", "*.wasm")
+    shutil.copytree(ROOT / "drapery", copy, ignore=sources)
+    shutil.copytree(ROOT / "render", copy / "render", ignore=sources)
+
+
+def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
+    """The page with its tables, and with links to files that are not on the site as plain text."""
+    text = re.sub(r"<!-- table: ([\w-]+) -->", lambda found: TABLES[found[1]](), markdown)
+    text = re.sub(r"\[([^]]+)\]\((?:\.\./)+(?!docs/)([\w./-]+)\)", _outside(page, config), text)
+    pages[page.file.src_uri] = page.title, text
+    return text
+
+
+def on_post_build(config: Any) -> None:
+    """Write llms.txt, and the Markdown of each page beside its HTML."""
+    site = Path(config["site_dir"])
+    lines = [f"# {config['site_name']}", "", f"> {config['site_description']}", ""]
+    for name, (title, text) in pages.items():
+        target = site / name
+        if "\n::: " in f"\n{text}":  # the reference of a module is made in HTML
+            target = target.with_suffix(".html")
+        else:
+            target.write_text(text, encoding="utf-8")
+        lines.append(f"- [{title}]({target.relative_to(site).as_posix()})")
+    (site / "llms.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _outside(page: Any, config: Any) -> Callable[[re.Match[str]], str]:
+    """Replaces a link that leads out of the docs: by its text, if what it names exists."""
+    folder = Path(config["docs_dir"], page.file.src_uri).parent
+
+    def replace(found: re.Match[str]) -> str:
+        target = re.search(r"\(([^)]*)\)$", found[0])
+        assert target is not None
+        path = (folder / target[1]).resolve()
+        if path.is_relative_to(Path(config["docs_dir"]).resolve()):
+            return found[0]
+        if not path.exists():
+            logging.getLogger("mkdocs.hooks").warning("%s: no %s", page.file.src_uri, target[1])
+        return f"{found[1]} (`{PurePosixPath(path.relative_to(ROOT))}`)"
+
+    return replace
+
+
+def _options(table: Mapping[str, Option]) -> str:
+    lines = [
+        "| command line | in Python and files | meaning | values | default | over HTTP |",
+        "|---|---|---|---|---|---|",
+    ]
+    for name, option in table.items():
+        flag = "" if option.audience == "python" else f"`{option.command_flag}`"
+        text = option.to_text(option.default)
+        default = option.default_text or (f"`{text}`" if text else "none")
+        cells = flag, f"`{name}`", option.help, option.limits, default, AUDIENCES[option.audience]
+        lines.append(f"| {' | '.join(map(_cell, cells))} |")
+    return "\n".join(lines) + "\n"
+
+
+def _commands() -> str:
+    return "\n".join(_command("drapery", typer.main.get_command(app)))
+
+
+def _command(path: str, command: Any) -> Iterator[str]:
+    """A heading, the help and the options of a command or of its subcommands."""
+    if hasattr(command, "commands"):
+        for name, inner in command.commands.items():
+            yield from _command(f"{path} {name}", inner)
+        return
+    own = [p for p in command.params if not _FLAGS.intersection(p.opts)]
+    rows = [_row(p) for p in own if p.name != "help"]
+    yield f"## {path}\n\n{command.help}\n"
+    if rows:
+        yield "| | |\n|---|---|\n" + "\n".join(rows) + "\n"
+    if flags := [f"`{p.opts[0]}`" for p in command.params if _FLAGS.intersection(p.opts)]:
+        yield f"[Options of a picture](options.md): {', '.join(flags)}.\n"
+
+
+def _row(parameter: Any) -> str:
+    flags = ", ".join(f"`{flag}`" for flag in parameter.opts if flag.startswith("-"))
+    name = flags or f"`{parameter.metavar or parameter.name.upper()}`"
+    return f"| {name} | {_cell(parameter.help or '')} |"
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|")
+
+
+_FLAGS = {
+    option.command_flag
+    for table in (OPTIONS, LOOP_OPTIONS, PLAYER_OPTIONS)
+    for option in table.values()
+    if option.audience != "python"
+}
+TABLES: dict[str, Callable[[], str]] = {
+    "options": lambda: _options(OPTIONS),
+    "loop-options": lambda: _options(LOOP_OPTIONS),
+    "player-options": lambda: _options(PLAYER_OPTIONS),
+    "commands": _commands,
+}
