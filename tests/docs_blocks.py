@@ -1,0 +1,138 @@
+"""The code blocks of the docs, and how a test types them as a reader does.
+
+A comment before a block says what is special: `<!-- exit 1 -->` is the exit code of its last
+command, and with `<!-- not run: REASON -->` only the options of its commands are checked. A block
+with `title="NAME"` is saved under this name.
+"""
+
+import re
+import runpy
+import shlex
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import typer.main
+from markdown_it import MarkdownIt
+
+from drapery.cli import app
+
+ROOT = Path(__file__).parent.parent
+DOCS = ROOT / "docs"
+SHELL = ("", "sh", "console")
+INSTALLERS = ("pip", ".", "npm", "dask", "docker", "curl")
+"""Programs that the tests do not run."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block. line: of its opening fence. note: the comment before it."""
+
+    line: int
+    language: str
+    title: str
+    note: str
+    text: str
+
+    @property
+    def is_run(self) -> bool:
+        return not self.note.startswith("not run: ")
+
+    @property
+    def exit_code(self) -> int:
+        found = re.fullmatch(r"exit (\d+)", self.note)
+        return int(found[1]) if found else 0
+
+
+def blocks(page: Path) -> Iterator[Block]:
+    """The fenced blocks of a page in their order."""
+    note = ""
+    for token in MarkdownIt().parse(page.read_text("utf-8")):
+        if token.type == "html_block":
+            note = token.content.strip().removeprefix("<!--").removesuffix("-->").strip()
+        elif token.type == "fence":
+            language, _, more = token.info.strip().partition(" ")
+            title = re.search(r'title="([^"]+)"', more)
+            line = token.map[0] + 1 if token.map else 0
+            yield Block(line, language, title[1] if title else "", note, token.content)
+            note = ""
+        elif token.level == 0:
+            note = ""
+
+
+def commands(text: str) -> list[tuple[str, str]]:
+    """The commands of a block, and what each is said to print; a `$` begins those of a terminal."""
+    text = text.replace("\\\n", "")
+    if not text.startswith("$ "):
+        return [(line, "") for line in text.splitlines() if line.strip()]
+    pairs = (part.partition("\n") for part in re.split(r"(?m)^\$ ", text)[1:])
+    return [(command, output) for command, _, output in pairs]
+
+
+def check_command(line: str) -> None:
+    """Check the names and values of a command's options. Raises an error of typer."""
+    program, *words = shlex.split(line, comments=True)
+    if program != "drapery":
+        return
+    command: Any = typer.main.get_command(app)
+    name = "drapery"
+    while hasattr(command, "commands"):
+        name, *words = words
+        command = command.commands[name]
+    command.make_context(name, list(words))
+
+
+def prints(said: str, printed: str) -> bool:
+    """Whether a text is what a page says; a line `...` stands for any lines."""
+    pattern = re.escape(said.rstrip("\n")).replace(r"\.\.\.\n", r"(?s:.*\n)?")
+    return re.fullmatch(pattern.replace(r"\.\.\.", r"(?s:.*)"), printed.rstrip("\n")) is not None
+
+
+@dataclass
+class Reader:
+    """Types blocks in a folder. drapery: runs a command line and returns code, output, errors."""
+
+    folder: Path
+    drapery: Callable[..., tuple[int, str, str]]
+    names: dict[str, Any] = field(default_factory=lambda: {"__name__": "docs"})
+
+    def type(self, page: Path, block: Block) -> None:
+        """Run a block, or save it, or check its commands."""
+        where = f"{page.name}, line {block.line}"
+        if block.title:
+            path = self.folder / block.title
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(block.text, "utf-8")
+        elif block.language == "python":
+            code = compile("\n" * block.line + block.text, str(page), "exec")
+            if block.is_run:
+                exec(code, self.names)
+        elif block.language in SHELL:
+            for line, said in commands(block.text):
+                if not block.is_run:
+                    check_command(line)
+                    continue
+                code, printed = self.run(line)
+                if said:
+                    assert prints(said, printed), f"{where}: {line}\nprints\n{printed}"
+            if block.is_run and not block.text.startswith("$ "):
+                assert code == block.exit_code, f"{where}: {line}\n{printed}"
+
+    def run(self, line: str) -> tuple[int, str]:
+        """The exit code of a command and what it prints."""
+        program, *words = shlex.split(line, comments=True)
+        if program in INSTALLERS or line.startswith("python -m venv"):
+            return 0, ""
+        if program == "drapery":
+            code, out, err = self.drapery(*words)
+            return code, err + out
+        if program == "python":
+            runpy.run_path(str(self.folder / words[0]), run_name="__main__")
+            return 0, ""
+        assert program == "pytest", f"the tests cannot run {line}"
+        command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *words]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=120)
+        return done.returncode, done.stdout + done.stderr

@@ -1,0 +1,70 @@
+"""The docs tell the truth: their programs run, their commands exist, their pictures are made so."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import Run
+from docs_blocks import DOCS, ROOT, SHELL, Block, Reader, blocks, check_command, commands
+from PIL import Image
+
+TUTORIAL = DOCS / "tutorial.md"
+GUIDES = ("pack-authors", "maps-and-servers", "wikis-and-bots", "research")
+"""The guides whose blocks all run; the pages below them have tests of their own."""
+ALL = sorted([*ROOT.glob("*.md"), *DOCS.glob("**/*.md"), *ROOT.glob("examples/**/*.md")])
+PICTURES = {"banner.png": 0, "heart.png": 0, "difference.png": 0.02}
+"""Those of the tutorial, and the share of their numbers that may differ: one has labels."""
+
+
+@pytest.fixture
+def reader(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, drapery: Run) -> Reader:
+    monkeypatch.chdir(tmp_path)
+    return Reader(tmp_path, drapery)
+
+
+def pixels(path: Path) -> np.ndarray:
+    with Image.open(path) as picture:
+        return np.asarray(picture.convert("RGBA"))
+
+
+def test_the_tutorial_runs_as_it_is_typed(
+    reader: Reader, request: pytest.FixtureRequest, untraced_processes: None
+) -> None:
+    for block in blocks(TUTORIAL):
+        reader.type(TUTORIAL, block)
+    assert (reader.folder / ".github" / "workflows" / "banners.yml").is_file()
+    for name, share in PICTURES.items():
+        shown = DOCS / "pictures" / "tutorial" / name
+        if request.config.getoption("--drapery-update"):
+            shutil.copy(reader.folder / name, shown)
+        assert np.mean(pixels(reader.folder / name) != pixels(shown)) <= share, name
+
+
+@pytest.mark.parametrize("name", GUIDES)
+def test_a_guide_runs_as_it_is_typed(name: str, reader: Reader) -> None:
+    (make_pack,) = (block for block in blocks(TUTORIAL) if block.title == "make_pack.py")
+    reader.type(TUTORIAL, make_pack)
+    reader.run("python make_pack.py")
+    page = DOCS / "guides" / f"{name}.md"
+    for block in blocks(page):
+        reader.type(page, block)
+
+
+@pytest.mark.parametrize("page", ALL, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_every_command_of_a_page_exists_with_its_options(page: Path) -> None:
+    for block in blocks(page):
+        if block.language in SHELL and not block.title:
+            for line, _ in commands(block.text):
+                if line.startswith("drapery "):
+                    check_command(line)
+
+
+def test_a_block_has_the_note_before_it_and_its_title(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text('<!-- exit 1 -->\n```sh\na\n```\n\n```python title="x.py"\nb\n```\n', "utf-8")
+    assert list(blocks(page)) == [
+        Block(2, "sh", "", "exit 1", "a\n"),
+        Block(6, "python", "x.py", "", "b\n"),
+    ]
+    assert next(blocks(page)).exit_code == 1
