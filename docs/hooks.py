@@ -72,15 +72,13 @@ def _outside(page: Any, config: Any) -> Callable[[re.Match[str]], str]:
 
 
 def _options(table: Mapping[str, Option]) -> str:
-    lines = [
-        "| command line | in Python and files | meaning | values | default | over HTTP |",
-        "|---|---|---|---|---|---|",
-    ]
+    lines = ["| option | meaning | default | over HTTP |", "|---|---|---|---|"]
     for name, option in table.items():
         flag = "" if option.audience == "python" else f"`{option.command_flag}`"
+        names = flag if flag == f"`--{name.replace('_', '-')}`" else f"{flag} `{name}`".strip()
         text = option.to_text(option.default)
         default = option.default_text or (f"`{text}`" if text else "none")
-        cells = flag, f"`{name}`", option.help, option.limits, default, AUDIENCES[option.audience]
+        cells = names, option.describe(), default, AUDIENCES[option.audience]
         lines.append(f"| {' | '.join(map(_cell, cells))} |")
     return "\n".join(lines) + "\n"
 
@@ -96,10 +94,11 @@ def _command(path: str, command: Any) -> Iterator[str]:
             yield from _command(f"{path} {name}", inner)
         return
     own = [p for p in command.params if not _FLAGS.intersection(p.opts)]
+    own.sort(key=lambda p: p.opts[0].startswith("-"))  # arguments come first
     rows = [_row(p) for p in own if p.name != "help"]
     yield f"## {path}\n\n{command.help}\n"
     if rows:
-        yield "| | |\n|---|---|\n" + "\n".join(rows) + "\n"
+        yield "| option | meaning |\n|---|---|\n" + "\n".join(rows) + "\n"
     if flags := [f"`{p.opts[0]}`" for p in command.params if _FLAGS.intersection(p.opts)]:
         yield f"[Options of a picture](options.md): {', '.join(flags)}.\n"
 
