@@ -12,10 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from drapery.banner.dyes import DYE_NAMES
+from drapery.banner.formats.studio_link import MAX_JSON, MAX_LINK, VERSION
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError
 from drapery.settings import OPTIONS, Settings
-from drapery.studio.share import MAX_JSON, MAX_LINK, VERSION, opened_link, read_link, write_link
+from drapery.studio.share import opened_link, read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
 from drapery.styles import find_style, style_names
 

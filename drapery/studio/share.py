@@ -1,31 +1,23 @@
 """A sketch and the options of its picture as characters that an address can hold.
 
-The first character is the version. The rest is the JSON of `as_tree`, compressed as a zlib stream
-and encoded as URL-safe base64 (RFC 4648, section 5) without padding. A link never names a file: it
-leaves out packs, textures, and styles that are not names.
+The characters hold the JSON of `as_tree`; `drapery.banner.formats.studio_link` says how. A link
+never names a file: it leaves out packs, textures, and styles that are not names.
 """
 
 import json
 import warnings
-import zlib
-from base64 import urlsafe_b64decode, urlsafe_b64encode
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from drapery import Banner, DesignError, Settings
 from drapery.banner import parse_banner, write_banner
+from drapery.banner.formats import studio_link
 from drapery.option import shown
 from drapery.options import check_options
 from drapery.settings import NAMED_OPTIONS
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
 from drapery.styles import style_names
-
-VERSION = "a"
-MAX_LINK = 4096
-"""Most characters of a link; a sketch of sixteen layers takes about 400."""
-MAX_JSON = 16 << 10
-"""The largest size of a link's data after it is decompressed [bytes]."""
 
 LOCAL_OPTIONS = frozenset({"packs", "texture", "kind", "backend"})
 """Options that a link leaves out: they name or need a file, or depend on installed software."""
@@ -33,7 +25,6 @@ MAX_STYLES = 16
 """The most styles in a link."""
 SHARED = tuple(name for name in NAMED_OPTIONS if name not in LOCAL_OPTIONS)
 
-_LETTERS = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_")
 _REMEDY = "copy the whole link again"
 
 
@@ -42,23 +33,12 @@ def write_link(sketch: Sketch, settings: Settings) -> str:
 
     settings: the link leaves out its packs, texture, backend, and styles that are not names.
     """
-    text = json.dumps(as_tree(sketch, settings), separators=(",", ":"), ensure_ascii=False)
-    squeezed = zlib.compress(text.encode(), 9)
-    return VERSION + urlsafe_b64encode(squeezed).decode().rstrip("=")
+    return studio_link.pack(as_tree(sketch, settings))
 
 
 def read_link(text: str) -> tuple[Sketch, Settings]:
     """Read the output of `write_link`. Raises DesignError for any other text."""
-    word = text.strip()
-    if len(word) > MAX_LINK:
-        raise DesignError(f"the link has {len(word)} characters, over {MAX_LINK}; {_REMEDY}")
-    if not word or not _LETTERS.issuperset(word):
-        raise DesignError(f"the link is empty or has characters that no link has; {_REMEDY}")
-    if word[0] != VERSION:
-        raise DesignError(
-            f"the link has version {word[0]!r}; this Drapery reads {VERSION!r}; update Drapery"
-        )
-    return of_tree(_parsed(_inflated(word[1:])))
+    return of_tree(studio_link.unpack(text))
 
 
 def opened_link(base: Settings, link: str) -> tuple[Settings, Sketch]:
@@ -113,7 +93,7 @@ def of_tree(tree: object) -> tuple[Sketch, Settings]:
     if not isinstance(tree, dict):
         raise DesignError(f"the design is not a JSON object; {_REMEDY}")
     sketch = sketch_of(_banner_in(tree))
-    hidden = _places(tree.get("hidden", []), len(sketch.strokes))
+    hidden = studio_link.hidden_places(tree, len(sketch.strokes))
     strokes = tuple(replace(s, hidden=n in hidden) for n, s in enumerate(sketch.strokes))
     title = checked_title(tree.get("title", ""))
     return replace(sketch, strokes=strokes, title=title), settings_of(tree.get("options", {}))
@@ -169,39 +149,8 @@ def checked_title(title: object) -> str:
 
 
 def _banner_in(tree: dict[str, Any]) -> Banner:
-    design = {name: tree[name] for name in ("base", "layers", "kind") if name in tree}
+    design = {name: tree[name] for name in studio_link.KEYS if name in tree}
     try:
         return parse_banner(json.dumps(design), form="json")
     except RecursionError:
-        raise DesignError(f"the link does not hold a design; {_REMEDY}") from None
-
-
-def _places(hidden: object, count: int) -> frozenset[int]:
-    if not isinstance(hidden, list) or not all(
-        type(place) is int and 0 <= place < count for place in hidden
-    ):
-        raise DesignError(f"hidden: not a list of places of the {count} layers; {_REMEDY}")
-    return frozenset(hidden)
-
-
-def _inflated(text: str) -> bytes:
-    try:
-        squeezed = urlsafe_b64decode(text + "=" * (-len(text) % 4))
-        stream = zlib.decompressobj()
-        data = stream.decompress(squeezed, MAX_JSON + 1)
-    except (ValueError, zlib.error):
-        raise DesignError(f"the link is damaged; {_REMEDY}") from None
-    if len(data) > MAX_JSON:
-        raise DesignError(
-            f"the link unpacks to over {MAX_JSON} bytes, more than any design has; {_REMEDY}"
-        )
-    if not stream.eof or stream.unused_data:
-        raise DesignError(f"the link is cut short or has characters after its end; {_REMEDY}")
-    return data
-
-
-def _parsed(data: bytes) -> object:
-    try:
-        return json.loads(data)
-    except (ValueError, RecursionError):
         raise DesignError(f"the link does not hold a design; {_REMEDY}") from None

@@ -2,18 +2,12 @@
 
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
-from urllib.parse import parse_qsl, urlsplit
 
 from starlette.concurrency import run_in_threadpool
 
 from drapery import DesignError, DraperyError, FoundBanner, parse_banners, read_designs
-from drapery.studio.share import read_link
-from drapery.studio.sketch import banner_of
 from drapery.studio.uploads import Uploads, shown_name
 from drapery.studio.warning_log import collected_warnings
-
-MAX_ADDRESS = 20_000
-"""The longest text that is read as a link [characters]."""
 
 MAX_FOUND = 200
 """The most banners of one file that the user can choose from."""
@@ -44,7 +38,7 @@ class UploadQueue:
 
     def read_text(self, text: str, *, beside: bool = False) -> None:
         """Read a text in any form; the text is never used as the path of a file."""
-        self._finish("", *_read(lambda: _of_text(text)), beside=beside)
+        self._finish("", *_read(lambda: parse_banners(text)), beside=beside)
 
     async def receive(self, chunks: AsyncIterator[bytes], name: str) -> None:
         """Read a file that the page sends under a name. Raises OSError if it cannot be stored."""
@@ -75,16 +69,6 @@ class UploadQueue:
         self.notes, self.beside = tuple(notes[:MAX_NOTES]), beside
         for call in self._listeners:
             call()
-
-
-def _of_text(text: str) -> list[FoundBanner]:
-    """The banners of a text in any form, or of a link to a design of a studio."""
-    address = text.strip()
-    if address.startswith(("http://", "https://")) and len(address) < MAX_ADDRESS:
-        query = dict(parse_qsl(urlsplit(address).query))
-        if set(query) == {"d"}:
-            return [FoundBanner(banner_of(read_link(query["d"])[0]))]
-    return parse_banners(text)
 
 
 def _read(read: Callable[[], list[FoundBanner]]) -> tuple[list[FoundBanner], str, list[str]]:

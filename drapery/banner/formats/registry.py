@@ -42,6 +42,7 @@ from drapery.banner.formats import (
     several,
     shorthand,
     skript,
+    studio_link,
     summon,
     trees,
     wynncraft,
@@ -81,6 +82,7 @@ def _site(module: ModuleType) -> Form:
 
 
 _TABLE = (
+    _form(studio_link, single(studio_link.parse)),
     _site(planet_minecraft),
     _site(needcoolshoes),
     _site(minecraft_tools),
