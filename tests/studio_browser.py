@@ -126,8 +126,15 @@ def resize(driver: Any, size: tuple[int, int], *, dark: bool = False) -> None:
 
 def open_page(driver: Any, studio: Studio, query: str = "") -> None:
     """Load the page anew and wait until it answers."""
+    open_address(driver, studio.address + query)
+
+
+def open_address(driver: Any, address: str) -> None:
+    """Load a page of a studio by its whole address and wait until it answers."""
+    # To open the address that is shown already means to load it again, which keeps its work.
+    driver.get("about:blank")
     driver.get_log("browser")
-    driver.get(studio.address + query)
+    driver.get(address)
     wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
 
 

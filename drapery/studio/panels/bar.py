@@ -7,7 +7,7 @@ from typing import Any, get_args
 
 from nicegui import ui
 
-from drapery.studio.components import value_of
+from drapery.studio.form_field import FormField
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, Sketch, clear, random_sketch
@@ -47,23 +47,18 @@ def build(session: Session) -> None:
 
 
 def _title(session: Session) -> None:
-    field = ui.element("input").classes("field title")
-    field.props(f'placeholder="Untitled" aria-label="Title of the design" maxlength={MAX_TITLE}')
-
-    def show() -> None:
-        if field.props.get("value") != session.sketch.title:
-            field.props["value"] = session.sketch.title
-            field.update()
-
     def name(title: Any) -> None:
-        field.props["value"] = str(title)[:MAX_TITLE]
-        session.edit(replace(session.sketch, title=field.props["value"]))
+        session.edit(replace(session.sketch, title=str(title)[:MAX_TITLE]))
 
-    field.on(
-        "change", lambda event: name(value_of(event)), js_handler="(e) => emit(e.target.value)"
+    field = FormField("text", lambda: session.sketch.title, name).classes("field title")
+    field.props.update(
+        {
+            "placeholder": "Untitled",
+            "aria-label": "Title of the design",
+            "maxlength": MAX_TITLE,
+        }
     )
-    show()
-    session.listen("sketch", show)
+    session.listen("sketch", field.refresh)
 
 
 def randomise(session: Session) -> None:

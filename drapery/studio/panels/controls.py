@@ -13,8 +13,10 @@ from nicegui.elements.mixins.value_element import ValueElement
 
 from drapery.settings import OPTIONS
 from drapery.studio.descriptions import choice_titles, with_unit
+from drapery.studio.form_field import FormField
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
+from drapery.studio.snippets import plain
 
 BLUR = "() => setTimeout(() => document.activeElement?.blur?.(), 60)"
 
@@ -68,10 +70,16 @@ class Controls:
                 shown = (
                     ui.label(to_text(get())).classes("control-value").props('aria-hidden="true"')
                 )
-            element = ui.slider(min=minimum, max=maximum, step=step, value=get())
-            element.props("dense").props.update({"aria-label": label, "title": help})
-        element.on_value_change(lambda event: shown.set_text(to_text(event.value)))
-        self._listen(element, get, change)
+            element = FormField("range", lambda: plain(get()), lambda text: change(float(text)))
+            element.classes("slider").props.update({"min": minimum, "max": maximum, "step": step})
+            element.props.update({"aria-label": label, "title": help})
+
+        def show() -> None:
+            shown.set_text(to_text(get()))
+            element.props["aria-valuetext"] = to_text(get())
+            element.refresh()
+
+        self._states.append(show)
 
     def number(self, name: str, label: str, step: float) -> None:
         """A slider for a number of the table of options."""

@@ -6,15 +6,13 @@ A field shows the value of `get` and updates it at every `refresh`. The user's i
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from nicegui import ui
 from nicegui.element import Element
 
 from drapery.option import Option
-from drapery.studio.components import value_of
-from drapery.studio.notices import errors_shown
+from drapery.studio.form_field import FormField, Kind
 from drapery.studio.snippets import plain
 from drapery.studio.widgets import button, text_element
 
@@ -22,85 +20,67 @@ Get = Callable[[], Any]
 Change = Callable[[Any], object]
 
 
-@dataclass(frozen=True)
-class _BoundProp:
-    element: Element
-    prop: str
-    get: Get
-
-
 class Fields:
     """The fields of one form."""
 
     def __init__(self) -> None:
-        self._shown: list[_BoundProp] = []
+        self._fields: list[FormField] = []
 
     def refresh(self) -> None:
         """Show the current values."""
-        for field in self._shown:
-            value = field.get()
-            if field.element.props.get(field.prop) != value:
-                field.element.props[field.prop] = value
-                field.element.update()
+        for field in self._fields:
+            field.refresh()
 
     def number(self, label: str, option: Option, get: Get, change: Change) -> None:
         """A number with an option's bounds and help; an empty field returns to its last value."""
         assert option.bounds is not None
         minimum, maximum = option.bounds
         step = "1" if option.type is int else "any"
-        kind = {"type": "number", "min": minimum, "max": maximum, "step": step}
-        kind["title"] = option.describe()
+        props = {"min": minimum, "max": maximum, "step": step, "title": option.describe()}
 
         def changed(text: Any) -> None:
             if _is_number(text):
                 change(int(float(text)) if option.type is int else float(text))
 
-        self._field(label, "input", kind, "value", lambda: plain(get()), changed)
+        self._field(label, "number", props, lambda: plain(get()), changed)
 
     def choice(self, label: str, options: Mapping[str, str], get: Get, change: Change) -> None:
         """A list of choices, by name, with their titles."""
-        with self._field(label, "select", {}, "value", get, change):
-            for name, title in options.items():
-                text_element(title, "option").props.update({"value": name})
+        self._field(label, "select", {}, get, change, options)
 
     def tick(self, label: str, get: Get, change: Change) -> None:
         """A check box."""
-        kind = {"type": "checkbox"}
-        field = self._field(label, "input", kind, "checked", get, change, "e.target.checked")
-        field.classes(remove="field")
+        self._field(label, "checkbox", {}, get, change).classes(remove="field")
 
     def colour(self, label: str, get: Get, change: Change) -> None:
         """A colour, `#rrggbb`."""
-        self._field(label, "input", {"type": "color"}, "value", get, change)
+        self._field(label, "color", {}, get, change)
 
     def line(self, label: str, get: Get, change: Change, **props: Any) -> Element:
         """A line of text."""
-        return self._field(label, "input", {"type": "text"} | props, "value", get, change)
+        return self._field(label, "text", props, get, change)
 
     def _field(
         self,
         label: str,
-        tag: str,
-        kind: Mapping[str, Any],
-        prop: str,
+        kind: Kind,
+        props: Mapping[str, Any],
         get: Get,
         change: Change,
-        value: str = "e.target.value",
-    ) -> Element:
-        def changed(event: Any) -> None:
-            # Record the value that the browser already shows.
-            element.props[prop] = value_of(event)
-            with errors_shown():
-                change(value_of(event))
-            self.refresh()
+        choices: Mapping[str, str] | None = None,
+    ) -> FormField:
+        def changed(value: Any) -> None:
+            try:
+                change(value)
+            finally:
+                self.refresh()
 
         with ui.element("label").classes("option"):
             text_element(label)
-            element = ui.element(tag).classes("field")
-            element.props.update({**kind, prop: get()})
-        element.on("change", changed, js_handler=f"(e) => emit({value})")
-        self._shown.append(_BoundProp(element, prop, get))
-        return element
+            field = FormField(kind, get, changed, choices).classes("field")
+            field.props.update(props)
+        self._fields.append(field)
+        return field
 
 
 def _is_number(text: object) -> bool:
