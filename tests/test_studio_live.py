@@ -212,6 +212,33 @@ def test_pins_that_come_back_are_gone_to_gently() -> None:
     assert live.particles()[0].max(axis=0)[1] < -1
 
 
+@pytest.mark.parametrize("seconds", [1, 4])
+def test_a_cloth_that_fell_hangs_again_and_is_framed_anew(seconds: int) -> None:
+    live = a_live()
+    before = live.shown()
+    live.update(DESIGN, open_packs(()), replace(SETTINGS, pins="none"))
+    live.step(60 * seconds)
+    live.update(DESIGN, open_packs(()), SETTINGS)
+    live.step(60)
+    assert live.particles()[0].min() > -2
+    fallen = live.shown()
+    assert fallen.cut == before.cut
+    live.update(DESIGN, open_packs(()), replace(SETTINGS, pins="none"))
+    assert live.shown().cut != fallen.cut
+
+
+def test_the_cloth_hangs_as_before_after_the_games_flag() -> None:
+    live = a_live()
+    live.step(60)
+    live.update(DESIGN, open_packs(()), replace(SETTINGS, pose="vanilla"))
+    live.step(60)
+    game = live.shown()
+    live.update(DESIGN, open_packs(()), SETTINGS)
+    live.step(30)
+    assert live.particles()[0].min() > -2
+    assert live.shown().cut != game.cut
+
+
 def test_another_grid_goes_on_from_the_same_shape() -> None:
     cloth = new_live_cloth(SPEC)
     finer = cloth.remade(replace(SPEC, shape=(9, 17)))

@@ -202,7 +202,8 @@ class Live:
         grip = frozenset(range(first, len(meshes) + int(settings.shadow)) if soft else ())
         controls = self.wind_controls
         wind = (controls.speed, controls.heading - settings.turned, controls.on) if grip else None
-        cut = (settings.view, settings.kind, settings.placement, len(stager.parts), self._cuts)
+        framed = (settings.view, settings.kind, settings.placement, settings.pose, settings.pins)
+        cut = (*framed, len(stager.parts), self._cuts)
         return ViewerState(tuple(panes), len(panes), grip, True, wind, cut, self.time)
 
     @property

@@ -118,12 +118,17 @@ class LiveCloth(MovingCloth):
     def remade(self, spec: ClothSpec) -> "LiveCloth":
         """The cloth of another spec; it continues the motion if the size is the same.
 
+        A cloth that has fallen further from the new pins than its own length hangs at rest again.
         Raises OptionError.
         """
         new = new_live_cloth(spec)
         if self.spec.size != spec.size:
             return new
-        return replace(new, state=_resampled(self, new))
+        state, pinned = _resampled(self, new), new.whole.inv_mass == 0
+        away = _lengths(state.positions[0][pinned] - new.hung[pinned])
+        if (away > max(spec.size)).any():
+            return new
+        return replace(new, state=state)
 
     def _with_cloth(self, cloth: Cloth, grab: Grab | None) -> Self:
         made = MovingCloth.begin(cloth, self.solver, STEP, collisions=self.spec.make_collisions())

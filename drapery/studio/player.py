@@ -77,6 +77,7 @@ class Player:
         self._cache: list[ViewerState] | None = []
         self._free = MAX_CACHED
         self._counted: set[int] = set()
+        self._starts = 0
         self._upcoming: Iterator[ViewerState] = iter(())
         self.now: ViewerState | None = None
 
@@ -101,9 +102,9 @@ class Player:
             self._cache = self._prepared.result()
         shown = next(self._upcoming, None)
         if shown is None:
-            self.restart()
+            self._restart()
             shown = next(self._upcoming)
-        self.now = replace(shown, cut=(self.show.name, self._clip.size))
+        self.now = replace(shown, cut=(self.show.name, self._clip.size, self._starts))
         return self.now
 
     def _prepare(self) -> None:
@@ -113,8 +114,13 @@ class Player:
         except Exception as error:  # `step` raises it
             self._prepared.set_exception(error)
 
-    def restart(self) -> None:
-        """Restart at the first moment."""
+    def begin_anew(self) -> None:
+        """Go to the first moment, with the scene's own camera."""
+        self._starts += 1
+        self._restart()
+        self.step()
+
+    def _restart(self) -> None:
         whole = self._cache is not None and len(self._cache) == self._clip.count
         self._upcoming = iter(self._cache or ()) if whole else self._simulated()
 

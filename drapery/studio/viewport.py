@@ -113,7 +113,7 @@ class Viewport:
         document.on_close(self.close)
 
     def update(self, **options: Any) -> None:
-        """Change the request; notifies "scene" if the scene or garment changes.
+        """Change the request; notifies "scene" if it differs.
 
         Raises OptionError or PackError; then nothing changes.
         """
@@ -125,9 +125,10 @@ class Viewport:
             name = after.scene or after.garment
             kind = "scene" if after.scene else "garment"
             self.note = f"The {kind} {name} is getting ready." if name else ""
-            self._document.notify("scene")
             self._count_change()
             self._wake()
+        if after != before:
+            self._document.notify("scene")
 
     def listen(self, call: Callable[[], None]) -> None:
         """Call this whenever keys have changed the request, or a fault appears or disappears."""
@@ -149,7 +150,7 @@ class Viewport:
         self._notify()
 
     def reset(self) -> None:
-        """Reset the cloth to rest, and a scene to its start."""
+        """Reset the cloth to rest, a scene to its start, and the camera to the named view."""
         self.do(self._restart)
 
     def look_anew(self) -> None:
@@ -204,9 +205,9 @@ class Viewport:
 
     def _restart(self, live: Live) -> None:
         live.reset()
+        live.reframe()
         if self._player is not None:
-            self._player.restart()
-            self._player.step()
+            self._player.begin_anew()
 
     def _content(self) -> ViewerState | None:
         if self._player is not None:
