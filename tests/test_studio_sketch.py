@@ -177,6 +177,42 @@ def test_a_click_dyes_what_is_chosen() -> None:
     session.close()
 
 
+def test_a_new_layer_is_chosen_so_that_a_dye_recolours_it() -> None:
+    selection = (session := Session()).selection
+    selection.press_pattern("creeper")
+    assert selection.chosen == 1
+    selection.press_dye("lime")
+    assert banner_of(session.sketch) == Banner.parse("white creeper:lime")
+    session.close()
+
+
+@pytest.mark.parametrize(("field", "dye"), [("black", "white"), ("white", "black")])
+def test_a_new_pattern_differs_from_the_field(field: str, dye: str) -> None:
+    selection = (session := Session()).selection
+    selection.press_dye("red")
+    selection.press_dye(field)
+    assert selection.pattern_dye == dye
+    selection.press_pattern("skull")
+    assert banner_of(session.sketch) == Banner.parse(f"{field} skull:{dye}")
+    selection.press_dye(field)
+    assert selection.pattern_dye == dye
+    session.close()
+
+
+def test_a_repeated_edit_belongs_to_the_same_design_and_another_design_does_not() -> None:
+    selection = (session := Session()).selection
+    selection.lay_out(sketch_of(Banner.parse("red creeper:lime")))
+    first = session.sketch.origin
+    selection.press_pattern("border")
+    selection.lay_out(session.sketch, same=True)
+    assert session.sketch.origin == first
+    selection.lay_out(sketch_of(Banner.parse("blue")))
+    assert session.sketch.origin != first
+    session.undo()
+    assert session.sketch.origin == first
+    session.close()
+
+
 def test_a_design_is_described() -> None:
     assert (
         described(THREE)

@@ -72,7 +72,8 @@ def run(
         ws_per_message_deflate=False,
     )
     listening = _listen(host, port)
-    named = f"[{host}]" if ":" in host else host
+    reached = reachable(host)
+    named = f"[{reached}]" if ":" in reached else reached
     query = f"?{urlencode({'token': token})}" if token else ""
     address = f"http://{named}:{listening.getsockname()[1]}/{query}"
     asyncio.run(_serve(uvicorn.Server(config), listening, lambda: ready(address)))
@@ -87,6 +88,23 @@ async def _serve(
     if server.started:
         ready()
     await serving
+
+
+def reachable(host: str) -> str:
+    """A host that others can open: this machine's own address for the one that means all of them.
+
+    It is the address of the network through which the machine reaches others; nothing is sent.
+    """
+    outside = {"0.0.0.0": (socket.AF_INET, "192.0.2.1"), "::": (socket.AF_INET6, "2001:db8::1")}
+    if host not in outside:
+        return host
+    family, other = outside[host]
+    with socket.socket(family, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect((other, 9))
+            return str(probe.getsockname()[0])
+        except OSError:  # there is no network
+            return "127.0.0.1" if family == socket.AF_INET else "::1"
 
 
 def _listen(host: str, port: int) -> socket.socket:

@@ -6,6 +6,9 @@ from drapery.banner import PATTERNS, Dye
 from drapery.option import Option
 from drapery.studio.sketch import Sketch
 
+MIDDLE_LUMINANCE = 0.18
+"""The luminance with which black and white have the same contrast."""
+
 
 def dye_title(dye: str) -> str:
     """The dye's title: "Light blue" for `light_blue`."""
@@ -15,6 +18,15 @@ def dye_title(dye: str) -> str:
 def dye_colour(dye: Dye) -> str:
     """The dye as a CSS colour."""
     return "#{:02x}{:02x}{:02x}".format(*dye.rgb)
+
+
+def luminance(dye: Dye) -> float:
+    """Relative luminance of an sRGB colour (WCAG 2.2)."""
+    red, green, blue = (
+        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+        for part in (channel / 255 for channel in dye.rgb)
+    )
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 def pattern_title(pattern: str) -> str:

@@ -23,6 +23,7 @@ from drapery.studio.snippets import (
     options_for,
     subject_of,
 )
+from drapery.studio.warning_log import collected_warnings
 
 MAX_PIXELS = 1 << 31
 """The most pixels of all frames together: 512 x 512 for six minutes at 20 frames/s."""
@@ -157,6 +158,7 @@ class Export:
     """One export: running, done, failed or stopped.
 
     path: the place of the file once `state` is "done". fault: the reason if `state` is "failed".
+    warnings: one line each, as the command writes them.
     """
 
     request: ExportRequest
@@ -166,6 +168,7 @@ class Export:
     total: int = 1
     state: str = "running"
     fault: str = ""
+    warnings: tuple[str, ...] = ()
     _stop: threading.Event = field(default_factory=threading.Event)
     _thread: threading.Thread | None = None
 
@@ -192,7 +195,9 @@ class Export:
     def _run(self) -> None:
         _lower_priority()
         try:
-            make(self.request, self.path, self._progress)
+            with collected_warnings() as warnings:
+                make(self.request, self.path, self._progress)
+            self.warnings = tuple(dict.fromkeys(warnings))
         except StoppedError:
             self.state = "stopped"
         except DraperyError as error:

@@ -1,6 +1,6 @@
 """The packs of a tab: the list, its order, and which packs are on."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -9,6 +9,17 @@ from drapery.packs import open_packs
 from drapery.studio.document import Document
 from drapery.studio.uploads import Uploads
 
+OWN_ART = "taken from our own art"
+"""Words of the warning that names what a pack lacks; the summary says that already."""
+
+
+@dataclass(frozen=True)
+class PackContents:
+    """What a pack has. summary: in a few words. warnings: one line each, as of the commands."""
+
+    summary: str = ""
+    warnings: tuple[str, ...] = ()
+
 
 @dataclass(frozen=True)
 class PackEntry:
@@ -16,7 +27,7 @@ class PackEntry:
 
     name: what the user calls it: the path that was given, or the name of the uploaded file.
     upload: the number of the uploaded file, 0 if the studio was started with the pack.
-    on: whether it is used. summary: its contents in a few words.
+    on: whether it is used.
     """
 
     number: int
@@ -24,7 +35,7 @@ class PackEntry:
     path: Path
     upload: int = 0
     on: bool = True
-    summary: str = ""
+    contents: PackContents = PackContents()
 
     @property
     def title(self) -> str:
@@ -42,7 +53,7 @@ class PackStore:
         self.entries: tuple[PackEntry, ...] = ()
         for pack in document.settings.pack_paths:
             entry = PackEntry(self._next(), str(pack), Path(pack))
-            self.entries += (replace(entry, summary=_summary(entry)),)
+            self.entries += (self._described(entry, document.settings.format),)
 
     @property
     def names(self) -> dict[str, str]:
@@ -56,23 +67,55 @@ class PackStore:
                 line = line.replace(str(entry.path), entry.name)
         return line
 
-    def check(self, number: int) -> str:
-        """Read everything in an uploaded file that a banner may need; returns a summary of it.
+    def check(self, number: int) -> PackContents:
+        """Read everything in an uploaded file that a banner may need.
 
         Raises PackError with the same line as the commands; the line has the user's file name.
         """
         upload = self._uploads.get(number, "pack")
         try:
-            return _contents(upload.path, self._document.settings.format)
+            return _contents(upload.path, upload.name, self._document.settings.format)
         except DraperyError as error:
             raise PackError(str(error).replace(str(upload.path), upload.name)) from None
 
-    def adopt(self, number: int, summary: str = "") -> PackEntry:
+    def adopt(self, number: int, contents: PackContents = PackContents()) -> PackEntry:
         """Put an uploaded file on top of the others. Raises DesignError or PackError."""
         upload = self._uploads.get(number, "pack")
-        entry = PackEntry(self._next(), upload.name, upload.path, number, summary=summary)
+        entry = PackEntry(self._next(), upload.name, upload.path, number, contents=contents)
         self._replace((*self.entries, entry))
         return entry
+
+    def read_as(self, format: int | None) -> None:
+        """Read the packs as the game of this pack format does; None is each pack's own format.
+
+        Raises OptionError or PackError; then nothing changes.
+        """
+        before = self.entries
+        self.entries = tuple(self._described(entry, format) for entry in before)
+        try:
+            self._document.adjust(format=format)
+        except DraperyError as error:
+            self.entries = before
+            raise PackError(self.with_names(str(error))) from None
+
+    def _described(self, entry: PackEntry, format: int | None) -> PackEntry:
+        try:
+            return replace(entry, contents=_contents(entry.path, entry.name, format))
+        except DraperyError:
+            return replace(entry, contents=PackContents("cannot be read whole"))
+
+    def restore(self, entries: Iterable[PackEntry]) -> None:
+        """Take over the packs of another tab, in place of those here; copies uploaded files.
+
+        Raises DesignError or PackError.
+        """
+        restored = []
+        for entry in entries:
+            if entry.upload:
+                upload = self._uploads.copy(entry.path, "pack", entry.name)
+                entry = replace(entry, path=upload.path, upload=upload.number)
+            restored.append(replace(entry, number=self._next()))
+        self._replace(tuple(restored))
 
     def refuse(self, number: int) -> None:
         """Remove an uploaded file that is not a pack."""
@@ -126,19 +169,17 @@ class PackStore:
         return self._last
 
 
-def _summary(entry: PackEntry) -> str:
-    try:
-        return _contents(entry.path, None)
-    except DraperyError:
-        return "cannot be read whole"
+def _contents(path: Path, name: str, format: int | None) -> PackContents:
+    """A pack's banner contents; reads every texture once. Raises PackError.
 
-
-def _contents(path: Path, format: int | None) -> str:
-    """A pack's banner contents in a few words; reads every texture once. Raises PackError."""
+    name: what the warnings call the pack.
+    """
     packs = open_packs([path], format=format)
     names = packs.patterns()
-    for name in names:
-        packs.sheet(name)
+    for pattern in names:
+        packs.sheet(pattern)
     packs.base_sheet()
-    own = sum(packs.level(name) == 1 for name in names)
-    return "1 pattern" if own == 1 else f"{own or 'no'} patterns"
+    own = sum(packs.level(pattern) == 1 for pattern in names)
+    warnings = (line.replace(str(path), name) for line in packs.warnings() if OWN_ART not in line)
+    summary = "1 pattern" if own == 1 else f"{own or 'no'} patterns"
+    return PackContents(summary, tuple(warnings))

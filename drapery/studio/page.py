@@ -9,7 +9,9 @@ from fastapi import Request
 from nicegui import Client, ui
 
 from drapery import DraperyError, Settings
-from drapery.studio.notices import show_notice
+from drapery.banner import parse_banner
+from drapery.studio.descriptions import described
+from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.panels import (
     bar,
     export,
@@ -30,7 +32,7 @@ from drapery.studio.panels import (
 )
 from drapery.studio.session import Session, Sessions
 from drapery.studio.share import opened_link, write_link
-from drapery.studio.sketch import Sketch
+from drapery.studio.sketch import Sketch, sketch_of
 from drapery.studio.warning_log import collected_warnings
 from drapery.studio.widgets import text_element
 
@@ -84,27 +86,33 @@ def add_page(sessions: Sessions) -> None:
     def studio(client: Client) -> None:
         settings, sketch, fault = opened(sessions.config.settings, client.request)
         session = sessions.open(settings, sketch)
-        client.on_delete(session.close)
-        build(session)
+        client.on_delete(lambda: sessions.keep(session))
+        build(session, sessions)
         if fault:
             ui.timer(0.5, lambda: show_notice(fault, "fault"), once=True)
 
 
 def opened(base: Settings, request: Request | None) -> tuple[Settings, Sketch | None, str]:
-    """The page's initial state: the design of a link, and the error or warning about the link."""
-    link = request.query_params.get("d") if request is not None else None
-    if not link:
+    """The page's initial state, and the error or warning about its address.
+
+    `d` holds a link as `write_link` writes it; `design` holds a design in any form of text.
+    """
+    query = request.query_params if request is not None else {}
+    link, text = query.get("d"), query.get("design")
+    if not link and not text:
         return base, None, ""
     with collected_warnings() as notes:
         try:
-            settings, sketch = opened_link(base, link)
+            if text and not link:
+                return base, sketch_of(parse_banner(text)), " ".join(notes)
+            settings, sketch = opened_link(base, link or "")
         except DraperyError as error:
             return base, None, str(error)
     return settings, sketch, " ".join(notes)
 
 
-def build(session: Session) -> None:
-    """Draw the whole page for a session."""
+def build(session: Session, sessions: Sessions) -> None:
+    """Draw the whole page for a session. sessions: of the pages that it may go on from."""
     _head(session)
     with ui.element("div").classes("studio").props(f'data-token="{session.token}"') as root:
         with ui.element("header").classes("bar"):
@@ -118,6 +126,7 @@ def build(session: Session) -> None:
     shortcuts.build()
     _write_into_address(session)
     root.on("act", lambda event: bar.act(session, str(event.args)), js_handler=_DETAIL)
+    root.on("resume", lambda event: _resume(session, sessions, event.args), js_handler=_DETAIL)
     root.on(
         "pasted",
         lambda event: session.upload_queue.read_text(str(event.args)),
@@ -125,8 +134,20 @@ def build(session: Session) -> None:
     )
 
 
+def _resume(session: Session, sessions: Sessions, token: object) -> None:
+    """Go on from the work of the page that was loaded before at this place of the history."""
+    work = sessions.work(str(token))
+    # The user may have begun to work here already.
+    if work is not None and not session.history.past:
+        with errors_shown():
+            session.resume(work)
+
+
 def _write_into_address(session: Session) -> None:
-    """Write the design into the page's address, so that it survives a reload or a step back."""
+    """Write the design into the page's address, so that it survives a reload or a step back.
+
+    The title of the tab is the design's, or its description.
+    """
     client = ui.context.client
 
     def write() -> None:
@@ -134,6 +155,12 @@ def _write_into_address(session: Session) -> None:
         link = write_link(session.sketch, session.settings)
         client.run_javascript(f'studio.writeAddress("{link}")')
 
+    def name_tab() -> None:
+        with client:
+            ui.page_title(f"{session.sketch.title or described(session.sketch)} - Drapery Studio")
+
+    name_tab()
+    session.listen("sketch", name_tab)
     session.listen("sketch", write)
     session.listen("settings", write)
 

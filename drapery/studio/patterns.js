@@ -1,10 +1,24 @@
 // All patterns in the chosen dyes: cells of one picture. Arrow keys move the focus among them.
+const UNLIKE = 9;
+
+// How well a pattern fits the words: 0 is the best, UNLIKE does not fit.
+function rank(pattern, wanted) {
+  const title = pattern.title.toLowerCase();
+  const words = pattern.words.toLowerCase();
+  const ofWord = (word) => {
+    if (words.split(" ").includes(word)) return title.includes(word) ? 0 : 1;
+    if (` ${title} ${words}`.includes(` ${word}`)) return 2;
+    return `${title} ${words}`.includes(word) ? 3 : UNLIKE;
+  };
+  return Math.max(...wanted.map(ofWord));
+}
+
 export default {
   template: `
     <div class="patterns">
       <div class="patterns-head">
         <input v-model="wanted" type="search" class="field" placeholder="Find a pattern  ( / )"
-          aria-label="Find a pattern by its name" @keydown.enter="first" @keydown.esc="leave">
+          aria-label="Find a pattern by a name, code or word in any language" @keydown.enter="first" @keydown.esc="leave">
         <div v-if="canSwap" class="segments" role="group" aria-label="What a pattern does">
           <button type="button" :aria-pressed="!swaps" @click="$emit('swaps', false)">Add</button>
           <button type="button" :aria-pressed="swaps" @click="$emit('swaps', true)">Change layer</button>
@@ -18,7 +32,7 @@ export default {
           <span class="cell" :style="cell(pattern.index)"></span>
         </button>
       </div>
-      <p v-if="!found.length" class="hint">No pattern has this name.</p>
+      <p v-if="!found.length" class="hint">No pattern is called that. Try another word, such as stripe or corner.</p>
       <p class="sr" role="status">{{ wanted ? found.length + ' patterns' : '' }}</p>
     </div>`,
   props: {
@@ -28,10 +42,11 @@ export default {
   data: () => ({ wanted: "", at: 0 }),
   computed: {
     found() {
-      const wanted = this.wanted.trim().toLowerCase();
+      const wanted = this.wanted.toLowerCase().replaceAll("_", " ").split(" ").filter(Boolean);
       const all = this.patterns.map((pattern, index) => ({ ...pattern, index }));
-      if (!wanted) return all;
-      return all.filter((p) => (p.title + " " + p.name.replaceAll("_", " ")).toLowerCase().includes(wanted));
+      if (!wanted.length) return all;
+      const found = all.map((pattern) => ({ ...pattern, rank: rank(pattern, wanted) }));
+      return found.filter((pattern) => pattern.rank < UNLIKE).sort((a, b) => a.rank - b.rank);
     },
   },
   watch: {

@@ -1,15 +1,25 @@
 """What is chosen in the editor: a part of the design, and the dye for the next layer."""
 
+import secrets
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Literal
 
 from drapery.banner import DYES
 from drapery.studio import sketch as edits
+from drapery.studio.descriptions import MIDDLE_LUMINANCE, luminance
 from drapery.studio.document import Document
 from drapery.studio.sketch import Sketch
 
 Chosen = int | Literal["field"] | None
 """A stroke's number, the field, or None; with None, a dye applies to the next layer."""
+
+
+def visible_on(field: str, dye: str) -> str:
+    """The dye, or black or white if the field has the same: whichever contrasts more with it."""
+    if dye != field:
+        return dye
+    return "white" if luminance(DYES[field]) < MIDDLE_LUMINANCE else "black"
 
 
 class Selection:
@@ -22,9 +32,10 @@ class Selection:
         self._document = document
         self._listeners: list[Callable[[], None]] = []
         self.chosen: Chosen = "field"
-        self.dye = "black"
+        self._base = document.sketch.base
+        self.dye = visible_on(self._base, "black")
         self.swaps = False
-        document.listen("sketch", self._drop_removed)
+        document.listen("sketch", self._follow)
 
     @property
     def shown_dye(self) -> str:
@@ -38,8 +49,10 @@ class Selection:
 
     @property
     def pattern_dye(self) -> str:
-        """The dye in which a pattern would be added; it always differs from the field's dye."""
-        return self.dye if self.chosen == "field" else self.shown_dye
+        """The dye in which a pattern would be added, or replace that of the chosen layer."""
+        if not isinstance(self.chosen, int):
+            return self.dye
+        return self.shown_dye if self.swaps else visible_on(self._base, self.shown_dye)
 
     def listen(self, call: Callable[[], None]) -> None:
         """Call this whenever the choice changes, even if the design stays the same."""
@@ -53,7 +66,7 @@ class Selection:
         self.notify()
 
     def press_dye(self, dye: str) -> None:
-        """Dye what is chosen; also use the dye for the next layer, unless the field has it."""
+        """Dye what is chosen; a layer's dye is also that of the next layer."""
         if dye not in DYES:
             return
         if self.chosen == "field":
@@ -71,9 +84,11 @@ class Selection:
             self._edit(edits.repattern(sketch, self.chosen, pattern))
             return
         added = edits.add(sketch, pattern, self.pattern_dye)
-        self.dye, self.chosen, self.swaps = self.pattern_dye, None, False
+        self.dye, self.swaps = self.pattern_dye, False
+        # Choose the new layer, so that a click on a dye changes it. The choice comes before the
+        # edit, so that no listener sees the new design with the old choice.
+        self.chosen = added.strokes[-1].number
         self._edit(added)
-        self.notify()
 
     def set_swaps(self, swaps: bool) -> None:
         """Choose whether a click on a pattern replaces the chosen layer's."""
@@ -98,16 +113,24 @@ class Selection:
             place = edits.place_of(self._document.sketch, self.chosen)
             self.act(what, self.chosen, place + step)
 
-    def lay_out(self, sketch: Sketch) -> None:
-        """Replace the design; this can be undone."""
+    def lay_out(self, sketch: Sketch, *, same: bool = False) -> None:
+        """Replace the design; this can be undone.
+
+        same: whether it is still the same design, such as after layers without effect are removed.
+        """
         self.chosen, self.swaps = None, False
-        self._edit(sketch)
+        origin = self._document.sketch.origin if same else secrets.randbits(48)
+        self._edit(replace(sketch, origin=origin))
         self.notify()
 
     def _edit(self, sketch: Sketch) -> None:
         self._document.edit(sketch)
 
-    def _drop_removed(self) -> None:
+    def _follow(self) -> None:
+        """Drop the choice of a removed stroke; keep the next layer visible on a new field."""
+        base = self._document.sketch.base
+        if base != self._base:
+            self._base, self.dye = base, visible_on(base, self.dye)
         numbers = {stroke.number for stroke in self._document.sketch.strokes}
         if isinstance(self.chosen, int) and self.chosen not in numbers:
             self.chosen, self.swaps = None, False

@@ -6,8 +6,10 @@ from pathlib import Path
 from drapery import Settings
 from drapery.studio.document import Document
 from drapery.studio.exports import Exports, ExportSlots
+from drapery.studio.kept_work import KeptWork, Work
 from drapery.studio.pack_store import PackStore
 from drapery.studio.selection import Selection
+from drapery.studio.share import as_tree
 from drapery.studio.shared_library import SharedLibrary
 from drapery.studio.sketch import Sketch
 from drapery.studio.upload_queue import UploadQueue
@@ -34,6 +36,8 @@ class Session(Document):
     """The document of one tab with everything that works on it.
 
     library, slots: shared with the other tabs of the studio; if not given, the session makes them.
+    entries: the number of each design's entry in the library, by the origin of its sketch.
+    tags: the tags that the user gave a design, by the same.
     """
 
     def __init__(
@@ -46,12 +50,35 @@ class Session(Document):
     ) -> None:
         super().__init__(settings, sketch)
         self.library = library or SharedLibrary(None)
+        self.entries: dict[int, int] = {}
+        self.tags: dict[int, str] = {}
         self.selection = Selection(self)
         self.uploads = Uploads(self)
         self.upload_queue = UploadQueue(self.uploads)
         self.pack_store = PackStore(self, self.uploads)
         self.exports = Exports(self, slots or ExportSlots())
         self.viewport = Viewport(self, self.pack_store)
+
+    @property
+    def work(self) -> Work:
+        """What another page needs to go on from here."""
+        packs = self.pack_store.entries
+        own = {**self.entries}, {**self.tags}
+        return Work(self.history, self.settings, self.survival, packs, *own)
+
+    def resume(self, work: Work) -> None:
+        """Go on from a tab's work; a design in this page's address becomes its last step.
+
+        Raises DraperyError for packs that cannot be opened any more.
+        """
+        here = as_tree(self.sketch, self.settings)
+        self.entries |= work.entries
+        self.tags |= work.tags
+        self.survival = work.survival
+        same = here == as_tree(work.history.present, work.settings)
+        self.history = work.history if same else work.history.push(self.sketch)
+        self.pack_store.restore(work.packs)
+        self.notify("sketch")
 
 
 class Sessions:
@@ -62,6 +89,7 @@ class Sessions:
         self._library = SharedLibrary(self.config.library)
         self._slots = ExportSlots()
         self._open: dict[str, Session] = {}
+        self._kept = KeptWork()
 
     def __len__(self) -> int:
         return len(self._open)
@@ -85,7 +113,22 @@ class Sessions:
         """The open session with this token, or None."""
         return self._open.get(token)
 
+    def keep(self, session: Session) -> None:
+        """End the session of a page that is gone; keep its work if it has any."""
+        has_packs = any(entry.upload for entry in session.pack_store.entries)
+        if not session.closed and (session.history.past or has_packs):
+            self._kept.add(session.token, session.work)
+        session.close()
+
+    def work(self, token: str) -> Work | None:
+        """The work of another page: one that is gone, or one that is still open."""
+        session = self._open.get(token)
+        if session is not None:
+            return session.work
+        return self._kept.find(token)
+
     def close_all(self) -> None:
         """End all sessions, for example when the server stops."""
+        self._kept.clear()
         for session in [*self._open.values()]:
             session.close()

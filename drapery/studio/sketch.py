@@ -25,12 +25,16 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Sketch:
-    """A design in the editor: the dye of its field, and its strokes, lowest first."""
+    """A design in the editor: the dye of its field, and its strokes, lowest first.
+
+    origin: a number that all edits of one design share, and that no other design of a tab has.
+    """
 
     base: str = "white"
     strokes: tuple[Stroke, ...] = ()
     kind: Literal["banner", "shield"] = "banner"
     title: str = ""
+    origin: int = 0
 
 
 def banner_of(sketch: Sketch) -> Banner:

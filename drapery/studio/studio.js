@@ -14,7 +14,7 @@ const studio = (window.studio = {
 // The design in the address. Browsers limit the changes per second, so repeat the last one later.
 let addressTimer;
 function writeAddress(link) {
-  const write = () => history.replaceState(null, "", `?d=${link}`);
+  const write = () => history.replaceState({ session: root().dataset.token }, "", `?d=${link}`);
   clearTimeout(addressTimer);
   addressTimer = setTimeout(write, 500);
   try {
@@ -191,7 +191,20 @@ new MutationObserver((_, observer) => {
     // Without storage the system's theme is used.
   }
   if (stored) setTimeout(() => theme(stored));
+  resume();
 }).observe(document.documentElement, { childList: true, subtree: true });
+
+// A page that is loaded again goes on from its earlier session, which the browser's history names.
+function resume() {
+  const earlier = history.state?.session;
+  history.replaceState({ session: root().dataset.token }, "");
+  if (!earlier) return;
+  const waiting = setInterval(() => {
+    if (!studio.ready) return;
+    clearInterval(waiting);
+    root().dispatchEvent(new CustomEvent("resume", { detail: earlier }));
+  }, 30);
+}
 
 // A text pasted into the text field is read at once; Ctrl+Enter reads it too.
 function readText() {

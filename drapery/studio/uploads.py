@@ -4,6 +4,7 @@ The studio stores them in the tab's folder and removes them with it. It shows th
 file and takes the ending from it, if the purpose has this ending; it never opens that name.
 """
 
+import shutil
 from collections.abc import AsyncIterator
 from contextlib import suppress
 from dataclasses import dataclass
@@ -91,6 +92,23 @@ class Uploads:
         self._check_open(shown)
         self._stored[number] = Upload(number, purpose, shown, path, size)
         return self._stored[number]
+
+    def copy(self, path: Path, purpose: str, name: str) -> Upload:
+        """A copy of a file that another tab has received.
+
+        Raises DesignError if there are too many files, or if the file is gone.
+        """
+        self._check_open(name)
+        self._check_count(purpose, name)
+        self._last += 1
+        target = self._document.folder / f"{purpose}-{self._last}{path.suffix}"
+        try:
+            shutil.copyfile(path, target)
+        except OSError:
+            raise DesignError(f"{name}: the file is not here any more; send it again") from None
+        upload = Upload(self._last, purpose, name, target, target.stat().st_size)
+        self._stored[upload.number] = upload
+        return upload
 
     def get(self, number: object, purpose: str) -> Upload:
         """The upload with this number and purpose. Raises DesignError if there is none."""

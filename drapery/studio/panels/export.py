@@ -5,6 +5,7 @@ from collections.abc import Callable
 from nicegui import ui
 
 from drapery import DraperyError
+from drapery.studio.document import Event
 from drapery.studio.exports import Export, stem_of
 from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.panels.fields import copy_field
@@ -16,8 +17,7 @@ from drapery.studio.widgets import button, text_element
 
 TICK = 0.15
 """How often progress is shown [s]."""
-POLL = 0.5
-"""How often the page's address follows the design [s]."""
+_CHANGES: tuple[Event, ...] = ("sketch", "settings", "packs", "scene")
 
 
 def build(session: Session) -> None:
@@ -38,7 +38,7 @@ def build(session: Session) -> None:
     session.listen("sketch", copy)
     session.listen("settings", show)
     session.listen("packs", copy)
-    _follow_changes(session, show)
+    session.listen("scene", show)
 
 
 class _ProgressRow:
@@ -73,16 +73,25 @@ class _ExportForm:
             press.classes("primary")
             self._link = text_element("", "a").classes("export-link").props("download")
         self._link.set_visibility(False)
+        self._warnings = ui.element("div").props("role=status")
         self._progress = _ProgressRow(self._stop)
         self._timer = ui.timer(TICK, self._follow, active=False)
+        # The finished file shows an earlier state, so its link goes with the next change.
+        for event in _CHANGES:
+            session.listen(event, self._hide)
+        choice.changed.append(self._hide)
 
     def _start(self) -> None:
         with errors_shown():
             request = request_of(self._session, self._choice)
             self._own.start(request, stem_of(self._session.sketch.title))
-            self._link.set_visibility(False)
+            self._hide()
             self._timer.activate()
             self._follow()
+
+    def _hide(self) -> None:
+        self._link.set_visibility(False)
+        self._warnings.clear()
 
     def _stop(self) -> None:
         if self._own.current is not None:
@@ -108,6 +117,10 @@ class _ExportForm:
             self._link.props["href"] = address
             self._link.set_text(f"{work.name}, {shown_size(work.path.stat().st_size)}")
             self._link.set_visibility(True)
+            with self._warnings:
+                for line in work.warnings:
+                    named = self._session.pack_store.with_names(line)
+                    text_element(named, "p").classes("warning")
             ui.download.from_url(address)
 
 
@@ -138,24 +151,3 @@ def _copies(session: Session, choice: FileChoice) -> Callable[[], None]:
         python(as_python(request, names, stem))
 
     return show
-
-
-def _follow_changes(session: Session, show: Callable[[], None]) -> None:
-    """Let the page's address follow the design, so that reloading the page restores it.
-
-    It also polls the viewport's request, because no event announces changes of the request.
-    """
-    written = write_link(session.sketch, session.settings)
-    request = session.viewport.request
-
-    def poll() -> None:
-        nonlocal written, request
-        if session.viewport.request != request:
-            request = session.viewport.request
-            show()
-        word = write_link(session.sketch, session.settings)
-        if word != written:
-            written = word
-            ui.run_javascript(f"history.replaceState(history.state, '', '?d={word}')")
-
-    ui.timer(POLL, poll)

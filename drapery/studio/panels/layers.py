@@ -4,7 +4,7 @@ from typing import Any
 
 from nicegui import ui
 
-from drapery.banner import DYES, LOOM_LAYERS, MAX_LAYERS
+from drapery.banner import DYES, LOOM_LAYERS, MAX_LAYERS, PATTERNS
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import LayerList, value_of
 from drapery.studio.descriptions import dye_colour, dye_title, pattern_title
@@ -14,7 +14,7 @@ from drapery.studio.sketch import Stroke
 
 
 def build(session: Session) -> None:
-    """The list with its count, and a warning if a loom cannot make it."""
+    """The list with its count, and warnings: too many layers for a loom, or a missing pattern."""
     with ui.element("div").classes("heading-line"):
         ui.html("Layers", sanitize=False, tag="h2").classes("heading")
         count = ui.label().classes("count")
@@ -26,8 +26,9 @@ def build(session: Session) -> None:
         count.set_text(f"{shown} of {LOOM_LAYERS if session.survival else MAX_LAYERS}")
         too_many = session.survival and shown > LOOM_LAYERS
         count.classes(add="over" if too_many else "", remove="" if too_many else "over")
-        warning.set_text(_TOO_MANY if too_many else "")
-        warning.set_visibility(too_many)
+        lines = [_TOO_MANY] * too_many + _missing(session)
+        warning.set_text(" ".join(lines))
+        warning.set_visibility(bool(lines))
         rows.show(**_shown(session))
 
     def act(event: Any) -> None:
@@ -46,6 +47,17 @@ def build(session: Session) -> None:
 
 
 _TOO_MANY = f"A loom makes at most {LOOM_LAYERS} layers. This needs a command."
+
+
+def _missing(session: Session) -> list[str]:
+    """A line for each pattern of the design that no pack has."""
+    packs = session.packs()
+    added = {each.pattern for each in session.sketch.strokes if each.pattern not in PATTERNS}
+    return [
+        f"{name} is in none of the packs: the game shows a checker. Add its pack."
+        for name in sorted(added)
+        if packs.level(name) is None
+    ]
 
 
 def _shown(session: Session) -> dict[str, Any]:

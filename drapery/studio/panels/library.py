@@ -43,10 +43,7 @@ class LibraryPanel:
     def __init__(self, session: Session) -> None:
         self._session = session
         self._client = ui.context.client
-        # The number of the current design in the library; 0 if it is not saved yet.
-        self._open = 0
         self._title = session.sketch.title
-        self._tags = ""
         self._words = ""
         self._tag = ""
         self._names: dict[str, int] = {}
@@ -74,13 +71,13 @@ class LibraryPanel:
             self._fields.line(
                 "Title",
                 lambda: self._title,
-                lambda text: self._take(title=str(text)),
+                self._take_title,
                 maxlength=MAX_TITLE,
             )
             self._fields.line(
                 "Tags, with commas between",
-                lambda: self._tags,
-                lambda text: self._take(tags=str(text)),
+                lambda: self._session.tags.get(self._session.sketch.origin, ""),
+                self._take_tags,
             )
         with ui.element("div").classes("line"):
             self._save = button("Save", self._save_new, icon="save", text="Save")
@@ -88,11 +85,18 @@ class LibraryPanel:
             self._new = button("Save as a new design", self._save_new, text="Save as new")
         for each in (self._save, self._over):
             each.classes("primary")
-        self._set_open(0)
+        self._show_buttons()
 
-    def _take(self, *, title: str | None = None, tags: str | None = None) -> None:
-        self._title = self._title if title is None else title
-        self._tags = self._tags if tags is None else tags
+    @property
+    def _open(self) -> int:
+        """The number of the current design in the library; 0 if it is not saved yet."""
+        return self._session.entries.get(self._session.sketch.origin, 0)
+
+    def _take_title(self, title: object) -> None:
+        self._title = str(title)
+
+    def _take_tags(self, tags: object) -> None:
+        self._session.tags[self._session.sketch.origin] = str(tags)
 
     def _search(self) -> None:
         text_element("Find", "h2").classes("heading")
@@ -139,9 +143,9 @@ class LibraryPanel:
         )
 
     def _follow(self) -> None:
-        if self._title != self._session.sketch.title:
-            self._title = self._session.sketch.title
-            self._fields.refresh()
+        self._title = self._session.sketch.title
+        self._fields.refresh()
+        self._show_buttons()
 
     def _notice(self, line: str, tone: Tone = "done") -> None:
         # The pressed button may not exist any more, because the cards have been replaced.
@@ -223,7 +227,7 @@ class LibraryPanel:
     async def _store(self, number: int) -> None:
         session = self._session
         sketch = replace(session.sketch, title=self._title.strip())
-        settings, tags = session.settings, _split(self._tags)
+        settings, tags = session.settings, _split(session.tags.get(sketch.origin, ""))
 
         def store(library: "Library") -> "tuple[int, Design | None]":
             from drapery.studio.records import Design
@@ -239,18 +243,21 @@ class LibraryPanel:
         stored = await self._do(store)
         if stored is None:
             return
-        session.edit(sketch)
-        self._set_open(stored[0])
+        session.entries[sketch.origin] = stored[0]
+        # The design may have been edited since.
+        if session.sketch.origin == sketch.origin:
+            session.edit(replace(session.sketch, title=sketch.title))
+        self._show_buttons()
         self._notice(f"Saved {sketch.title or 'without a title'}")
         if stored[1] is not None:
             self._offer(f"Changed {_title(stored[1])}", "Keep the old one too", stored[1])
         await self._refresh()
 
-    def _set_open(self, number: int) -> None:
-        self._open = number
-        self._save.set_visibility(not number)
+    def _show_buttons(self) -> None:
+        saved = bool(self._open)
+        self._save.set_visibility(not saved)
         for each in (self._over, self._new):
-            each.set_visibility(bool(number))
+            each.set_visibility(saved)
 
     async def _open_design(self, number: int) -> None:
         design = await self._do(lambda library: library.get(number))
@@ -260,10 +267,10 @@ class LibraryPanel:
         chosen = with_shared(session.settings, design.settings)
         with errors_shown():
             session.adjust(**{name: getattr(chosen, name) for name in SHARED})
-        self._take(title=design.title, tags=", ".join(design.tags))
         session.selection.lay_out(design.sketch)
-        self._fields.refresh()
-        self._set_open(number)
+        session.entries[session.sketch.origin] = number
+        session.tags[session.sketch.origin] = ", ".join(design.tags)
+        self._follow()
         self._undo.set_visibility(False)
         self._notice(f"Opened {_title(design)}")
 
@@ -302,8 +309,9 @@ class LibraryPanel:
         gone = await self._do(lambda library: library.remove(number))
         if gone is None:
             return
-        if number == self._open:
-            self._set_open(0)
+        entries = self._session.entries
+        self._session.entries = {at: entry for at, entry in entries.items() if entry != number}
+        self._show_buttons()
         self._offer(f"Deleted {_title(gone)}", "Put it back", gone)
         await self._refresh()
         # The pressed button no longer exists, so move the keyboard's focus to the undo button.

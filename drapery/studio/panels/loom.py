@@ -59,7 +59,7 @@ def simplify_design(session: Session) -> None:
     """Leave out the layers that change no texel."""
     with errors_shown():
         banner = simplify(banner_of(session.sketch), session.packs())
-        session.selection.lay_out(sketch_of(banner, session.sketch.title))
+        session.selection.lay_out(sketch_of(banner, session.sketch.title), same=True)
 
 
 def _recipe(banner: Banner, address: str, version: int) -> str:

@@ -8,13 +8,29 @@ from nicegui import Client, run, ui
 from drapery import DraperyError
 from drapery.studio.file_field import FileField
 from drapery.studio.notices import errors_shown, show_notice
-from drapery.studio.pack_store import PackEntry, PackStore
+from drapery.studio.pack_store import PackContents, PackEntry, PackStore
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.widgets import button, text_element
 
 NO_PACK = "none"
 OWN_ART = "Drapery's own art"
+FORMATS = {
+    "": "what each pack says",
+    "75": "1.21.11 (format 75)",
+    "46": "1.21.4 (format 46)",
+    "34": "1.21 (format 34)",
+    "15": "1.20 (format 15)",
+    "8": "1.18 (format 8)",
+    "6": "1.16.2 to 1.16.5 (format 6)",
+    "4": "1.13 and 1.14, with masks (format 4)",
+    "3": "1.11 and 1.12, with masks (format 3)",
+    "1": "1.8, with masks (format 1)",
+}
+"""Pack formats that the page offers, with the versions of the game that use them.
+
+https://minecraft.wiki/w/Pack_format
+"""
 
 
 def build(session: Session) -> None:
@@ -24,13 +40,13 @@ def build(session: Session) -> None:
     async def take(number: int) -> None:
         reading.set_text("Reading all its patterns …")
         try:
-            summary = await run.io_bound(pack_store.check, number) or ""
-            entry = pack_store.adopt(number, summary)
+            contents = await run.io_bound(pack_store.check, number) or PackContents()
+            entry = pack_store.adopt(number, contents)
         except DraperyError as error:
             pack_store.refuse(number)
             show_notice(str(error), "fault")
         else:
-            show_notice(f"{entry.name}: {summary}")
+            show_notice(f"{entry.name}: {contents.summary}")
         finally:
             reading.set_text("")
 
@@ -40,6 +56,7 @@ def build(session: Session) -> None:
     FileField(session, "pack", label, take, endings=endings, multiple=True, tab="packs")
     reading = text_element("", "p").classes("hint").props("role=status")
     _list(session)
+    _format(session)
     text_element("Side by side", "h2").classes("heading")
     _comparison(session)
 
@@ -60,10 +77,29 @@ def _list(session: Session) -> None:
     session.listen("packs", entries.refresh)
 
 
-def _name(title: str, name: str, summary: str) -> None:
+def _name(title: str, name: str, summary: str, warnings: tuple[str, ...] = ()) -> None:
     with ui.element("div").classes("pack-name"):
         text_element(title).props.update({"title": name})
         text_element(summary).classes("hint")
+        for line in warnings:
+            text_element(line, "p").classes("warning")
+
+
+def _format(session: Session) -> None:
+    """The choice of the game's version as which packs are read."""
+
+    def choose(text: str) -> None:
+        session.pack_store.read_as(int(text) if text else None)
+
+    def current() -> str:
+        return "" if session.settings.format is None else str(session.settings.format)
+
+    fields = Fields()
+    formats = dict(FORMATS)
+    formats.setdefault(current(), f"pack format {current()}")
+    with ui.element("div").classes("options"):
+        fields.choice("Read packs as", formats, current, choose)
+    session.listen("settings", fields.refresh)
 
 
 def _row(session: Session, entry: PackEntry) -> None:
@@ -80,7 +116,7 @@ def _row(session: Session, entry: PackEntry) -> None:
     switch = ui.element("input").props("type=checkbox")
     switch.props.update({"checked": entry.on, "aria-label": f"Use {entry.title}"})
     switch.on("change", lambda: act(lambda: pack_store.switch(entry.number)))
-    _name(entry.title, entry.name, entry.summary)
+    _name(entry.title, entry.name, entry.contents.summary, entry.contents.warnings)
     acts: tuple[tuple[str, str, Callable[[], None]], ...] = (
         ("arrow_upward", "Higher", lambda: pack_store.move(entry.number, 1)),
         ("arrow_downward", "Lower", lambda: pack_store.move(entry.number, -1)),

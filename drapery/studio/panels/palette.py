@@ -2,7 +2,13 @@
 
 from drapery.banner import DYES, Dye
 from drapery.studio.components import Palette, value_of
-from drapery.studio.descriptions import dye_colour, dye_title, pattern_title
+from drapery.studio.descriptions import (
+    MIDDLE_LUMINANCE,
+    dye_colour,
+    dye_title,
+    luminance,
+    pattern_title,
+)
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
@@ -39,17 +45,5 @@ def _swatch(dye: Dye) -> dict[str, str]:
         "name": dye.name,
         "title": dye_title(dye.name),
         "colour": dye_colour(dye),
-        "ink": "#000" if _luminance(dye) > 0.18 else "#fff",
+        "ink": "#000" if luminance(dye) > MIDDLE_LUMINANCE else "#fff",
     }
-
-
-def _luminance(dye: Dye) -> float:
-    """Relative luminance of an sRGB colour (WCAG 2.2).
-
-    At 0.18, black and white have the same contrast with the colour.
-    """
-    red, green, blue = (
-        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
-        for part in (channel / 255 for channel in dye.rgb)
-    )
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue

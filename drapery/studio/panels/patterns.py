@@ -5,6 +5,7 @@ from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import PatternGrid, value_of
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.notices import errors_shown
+from drapery.studio.pattern_words import search_words
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
 
@@ -28,7 +29,13 @@ def build(session: Session) -> None:
             names = pattern_names(session.packs())
         except DraperyError:
             return
-        grid.show(patterns=[{"name": name, "title": pattern_title(name)} for name in names])
+        words = search_words()
+        grid.show(
+            patterns=[
+                {"name": name, "title": pattern_title(name), "words": words.get(name, name)}
+                for name in names
+            ]
+        )
 
     def press(pattern: object) -> None:
         with errors_shown():
