@@ -25,6 +25,7 @@ class MaterialTables:
     material_layers: first layer and number of layers of each material, shape [L, 2], int32.
     material_alpha: OPAQUE, CUTOUT or BLEND, shape [L], uint8.
     material_lit: whether light falls on it, shape [L], bool.
+    material_transmission: see `Material`, shape [L], float32.
     layer_rects: x, y, width, height in the atlas [texels], shape [C, 4], int32.
     layer_tints: shape [C, 3], uint8.
     atlas: sRGB with straight alpha, shape [H, W, 4], uint8.
@@ -33,6 +34,7 @@ class MaterialTables:
     material_layers: NDArray[np.int32]
     material_alpha: NDArray[np.uint8]
     material_lit: NDArray[np.bool_]
+    material_transmission: NDArray[np.float32]
     layer_rects: NDArray[np.int32]
     layer_tints: NDArray[np.uint8]
     atlas: Texels
@@ -48,7 +50,10 @@ def make_material_tables(materials: Sequence[Material]) -> MaterialTables:
     """
     arrays = tuple(layer.texels for material in materials for layer in material.layers)
     plain = [
-        (material.alpha, material.lit, [layer.tint for layer in material.layers])
+        (
+            *(material.alpha, material.lit, material.transmission),
+            [layer.tint for layer in material.layers],
+        )
         for material in materials
     ]
     return _cache.get(arrays, plain, lambda: _make(materials))
@@ -79,6 +84,7 @@ def _make(materials: Sequence[Material]) -> MaterialTables:
         np.stack([firsts, counts], axis=1).astype(np.int32),
         np.array([ALPHA_CODES[material.alpha] for material in materials], np.uint8),
         np.array([material.lit for material in materials], np.bool_),
+        np.array([material.transmission for material in materials], np.float32),
         atlas.rects[sprite_of],
         np.array([layer.tint for layer in layers], np.uint8).reshape(-1, 3),
         atlas.texels,

@@ -38,11 +38,14 @@ class Material:
     alpha: use of the lowest layer's alpha. `opaque` ignores it (the game's solid layer), `cutout`
         does not draw pixels below one half, `blend` blends the surface with the pixels behind it.
     lit: whether the scene's light changes its colours.
+    transmission: the share of the light on the far side that shines through, 0 to 1; only lights
+        that cast shadows do.
     """
 
     layers: tuple[TextureLayer, ...]
     alpha: Alpha = "opaque"
     lit: bool = True
+    transmission: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

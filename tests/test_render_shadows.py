@@ -126,3 +126,14 @@ def test_ground_that_reaches_behind_the_camera_keeps_its_shadows() -> None:
 
 def test_an_empty_scene_can_be_lit_for_shadows() -> None:
     assert (reds(Scene((), ABOVE, SIZE, SUN)) == 0).all()
+
+
+def test_light_shines_through_cloth_from_its_far_side() -> None:
+    board = Model(level(-0.9, 0.9, 0.0, 0.9), (WHITE,))
+    below = replace(board, mesh=replace(board.mesh, normals=-board.mesh.normals))
+    thin = replace(below, materials=(replace(WHITE, transmission=0.4),))
+    assert reds(scene(below))[100, 100] == 64  # a quarter, what is ambient
+    assert reds(scene(thin))[100, 100] == round(255 * (0.25 + 0.4 * 0.75))
+    # The side that the light falls on stays as it is.
+    lit = replace(board, materials=thin.materials)
+    assert np.array_equal(reds(scene(board)), reds(scene(lit)))

@@ -9,7 +9,7 @@ bending rigidities give bending lengths (B / ρ g)^(1/3) of 2 cm for silk to 6 c
 Peirce defines in "The handle of cloth" (J. Text. Inst. 21, 1930). Stretch is far
 below the 200 to 1000 N/m that Wang et al. measured, since explicit solvers would need many substeps
 and every solver limits stretch in another way. Drag is 0.12 N s/m³ over the density, for the
-friction of air along the faces. Friction and damping are estimates.
+friction of air along the faces. Friction, damping and transmission are estimates.
 """
 
 from collections.abc import Mapping
@@ -37,6 +37,7 @@ class Fabric:
     damping: time over which bending is damped [s], 0 to 1000: the moment is
         bending · (curvature + damping · rate of curvature).
     friction: coefficient of friction on other things, 0 to 100.
+    transmission: the share of light that passes through, 0 to 1; the motion does not depend on it.
 
     Stiffness is 0 to 1e9 N/m. The default ratio 5 : 1 : 0.2 is that of the flag of a Minecraft mod
     (50 : 10 : 2 for particles of 1 kg). The stiffness is that of one spring, so a finer grid of the
@@ -51,6 +52,7 @@ class Fabric:
     bending: float = 0.0
     damping: float = 0.0
     friction: float = 0.3
+    transmission: float = 0.0
 
     def __post_init__(self) -> None:
         for field in fields(self):
@@ -71,16 +73,25 @@ BOUNDS = {
     "bending": (0.0, MAX_RIGIDITY, "N m"),
     "damping": (0.0, MAX_DAMPING, "s"),
     "friction": (0.0, 100.0, ""),
+    "transmission": (0.0, 1.0, ""),
 }
 """The smallest and the greatest value of each property, and its unit."""
 
 FABRICS: Mapping[str, Fabric] = MappingProxyType(
     {
         "wool": Fabric(0.5, 40, 20, 0, 0.24, bending=2e-4, damping=0.05, friction=0.4),
-        "cotton": Fabric(0.187, 40, 15, 0, 0.6, bending=2.3e-5, damping=0.05, friction=0.3),
-        "linen": Fabric(0.22, 60, 20, 0, 0.5, bending=6e-5, damping=0.05, friction=0.3),
-        "silk": Fabric(0.08, 30, 10, 0, 1.5, bending=6e-6, damping=0.02, friction=0.2),
-        "canvas": Fabric(0.4, 80, 40, 0, 0.3, bending=3e-4, damping=0.05, friction=0.4),
+        "cotton": Fabric(
+            0.187, 40, 15, 0, 0.6, bending=2.3e-5, damping=0.05, friction=0.3, transmission=0.3
+        ),
+        "linen": Fabric(
+            0.22, 60, 20, 0, 0.5, bending=6e-5, damping=0.05, friction=0.3, transmission=0.35
+        ),
+        "silk": Fabric(
+            0.08, 30, 10, 0, 1.5, bending=6e-6, damping=0.02, friction=0.2, transmission=0.5
+        ),
+        "canvas": Fabric(
+            0.4, 80, 40, 0, 0.3, bending=3e-4, damping=0.05, friction=0.4, transmission=0.3
+        ),
         "leather": Fabric(0.6, 60, 60, 0, 0.2, bending=1.2e-3, damping=0.1, friction=0.5),
         "felt": Fabric(0.6, 20, 20, 0, 0.2, bending=6e-4, damping=0.1, friction=0.5),
     }

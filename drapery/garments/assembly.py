@@ -160,6 +160,7 @@ def _piece(
 ) -> SewnPiece:
     texture = cut.piece.texture or garment.texture
     material, mapping = texture_of(texture, cut.size, packs, garment.folder)
+    material = replace(material, transmission=garment.fabric.transmission)
     shell = make_shell(cut.triangles, cut.uvs, mapping)
     width, height = cut.size
     plain = isinstance(cut.piece, GridPiece) and cut.piece.hem is None

@@ -93,9 +93,8 @@ def shadow_light(light: Light, size: tuple[int, int], drawing: DrawList) -> Shad
     spread, lift = map_spread(side, width)
     openness = openness_of(positions, normals, lit, constant.triangles[casting])
     lifted = positions + np.float32(lift) * normals
-    return ShadowLight(
-        camera, side, spread, lifted, *split_light(light, normals, openness), casting
-    )
+    shades = split_light(light, normals, openness, transmission_of(constant))
+    return ShadowLight(camera, side, spread, lifted, *shades, casting)
 
 
 def casts_shadow(constant: Topology) -> NDArray[np.bool_]:
@@ -112,6 +111,15 @@ def lit_vertices(constant: Topology) -> NDArray[np.bool_]:
         True
     )
     return lit
+
+
+def transmission_of(constant: Topology) -> Float32:
+    """The share of light that shines through the surface at each vertex, 0..1, shape [V]."""
+    through = np.zeros(len(constant.uvs), np.float32)
+    shares = constant.material_tables.material_transmission[constant.triangle_material]
+    some = shares > 0
+    through[constant.triangles[some]] = shares[some, None]
+    return through
 
 
 def map_side(size: tuple[int, int], width: float) -> int:
@@ -159,16 +167,23 @@ def light_camera(light: Light, positions: Float32) -> Camera:
     )
 
 
-def split_light(light: Light, normals: Float32, openness: Float32) -> tuple[Float32, Float32]:
+def split_light(
+    light: Light, normals: Float32, openness: Float32, through: Float32
+) -> tuple[Float32, Float32]:
     """The brightness of vertices in the light of the first direction and in its shadow, each [V].
 
-    openness: how much of the sky each vertex sees, 0..1, shape [V].
+    openness: how much of the sky each vertex sees, 0..1, shape [V]. through: see `transmission_of`.
+    What hides a translucent surface from the sky lets as much light through. Its far side is taken
+    to lie in no shadow.
     """
+    openness = openness + through * (1 - openness)
     dark = np.float32(light.ambient) * openness
     key = np.zeros(len(normals), np.float32)
     for number, towards in enumerate(light.unit_directions()):
         facing = sum(normals[:, axis] * np.float32(towards[axis]) for axis in range(3))
         share = np.float32(light.diffuse) * np.maximum(facing, np.float32(0))
+        behind = np.float32(light.diffuse) * np.maximum(-facing, np.float32(0))
+        dark = dark + through * behind
         if number:
             dark = dark + share * openness
         else:
