@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from drapery import Banner, draw
+from drapery.cloth import Box
 from drapery.errors import OptionError
 from drapery.garments import dressed_player, make_wearer, tailor
 from drapery.packs import MemoryPack, open_packs
@@ -98,6 +99,17 @@ def test_a_shield_is_outside_the_left_hand_with_its_design_outwards(
     np.testing.assert_allclose(outer, np.tile([1.0, 0, 0], (4, 1)), atol=1e-12)
     inner, hand = texels(handle.mesh)[0], parts["left_arm"].centre / TEXEL
     assert inner[0] < hand[0] + 2 and plate.bone == handle.bone == "left_arm"
+
+
+def test_a_shield_stops_cloth_that_does_not_begin_in_it() -> None:
+    player = dressed_player(make_wearer(shield="white", **STAND), wear=("cape", "poncho"))
+    dressed = Dressed(player, NONE, player.settings())
+    plate = np.array([1, 12, 22]) * TEXEL
+    stopped = [
+        any(isinstance(c.shape, Box) and np.allclose(c.shape.size, plate) for c in met)
+        for met in map(dressed.colliders, dressed.cloths)
+    ]
+    assert stopped == [True, False]
 
 
 def test_armour_stands_off_the_body_by_the_texels_of_the_game() -> None:

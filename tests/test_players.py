@@ -97,6 +97,13 @@ def test_the_first_layer_has_no_holes_and_an_empty_second_is_not_drawn() -> None
     assert len(Skin(skin.texels, "classic").mesh({}, ("head",)).uvs) == 4 * FACES
 
 
+def test_only_a_drawn_second_layer_keeps_cloth_off() -> None:
+    texels = np.zeros((64, 64, 4), np.uint8)
+    texels[10, 44] = texels[38, 22] = 255  # on the hat and on the jacket
+    assert read_skin(texels).growth == {"head": 0.5, "body": 0.25}
+    assert read_skin(texels, overlay="none").growth == {}
+
+
 @pytest.mark.parametrize("shape", [(64, 48), (63, 63), (32, 32), (128, 32)])
 def test_a_skin_of_another_size_is_refused(shape: tuple[int, int]) -> None:
     with pytest.raises(OptionError, match="use 64 x 64 or 64 x 32, or a multiple"):

@@ -19,6 +19,7 @@ from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.solvers.driver import check_limit
 from drapery.cloth.state import State
 from drapery.errors import OptionError
+from drapery.mesh import Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,11 +87,20 @@ def boxes_met(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
 
 def resolver(cloth: Cloth, collisions: Collisions) -> Callable[[State, State], State]:
     """The collision stage after each step of any solver. Raises OptionError."""
+    stage = contact_stage(cloth, collisions)
+    return collision_world(cloth, collisions).resolve if stage is None else stage.resolve
+
+
+def contact_stage(cloth: Cloth, collisions: Collisions) -> "ContactStage | None":
+    """The stage of a cloth that meets itself and only boxes; None for all else.
+
+    Raises OptionError.
+    """
     boxes = boxes_met(cloth, collisions)
     if boxes is None or collisions.apart is None:
-        return collision_world(cloth, collisions).resolve
+        return None
     contact = make_self_contact(cloth, collisions.apart)
-    return ContactStage(contact, boxes, collisions.threads).resolve
+    return ContactStage(contact, boxes, collisions.threads)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,14 +111,28 @@ class ContactStage:
     boxes: BoxColliders
     threads: int | None
 
-    def resolve(self, before: State, after: State) -> State:
-        """The state after a step, without contacts. before: the state at its start."""
+    def resolve(
+        self, before: State, after: State, carrier: tuple[Array, Array] | None = None
+    ) -> State:
+        """The state after a step, without contacts. before: the state at its start.
+
+        carrier: how a body on which the cloth lies moves in the step: rotation, shape [3, 3], then
+        shift [m], shape [3]. What contact stops then moves with that body.
+        """
         start, wanted = (np.array(s.positions, float, order="C") for s in (before, after))
         x, carried = wanted.copy(), np.zeros(wanted.shape[:2])
         boxes, dt = self.boxes.step(before.time, after.time), after.time - before.time
+        begun = start
+        if carrier is not None:
+            rotation, shift = carrier
+            # einsum adds in a fixed order; BLAS may not.
+            begun = np.einsum("ij,bnj->bni", rotation, start) + shift
+            places = np.einsum("ij,kj->ki", rotation, boxes.starts[:, :3]) + shift
+            turns = np.einsum("ij,kjl->kil", rotation, boxes.starts[:, 3:].reshape(-1, 3, 3))
+            boxes = boxes._replace(starts=np.hstack([places, turns.reshape(-1, 9)]))
 
         def work(first: int, last: int) -> None:
-            meet_all(start, x, carried, first, last, self.contact, boxes)
+            meet_all(begun, x, carried, first, last, self.contact, boxes)
 
         run_blocks(work, len(x), 1, thread_count(self.threads))
         velocities = np.array(after.velocities, float)

@@ -51,6 +51,7 @@ class SewnCloth:
     bones: what each pinned particle is fastened to, in the order of the particles.
     solid: the bones that stop it; None for all.
     distance: twice that of its particles from what it meets [m]. thickness, texel: [m].
+    order: of its garment among those of one wearer; higher ones lie outside lower ones.
     """
 
     cloth: Cloth
@@ -61,6 +62,7 @@ class SewnCloth:
     distance: float
     thickness: float
     texel: float
+    order: int = 0
 
     def pin_path(self, poses: BonePoses) -> PinPath:
         """Where its pins are at a time [s]. poses: of all bones at a time."""
@@ -108,7 +110,10 @@ def tailor(garment: Garment, packs: Packs) -> tuple[SewnCloth, ...]:
         held[place[pin.piece]] |= dict.fromkeys(particles, pin.to)
     groups = _groups(len(cut), joins, together=garment.collisions == "all") if cut else []
     sewn = [_sewn(garment, group, cut, joins, held, packs) for group in groups]
-    return (*sewn, *(each for over in garment.over for each in tailor(over, packs)))
+    for over in garment.over:
+        first = max((each.order + 1 for each in sewn), default=0)
+        sewn += [replace(each, order=first + each.order) for each in tailor(over, packs)]
+    return tuple(sewn)
 
 
 def _sewn(

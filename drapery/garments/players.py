@@ -17,6 +17,7 @@ from drapery.garments.model import (
     GarmentPin,
     GarmentWearer,
     GridPiece,
+    RingPiece,
 )
 from drapery.option import shown
 from drapery.player_settings import PlayerSettings
@@ -28,6 +29,8 @@ PICTURE = {"view": "hero", "wind": 0.5, "direction": 180.0, "gusts": 0.2}
 """Options of a player's picture unless others are given: a light wind from ahead."""
 BEHIND = ("cape", "elytra")
 """Garments that hang from the shoulders, behind a chestplate."""
+SHOULDERS = 24
+"""Rings that are pinned by an edge above this height are around the neck [texels]."""
 CHESTPLATE = (0.85, 1.1)
 """How far a chestplate moves them up and back [texels]."""
 WING = {"front": (24.0, 2.0, 10.0, 20.0), "back": (36.0, 2.0, 10.0, 20.0), "sheet": (64.0, 32.0)}
@@ -51,24 +54,42 @@ def dressed_player(
 ) -> Garment:
     """A player that wears garments, the first of them innermost.
 
+    What hangs behind the shoulders lies over all of them but those around the neck.
     cape: the PNG file of a cape, 64 x 32 or a multiple. elytra: wings of cloth in place of the
     cape, with the texture of `cape` if that is given. wear: garments, or their names or files.
     Raises OptionError for garments that are not found.
     """
     worn = [each if isinstance(each, Garment) else find_garment(each) for each in wear]
+    behind = []
     if elytra:
         wings = find_garment("elytra")
         if cape is not None:
             texture = ClothTexture.model_validate({**WING, "file": Path(cape).absolute()})
             pieces = [each.model_copy(update={"texture": texture}) for each in wings.piece]
             wings = wings.model_copy(update={"piece": tuple(pieces)})
-        worn.append(wings)
+        behind = [wings]
     elif cape is not None:
-        plain = find_garment("cape").with_texture(cape)
-        worn.append(plain)
+        behind = [find_garment("cape").with_texture(cape)]
+    if behind:
+        outer = [_is_around_neck(each) for each in worn]
+        worn = [
+            *(each for each, last in zip(worn, outer, strict=True) if not last),
+            *behind,
+            *(each for each, last in zip(worn, outer, strict=True) if last),
+        ]
     if wearer.armor is not None and "chestplate" in parse_armor(wearer.armor):
         worn = [_over_chestplate(each) if each.name in BEHIND else each for each in worn]
     return Garment(name="player", piece=(), wearer=wearer, picture=PICTURE, over=tuple(worn))
+
+
+def _is_around_neck(garment: Garment) -> bool:
+    """Whether a ring of it is pinned above the shoulders, so that it lies over a cape."""
+    rings = [
+        each.name
+        for each in garment.piece
+        if isinstance(each, RingPiece) and each.place[1] + each.profile[0][0] > SHOULDERS
+    ]
+    return any(pin.piece in rings and isinstance(pin.at, str) for pin in garment.pin)
 
 
 def _over_chestplate(garment: Garment) -> Garment:

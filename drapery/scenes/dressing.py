@@ -13,13 +13,26 @@ from itertools import islice, product
 import numpy as np
 
 from drapery.banner.packs import Packs
-from drapery.cloth import Box, Collider, Collisions, Force, Plane, State, Wind, simulate
+from drapery.cloth import (
+    Box,
+    Collider,
+    Collisions,
+    Force,
+    MovingCloth,
+    Plane,
+    Solver,
+    State,
+    Wind,
+    simulate,
+)
 from drapery.cloth.solvers.registry import solver
 from drapery.garments.assembly import SewnCloth, tailor
+from drapery.garments.layering import put_outside, sampled
 from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
 from drapery.render.scene import Model, RiggedModel, Scene
+from drapery.scenes.layered import WornCloth, common_bones, layered_motion, meet_each_other
 from drapery.scenes.moving import in_wind
 from drapery.scenes.stager import (
     FADE,
@@ -64,7 +77,7 @@ def garment_still(garment: Garment, packs: Packs, settings: Settings) -> Scene:
     dressed = Dressed(garment, packs, settings)
     steps = math.ceil(settings.time / dressed.step - 1e-9)
     at = Moments(settings.time / steps if steps else STEP, steps or 1, min(steps, 1), 1)
-    sheets = [dressed.record(sewn, at) for sewn in dressed.cloths]
+    sheets = dressed.record(at)
     return next(dressed.scenes(sheets, [settings.time]))
 
 
@@ -92,7 +105,7 @@ def garment_loop(
     before = min(count, math.ceil(FADE * fps))
     first = math.ceil(SETTLING / period) * count - before
     at = Moments(1 / (fps * steps), steps, first, before + count, period)
-    sheets = [close_loop(dressed.record(sewn, at), before) for sewn in dressed.cloths]
+    sheets = [close_loop(sheet, before) for sheet in dressed.record(at)]
     # The figure is drawn as it is after it has settled.
     return dressed.scenes(sheets, [(first + before + frame) / fps for frame in range(count)])
 
@@ -119,7 +132,7 @@ class Dressed:
         who = self.garment.wearer
         if who and who.shown == "head":
             return ()
-        return tailor(with_head_banner(self.garment), self.packs)
+        return put_outside(tailor(with_head_banner(self.garment), self.packs))
 
     @cached_property
     def wearer(self) -> Wearer | None:
@@ -162,6 +175,12 @@ class Dressed:
         found += [Collider(_pole_box(each, texel), friction=friction) for each in self.garment.pole]
         if self.wearer is not None:
             found += self.wearer.colliders(sewn.solid)
+            # Cloth that begins in a shield, as a poncho does, passes through it.
+            found += [
+                Collider(box, path, friction=friction)
+                for box, path in self.wearer.held_boxes()
+                if not _begins_in(sewn, box)
+            ]
         return tuple(found)
 
     def forces(self, sewn: SewnCloth, period: float | None) -> tuple[Force, ...]:
@@ -176,27 +195,69 @@ class Dressed:
         x, y, z = wind.velocity
         return replace(wind, velocity=(x, y, z - who.speed), ripples=0.0, vortices=0.0)
 
-    def record(self, sewn: SewnCloth, at: Moments) -> Array:
-        """The positions of a cloth at some moments [m], shape [F, N, 3]."""
-        settings, collisions = self.settings, self.garment.collisions
-        method = settings.solver
-        method = solver(method) if isinstance(method, str) else method
-        met = None
-        if collisions != "none":
-            apart = sewn.thickness if collisions == "all" else None
-            met = Collisions(self.colliders(sewn), sewn.distance, order=3, apart=apart)
+    def record(self, at: Moments) -> list[Array]:
+        """The positions of each cloth at some moments [m], each [F, N, 3]."""
+        collisions = self.garment.collisions
+        together = meet_each_other(self.cloths) if self.wearer and collisions != "none" else []
+        found = dict(zip(together, self._record_together(together, at), strict=True))
+        return [
+            found[number] if number in found else self._record_alone(sewn, at)
+            for number, sewn in enumerate(self.cloths)
+        ]
+
+    def _record_alone(self, sewn: SewnCloth, at: Moments) -> Array:
         states = simulate(
             sewn.cloth,
-            method,
+            self._solver,
             self.forces(sewn, at.period),
             at.dt,
-            start=State(sewn.start[None], np.zeros_like(sewn.start)[None]),
+            start=_begun(sewn),
             every=at.every,
             pins=None if self.wearer is None else sewn.pin_path(self.wearer.poses),
-            collisions=met,
+            collisions=self._collisions(sewn),
         )
         moments = islice(states, at.first, at.first + at.count)
         return np.stack([state.positions[0] for state in moments])
+
+    def _record_together(self, numbers: Sequence[int], at: Moments) -> list[Array]:
+        """The same for cloths that meet each other; see `layered_motion`."""
+        if not numbers or self.wearer is None:
+            return []
+        sewn = [self.cloths[number] for number in numbers]
+        worn = [
+            WornCloth(
+                MovingCloth.begin(
+                    each.cloth,
+                    self._solver,
+                    at.dt,
+                    start=_begun(each),
+                    collisions=self._collisions(each),
+                ),
+                self.forces(each, at.period),
+                each.pin_path(self.wearer.poses),
+            )
+            for each in sewn
+        ]
+        common = replace(sewn[0], solid=common_bones(sewn, tuple(self.wearer.parts)))
+        poses = self.wearer.poses
+        motion = layered_motion(
+            sewn, worn, self.colliders(common), lambda time: poses(time)["body"], at.every
+        )
+        moments = islice(motion, at.first, at.first + at.count)
+        return [np.stack(moment) for moment in zip(*moments, strict=True)]
+
+    @property
+    def _solver(self) -> Solver:
+        method = self.settings.solver
+        return solver(method) if isinstance(method, str) else method
+
+    def _collisions(self, sewn: SewnCloth) -> Collisions | None:
+        """What a cloth meets beside other garments."""
+        collisions = self.garment.collisions
+        if collisions == "none":
+            return None
+        apart = sewn.thickness if collisions == "all" else None
+        return Collisions(self.colliders(sewn), sewn.distance, order=3, apart=apart)
 
     def sheets(self, times: Sequence[float]) -> list[Array]:
         """The positions of each cloth at some times of one motion from rest [m], each [F, N, 3].
@@ -205,7 +266,7 @@ class Dressed:
         """
         steps = [round(time / self.step) for time in times]
         at = Moments(self.step, 1, 0, max(steps) + 1)
-        return [self.record(sewn, at)[steps] for sewn in self.cloths]
+        return [sheet[steps] for sheet in self.record(at)]
 
     def scenes(self, sheets: Sequence[Array], times: Sequence[float]) -> Iterator[Scene]:
         """A scene of each moment. sheets: of each cloth at all moments [m], each [F, N, 3].
@@ -289,6 +350,18 @@ class Dressed:
             for z in range(low[2], max(high[2], low[2] + 1))
         ]
         return ground_of(block, self.packs, "standing", cells)
+
+
+def _begins_in(sewn: SewnCloth, box: Box) -> bool:
+    """Whether a part of a cloth begins nearer to a box than it stays from what it meets."""
+    places = sampled(sewn.start, sewn.cloth.triangles)
+    away = np.abs(places - box.centre) - np.asarray(box.size) / 2
+    return bool((away.max(axis=1) < sewn.distance / 2).any())
+
+
+def _begun(sewn: SewnCloth) -> State:
+    """A cloth before its first step."""
+    return State(sewn.start[None], np.zeros_like(sewn.start)[None])
 
 
 def _shifted(model: Model, by: Array) -> Model:

@@ -39,13 +39,15 @@ Draw = Callable[[Poses, tuple[str, ...] | None], tuple[Model, ...]]
 class Wearer:
     """A figure that moves. parts: its boxes by bone. poses: of all bones at a time [s].
     draw: its models in poses, of some bones or all. equipment: what it holds, and its armour.
-    growth: how far armour stands off its bones [texels]."""
+    growth: how far the second layer of its skin stands off its bones [texels]. armor: the same of
+    its armour, which stops only cloth that names it."""
 
     parts: Mapping[str, FigurePart]
     poses: Callable[[float], Poses]
     draw: Draw
     equipment: tuple[Equipment, ...] = ()
     growth: Mapping[str, float] = field(default_factory=dict)
+    armor: Mapping[str, float] = field(default_factory=dict)
 
     def models(self, time: float, bones: tuple[str, ...] | None = None) -> tuple[Model, ...]:
         """The figure at a time [s], at the origin. bones: those that are drawn; None for all."""
@@ -66,7 +68,10 @@ class Wearer:
 
         bones: may also name SOLIDS: the pole and bar of a banner on the head, and the armour.
         """
-        growth = self.growth if bones is not None and ARMOR_SOLID in bones else {}
+        armor = self.armor if bones is not None and ARMOR_SOLID in bones else {}
+        growth = {
+            name: max(self.growth.get(name, 0.0), armor.get(name, 0.0)) for name in self.parts
+        }
         poles = (
             Collider(Box((low + high) / 2, high - low), self._path("head"))
             for name, (low, high) in pole_solids().items()
@@ -74,13 +79,22 @@ class Wearer:
         )
         body = (
             Collider(
-                Box(part.centre, part.extent + 2 * growth.get(name, 0.0) * TEXEL),
+                Box(part.centre, part.extent + 2 * growth[name] * TEXEL),
                 self._path(name),
             )
             for name, part in self.parts.items()
             if bones is None or name in bones
         )
         return *body, *poles
+
+    def held_boxes(self) -> list[tuple[Box, PosePathOf]]:
+        """What it holds that stops cloth: boxes at rest, and their paths."""
+        found = []
+        for each in self.equipment:
+            if each.is_solid:
+                low, high = each.mesh.positions.min(axis=0), each.mesh.positions.max(axis=0)
+                found.append((Box((low + high) / 2, high - low), self._path(each.bone)))
+        return found
 
     def _path(self, name: str) -> PosePathOf:
         return lambda time: Pose(*self.poses(time)[name])
@@ -106,8 +120,8 @@ def wearer_of(garment: Garment, packs: Packs, period: float | None = None) -> We
     def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
         return (rigged_model(rig(bones), poses, material),)
 
-    growth = {} if who.armor is None else armor_growth(who.armor)
-    return Wearer(skin.parts, poses, draw, _equipment(who, packs, skin.parts), growth)
+    armor = {} if who.armor is None else armor_growth(who.armor)
+    return Wearer(skin.parts, poses, draw, _equipment(who, packs, skin.parts), skin.growth, armor)
 
 
 def _equipment(

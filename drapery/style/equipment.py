@@ -59,11 +59,13 @@ DARKER = frozenset({"iron", "gold", "diamond", "netherite", "copper"})
 
 @dataclass(frozen=True, eq=False)
 class Equipment:
-    """A stiff thing on a bone. mesh: on a player at rest [m]."""
+    """A stiff thing on a bone. mesh: on a player at rest [m]. is_solid: whether the box around it
+    stops cloth."""
 
     bone: str
     mesh: Mesh
     material: Material
+    is_solid: bool = False
 
 
 def banner_pole(packs: Packs) -> Equipment:
@@ -123,7 +125,8 @@ def shield_in_hand(
             mesh.uvs,
         )
         material = material_at(design, packs, settings)(0.0)
-        made.append(Equipment(SHIELD_ARM, upright(turned, TEXEL, (0, 0, 0)), material))
+        placed = upright(turned, TEXEL, (0, 0, 0))
+        made.append(Equipment(SHIELD_ARM, placed, material, is_solid=box is PLATE))
     return tuple(made)
 
 

@@ -63,6 +63,12 @@ class Skin:
         """The boxes of its first layer by bone."""
         return SLIM_PARTS if self.arms == "slim" else PARTS
 
+    @property
+    def growth(self) -> Mapping[str, float]:
+        """How far its second layer stands off each bone on which it is drawn [texels]."""
+        drawn = [name for name, _ in self._rest]
+        return {name: grown for name, (_, _, grown) in OVERLAYS.items() if drawn.count(name) > 1}
+
     def mesh(self, poses: Mapping[str, Placed], bones: tuple[str, ...] | None = None) -> Mesh:
         """Both layers, each part in its pose. bones: those that are drawn; all unless given."""
         return join([posed(mesh, poses.get(name)) for name, mesh in self._drawn(bones)])

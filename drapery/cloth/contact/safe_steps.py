@@ -31,6 +31,8 @@ def shorten_unsafe(x0: Array, x: Array, pairs: TouchingPairs, w: Array, stop: bo
     found = False
     for n in range(len(pairs.ends)):
         i, j, k, m = pairs.ends[n, 0], pairs.ends[n, 1], pairs.ends[n, 2], pairs.ends[n, 3]
+        if w[i] + w[j] + w[k] + w[m] == 0.0:
+            continue  # nothing can keep pins apart
         if longest_relative(x0, x, i, j, k, m, pairs.edges[n]) < CAREFUL * pairs.starts[n]:
             continue
         part = safe_part(x0, x, i, j, k, m, pairs.edges[n], pairs.starts[n])

@@ -1,0 +1,93 @@
+"""Garments of one wearer: the outer ones begin outside the inner ones, and none passes another."""
+
+import numpy as np
+import pytest
+
+from drapery.garments import SewnCloth, dressed_player, find_garment, make_wearer, tailor
+from drapery.garments.layering import outermost, put_outside
+from drapery.packs import open_packs
+from drapery.scenes import Dressed
+from drapery.scenes.layered import common_bones, meet_each_other
+from drapery.style.figure import TEXEL
+
+SQUARE = np.array([[-1.0, -1, 2], [1, -1, 2], [-1, 1, 2], [1, 1, 2]])
+FACES = np.array([[0, 1, 2], [1, 3, 2]], np.int32)
+
+
+def crossings(one: np.ndarray, faces: np.ndarray, other: np.ndarray, others: np.ndarray) -> int:
+    """How many edges of each surface pass through a face of the other."""
+    found = 0
+    for a, at, b, bt in ((one, faces, other, others), (other, others, one, faces)):
+        ends = np.unique(np.sort(at[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+        start, along = a[ends[:, 0]][:, None], (a[ends[:, 1]] - a[ends[:, 0]])[:, None]
+        corner, u, v = b[bt[:, 0]], b[bt[:, 1]] - b[bt[:, 0]], b[bt[:, 2]] - b[bt[:, 0]]
+        across = np.cross(along, v)
+        volume = (across * u).sum(axis=-1)
+        volume = np.where(np.abs(volume) < 1e-15, np.inf, volume)
+        s = ((start - corner) * across).sum(axis=-1) / volume
+        turned = np.cross(start - corner, u)
+        t = (along * turned).sum(axis=-1) / volume
+        r = (turned * v).sum(axis=-1) / volume
+        found += int(((s > 0) & (t > 0) & (s + t < 1) & (r > 0) & (r < 1)).sum())
+    return found
+
+
+def pair_of(inner: str, outer: str) -> list[SewnCloth]:
+    player = dressed_player(make_wearer(speed=2.5), wear=(inner, outer))
+    return [*tailor(player, open_packs(()))]
+
+
+def test_a_ray_ends_at_the_last_triangle() -> None:
+    points = np.array([[0.0, 0, 1], [0, 0.5, 9], [1.5, 0, 1], [0, 3, 1]])
+    near = np.concatenate([SQUARE, SQUARE * [1, 1, 0.5]])
+    distances, faces = outermost(points, near, np.concatenate([FACES, FACES + 4]))
+    assert distances.tolist() == [2, 2, 0, 0] and set(faces[:2]) <= {0, 1}
+
+
+def test_the_order_of_cloths_is_that_of_their_garments() -> None:
+    player = dressed_player(make_wearer(), wear=("skirt", "scarf", "coat"), cape="cape.png")
+    named = [each.name for each in player.over]
+    assert named == ["skirt", "coat", "cape", "scarf"]
+    tight = player.model_copy(update={"over": player.over[:1] + player.over[3:]})
+    assert [each.order for each in tailor(tight, open_packs(()))] == [0, 1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("inner", "outer"), [("skirt", "coat"), ("coat", "cape"), ("cape", "scarf")]
+)
+def test_the_outer_garment_begins_outside(inner: str, outer: str) -> None:
+    cloths = pair_of(inner, outer)
+    placed = put_outside(cloths)
+    assert placed[0] is cloths[0]
+    for cloth in placed[1:]:
+        if cloth.order:
+            surfaces = [(each.start, each.cloth.triangles) for each in (placed[0], cloth)]
+            assert crossings(*surfaces[0], *surfaces[1]) == 0
+    assert max(np.abs(a.start - b.start).max() for a, b in zip(cloths, placed, strict=True)) < (
+        4 * TEXEL
+    )
+
+
+def test_only_cloth_on_the_body_meets_other_garments() -> None:
+    cape, coat = pair_of("cape", "coat")
+    assert meet_each_other((cape, coat)) == [0, 1] and meet_each_other((cape,)) == []
+    who = make_wearer(head="black")
+    flag = Dressed(dressed_player(who, wear=("cape",)), open_packs(()), SETTINGS).cloths
+    assert meet_each_other(flag) == []
+    assert common_bones((cape, coat), ("head", "body", "left_arm", "left_leg")) == (
+        *("body", "left_leg"),
+    )
+
+
+SETTINGS = find_garment("cape").settings()
+
+
+def test_garments_of_one_wearer_do_not_pass_through_each_other() -> None:
+    player = dressed_player(make_wearer(speed=2.5, motion="run"), wear=("skirt", "cape"))
+    dressed = Dressed(player, open_packs(()), player.settings())
+    times = [0.0, 0.2, 0.4, 0.6]
+    one, other = dressed.sheets(times)
+    faces = [each.cloth.triangles for each in dressed.cloths]
+    assert [crossings(a, faces[0], b, faces[1]) for a, b in zip(one, other, strict=True)] == [0] * 4
+    again = Dressed(player, open_packs(()), player.settings()).sheets(times[:2])
+    assert np.array_equal(again[1], other[:2])
