@@ -112,8 +112,8 @@ def outermost(
 
 def sampled(positions: Array, triangles: Triangles) -> Array:
     """Places on all triangles [m], shape [T * S, 3]."""
-    places: Array = (SAMPLES[None, :, :, None] * positions[triangles][:, None]).sum(axis=2)
-    return places.reshape(-1, 3)
+    places: Array = (SAMPLES[:, :, None] * positions[triangles][:, None]).sum(axis=2).reshape(-1, 3)
+    return places
 
 
 def _radius(points: Array) -> Array:
