@@ -4,8 +4,8 @@ In the figure's own frame the air comes from ahead at the speed of the walk, so 
 as on a figure that walks through still air.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -51,7 +51,7 @@ class Gait:
         """
         return float(np.degrees(np.arcsin(min(self.speed * self.period / (4 * LEG), 0.9))))
 
-    def poses(self, time: float) -> dict[str, Placed]:
+    def poses(self, time: float) -> Mapping[str, Placed]:
         """Where each part of the figure is, by name."""
         return _poses(self, time)
 
@@ -78,8 +78,33 @@ class Gait:
         return lambda time: Pose(*self.poses(time)[name])
 
 
+@dataclass(frozen=True, eq=False)
+class WalkPoses(Mapping[str, Placed]):
+    """Where each part of a figure is, computed when it is asked for: pins of a cape need one part.
+
+    parts: of the figure. angles: how far each is turned backwards [degrees]. lift: of all [m].
+    """
+
+    parts: Mapping[str, FigurePart]
+    angles: Mapping[str, float]
+    lift: float
+    _found: dict[str, Placed] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> Placed:
+        if name not in self._found:
+            turned = self.angles[name]
+            self._found[name] = _about_joint(self.parts[name], turned, self.lift)
+        return self._found[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.angles)
+
+    def __len__(self) -> int:
+        return len(self.angles)
+
+
 @lru_cache(maxsize=4)
-def _poses(gait: Gait, time: float) -> dict[str, Placed]:
+def _poses(gait: Gait, time: float) -> WalkPoses:
     """Cached, since every part asks for the poses at the beginning and the end of a step."""
     angle = gait.turn(time)
     arms = ARM_SHARE if gait.figure == "player" else 1.0
@@ -91,8 +116,7 @@ def _poses(gait: Gait, time: float) -> dict[str, Placed]:
         "right_arm": -arms * angle,
         "left_arm": arms * angle,
     }
-    lift, parts = gait.lift(time), gait.parts
-    return {name: _about_joint(parts[name], turned, lift) for name, turned in angles.items()}
+    return WalkPoses(gait.parts, angles, gait.lift(time))
 
 
 @lru_cache(maxsize=8)

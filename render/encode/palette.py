@@ -32,12 +32,16 @@ class ColourTable:
     def places(self, pixels: Pixels, matte: Matte | None) -> Places:
         """The place of every pixel's colour, shape [H, W]; 0 where it is transparent."""
         packed, visible = opaque_colours(pixels, matte)
-        places = np.where(visible, self.place_of[packed], 0)
-        fresh = np.unique(packed[visible & (places == 0)])
-        if fresh.size:
-            self._learn(fresh)
-            places = np.where(visible, self.place_of[packed], 0)
-        self.counts += np.bincount(places.ravel(), minlength=self.counts.size)
+        shown = packed[visible]
+        found = self.place_of[shown]
+        unknown = np.flatnonzero(found == 0)
+        if unknown.size:
+            self._learn(np.unique(shown[unknown]))
+            found[unknown] = self.place_of[shown[unknown]]
+        self.counts += np.bincount(found, minlength=self.counts.size)
+        self.counts[0] += visible.size - found.size
+        places = np.zeros(visible.shape, np.int32)
+        places[visible] = found
         return places
 
     def _learn(self, fresh: NDArray[np.uint32]) -> None:
@@ -59,10 +63,14 @@ def opaque_colours(
     Without a matte, pixels of at least half alpha are visible in their colour. With a matte, all
     pixels that are not fully transparent are visible, composited over the matte.
     """
-    rgb, alpha = pixels[..., :3].astype(np.uint32), pixels[..., 3]
+    alpha = pixels[..., 3]
     if matte is not None:
-        rgb = over_matte(pixels, matte).astype(np.uint32)
-    packed = rgb[..., 0] << np.uint32(16) | rgb[..., 1] << np.uint32(8) | rgb[..., 2]
+        pixels = np.dstack([over_matte(pixels, matte), alpha])
+    # A pixel as one number: alpha, blue, green and red, from the highest byte on.
+    words = np.ascontiguousarray(pixels).view("<u4")[..., 0]
+    low = np.uint32(255)
+    packed = (words & low) << np.uint32(16) | words & (low << np.uint32(8))
+    packed |= words >> np.uint32(16) & low
     return packed, (alpha >= 128 if matte is None else alpha > 0)
 
 
