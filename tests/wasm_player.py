@@ -1,12 +1,45 @@
 """Plays plans in wasmtime, as `cloth.js` does in a browser."""
 
+import fcntl
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import wasmtime
 from numpy.typing import NDArray
 
+from drapery import Banner, Settings
+from drapery.packs import open_packs
+from drapery.style import Body, body_of
+from drapery.web.wasm.build import build_module
+from drapery.web.wasm.module import module_places
 from drapery.web.wasm.plan import split_plan
+
+QUICK = ("desbrun",)
+"""The methods of the module that the tests build: the compilation of each takes 15 s."""
+
+
+@cache
+def built_module() -> bytes:
+    """The module, with the kernels of at least the methods in QUICK; it is built once for the
+    sources and kept beside numba's kernels."""
+    path = module_places()[-1]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with Path(f"{path}.lock").open("wb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not path.is_file():
+            build_module(path, QUICK)
+    return path.read_bytes()
+
+
+def quick_settings(**options: Any) -> Settings:
+    """Settings of a banner that the module of the tests can play."""
+    return Settings(**{"solver": "desbrun", "grid": (5, 9), **options})
+
+
+def white_banner(settings: Settings) -> Body:
+    return body_of(Banner.parse("white"), open_packs(()), settings)
 
 
 class WasmPlayer:
@@ -42,6 +75,10 @@ class WasmPlayer:
         place, kind, count = self.header["fields"][name]
         assert len(values) == count
         self.memory.write(self.store, np.array(values, kind).tobytes(), self.at + place)
+
+    def image(self) -> bytes:
+        """The memory of the cloth."""
+        return bytes(self.memory.read(self.store, self.at, self.at + self.header["image"]))
 
     def step(self, steps: int) -> None:
         self.write("clock", self.read("clock")[0], steps)

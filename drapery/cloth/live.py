@@ -49,6 +49,8 @@ PULL_RADIUS = 0.045
 """A pull moves all particles within this distance along the cloth [m]."""
 MAX_STRETCH = 0.99
 """A pull stays nearer to each pin than this share of the cloth between them."""
+LATE = 100.0
+"""A turned wind has at least this time [s], so that its swell keeps its frequency within 2 %."""
 PROJECTIONS = 48
 """The most projections of the target of a pull on what the cloth can reach."""
 
@@ -197,8 +199,14 @@ def _narrowed(batch: Batch, lanes: int, wind: LiveWind) -> Batch:
         gusts=gusts,
         width=lanes,
         residuals=cut(batch.residuals),
-        work=contact_work(1, batch.contact),
+        work=_zeros(contact_work(1, batch.contact)),
     )
+
+
+def _zeros(scratch: Any) -> Any:
+    """Zeros like the arrays of a named tuple, so that the same cloth has the same bytes."""
+    parts = (_zeros(p) if isinstance(p, tuple) else np.zeros_like(p) for p in scratch)
+    return type(scratch)(*parts)
 
 
 def _controls(moving: MovingCloth, batch: Batch) -> LiveControls:
@@ -363,38 +371,47 @@ def reachable(live: Any) -> Any:
 def aim(live: Any, wind: Any, gusts: Any) -> Any:
     """Turn the winds of a batch to wind.velocity: what `lower_forces` writes for it.
 
-    Gusts and waves continue where they are: the time of the wind is shifted. Returns 0.
+    Gusts, swell and waves continue where they are: the time of the wind is shifted. Returns 0.
     """
     x = wind.lee[0] * wind.velocity[0]
     y = wind.lee[1] * wind.velocity[1]
     z = wind.lee[2] * wind.velocity[2]
     speed = np.sqrt(x * x + y * y + z * z)
     numbers, frequency = gusts.numbers[0], speed / wind.strengths[3]
-    if live.clock[0] > 0 and numbers[14] > 0 and frequency > 0:
-        shift_time(live, wind, gusts, frequency)
+    now = later = 0.0
+    if live.clock[0] > 0:
+        time = live.clock[0] * live.dt[0]
+        now = time + gusts.phases[0, 0]
+        later = same_gust(now, numbers, frequency)
+        numbers[11] = swell_frequency(now * numbers[11], later, wind.swell[0])
+        for lane in range(gusts.phases.shape[1]):
+            gusts.phases[0, lane] = later - time
     turn_axes(numbers, x, y, z, speed)
     numbers[9], numbers[12], numbers[14] = speed, wind.strengths[0] * speed, frequency
-    turn_waves(wind, gusts, x, y, z, speed)
+    turn_waves(wind, gusts, x, y, z, speed, now, later)
     return 0
 
 
 @kernel
-def shift_time(live: Any, wind: Any, gusts: Any, frequency: Any) -> None:
-    """Change the phases so that gusts of another frequency go on where they are.
+def same_gust(now: Any, numbers: Any, frequency: Any) -> Any:
+    """A time [s] at which gusts of a frequency are where those of another one are now.
 
-    The frequency of the swell becomes the nearest one with which the swell goes on too.
+    It is late enough for `swell_frequency`: the gusts repeat.
     """
-    numbers = gusts.numbers[0]
-    time = live.clock[0] * live.dt[0]
-    now = time + gusts.phases[0, 0]
+    if not (numbers[14] > 0 and frequency > 0):
+        return now
     later = now * numbers[14] / frequency
-    turns = now * numbers[11]
+    repeated = numbers[15] / frequency
+    if later < LATE:
+        later += np.ceil((LATE - later) / repeated) * repeated
+    return later
+
+
+@kernel
+def swell_frequency(turns: Any, later: Any, frequency: Any) -> Any:
+    """The frequency nearest to one [1/s] with which a swell has these turns at a time [s]."""
     turns -= np.floor(turns)
-    if later > 0:
-        whole = np.floor(later * wind.swell[0] - turns + 0.5)
-        numbers[11] = (turns + whole) / later
-    for lane in range(gusts.phases.shape[1]):
-        gusts.phases[0, lane] = later - time
+    return (turns + np.floor(later * frequency - turns + 0.5)) / later if later > 0 else frequency
 
 
 @kernel
@@ -415,8 +432,13 @@ def turn_axes(numbers: Any, x: Any, y: Any, z: Any, speed: Any) -> None:
 
 
 @kernel
-def turn_waves(wind: Any, gusts: Any, x: Any, y: Any, z: Any, speed: Any) -> None:
-    """The rates of the waves, and their parts at each particle; see `ripples`."""
+def turn_waves(
+    wind: Any, gusts: Any, x: Any, y: Any, z: Any, speed: Any, now: Any, later: Any
+) -> None:
+    """The rates of the waves, and their parts at each particle; see `ripples`.
+
+    A wave has the same phase at the time `later` [s] as the old one now.
+    """
     nx, ny, nz = wind.normal[0], wind.normal[1], wind.normal[2]
     head_on = x * nx + y * ny + z * nz
     ax = x - head_on * nx + abs(head_on) * wind.down[0]
@@ -434,11 +456,12 @@ def turn_waves(wind: Any, gusts: Any, x: Any, y: Any, z: Any, speed: Any) -> Non
         low, high = min(low, across), max(high, across)
     count = wind.ripples.turns.size
     for k in range(count):
-        gusts.rates[0, k] = rate_of(
-            speed, wind.ripples.carried[k], wind.ripples.forward[k], wind.ripples.lengths[k]
-        )
+        table = wind.ripples
+        rate = rate_of(speed, table.carried[k], table.forward[k], table.lengths[k])
+        put_rate(gusts, k, rate, now, later)
     if wind.vortices.size > 0:
-        gusts.rates[0, count] = vortex_rate_of(speed, high - low) if high > low else 0.0
+        rate = vortex_rate_of(speed, high - low) if high > low else 0.0
+        put_rate(gusts, count, rate, now, later)
     for i in range(wind.rest.shape[0]):
         along = wind.rest[i, 0] * ax + wind.rest[i, 1] * ay + wind.rest[i, 2] * az
         across = wind.rest[i, 0] * bx + wind.rest[i, 1] * by + wind.rest[i, 2] * bz
@@ -453,6 +476,14 @@ def turn_waves(wind: Any, gusts: Any, x: Any, y: Any, z: Any, speed: Any) -> Non
                 strength = vortex_strength_of(wind.strengths[2], speed, across, low, high)
                 place = vortex_place_of(along, gusts.rates[0, count], speed)
             put_wave(gusts, count, i, strength, place)
+
+
+@kernel
+def put_rate(gusts: Any, k: Any, rate: Any, now: Any, later: Any) -> None:
+    """The rate of wave k, and the turns with which its phase continues."""
+    turns = gusts.turns[0, k] + now * gusts.rates[0, k] - later * rate
+    gusts.turns[0, k] = turns - np.floor(turns)
+    gusts.rates[0, k] = rate
 
 
 @kernel

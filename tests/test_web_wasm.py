@@ -1,0 +1,200 @@
+"""The kernels as WebAssembly: a page moves cloth with the bits of Python."""
+
+import json
+import shutil
+import subprocess
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("ziglang", reason="ziglang is not installed (drapery[web-build])")
+pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery[dev])")
+
+from wasm_player import WasmPlayer, built_module, quick_settings, white_banner
+
+from drapery import DraperyError, Settings
+from drapery.cloth import SolverPBD
+from drapery.cloth.forces import lower_forces
+from drapery.scenes import Stager, live_panels
+from drapery.scenes.stager import cloth_spec, forces_of, wind_of
+from drapery.web.wasm import build
+from drapery.web.wasm.module import module_info
+from drapery.web.wasm.plan import LANES, plans_of, split_plan, write_plan
+
+NODE = shutil.which("node")
+SCRIPT = Path(__file__).parent.parent / "drapery" / "web" / "wasm" / "cloth.js"
+
+
+def plan_of(settings: Settings) -> bytes:
+    built_module()
+    (plan,) = plans_of(white_banner(settings), settings)
+    return plan
+
+
+def digest(*arrays: Any) -> str:
+    return sha256(
+        b"".join(np.ascontiguousarray(a, np.float32).tobytes() for a in arrays)
+    ).hexdigest()
+
+
+@pytest.mark.parametrize("placement", ["standing", "wall"])
+def test_600_steps_have_the_bits_of_python(placement: Any) -> None:
+    settings = quick_settings(placement=placement, rotation=3 if placement == "standing" else 0)
+    stager = Stager(white_banner(settings), settings)
+    stager.advance(600)
+    player = WasmPlayer(built_module(), plan_of(settings))
+    player.step(599)
+    player.step(1)
+    state, mesh = stager.cloths[0].state, stager.meshes()[-1]
+    played = digest(player.read("positions"), player.read("velocities"))
+    assert played == digest(state.positions[0], state.velocities[0])
+    player.run("cover")
+    assert digest(player.read("vertices")) == digest(mesh.positions)
+    assert digest(player.read("normals")) == digest(mesh.normals)
+    light = stager.light.brightness(mesh.normals.astype(np.float32))
+    assert np.abs(player.read("light") - light).max() < 1e-6
+
+
+def test_the_start_has_the_wind_of_python() -> None:
+    settings = quick_settings(wind=7.0, direction=40.0, placement="wall")
+    body = white_banner(settings)
+    (panel,) = live_panels(body, settings)
+    aim = panel.calls["aim"]
+    assert aim.function(*aim.arguments) == 0
+    cloth = cloth_spec(body.panels[0], settings, body.solids).make_cloth()
+    expected = lower_forces(forces_of(settings, wind_of(settings)), cloth, 1).gusts
+    turned = aim.arguments[2]
+    for name in ("numbers", "seeds", "rates", "turns", "sines", "cosines"):
+        made = getattr(turned, name)
+        assert np.array_equal(getattr(expected, name).astype(made.dtype), made), name
+
+
+def test_a_turned_wind_has_the_bits_of_python_and_its_gusts_do_not_jump() -> None:
+    settings = quick_settings()
+    (panel,) = live_panels(white_banner(settings), settings, LANES)
+    player = WasmPlayer(built_module(), write_plan(panel, module_info(built_module())))
+    player.step(200)
+    player.write("wind", -3.0, 1.0, 8.0)
+    player.run("aim")
+    live, wind, gusts = panel.calls["aim"].arguments
+    panel.calls["aim"].function(live, wind, gusts)
+    before = phases_at(200 / 60, gusts)
+    live.clock[0] = 200
+    wind.velocity[:] = -3.0, 1.0, 8.0
+    panel.calls["aim"].function(live, wind, gusts)
+    assert np.abs((phases_at(200 / 60, gusts) - before + 0.5) % 1 - 0.5).max() < 1e-9
+    assert gusts.numbers[0, 11] == pytest.approx(1 / 3.1, rel=0.02)
+    image = player.image()
+    for array in (gusts.numbers, gusts.phases, gusts.rates, gusts.sines, gusts.cosines):
+        assert array.tobytes() in image
+
+
+def phases_at(time: float, gusts: Any) -> Any:
+    """The phases of gusts, swell and waves at a time [s], in turns."""
+    now = time + gusts.phases[0, 0]
+    cells, swell = now * gusts.numbers[0, 14], now * gusts.numbers[0, 11]
+    return np.array([cells, swell, *(now * gusts.rates[0] + gusts.turns[0])])
+
+
+def test_a_pull_moves_the_cloth_to_its_target_and_lets_go() -> None:
+    player = WasmPlayer(built_module(), plan_of(quick_settings(wind=0.0)))
+    player.step(30)
+    corner = player.read("positions")[-3:].astype(float)
+    target = corner + np.array([-0.1, 0.1, 0.4])
+    player.write("grab", 44, -1)
+    player.write("target", *target)
+    player.step(60)
+    assert np.abs(player.read("positions")[-3:] - target).max() < 0.03
+    player.write("target", 0.0, 0.0, 1e6)
+    player.step(60)
+    assert np.abs(player.read("positions")).max() < 2.5
+    player.write("grab", -1, 44)
+    player.step(300)
+    assert np.abs(player.read("positions")[-3:] - corner).max() < 0.1
+
+
+def test_a_plan_is_the_same_at_every_writing_and_small() -> None:
+    plan = plan_of(quick_settings())
+    assert plan == plan_of(quick_settings())
+    header, image = split_plan(plan)
+    assert (header["columns"], header["rows"]) == (5, 9)
+    assert header["pins"] == [0, 1, 2, 3, 4]
+    assert len(image) <= header["image"] < 1 << 18
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        ({"solver": SolverPBD()}, "use xpbd or desbrun"),
+        ({"contact": "all"}, "use contact world"),
+        ({"style": "voxel"}, "steps of motion"),
+        ({"pose": "vanilla"}, "use pose cloth"),
+        ({"grid": (40, 40)}, "has no kernel"),
+    ],
+)
+def test_what_cannot_be_played_is_refused(options: Any, reason: str) -> None:
+    with pytest.raises(DraperyError, match=reason):
+        plan_of(quick_settings(**options))
+
+
+def test_a_build_without_its_compiler_names_the_extra(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(build.importlib.util, "find_spec", lambda name: None)
+    assert build.main(["--cache"]) == 1
+    message = capsys.readouterr().err
+    assert message == "error: ziglang is not installed; install drapery[web-build]\n"
+
+
+PLAY = """
+import { readFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { Cloth } from "SCRIPT";
+const [module, plan] = process.argv.slice(2).map((path) => readFileSync(path));
+const [first, second] = [await Cloth.load(module, plan), await Cloth.load(module, plan)];
+const digest = (cloth) =>
+  createHash("sha256").update(cloth.positions).update(cloth.velocities).digest("hex");
+first.step(300);
+second.setWind(0, 0, -6);
+second.pull(44, 0, -1, 1);
+second.step(50);
+first.step(300);
+const found = [digest(first), first.time, first.kernels === second.kernels];
+second.reset();
+second.step(600);
+found.push(digest(second), second.vertices.length, Math.max(...second.light) <= 1);
+second.free();
+const third = await Cloth.load(module, plan);
+found.push(third.place === second.place);
+const refused = await Cloth.load(module, plan.subarray(9)).catch((error) => error.message);
+console.log(JSON.stringify([...found, refused]));
+"""
+
+
+@pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
+def test_javascript_plays_many_cloths_in_one_memory(tmp_path: Path) -> None:
+    settings = quick_settings()
+    (tmp_path / "module").write_bytes(built_module())
+    (tmp_path / "plan").write_bytes(plan_of(settings))
+    done = subprocess.run(
+        [str(NODE), "--input-type=module", "-", tmp_path / "module", tmp_path / "plan"],
+        input=PLAY.replace("SCRIPT", SCRIPT.as_uri()),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stderr
+    stager = Stager(white_banner(settings), settings)
+    stager.advance(600)
+    state = stager.cloths[0].state
+    expected = digest(state.positions[0], state.velocities[0])
+    vertices = 3 * len(stager.meshes()[-1].positions)
+    refused = "the plan of the cloth is damaged"
+    assert json.loads(done.stdout) == [
+        *(expected, 10, True),
+        *(expected, vertices, True),
+        *(True, refused),
+    ]
