@@ -83,8 +83,12 @@ def _options(table: Mapping[str, Option]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _commands() -> str:
-    return "\n".join(_command("drapery", typer.main.get_command(app)))
+def commands() -> str:
+    """A table of all commands, and a section of each with its options."""
+    sections = list(_command("drapery", typer.main.get_command(app)))
+    found = re.findall(r"(?m)^## (.+)\n\n(.+?)(?:\n|$)", "\n".join(sections))
+    rows = [f"| [`{name}`](#{name.replace(' ', '-')}) | {_cell(text)} |" for name, text in found]
+    return "\n".join(["| command | what it does |", "|---|---|", *rows, "", *sections])
 
 
 def _command(path: str, command: Any) -> Iterator[str]:
@@ -123,5 +127,5 @@ TABLES: dict[str, Callable[[], str]] = {
     "options": lambda: _options(OPTIONS),
     "loop-options": lambda: _options(LOOP_OPTIONS),
     "player-options": lambda: _options(PLAYER_OPTIONS),
-    "commands": _commands,
+    "commands": commands,
 }

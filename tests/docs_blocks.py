@@ -74,7 +74,7 @@ def commands(text: str) -> list[tuple[str, str]]:
 
 def check_command(line: str) -> None:
     """Check the names and values of a command's options. Raises an error of typer."""
-    program, *words = shlex.split(line, comments=True)
+    program, *words = shlex.split(line.rpartition("&& ")[2], comments=True)
     if program != "drapery":
         return
     command: Any = typer.main.get_command(app)
@@ -123,7 +123,7 @@ class Reader:
 
     def run(self, line: str) -> tuple[int, str]:
         """The exit code of a command and what it prints."""
-        program, *words = shlex.split(line, comments=True)
+        program, *words = shlex.split(line.rpartition("&& ")[2], comments=True)
         if program in INSTALLERS or line.startswith("python -m venv"):
             return 0, ""
         if program == "drapery":

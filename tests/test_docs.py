@@ -1,12 +1,14 @@
 """Every command, package, link and picture that the docs name exists."""
 
 import re
+import runpy
 from pathlib import Path
 
 import pytest
 import typer.main
 
 from drapery.cli import app
+from drapery.settings import NAMED_OPTIONS
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted(
@@ -14,9 +16,21 @@ PAGES = sorted(
 )
 
 
-def test_the_readme_lists_every_command() -> None:
-    listed = re.findall(r"^\| `drapery (\w+)", (ROOT / "README.md").read_text(), re.MULTILINE)
-    assert sorted(listed) == sorted(typer.main.get_command(app).commands)  # type: ignore[attr-defined]
+def test_the_reference_describes_every_command_and_option() -> None:
+    hooks = runpy.run_path(str(ROOT / "docs" / "hooks.py"))
+    text = hooks["commands"]()
+    for name, command in typer.main.get_command(app).commands.items():  # type: ignore[attr-defined]
+        for inner in getattr(command, "commands", {"": command}):
+            assert f"\n## {f'drapery {name} {inner}'.strip()}\n" in text
+    listed = "".join(hooks["TABLES"][name]() for name in ("options", "loop-options"))
+    assert all(f"`{option.command_flag}`" in listed for option in NAMED_OPTIONS.values())
+
+
+def test_lines_on_parameters_become_a_list() -> None:
+    with_lists = runpy.run_path(str(ROOT / "docs" / "parameter_lists.py"))["with_lists"]
+    text = "Draws.\n\na, b: two\n    numbers.\nc: one.\nNote: it is slow.\nRaises X."
+    made = "Draws.\n\n- `a`, `b`: two\n  numbers.\n- `c`: one.\n\nNote: it is slow.\nRaises X."
+    assert with_lists(text, {"a", "b", "c"}) == made
 
 
 def test_the_architecture_page_names_every_package() -> None:

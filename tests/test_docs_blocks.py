@@ -41,6 +41,13 @@ def test_the_tutorial_runs_as_it_is_typed(
         assert np.mean(pixels(reader.folder / name) != pixels(shown)) <= share, name
 
 
+def test_the_programs_of_the_readme_and_of_the_first_page_run(reader: Reader) -> None:
+    for page in (ROOT / "README.md", DOCS / "index.md"):
+        for block in blocks(page):
+            if block.language:
+                reader.type(page, block)
+
+
 @pytest.mark.parametrize("name", GUIDES)
 def test_a_guide_runs_as_it_is_typed(name: str, reader: Reader) -> None:
     (make_pack,) = (block for block in blocks(TUTORIAL) if block.title == "make_pack.py")
