@@ -1,11 +1,14 @@
 """Every command, package, link and picture that the docs name exists."""
 
+import json
 import re
 import runpy
+from importlib import metadata
 from pathlib import Path
 
 import pytest
 import typer.main
+import yaml
 
 from drapery.cli import app
 from drapery.settings import NAMED_OPTIONS
@@ -53,3 +56,28 @@ def test_every_picture_of_the_docs_has_its_command() -> None:
     named = set(re.findall(r"`([\w/-]+\.(?:png|webp|gif))`", page.replace("NAME", "cel")))
     shown = {p.relative_to(folder).as_posix() for p in folder.rglob("*.*")}
     assert named == {name for name in shown if not name.startswith("styles/")} | {"styles/cel.png"}
+
+
+def test_the_citation_has_the_version_of_the_package() -> None:
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
+    assert cited["version"] == metadata.version("drapery")
+    assert cited["cff-version"] == "1.2.0" and cited["title"] and cited["authors"]
+    licence = metadata.metadata("drapery")["License-Expression"]
+    assert " AND ".join(cited["license"]) == licence
+
+
+def test_the_forms_of_issues_can_be_filled_in() -> None:
+    folder = ROOT / ".github" / "ISSUE_TEMPLATE"
+    for path in (folder / "fault.yml", folder / "wish.yml"):
+        form = yaml.safe_load(path.read_text("utf-8"))
+        assert form["name"] and form["description"]
+        fields = [field for field in form["body"] if field["type"] != "markdown"]
+        assert all(field["attributes"]["label"] for field in fields)
+        assert len({field["id"] for field in fields}) == len(fields)
+
+
+def test_the_container_installs_what_the_gate_installs() -> None:
+    container = json.loads((ROOT / ".devcontainer" / "devcontainer.json").read_text("utf-8"))
+    command = container["postCreateCommand"]
+    assert ".[dev,docs]" in command
+    assert ".[dev,docs]" in (ROOT / ".ci" / "run").read_text("utf-8")
