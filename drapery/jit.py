@@ -1,67 +1,180 @@
-"""Decorators: `kernel` for functions that kernels call, `entry_point` for those Python calls."""
+"""Decorators: `kernel` for functions that kernels call, `entry_point` for those Python calls.
 
-from collections.abc import Callable, Sequence
+numba is imported, which takes a third of a second, when the first kernel has to be compiled or
+read from the cache. Kernels that were compiled ahead of time run without it; see `drapery.aot`.
+"""
+
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cached_property, update_wrapper
+from importlib import import_module
 from typing import Any, TypeVar, cast
 
-from llvmlite import ir
-from numba import njit, types
-from numba.core.cgutils import if_unlikely
-from numba.extending import intrinsic
-
-from drapery.jit_cache import cache_on_disk
+from drapery.aot.arguments import pack
+from drapery.aot.library import CompiledKernel, kernels_of
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
-_njit: Any = njit  # its type stubs lack the wrapper options
-_types: Any = types
-_intrinsic: Any = intrinsic
-_if_unlikely: Any = if_unlikely
 INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 OUTER = {"error_model": "numpy", "nogil": True}
 REGISTER = 64
 """Bytes of the widest register for which kernels are written; see `drapery.cloth.simd`."""
 
+_declarations: list[Callable[[], Any]] = []
+"""What tells numba of types and instructions, before the first kernel that uses them."""
+_lock = threading.RLock()
+
+
+class Kernel:
+    """A function that numba compiles when it is first used; kernels call it as any other."""
+
+    def __init__(self, function: Callable[..., object]) -> None:
+        update_wrapper(cast(Any, self), function)
+        self.py_func = function
+        self._made: Any = None
+
+    @property
+    def dispatcher(self) -> Any:
+        """numba's object for the function."""
+        if self._made is None:
+            with _lock:
+                if self._made is None:
+                    _prepare_numba()
+                    self._made = self._make()
+        return self._made
+
+    def _make(self) -> Any:
+        from numba import njit
+
+        return cast(Any, njit)(**INNER)(self.py_func)
+
+    @property
+    def _numba_type_(self) -> Any:
+        return self.dispatcher._numba_type_
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return getattr(self.dispatcher, name)
+
+
+class EntryPoint(Kernel):
+    """A kernel that Python calls."""
+
+    def __call__(self, *arguments: Any) -> Any:
+        if self._ahead:
+            packed = pack(arguments)
+            compiled = packed and self._ahead.get(packed.types)
+            if packed and compiled:
+                return compiled(packed.words)
+        return self.dispatcher(*arguments)
+
+    def ahead(self, arguments: tuple[Any, ...]) -> CompiledKernel | None:
+        """The code that was compiled ahead of time for such arguments."""
+        packed = pack(arguments)
+        return self._ahead.get(packed.types) if packed else None
+
+    @cached_property
+    def _ahead(self) -> dict[tuple[str, ...], CompiledKernel]:
+        return kernels_of(self.py_func)
+
+    def _make(self) -> Any:
+        from numba import njit
+
+        from drapery.jit_cache import cache_on_disk
+
+        return cache_on_disk(cast(Any, njit)(**OUTER)(self.py_func))
+
+
+class NumbaName:
+    """A name that kernels use for something that is made when numba is imported."""
+
+    def __init__(self, make: Callable[[], Any]) -> None:
+        self._make = make
+        _declarations.append(lambda: self._numba_type_)
+
+    @cached_property
+    def _numba_type_(self) -> Any:
+        from numba.core.registry import cpu_target
+
+        made = self._make()
+        # Numba asks for this type also while it compiles a function.
+        cpu_target.typing_context.refresh()
+        cpu_target.target_context.refresh()
+        return cpu_target.typing_context.resolve_value_type(made)
+
 
 def kernel(function: Function) -> Function:
     """A function that only kernels call: strict IEEE arithmetic, cached as part of its callers."""
-    return cast(Function, _njit(**INNER)(function))
+    return cast(Function, Kernel(function))
 
 
 def entry_point(function: Function) -> Function:
     """The same for a function that Python calls: cached on disk; it releases the GIL."""
-    return cast(Function, cache_on_disk(_njit(**OUTER)(function)))
+    return cast(Function, EntryPoint(function))
 
 
-def call_by_address(result: Any, parameters: Sequence[Any]) -> Any:
+def numba_name(module: str, name: str) -> Any:
+    """A name, for kernels, of a module that imports numba."""
+    return NumbaName(lambda: getattr(import_module(module), name))
+
+
+def uses_numba(module: str) -> None:
+    """Import a module, which tells numba of more, before the first kernel is compiled."""
+    _declarations.append(lambda: import_module(module))
+
+
+def call_by_address(result: type, example: tuple[Any, ...]) -> Any:
     """A function (address, arguments) that kernels call; see `address_of`.
 
     What a kernel calls so is compiled once, not again as part of each of its callers.
-    result, parameters: types of numba. arguments: a tuple of exactly these types.
+    result: such as bool. example: arguments; those of a call must be of the same types.
     """
-    wanted = _types.Tuple(parameters)
 
-    @_intrinsic
-    def call(typing: Any, address: Any, arguments: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-            given = [builder.extract_value(values[1], i) for i in range(len(parameters))]
-            shape = context.call_conv.get_function_type(result, parameters)
-            function = builder.inttoptr(values[0], ir.PointerType(shape))
-            status, value = context.call_conv.call_function(
-                builder, function, result, parameters, given
-            )
-            with _if_unlikely(builder, status.is_error):
-                context.call_conv.return_status_propagate(builder, status)
-            return value
+    def make() -> Any:
+        from drapery.jit_calls import address_caller
 
-        if arguments != wanted:
-            raise TypeError(f"called with {arguments}, not with {wanted}")
-        return result(_types.int64, wanted), generate
+        return address_caller(result, example)
 
-    return call
+    return NumbaName(make)
 
 
-def address_of(function: Any, parameters: Sequence[Any]) -> int:
-    """Where the compiled code of an entry point for parameters of such types is in memory."""
-    function.compile(tuple(parameters))
-    made = function.overloads[tuple(parameters)]
-    return cast(int, made.library.get_pointer_to_function(made.fndesc.llvm_func_name))
+def address_of(function: Any, example: tuple[Any, ...]) -> int:
+    """Where the compiled code of an entry point is in memory, for arguments as in `example`."""
+    compiled = function.ahead(example)
+    if compiled:
+        return int(compiled.address)
+    from drapery.jit_calls import compiled_address
+
+    return compiled_address(function.dispatcher, example)
+
+
+@contextmanager
+def when_numba_compiles(begin: Callable[[Any], None]) -> Iterator[None]:
+    """Call `begin` with the function when one is compiled first in this block; needs no numba."""
+    stop: list[Callable[[], None]] = []
+
+    def listen() -> None:
+        from drapery.jit_calls import call_at_first_compile
+
+        stop.append(call_at_first_compile(begin))
+
+    if "numba" in sys.modules:
+        listen()
+    else:
+        _declarations.append(listen)
+    try:
+        yield
+    finally:
+        if listen in _declarations:
+            _declarations.remove(listen)
+        for each in stop:
+            each()
+
+
+def _prepare_numba() -> None:
+    """What must happen before any kernel is compiled. Called under the lock."""
+    while _declarations:
+        _declarations.pop(0)()

@@ -13,7 +13,6 @@ import os
 import pickle
 import shutil
 import stat
-import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator
@@ -27,6 +26,8 @@ import numba
 from numba import config
 from numba.core import caching
 from numba.misc.appdirs import AppDirs
+
+from drapery.kernel_sources import source_files, source_hash
 
 REMEDY = "set NUMBA_CACHE_DIR to a folder that can be written"
 MAX_SOURCES = 24
@@ -105,34 +106,6 @@ def cache_on_disk(dispatcher: Any) -> Any:
 @cache
 def _warn_once(message: str) -> None:
     warnings.warn(f"{message}; {REMEDY}", stacklevel=2)
-
-
-def source_files(function: Callable[..., object]) -> list[Path]:
-    """The sources that a kernel may call: those of its top-level package, else only its file."""
-    package = ".".join(function.__module__.split(".")[:2])
-    if not package.startswith("drapery."):
-        return [Path(function.__code__.co_filename)]
-    return _sources_of(package)
-
-
-@cache
-def _sources_of(package: str) -> list[Path]:
-    folders = [Path(folder) for folder in getattr(sys.modules[package], "__path__", [])]
-    found = sorted(path for folder in folders for path in folder.rglob("*.py"))
-    return [*found, Path(__file__).with_name("jit.py")] if found else []
-
-
-def source_hash(function: Callable[..., object]) -> str:
-    """A hash of the contents of `source_files`."""
-    return _hash_of(tuple(source_files(function)))
-
-
-@cache
-def _hash_of(files: tuple[Path, ...]) -> str:
-    total = hashlib.sha256()
-    for path in files:
-        total.update(hashlib.sha256(path.read_bytes()).digest())
-    return total.hexdigest()
 
 
 @cache

@@ -17,10 +17,13 @@ _pool: ThreadPoolExecutor | None = None
 
 
 def worker_count() -> int:
-    """The default number of threads: the cores of this process, limited by NUMBA_NUM_THREADS."""
-    from numba import config
-
-    return int(getattr(config, "NUMBA_NUM_THREADS", 1))
+    """The default number of threads: NUMBA_NUM_THREADS, or the cores of this process."""
+    wanted = os.environ.get("NUMBA_NUM_THREADS", "")
+    if wanted.isdecimal():
+        return max(1, int(wanted))
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def run_parts(task: Callable[[int], T], parts: int, workers: int) -> list[T]:

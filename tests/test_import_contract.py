@@ -20,6 +20,7 @@ NOT_INSTALLED = ROOT / "assets" / "drawing"
 
 FOUNDATION = {
     *("errors", "mesh", "option", "options", "settings", "yaml_text", "jit", "jit_cache"),
+    *("aot", "jit_calls", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
@@ -31,9 +32,12 @@ RINGS = (FOUNDATION, CORE, PICTURES, APPLICATIONS)
 # Within a ring, and in the foundation, each package names those that it may import.
 ALLOWED: dict[str, set[str]] = {
     "errors": set(),
-    "jit_cache": set(),
+    "kernel_sources": set(),
+    "aot": {"kernel_sources"},
+    "jit_cache": {"kernel_sources"},
+    "jit_calls": set(),
     "lazy": set(),
-    "jit": {"jit_cache"},
+    "jit": {"aot", "jit_cache", "jit_calls"},
     "mesh": {"errors"},
     "option": {"errors"},
     "settings": {"errors", "option"},

@@ -10,14 +10,11 @@ axes have a bound that the compiler does not know, or it would unroll them and t
 from typing import Any
 
 import numpy as np
-from numba.extending import overload
 
 from drapery.cloth import exact
-from drapery.cloth.filters import BandFilter
 from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
-from drapery.cloth.spin import NoSpin
 from drapery.cloth.wind import CROSSWIND
-from drapery.jit import kernel
+from drapery.jit import kernel, uses_numba
 
 TINY = 1e-6
 """The shortest length of a spring over its rest length; it avoids a division by 0."""
@@ -27,6 +24,7 @@ GUST_RMS = 0.1836
 """Rms of gradient noise whose gradients are uniform in [-1, 1]³, measured over 10⁷ points."""
 ALONG, ACROSS, UP = CROSSWIND
 
+uses_numba("drapery.cloth.kernel_choices")
 sine_of_turns = kernel(exact.sine_of_turns)
 
 
@@ -355,17 +353,6 @@ def filter_velocities(both: Any, filter: Any, pins: Any) -> None:
     """
 
 
-@overload(filter_velocities, inline="always")
-def _filter_velocities(both: Any, filter: Any, pins: Any) -> Any:
-    by_band = filter.instance_class is BandFilter
-    chosen = filter_by_band if by_band else filter_by_products
-
-    def implementation(both: Any, filter: Any, pins: Any) -> None:
-        chosen(both, filter, pins)
-
-    return implementation
-
-
 @kernel
 def filter_by_products(both: Any, filter: Any, pins: Any) -> None:
     """both[1] = W both[0], pins at 0; both [2, 3N, L]; both[0] is overwritten. See `Filter`."""
@@ -434,16 +421,6 @@ def filter_by_band(both: Any, filter: Any, pins: Any) -> None:
 
 def restore_angular_momentum(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
     """Subtract from g the angular momentum that the filter added to v; see `spin.Spin`."""
-
-
-@overload(restore_angular_momentum, inline="always")
-def _restore_angular_momentum(g: Any, x: Any, v: Any, spin: Any, work: Any) -> Any:
-    chosen = no_correction if spin.instance_class is NoSpin else subtract_spin
-
-    def implementation(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
-        chosen(g, x, v, spin, work)
-
-    return implementation
 
 
 @kernel

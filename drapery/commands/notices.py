@@ -5,7 +5,9 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, TextIO
+
+from drapery.jit import when_numba_compiles
 
 if TYPE_CHECKING:
     from rich.progress import Progress
@@ -49,23 +51,14 @@ def compile_notice() -> Iterator[None]:
     While this process compiles the cloth's kernels, another one compiles those of the renderer;
     this process then reads them from the cache.
     """
-    from numba.core import event
-
-    class FirstCompile(event.Listener):
-        spoken = False
-
-        def on_start(self, event: Any) -> None:
-            if not self.spoken:
-                say("compiling kernels, which happens once ...")
-                if not event.data["dispatcher"].py_func.__module__.startswith("drapery.render"):
-                    _start_beside("drapery.render.soft")
-            self.spoken = True
-
-        def on_end(self, event: Any) -> None:
-            pass
-
-    with event.install_listener("numba:compile", FirstCompile()):
+    with when_numba_compiles(_say_compiling):
         yield
+
+
+def _say_compiling(function: Callable[..., object]) -> None:
+    say("compiling kernels, which happens once ...")
+    if not function.__module__.startswith("drapery.render"):
+        _start_beside("drapery.render.soft")
 
 
 def _start_beside(module: str) -> None:

@@ -49,7 +49,7 @@ class LivePanel:
     header: what a host wants to know, for JSON. calls: by what they do: `aim` turns the wind,
     `play` makes time steps, `cover` writes the vertices of the thick cloth.
     arrays: parts of the arguments that the host reads and writes, by name.
-    functions: what kernels call by an address, and the types of its parameters; fields of named
+    functions: what kernels call by an address, and an example of its arguments; fields of named
     tuples that hold such an address have the name of the function.
     """
 
@@ -118,7 +118,7 @@ def _live_panel(stager: Stager, panel: Panel, lanes: int | None) -> LivePanel:
             "wind": blown.velocity,
             **{name: getattr(shell, name) for name in ("vertices", "normals", "light")},
         },
-        {"resolve": (lanes_contact.resolve, lanes_contact.PARAMETERS)},
+        {"resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE)},
     )
 
 

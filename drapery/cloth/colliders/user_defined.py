@@ -11,18 +11,13 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Protocol, TypeGuard
 
-import numba
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.core.dispatcher import Dispatcher
-from numba.core.errors import NumbaError
-from numba.extending import intrinsic
 from numpy.typing import ArrayLike
 
 from drapery.cloth.colliders.fields import USER_DEFINED, Field
 from drapery.cloth.colliders.vectors import Vector
 from drapery.errors import OptionError
+from drapery.jit import numba_name
 from drapery.mesh import Array
 
 DistanceFunction = Callable[[Vector, Array], float]
@@ -65,13 +60,9 @@ class _Compiled(NamedTuple):
     gradient: Any
 
 
-_numba: Any = numba  # its type stubs lack what is used here
-_types: Any = types
-carray: Any = _numba.carray
-_intrinsic: Any = intrinsic
-_pointer = _types.CPointer(types.float64)
-_DISTANCE = types.float64(types.float64, types.float64, types.float64, _pointer, types.intp)
-_GRADIENT = types.void(types.float64, types.float64, types.float64, _pointer, types.intp, _pointer)
+_CALLS = "drapery.cloth.colliders.user_calls"
+call_distance = numba_name(_CALLS, "call_distance")
+call_gradient = numba_name(_CALLS, "call_gradient")
 _compiled: dict[tuple[DistanceFunction, GradientFunction | None], _Compiled] = {}
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _lock = threading.Lock()
@@ -150,40 +141,25 @@ def _try(name: str, function: DistanceFunction, parameters: Array) -> None:
 
 
 def _compile(name: str, distance: DistanceFunction, gradient: GradientFunction | None) -> _Compiled:
+    # Imported here: most collisions need no numba.
+    from drapery.cloth.colliders.user_calls import compile_distance, compile_gradient
+
     return _Compiled(
-        _callable(name, "signed_distance", distance, _distance_wrapper, _DISTANCE),
-        _callable(name, "gradient", gradient, _gradient_wrapper, _GRADIENT) if gradient else None,
+        _callable(name, "signed_distance", distance, compile_distance),
+        _callable(name, "gradient", gradient, compile_gradient) if gradient else None,
     )
 
 
-def _callable(
-    name: str, what: str, function: Any, wrapper: Callable[[Any], Any], signature: Any
-) -> Any:
-    inner = (
-        function if isinstance(function, Dispatcher) else _numba.njit(error_model="numpy")(function)
-    )
+def _callable(name: str, what: str, function: Any, compile: Callable[[Any], Any]) -> Any:
+    from numba.core.errors import NumbaError
+
     try:
-        return _numba.cfunc(signature, error_model="numpy")(wrapper(inner))
+        return compile(function)
     except NumbaError as fault:
         raise OptionError(
             f"{name}: numba cannot compile its {what} ({_reason(fault)}); "
             "use numbers, math and numpy only"
         ) from fault
-
-
-def _distance_wrapper(inner: Any) -> Any:
-    def call(x: Any, y: Any, z: Any, first: Any, count: Any) -> Any:
-        return inner((x, y, z), carray(first, (count,)))
-
-    return call
-
-
-def _gradient_wrapper(inner: Any) -> Any:
-    def call(x: Any, y: Any, z: Any, first: Any, count: Any, result: Any) -> None:
-        direction = inner((x, y, z), carray(first, (count,)))
-        result[0], result[1], result[2] = direction[0], direction[1], direction[2]
-
-    return call
 
 
 def _check_samples(name: str, compiled: Any, field: Field) -> None:
@@ -209,44 +185,3 @@ def _reason(fault: Exception) -> str:
 
 def _line(text: str) -> str:
     return " ".join(text.split())[:160]
-
-
-def _function_of(builder: Any, address: Any, result: Any, operands: Sequence[Any]) -> Any:
-    shape = ir.FunctionType(result, [operand.type for operand in operands])
-    return builder.inttoptr(address, shape.as_pointer())
-
-
-def _operands(context: Any, builder: Any, signature: Any, args: Any) -> list[Any]:
-    """x, y, z, the first parameter's place, and their number."""
-    parameters = context.make_array(signature.args[4])(context, builder, args[4])
-    return [*args[1:4], parameters.data, builder.extract_value(parameters.shape, 0)]
-
-
-@_intrinsic
-def call_distance(typing: Any, address: Any, x: Any, y: Any, z: Any, parameters: Any) -> Any:
-    """The distance function at an address."""
-
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        operands = _operands(context, builder, signature, args)
-        function = _function_of(builder, args[0], ir.DoubleType(), operands)
-        return builder.call(function, operands)
-
-    f8 = types.float64
-    return f8(types.int64, f8, f8, f8, parameters), generate
-
-
-@_intrinsic
-def call_gradient(
-    typing: Any, address: Any, x: Any, y: Any, z: Any, parameters: Any, result: Any
-) -> Any:
-    """The gradient function at an address, into an array [3]."""
-
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        place = context.make_array(signature.args[5])(context, builder, args[5])
-        operands = [*_operands(context, builder, signature, args), place.data]
-        function = _function_of(builder, args[0], ir.VoidType(), operands)
-        builder.call(function, operands)
-        return context.get_dummy_value()
-
-    f8 = types.float64
-    return types.none(types.int64, f8, f8, f8, parameters, result), generate

@@ -8,7 +8,6 @@ The kernels call `resolve` by its address, so it is compiled once for all of the
 from functools import cache
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 
 from drapery.cloth.colliders.vectors import norm, row, scale, subtract
@@ -20,8 +19,6 @@ from drapery.cloth.contact.near_boxes import find_boxes
 from drapery.cloth.sheet_kernels import lane_of
 from drapery.jit import address_of, call_by_address, entry_point, kernel
 from drapery.mesh import Array
-
-_typeof: Any = numba.typeof
 
 
 class ContactWork(NamedTuple):
@@ -81,21 +78,14 @@ def resolve(cloth: Any, work: Any, boxes: Any, poses: Any, turn: Any, dt: Any) -
     return bool(met)
 
 
-PARAMETERS = (
-    numba.int64,
-    _typeof(contact_work(0, NO_CONTACT)),
-    _typeof(NO_CONTACT),
-    _typeof(NO_CONTACT.ends[None]),
-    numba.int64,
-    numba.float64,
-)
-_resolve_at = call_by_address(numba.boolean, PARAMETERS)
+EXAMPLE = (0, contact_work(0, NO_CONTACT), NO_CONTACT, NO_CONTACT.ends[None], 0, 0.0)
+_resolve_at = call_by_address(bool, EXAMPLE)
 
 
 @cache
 def resolve_address() -> int:
     """Where `resolve` is in memory."""
-    return address_of(resolve, PARAMETERS)
+    return address_of(resolve, EXAMPLE)
 
 
 @kernel

@@ -34,8 +34,8 @@ def main(path: Path, methods: list[str]) -> None:
         for call in panel.calls.values():
             kernels[call.name] = ExportedKernel(call.name, call.function, types_of(call.arguments))
             hashes[call.name] = types_hash(call.arguments)
-        for name, (function, types) in panel.functions.items():
-            kernels[name] = ExportedKernel(name, function, types, by_address=True)
+        for name, (function, example) in panel.functions.items():
+            kernels[name] = ExportedKernel(name, function, types_of(example), by_address=True)
     info = {"sources": sources_hash(), "kernels": hashes}
     path.write_bytes(compile_module(list(kernels.values()), info, path.parent))
 

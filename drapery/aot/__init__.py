@@ -1,0 +1,8 @@
+"""Kernels that were compiled ahead of time (AOT), when a wheel was built.
+
+A wheel for a platform holds one shared library with the kernels of the usual pictures, so that the
+first picture does not wait for a compiler, and no command waits for the import of numba. The code
+comes from the same source as numba's own, in strict IEEE arithmetic, so it gives the same bits.
+`python -m release.kernels` in a checkout builds the library. Without a library, or if it was built
+from other sources, numba compiles every kernel when it is first called.
+"""

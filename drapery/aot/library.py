@@ -1,0 +1,105 @@
+"""The library of kernels of this platform: finding it, checking it, calling it."""
+
+import ctypes
+import json
+import os
+import platform
+import sys
+from array import array
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from drapery.aot.arguments import ABI
+from drapery.kernel_sources import package_of, source_hash
+
+OFF = "DRAPERY_AOT"
+"""The variable of the environment that turns the library off if it is 0."""
+SYMBOL = "drapery_kernels"
+"""The function of the library that returns its description, a JSON text."""
+ENDINGS = {"linux": "so", "darwin": "dylib", "win32": "dll"}
+RESULTS: dict[str, Callable[[int], Any]] = {
+    "none": lambda word: None,
+    "int64": int,
+    "bool": lambda word: bool(word & 1),
+}
+"""How the word of a result becomes a value, by its type."""
+
+
+@dataclass(frozen=True)
+class CompiledKernel:
+    """A kernel for arguments of certain types. address: of the function that other kernels call."""
+
+    name: str
+    call: Callable[[int], int]
+    address: int
+    result: Callable[[int], Any]
+
+    def __call__(self, words: list[int]) -> Any:
+        """words: see `drapery.aot.arguments`. Raises MemoryError."""
+        block = array("q", [0, *words])
+        if self.call(block.buffer_info()[0]):
+            raise MemoryError(f"{self.name} could not get memory")
+        return self.result(block[0])
+
+
+def machine() -> str:
+    """The kind of processor, as it is in names of files."""
+    return {"amd64": "x86_64", "aarch64": "arm64"}.get(name := platform.machine().lower(), name)
+
+
+def library_path() -> Path:
+    """Where the library of this platform is, if there is one."""
+    name = f"kernels-{sys.platform}-{machine()}.{ENDINGS.get(sys.platform, 'so')}"
+    return Path(__file__).with_name(name)
+
+
+def kernels_of(entry_point: Callable[..., object]) -> dict[tuple[str, ...], CompiledKernel]:
+    """The compiled code of a function by the types of its arguments; empty if there is none."""
+    found = _library()
+    name = f"{entry_point.__module__}.{entry_point.__qualname__}"
+    if found is None or name not in found[1]["kernels"]:
+        return {}
+    loaded, description = found
+    if description["sources"].get(package_of(entry_point)) != source_hash(entry_point):
+        return {}
+    return {
+        tuple(each["types"]): _compiled(loaded, name, each) for each in description["kernels"][name]
+    }
+
+
+@cache
+def _library() -> tuple[ctypes.CDLL, dict[str, Any]] | None:
+    """The library and its description; None if there is none that this processor can run."""
+    path = library_path()
+    if os.environ.get(OFF) == "0" or not path.is_file() or not _has_registers():
+        return None
+    try:
+        loaded = ctypes.CDLL(str(path))
+        describe = getattr(loaded, SYMBOL)
+        describe.restype = ctypes.c_char_p
+        description = json.loads(describe())
+    except (OSError, AttributeError, ValueError):
+        return None  # damaged or for another platform: numba compiles the kernels instead
+    return (loaded, description) if description.get("abi") == ABI else None
+
+
+def _has_registers() -> bool:
+    """Whether the processor has the registers that the library is compiled for."""
+    if machine() != "x86_64":
+        return True
+    try:
+        numpy: Any = import_module("numpy._core._multiarray_umath")
+    except ImportError:
+        return False
+    return bool(getattr(numpy, "__cpu_features__", {}).get("AVX2"))
+
+
+def _compiled(loaded: ctypes.CDLL, name: str, description: dict[str, Any]) -> CompiledKernel:
+    call = getattr(loaded, description["symbol"])
+    call.argtypes, call.restype = [ctypes.c_void_p], ctypes.c_int
+    address = ctypes.cast(getattr(loaded, description["inner"]), ctypes.c_void_p).value
+    return CompiledKernel(name, call, address or 0, RESULTS[description["result"]])

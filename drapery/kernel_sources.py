@@ -1,0 +1,41 @@
+"""The source files that a kernel is compiled from, and a hash of them."""
+
+import hashlib
+import sys
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+
+def source_files(function: Callable[..., object]) -> list[Path]:
+    """The sources that a kernel may call: those of its top-level package, else only its file."""
+    package = package_of(function)
+    if not package.startswith("drapery."):
+        return [Path(function.__code__.co_filename)]
+    return _sources_of(package)
+
+
+def package_of(function: Callable[..., object]) -> str:
+    """The top-level package of a function, such as `drapery.cloth`."""
+    return ".".join(function.__module__.split(".")[:2])
+
+
+@cache
+def _sources_of(package: str) -> list[Path]:
+    folders = [Path(folder) for folder in getattr(sys.modules[package], "__path__", [])]
+    found = sorted(path for folder in folders for path in folder.rglob("*.py"))
+    shared = [Path(__file__).with_name(name) for name in ("jit.py", "jit_calls.py")]
+    return [*found, *shared] if found else []
+
+
+def source_hash(function: Callable[..., object]) -> str:
+    """A hash of the contents of `source_files`."""
+    return _hash_of(tuple(source_files(function)))
+
+
+@cache
+def _hash_of(files: tuple[Path, ...]) -> str:
+    total = hashlib.sha256()
+    for path in files:
+        total.update(hashlib.sha256(path.read_bytes()).digest())
+    return total.hexdigest()

@@ -1,0 +1,1 @@
+"""What is needed to publish Drapery; not installed. See `docs/release.md`."""

@@ -1,0 +1,174 @@
+"""Kernels that were compiled ahead of time: their arguments, their library, and their bits."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from numba import typeof
+
+from drapery.aot import library
+from drapery.aot.arguments import pack
+from drapery.jit import entry_point
+
+RELEASE = Path(__file__).parent.parent / "release"
+
+
+class Pair(NamedTuple):
+    first: object
+    second: object
+
+
+class OtherPair(NamedTuple):
+    first: object
+    second: object
+
+
+def read_only(array):
+    array.flags.writeable = False
+    return array
+
+
+VALUES = (
+    *(1, 2**40, True, 0.5, np.float32(0.5), np.uint8(3), np.bool_(True), ()),
+    *(np.zeros(3), np.zeros(3, np.float32), np.zeros(6)[::2], read_only(np.zeros(3))),
+    *(np.zeros((2, 3)), np.zeros((2, 3)).T, np.zeros((4, 6))[::2, ::2], np.zeros((0, 3))),
+    *(np.zeros(2, [("x", "i4"), ("y", "f4")]), np.zeros(2, [("x", "i4"), ("z", "f4")])),
+    *((1, 2), (1, 2.0), ((1,), 2), (1, (2,)), Pair(1, 2), OtherPair(1, 2), Pair(1, 2.0)),
+)
+
+
+def test_arguments_with_the_same_types_have_the_same_types_for_numba():
+    for one in VALUES:
+        for other in VALUES:
+            if pack((one,)).types == pack((other,)).types:
+                assert typeof(one) == typeof(other), (one, other)
+
+
+@pytest.mark.parametrize("value", [None, "text", 2**63, 1 + 2j, [1], np.datetime64(0, "s")])
+def test_other_arguments_are_left_to_numba(value):
+    assert pack((1, (value,))) is None
+
+
+def test_an_array_is_its_size_place_shape_and_strides():
+    array = np.zeros((4, 6), np.float32)[:, ::2]
+    words = pack((array, 7)).words
+    assert words == [0, 0, 12, 4, array.ctypes.data, 4, 3, 24, 8, 7]
+
+
+def test_numbers_keep_their_bits():
+    words = pack((0.1, np.float32(0.1), -1, True)).words
+    assert np.array(words[:1]).view(float) == [0.1]
+    assert np.array(words[1:2]).view(np.float32)[0] == np.float32(0.1)
+    assert words[2:] == [-1, 1]
+
+
+@entry_point
+def scaled_sum(numbers, pair, factor, negative):
+    """A sum of a copy, to use memory of numba's; called by tests only."""
+    copied = np.zeros(numbers.size, numbers.dtype)
+    for i in range(numbers.size):
+        copied[i] = factor * numbers[i] + pair.second[i]
+    for i in range(numbers.size):
+        numbers[i] = copied[numbers.size - 1 - i]
+    return not negative
+
+
+def arguments():
+    return np.linspace(0, 1, 7, dtype=np.float32), Pair(1, np.arange(7.0)), 0.3, False
+
+
+BUILD = """
+import os, sys
+os.environ |= {"NUMBA_OPT": "0", "DRAPERY_AOT": "0"}
+sys.path[:0] = [TESTS, ROOT]
+from pathlib import Path
+import numba
+import test_aot
+from drapery.aot.arguments import pack
+from drapery.aot.library import machine
+from release import kernels
+given = test_aot.arguments()
+test_aot.scaled_sum(*given)
+types = tuple(map(numba.typeof, given))
+call = kernels.Call(test_aot.scaled_sum, pack(given).types, types)
+kernels.build(Path(sys.argv[1]), (sys.platform, machine()), [call])
+"""
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """A library with one kernel."""
+    pytest.importorskip("ziglang")
+    folder = tmp_path_factory.mktemp("aot")
+    path = folder / library.library_path().name
+    places = {"TESTS": str(RELEASE.parent / "tests"), "ROOT": str(RELEASE.parent)}
+    lines = [f"{name} = {value!r}" for name, value in places.items()]
+    env = os.environ | {"NUMBA_CACHE_DIR": str(folder / "cache")}
+    command = [sys.executable, "-c", "\n".join([*lines, BUILD]), path]
+    subprocess.run(command, env=env, check=True, capture_output=True, timeout=120)
+    return path
+
+
+@pytest.fixture
+def use(monkeypatch):
+    """A function that makes a library the one of this installation; it returns its kernels."""
+
+    def use(path):
+        monkeypatch.setattr(library, "library_path", lambda: path)
+        library._library.cache_clear()
+        return library.kernels_of(scaled_sum.py_func)
+
+    yield use
+    library._library.cache_clear()
+
+
+def test_a_library_calculates_what_numba_does(built, use):
+    (kernel,) = use(built).values()
+    ours, theirs = arguments(), arguments()
+    assert kernel(pack(ours).words) is scaled_sum.dispatcher(*theirs) is True
+    assert ours[0].tobytes() == theirs[0].tobytes()
+    assert kernel(pack((*arguments()[:3], True)).words) is False
+    assert kernel.address  # other kernels call it there
+
+
+def test_a_library_of_other_sources_is_not_used(built, use, monkeypatch):
+    assert use(built)
+    monkeypatch.setattr(library, "source_hash", lambda function: "other")
+    assert not library.kernels_of(scaled_sum.py_func)
+
+
+@pytest.mark.parametrize("content", [b"", b"no library"])
+def test_a_damaged_library_is_not_used(content, tmp_path, use):
+    path = tmp_path / "damaged.so"
+    path.write_bytes(content)
+    assert not use(path)
+
+
+def test_a_missing_library_is_not_used(tmp_path, use):
+    assert not use(tmp_path / "missing.so")
+
+
+def test_a_variable_turns_the_library_off(built, use, monkeypatch):
+    monkeypatch.setenv(library.OFF, "0")
+    assert not use(built)
+
+
+def test_a_library_of_another_layout_is_not_used(built, use, monkeypatch):
+    monkeypatch.setattr(library, "ABI", library.ABI + 1)
+    assert not use(built)
+
+
+def test_a_command_imports_numba_only_for_kernels():
+    """Its import takes longer than all else that a command does before it draws."""
+    program = "import sys; import drapery.cli, drapery.scenes.stager, drapery.render.soft"
+    program += "; print(json.dumps(sorted(sys.modules)))"
+    run = subprocess.run(
+        [sys.executable, "-c", f"import json; {program}"], capture_output=True, check=True
+    )
+    loaded = set(json.loads(run.stdout))
+    assert not loaded & {"numba", "llvmlite", "scipy", "trimesh"}
