@@ -93,6 +93,7 @@ def test_a_file_of_the_package_is_short_and_complete(name: str) -> None:
         ('name = "cape"', 'name = "Cape"', 6, "name 'Cape' cannot be used; it should match"),
         ("[10, 16]", "[10, true]", 7, "size True cannot be used; it should be a valid number"),
         ("size = [10, 16]\n", "", 5, "size is missing; add it"),
+        ("[10, 16]", "[10]", 7, "size has too few values: 1; give at least 2"),
         ("size", "extent", 7, "extent is not a field here; use one of: name, place, turn"),
         ("points = [6, 9]", 'shape = "tube"', 5, "shape 'tube' is not known; use one of: grid"),
         ("points = [6, 9]", "points = [6, 99]", 8, "points 99 cannot be used"),
@@ -176,6 +177,14 @@ def test_a_polygon_whose_sides_cross_is_refused() -> None:
     corners = ((0.0, 0.0), (8.0, 0.0), (2.0, 6.0), (9.0, 9.0), (0.0, 8.0), (7.0, 3.0))
     piece = PolygonPiece(name="knot", shape="polygon", corners=corners, spacing=1)
     with pytest.raises(OptionError, match="piece knot: its sides cross"):
+        cut_pieces(flat(piece=piece))
+
+
+@pytest.mark.parametrize(("width", "height"), [(1000.0, 1000.0), (1000.0, 0.5)])
+def test_a_polygon_has_a_limit_of_particles(width: float, height: float) -> None:
+    corners = ((0.0, 0.0), (width, 0.0), (0.0, height))
+    piece = PolygonPiece(name="map", shape="polygon", corners=corners, spacing=0.01)
+    with pytest.raises(OptionError, match=r"piece map: its spacing 0.01 is too fine .* at least"):
         cut_pieces(flat(piece=piece))
 
 

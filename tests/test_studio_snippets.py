@@ -115,9 +115,13 @@ def test_only_what_is_off_its_default_is_said() -> None:
     )
 
 
-def test_a_garment_shows_the_design_where_its_file_has_one() -> None:
+def test_a_garment_shows_the_design_where_its_file_has_one(tmp_path: Path) -> None:
     flag = as_command(ExportRequest(Banner("red"), find_garment("flag").settings(), garment="flag"))
     assert flag == "drapery garment flag --design red -o banner.png"
+    shawl = tmp_path / "shawl.toml"
+    shawl.write_text('piece = [{ name = "shawl", size = [8, 8], points = [3, 3] }]')
+    own = as_command(ExportRequest(None, find_garment(shawl).settings(), garment=str(shawl)))
+    assert own == "drapery garment shawl.toml -o banner.png"
     calm = find_garment("poncho").settings(wind=0)
     lines = as_python(ExportRequest(Banner("red"), calm, garment="poncho"))
     assert 'banner = find_garment("poncho")\ndraw(banner, wind=0.0).save("banner.png")\n' in lines

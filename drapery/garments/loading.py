@@ -59,6 +59,8 @@ def _complaint(fault: Any, place: Place, table: type[BaseModel], given: Mapping[
         known = ", ".join(each for each in table.model_fields if each not in given)
         return f"{name} is not a field here; use one of: {known}"
     if fault["type"] == "missing":
+        if isinstance(place[-1], int):
+            return f"{name} has too few values: {place[-1]}; give at least {place[-1] + 1}"
         return f"{name} is missing; add it"
     if fault["type"] == "union_tag_invalid":
         allowed = fault["ctx"]["expected_tags"].replace("'", "")

@@ -11,6 +11,7 @@ from drapery.cloth import Cloth, disc, from_triangles, grid, rotation_about
 from drapery.cloth.exact import sine_of_turns
 from drapery.errors import OptionError
 from drapery.garments.model import (
+    MAX_PARTICLES,
     AnyPiece,
     DiscPiece,
     Garment,
@@ -251,10 +252,17 @@ def _polygon(piece: PolygonPiece, garment: Garment) -> CutPiece:
     corners = np.array(piece.corners)
     if _crosses_itself(corners):
         raise OptionError("its sides cross; move its corners")
+    extent = np.ptp(corners, axis=0)
+    least = max(float(np.sqrt(extent.prod())), float(extent.max()) / 8) / MAX_PARTICLES
+    if piece.spacing < least:
+        raise OptionError(
+            f"its spacing {piece.spacing:g} is too fine for its size;"
+            f" use at least {np.ceil(1000 * least) / 1000:g}"
+        )
     outline, sides = _outline(corners, piece.spacing)
     points = np.concatenate([outline, _inner_points(corners, piece.spacing)])
     triangles = _triangulated(points, corners)
-    low, extent = corners.min(axis=0), np.ptp(corners, axis=0)
+    low = corners.min(axis=0)
     uvs = np.stack([points[:, 0] - low[0], low[1] + extent[1] - points[:, 1]], axis=1) / extent
     rest = np.column_stack([points, np.zeros(len(points))]) * garment.texel
     cloth = from_triangles(rest, triangles, uvs=uvs, fabric=garment.fabric)

@@ -6,6 +6,7 @@ from pathlib import Path
 from drapery import Settings
 from drapery.studio.document import Document
 from drapery.studio.exports import Exports, ExportSlots
+from drapery.studio.garment_store import GarmentStore
 from drapery.studio.kept_work import KeptWork, Work
 from drapery.studio.pack_store import PackStore
 from drapery.studio.selection import Selection
@@ -56,6 +57,7 @@ class Session(Document):
         self.uploads = Uploads(self)
         self.upload_queue = UploadQueue(self.uploads)
         self.pack_store = PackStore(self, self.uploads)
+        self.garment_store = GarmentStore(self, self.uploads)
         self.exports = Exports(self, slots or ExportSlots())
         self.viewport = Viewport(self, self.pack_store)
 

@@ -36,7 +36,7 @@ class ExportRequest:
     """The description of a file to make.
 
     kind: one of KINDS. seconds, fps: for a loop. scale: pixels per texel, for a face.
-    garment: the name of a garment, which is drawn in place of the banner.
+    garment: the name or the file of a garment, which is drawn in place of the banner.
     """
 
     banner: Banner | None
@@ -62,6 +62,11 @@ def _garment(request: ExportRequest) -> Garment | None:
     if request.garment is None or request.kind in ("face", "json"):
         return None
     return find_garment(request.garment)
+
+
+def _name_of(request: ExportRequest, found: Garment) -> str:
+    """The name of a garment of the package, or that of a file."""
+    return found.name if request.garment == found.name else f"{found.name}.toml"
 
 
 def _design_on(request: ExportRequest, found: Garment) -> Banner | None:
@@ -95,7 +100,8 @@ def as_command(
         return " ".join(["drapery show", *design, "--as json", ">", out])
     command = _COMMANDS.get(request.kind, "animate")
     if found is not None:
-        command, design = f"garment {found.name}", ["--design", *design] if design else []
+        command = f"garment {_quoted(_name_of(request, found))}"
+        design = ["--design", *design] if design else []
     words = [f"drapery {command}", *design, "-o", out]
     words += [_quoted(word) for word in _flags(request, called or {})]
     return " ".join(words)
@@ -113,7 +119,7 @@ def as_python(
         design = _design_on(request, found)
         text = "" if design is None else f".with_design({_text(write_banner(design, 'text'))})"
         names = [*names, "drapery.garments.find_garment"]
-        lines = [f"banner = find_garment({_text(found.name)}){text}", *lines]
+        lines = [f"banner = find_garment({_text(_name_of(request, found))}){text}", *lines]
     elif request.banner is not None:
         names = [*names, "drapery.Banner"]
         text = _text(write_banner(request.banner, "text"))

@@ -122,7 +122,7 @@ class Viewport:
         self.request = after
         self._mark_stale()
         if (after.scene, after.garment) != (before.scene, before.garment):
-            name = after.scene or after.garment
+            name = Path(after.scene or after.garment or "").stem
             kind = "scene" if after.scene else "garment"
             self.note = f"The {kind} {name} is getting ready." if name else ""
             self._count_change()

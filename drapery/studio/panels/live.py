@@ -2,12 +2,13 @@
 
 from functools import cache
 
-from nicegui import ui
+from nicegui import run, ui
 
 from drapery.garments import find_garment, garment_names
 from drapery.scenes import find_scene, scene_names
 from drapery.settings import OPTIONS
 from drapery.studio.descriptions import view_title
+from drapery.studio.file_field import FileField
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
 from drapery.studio.viewer import ViewerElement
@@ -54,14 +55,27 @@ def build(session: Session) -> None:
                 lambda: viewport.request.garment,
                 lambda name: wear(session, name),
             )
+        FileField(
+            session,
+            "garment",
+            "Drop a garment of your own here, or choose it (.toml)",
+            lambda number: take(number),
+            endings=".toml",
+        )
     controls.follow()
+
+    async def take(number: int) -> None:
+        path = await run.io_bound(session.garment_store.adopt, number)
+        if path is not None and not session.closed:
+            garments.set_options(_choices(session), value=path)
+            wear(session, path)
 
     async def list_scenes() -> None:
         # Listing the scenes imports them, so do it after the first picture.
-        names, worn = await in_thread(lambda: (_scenes(), _garments()))
+        names, _ = await in_thread(lambda: (_scenes(), _garments()))
         if not session.closed:
             scenes.set_options({None: OWN, **names}, value=viewport.request.scene)
-            garments.set_options({None: NONE, **worn}, value=viewport.request.garment)
+            garments.set_options(_choices(session), value=viewport.request.garment)
 
     ui.timer(LATER, list_scenes, once=True)
 
@@ -84,6 +98,12 @@ def wear(session: Session, name: str | None) -> None:
         seen = {option: getattr(own, option) for option in SEEN}
         session.adjust(placement="standing", facing=None, **{**seen, **found.picture})
     session.viewport.update(garment=name, scene=None)
+
+
+def _choices(session: Session) -> dict[str | None, str]:
+    """What the viewer can show in place of the banner, by its name or path."""
+    own = session.garment_store
+    return {None: NONE, **({str(own.path): own.title} if own.path else {}), **_garments()}
 
 
 @cache

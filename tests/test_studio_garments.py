@@ -1,0 +1,84 @@
+"""Garments of a tab's own: a file that is sent is checked, then shown as those of the package."""
+
+import asyncio
+from collections.abc import AsyncIterator, Iterator
+
+import pytest
+
+from drapery.errors import DesignError, OptionError
+from drapery.garments import find_garment
+from drapery.studio.garment_store import MAX_PARTICLES
+from drapery.studio.session import Session
+
+SHAWL = """\
+description = "A shawl"
+[[piece]]
+name = "shawl"
+size = [8, 8]
+points = [3, 3]
+place = [0, 20, 0]
+[[pin]]
+piece = "shawl"
+at = "top"
+"""
+
+
+@pytest.fixture
+def session() -> Iterator[Session]:
+    opened = Session()
+    yield opened
+    opened.close()
+
+
+def send(session: Session, text: str, name: str = "My Shawl.toml") -> int:
+    async def pieces() -> AsyncIterator[bytes]:
+        yield text.encode()
+
+    return asyncio.run(session.uploads.receive(pieces(), "garment", name)).number
+
+
+def test_a_file_is_found_by_its_path_until_another_is_sent(session: Session) -> None:
+    path = session.garment_store.adopt(send(session, SHAWL))
+    assert find_garment(path).name == "my-shawl"
+    assert session.garment_store.title == "My Shawl.toml: A shawl"
+    session.viewport.update(garment=path)
+    assert session.viewport.note == "The garment my-shawl is getting ready."
+    other = session.garment_store.adopt(send(session, SHAWL, "..toml"))
+    assert other != path and str(session.garment_store.path) == other
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("[8, 8]", "[8]", r"^My Shawl\.toml line 4: size has too few values"),
+        ('at = "top"', 'at = "rim"', "piece shawl has no edge rim; use one of: top"),
+        (
+            "place = [0, 20, 0]",
+            'texture = { file = "/etc/passwd" }',
+            "names the file passwd, which",
+        ),
+        (
+            "[[pin]]",
+            '[wearer]\nskin = "../me.png"\n[[pin]]',
+            "names the file me.png, which the stu",
+        ),
+    ],
+)
+def test_a_file_that_cannot_be_used_is_refused_in_one_line(
+    session: Session, old: str, new: str, said: str
+) -> None:
+    number = send(session, SHAWL.replace(old, new))
+    with pytest.raises(OptionError, match=said) as caught:
+        session.garment_store.adopt(number)
+    assert "\n" not in str(caught.value) and str(session.folder) not in str(caught.value)
+    assert session.garment_store.path is None
+    with pytest.raises(DesignError, match="not here any more"):
+        session.garment_store.adopt(number)
+
+
+def test_a_garment_has_a_largest_size(session: Session) -> None:
+    big = SHAWL.replace("[3, 3]", "[65, 65]")
+    with pytest.raises(OptionError, match=f"has 4225 particles; use at most {MAX_PARTICLES}"):
+        session.garment_store.adopt(send(session, big))
+    with pytest.raises(DesignError, match=r"is over 65536 bytes; send a smaller one"):
+        send(session, "#" * 70_000)
