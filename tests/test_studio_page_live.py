@@ -4,6 +4,7 @@ import base64
 import io
 import math
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -184,6 +185,23 @@ def test_scenes_are_played_and_left_again(page: Any) -> None:
     wait_until(lambda: np.abs(positions(page) - before).max() > 1e-3)
     choose(page, "Scene", "your banner")
     wait_until(lambda: page.execute_script(panes) == 0)
+    assert console_errors(page) == []
+
+
+def test_a_garment_of_ones_own_is_sent_and_shown(page: Any, tmp_path: Path) -> None:
+    wrong, right = tmp_path / "wrong.toml", tmp_path / "shawl.toml"
+    wrong.write_text('piece = [{ name = "shawl", size = [8], points = [3, 3] }]')
+    right.write_text(
+        'piece = [{ name = "shawl", size = [8, 8], points = [3, 3], place = [0, 9, 0] }]'
+    )
+    field, chosen = (
+        page.find_element(By.CSS_SELECTOR, f".live {part}")
+        for part in (".file-field-input", ".live-bar")
+    )
+    field.send_keys(str(wrong))
+    wait_until(lambda: "wrong.toml line 1: size has too few values" in page.page_source)
+    field.send_keys(str(right))
+    wait_until(lambda: "The garment shawl" in page.page_source or "shawl.toml" in chosen.text)
     assert console_errors(page) == []
 
 
