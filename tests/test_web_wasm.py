@@ -15,11 +15,14 @@ pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery[dev])
 
 from wasm_player import WasmPlayer, built_module, quick_settings, white_banner
 
-from drapery import DraperyError, Settings
+from drapery import Banner, DraperyError, Settings
 from drapery.cloth import SolverPBD
 from drapery.cloth.forces import lower_forces
-from drapery.scenes import Stager, live_panels
+from drapery.packs import open_packs
+from drapery.render import draw_scene
+from drapery.scenes import Stager, live_panels, still
 from drapery.scenes.stager import cloth_spec, forces_of, wind_of
+from drapery.style import body_of
 from drapery.web.wasm import build
 from drapery.web.wasm.module import module_info
 from drapery.web.wasm.plan import LANES, plans_of, split_plan, write_plan
@@ -56,6 +59,21 @@ def test_600_steps_have_the_bits_of_python(placement: Any) -> None:
     assert digest(player.read("normals")) == digest(mesh.normals)
     light = stager.light.brightness(mesh.normals.astype(np.float32))
     assert np.abs(player.read("light") - light).max() < 1e-6
+
+
+def test_a_picture_has_the_pixels_of_python() -> None:
+    settings = quick_settings(view="iso", light="game", size=(48, 64), samples=4, time=2.0)
+    design = Banner.parse("white creeper:lime border:black")
+    body = body_of(design, open_packs(()), settings)
+    built_module()
+    (plan,) = plans_of(body, settings, picture=True)
+    player = WasmPlayer(built_module(), plan)
+    player.step(120)
+    player.run("cover")
+    player.run("draw")
+    assert player.header["picture"] == [48, 64]
+    pixels = player.read("picture").view(np.uint8).reshape(64, 48, 4)
+    assert np.array_equal(pixels, draw_scene(still(design, open_packs(()), settings)).pixels)
 
 
 def test_the_start_has_the_wind_of_python() -> None:

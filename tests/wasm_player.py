@@ -16,7 +16,7 @@ from drapery.web.wasm.build import build_module
 from drapery.web.wasm.module import module_places
 from drapery.web.wasm.plan import split_plan
 
-QUICK = ("desbrun",)
+QUICK = ("desbrun", "picture")
 """The methods of the module that the tests build: the compilation of each takes 15 s."""
 
 

@@ -152,7 +152,8 @@ def ripple_tables(wind: Wind) -> RippleTables:
 
 def vortex_turns(wind: Wind) -> Array:
     """The phase of a wind's vortices, [1]."""
-    return _random(wind.seed, 5, 1)[4]
+    turns: Array = _random(wind.seed, 5, 1)[4]
+    return turns
 
 
 # Of numbers or of arrays: the kernel that turns a wind uses the same formulas, see `live`.

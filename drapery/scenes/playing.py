@@ -3,8 +3,9 @@
 `drapery.web.wasm` compiles the kernels to WebAssembly and writes the arguments to a file.
 """
 
+import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from drapery.cloth.contact import lanes_contact
 from drapery.cloth.live import aim, live_call, play
 from drapery.errors import OptionError
 from drapery.mesh import Array
+from drapery.render.soft.live_picture import draw_live, make_live_picture
 from drapery.scenes.stager import (
     LEE,
     STEP,
@@ -22,6 +24,7 @@ from drapery.scenes.stager import (
     cloth_spec,
     forces_of,
     grid_shell,
+    scene_at,
     wind_of,
 )
 from drapery.settings import Settings
@@ -47,7 +50,8 @@ class LivePanel:
     """A panel of cloth at the start of its motion.
 
     header: what a host wants to know, for JSON. calls: by what they do: `aim` turns the wind,
-    `play` makes time steps, `cover` writes the vertices of the thick cloth.
+    `play` makes time steps, `cover` writes the vertices of the thick cloth; see `live_panels` for
+    `draw`.
     arrays: parts of the arguments that the host reads and writes, by name.
     functions: what kernels call by an address, and an example of its arguments; fields of named
     tuples that hold such an address have the name of the function.
@@ -59,10 +63,14 @@ class LivePanel:
     functions: Mapping[str, tuple[Callable[..., Any], tuple[Any, ...]]]
 
 
-def live_panels(body: Body, settings: Settings, lanes: int | None = None) -> list[LivePanel]:
+def live_panels(
+    body: Body, settings: Settings, lanes: int | None = None, *, picture: bool = False
+) -> list[LivePanel]:
     """The panels of a body, to be played in the wind of the settings.
 
     lanes: of the arrays; by default a register of this processor.
+    picture: whether the call `draw` draws the picture of the settings, with the camera that frames
+    the cloth at `settings.time`; only for bodies of one panel, without cast shadows.
     Raises OptionError for settings that cannot be played without Python.
     """
     stager = Stager(body, settings, ())
@@ -74,7 +82,33 @@ def live_panels(body: Body, settings: Settings, lanes: int | None = None) -> lis
             )
     if stager.settings.pose != "cloth":
         raise OptionError(f"pose {stager.settings.pose} has no cloth to play; use pose cloth")
-    return [_live_panel(stager, panel, lanes) for panel in body.panels]
+    panels = [_live_panel(stager, panel, lanes) for panel in body.panels]
+    if not picture:
+        return panels
+    if len(panels) != 1 or stager.settings.pixel != 1 or stager.style.has("picture"):
+        raise OptionError(
+            "pictures of several panels, of large pixels and of styles with steps of picture need "
+            "Python; leave out the picture"
+        )
+    return [_with_picture(panels[0], stager)]
+
+
+def _with_picture(panel: LivePanel, stager: Stager) -> LivePanel:
+    """The panel with a call that draws its body."""
+    posed = Stager(stager.body, stager.settings)
+    steps = math.ceil(stager.settings.time / STEP)
+    if steps:
+        posed.advance(steps)
+    scene = scene_at(posed, stager.settings.time)
+    live = make_live_picture(scene, len(scene.models) - 1)
+    vertices, normals = panel.arrays["vertices"], panel.arrays["normals"]
+    draw = LiveKernel("draw", draw_live, (vertices, normals, live))
+    return replace(
+        panel,
+        header={**panel.header, "picture": list(live.size)},
+        calls={**panel.calls, "draw": draw},
+        arrays={**panel.arrays, "picture": live.picture},
+    )
 
 
 def _live_panel(stager: Stager, panel: Panel, lanes: int | None) -> LivePanel:

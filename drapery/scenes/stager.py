@@ -375,6 +375,11 @@ def _scenes(
         yield stager.scene(models, camera, shadow)
 
 
+def scene_at(stager: Stager, time: float) -> Scene:
+    """The scene of a stager's body as it is, with the materials of a time [s]: see `still`."""
+    return next(_scenes(stager, [stager.meshes()], [time]))
+
+
 def floor_under(meshes: Sequence[Mesh]) -> float:
     """The height of the floor [m]: 0, or the lowest vertex if that is lower."""
     return min(0.0, *(float(mesh.positions[..., 1].min()) for mesh in meshes))

@@ -30,9 +30,14 @@ or written for another version of the module.
 | `pull(index, x, y, z)` | pulls a particle and those near it to a place in the panel's frame |
 | `release()` | ends the pull |
 | `reset()` | back to the start: rest shape, time 0, the plan's own wind |
+| `picture()` | `{ data, width, height }`, RGBA: see below |
 | `free()` | gives the memory back; the cloth cannot be used any more |
 
-The four arrays are views of the module's memory. Read the properties again after every call of this
+A plan that is written with `picture=True` also draws: by the same rasteriser as in Python, with the
+camera of the settings' own still. After `reset()` and `step(Math.round(60 * time))` its pixels are
+those of `drapery render` with the same settings. Cast shadows need Python.
+
+The arrays are views of the module's memory. Read the properties again after every call of this
 module: memory that grows moves. They hold the start before the first step.
 
 The header of a plan (`info`), JSON: `columns`, `rows` of the grid; `step` [s]; `size` of the panel

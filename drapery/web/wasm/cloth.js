@@ -1,6 +1,10 @@
 // Plays cloth with the kernels of the simulation; the Python package drapery.web.wasm documents it.
 
-const ARRAYS = { float32: Float32Array, float64: Float64Array, int64: BigInt64Array };
+const ARRAYS = { float32: Float32Array, float64: Float64Array, int64: BigInt64Array, uint32: Uint32Array };
+const FAULTS = {
+  play: "the cloth has blown up; use a weaker wind",
+  draw: "the cloth is outside the picture",
+};
 const loaded = new WeakMap();
 
 // The kernels of a module in memory of their own, which all cloths of a page share.
@@ -110,6 +114,16 @@ export class Cloth {
     this.array("grab")[0] = -1n;
   }
 
+  // The picture of the plan's settings with the cloth as it is: what ImageData takes.
+  picture() {
+    if (!this.info.picture) throw new Error("the plan was written without a picture");
+    this.call("draw");
+    const [width, height] = this.info.picture;
+    const pixels = this.array("picture");
+    const data = new Uint8ClampedArray(pixels.buffer, pixels.byteOffset, pixels.byteLength).slice();
+    return { data, width, height };
+  }
+
   free() {
     this.kernels.release(this.info.image, this.place);
     this.kernels = null;
@@ -124,7 +138,7 @@ export class Cloth {
     const [name, at] = this.info.calls[purpose];
     const status = this.kernels.exports[name](this.place + at);
     const result = new DataView(this.kernels.buffer).getInt32(this.place + at, true);
-    if (status || result) throw new Error("the cloth has blown up; use a weaker wind");
+    if (status || result) throw new Error(FAULTS[purpose] ?? `the kernel ${name} has failed`);
   }
 }
 

@@ -21,7 +21,7 @@ from drapery.web.wasm.image import FIRST_SLOT, SLOT, WasmBuildError
 
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
-FEATURES = "+simd128,+bulk-memory"
+FEATURES = "+simd128,+bulk-memory,+nontrapping-fptoint"
 """All browsers since 2021 have these."""
 STACK = 1 << 16
 """Bytes of the stack; kernels keep their arrays elsewhere."""

@@ -28,9 +28,9 @@ def main(path: Path, methods: list[str]) -> None:
     hashes: dict[str, str] = {}
     for method in methods:
         options: Any = METHODS[method]
-        settings = Settings(**options, light="game")
+        settings = Settings(**options, light="game", time=0)
         body = body_of(Banner.parse("white"), open_packs(()), settings)
-        panel = live_panels(body, settings, LANES)[0]
+        panel = live_panels(body, settings, LANES, picture=method == "picture")[0]
         for call in panel.calls.values():
             kernels[call.name] = ExportedKernel(call.name, call.function, types_of(call.arguments))
             hashes[call.name] = types_hash(call.arguments)

@@ -13,9 +13,7 @@ from typing import Any
 
 import numba
 import numpy as np
-from numba.core.datamodel import default_manager
-from numba.core.types import Array as ArrayType
-from numba.core.types import BaseTuple, Boolean, Float, Integer
+from numba.core import datamodel, types
 from numpy.typing import NDArray
 
 from drapery.errors import DraperyError
@@ -28,7 +26,8 @@ ALIGNED = 64
 """Arrays begin at multiples of so many bytes."""
 
 _typeof: Any = numba.typeof
-_models: Any = default_manager
+_types: Any = types
+_datamodel: Any = datamodel
 
 
 class WasmBuildError(DraperyError):
@@ -101,18 +100,18 @@ class Image:
         self, value: Any, kind: Any, addresses: Mapping[str, str]
     ) -> Iterator[tuple[str, Any]]:
         """The members of an argument in the order of its data model, each with its form."""
-        if isinstance(kind, ArrayType):
+        if isinstance(kind, _types.Array):
             yield from self._array_slots(value, kind)
-        elif isinstance(kind, BaseTuple):
+        elif isinstance(kind, _types.BaseTuple):
             names = getattr(value, "_fields", None) or [""] * len(value)
             for name, part, inner in zip(names, value, kind.types, strict=True):
                 if name in addresses:
                     yield ("function", addresses[name]) if part else ("whole", 0)
                 else:
                     yield from self._slots(part, inner, addresses)
-        elif isinstance(kind, Integer | Boolean):
+        elif isinstance(kind, (_types.Integer, _types.Boolean)):
             yield "whole", int(value)
-        elif isinstance(kind, Float):
+        elif isinstance(kind, _types.Float):
             yield "number", float(value)
         else:
             raise WasmBuildError(f"an argument of type {kind} cannot be put into memory")
@@ -128,5 +127,5 @@ class Image:
             "shape": [("whole", side) for side in rows.shape],
             "strides": [("whole", side) for side in rows.strides],
         }
-        for name in _models.lookup(kind)._fields:
+        for name in _datamodel.default_manager.lookup(kind)._fields:
             yield from known[name]

@@ -4,8 +4,10 @@ import hashlib
 import json
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import drapery.cloth
+import drapery.render
 import drapery.style
 from drapery.jit_cache import kernel_cache_status
 from drapery.web.wasm.image import WasmBuildError
@@ -17,7 +19,8 @@ HERE = Path(__file__).parent
 def sources_hash() -> str:
     """A hash of all sources of which the module and its plans are made."""
     total = hashlib.sha256()
-    folders = [Path(str(package.__file__)).parent for package in (drapery.cloth, drapery.style)]
+    packages = drapery.cloth, drapery.style, drapery.render
+    folders = [Path(str(package.__file__)).parent for package in packages]
     for folder in (*folders, HERE):
         for path in sorted([*folder.rglob("*.py"), *folder.rglob("*.c")]):
             total.update(hashlib.sha256(path.read_bytes()).digest())
@@ -41,7 +44,7 @@ def read_module() -> bytes:
     )
 
 
-def module_info(module: bytes) -> dict[str, object]:
+def module_info(module: bytes) -> dict[str, Any]:
     """What the build wrote into the module: `sources`, and `kernels` by name with their types."""
     at = 8
     while at < len(module):
@@ -50,7 +53,7 @@ def module_info(module: bytes) -> dict[str, object]:
         if kind == 0:
             length, start = _length(module, at)
             if module[start : start + length] == b"drapery":
-                found: dict[str, object] = json.loads(module[start + length : at + size])
+                found: dict[str, Any] = json.loads(module[start + length : at + size])
                 return found
         at += size
     raise WasmBuildError("the WebAssembly module was not built by drapery.web.wasm.build")

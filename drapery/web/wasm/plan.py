@@ -14,13 +14,16 @@ LANES = 4
 """Lanes of a cloth's arrays: the register of WebAssembly holds four float32."""
 
 
-def plans_of(body: Body, settings: Settings) -> list[bytes]:
+def plans_of(body: Body, settings: Settings, *, picture: bool = False) -> list[bytes]:
     """The plans of a body's panels, in their order, at the start of the motion.
 
+    picture: whether they also hold what draws the picture of the settings; see `live_panels`.
     Raises OptionError for settings that cannot be played, and WasmBuildError without the module.
     """
     info = module_info(read_module())
-    return [write_plan(panel, info) for panel in live_panels(body, settings, LANES)]
+    return [
+        write_plan(panel, info) for panel in live_panels(body, settings, LANES, picture=picture)
+    ]
 
 
 def write_plan(panel: LivePanel, info: dict[str, Any]) -> bytes:

@@ -1,0 +1,190 @@
+"""The kernels as WebAssembly in Node: the same bits as Python's, time and size.
+
+`python -m benchmarks.web` builds the whole module, plays banners in Node and compares; `--quick`
+plays fewer steps for the times. Times are of the processor.
+"""
+
+import argparse
+import gzip
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import drapery.web.wasm
+from drapery import Banner, Settings
+from drapery.packs import open_packs
+from drapery.scenes import LivePanel, Stager, live_panels
+from drapery.style import Body, body_of
+from drapery.web.wasm.build import METHODS, build_module
+from drapery.web.wasm.module import module_info, module_places
+from drapery.web.wasm.plan import LANES, write_plan
+
+GRIDS = (5, 9), (11, 21), (16, 31)
+STEPS = 600
+BANNERS = 20
+SCRIPT = Path(drapery.web.wasm.__file__).with_name("cloth.js")
+
+NODE = """
+import { readFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { Cloth } from "SCRIPT";
+const [module, plan] = process.argv.slice(2, 4).map((path) => readFileSync(path));
+const [actions, count, timed] = JSON.parse(process.argv[4]);
+const cloth = await Cloth.load(module, plan);
+for (const [name, ...values] of actions) cloth[name](...values);
+const state = createHash("sha256").update(cloth.positions).update(cloth.velocities).digest("hex");
+const cloths = await Promise.all(Array.from({ length: count }, () => Cloth.load(module, plan)));
+const play = (steps) => cloths.forEach((each) => { for (let n = 0; n < steps; n++) each.step(); });
+play(timed); // until the engine has compiled the module
+const start = process.cpuUsage();
+play(timed);
+const { user, system } = process.cpuUsage(start);
+console.log(JSON.stringify([state, timed ? (user + system) / timed / count : 0]));
+"""
+
+Action = list[Any]
+WIND: list[Action] = [["step", STEPS]]
+PULLS: list[Action] = [
+    ["step", 100],
+    ["setWind", -3.0, 1.0, 8.0],
+    ["step", 100],
+    ["pull", 44, 0.2, -1.0, 0.8],
+    ["step", 100],
+    ["setWind", 0.0, 0.0, 0.0],
+    ["step", 50],
+    ["pull", 44, -0.2, -0.8, 0.4],
+    ["step", 100],
+    ["release"],
+    ["setWind", 2.0, 0.0, 5.0],
+    ["step", 150],
+]
+
+
+def whole_module() -> bytes:
+    """The module with the kernels of all methods; it is built if it is not yet."""
+    path = module_places()[-1]
+    if not path.is_file() or not {f"play_{name}" for name in METHODS if name != "picture"} <= set(
+        module_info(path.read_bytes())["kernels"]
+    ):
+        build_module(path)
+    return path.read_bytes()
+
+
+def banner(settings: Settings) -> Body:
+    """A white banner."""
+    return body_of(Banner.parse("white"), open_packs(()), settings)
+
+
+def played(folder: Path, plan: bytes, actions: list[Action], count: int, timed: int) -> list[Any]:
+    """The digest of a cloth that was played in Node, and microseconds a step of one of `count`."""
+    (folder / "plan").write_bytes(plan)
+    words = [folder / "module.wasm", folder / "plan", json.dumps([actions, count, timed])]
+    done = subprocess.run(
+        [str(shutil.which("node")), "--input-type=module", "-", *map(str, words)],
+        input=NODE.replace("SCRIPT", SCRIPT.as_uri()),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    found: list[Any] = json.loads(done.stdout)
+    return found
+
+
+def native(settings: Settings, steps: int) -> tuple[str, float]:
+    """The digest after so many steps of the solver in Python, and microseconds a step."""
+    stager = Stager(banner(settings), settings)
+    start = time.process_time()
+    stager.advance(steps)
+    spent = time.process_time() - start
+    state = stager.cloths[0].state
+    return digest(state.positions[0], state.velocities[0]), spent / steps * 1e6
+
+
+def replayed(panel: LivePanel, actions: list[Action]) -> str:
+    """The digest of a cloth that was played by the same kernels in Python."""
+    arrays = panel.arrays
+
+    def run(purpose: str) -> None:
+        call = panel.calls[purpose]
+        assert call.function(*call.arguments) == 0
+
+    run("aim")
+    for name, *values in actions:
+        if name == "step":
+            arrays["clock"][1] = values[0]
+            run("play")
+        elif name == "setWind":
+            arrays["wind"][:] = values
+            run("aim")
+        elif name == "pull":
+            arrays["grab"][0] = values[0]
+            arrays["target"][:] = values[1:]
+        else:
+            arrays["grab"][0] = -1
+    return digest(arrays["positions"], arrays["velocities"])
+
+
+def digest(*arrays: Any) -> str:
+    """The SHA-256 of some arrays."""
+    return sha256(b"".join(np.ascontiguousarray(array).tobytes() for array in arrays)).hexdigest()
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print the tables; the exit status is 1 where bits differ."""
+    parser = argparse.ArgumentParser("python -m benchmarks.web", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="fewer steps for the times")
+    timed = 60 if parser.parse_args(arguments).quick else STEPS
+    equal = True
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        start = time.process_time()
+        module = whole_module()
+        (folder / "module.wasm").write_bytes(module)
+        info = module_info(module)
+        print(f"module: {len(module)} bytes, gzipped {len(gzip.compress(module))}")
+        print(
+            "solver   grid   plan, gzipped  wind  wind and pulls  native us  Node us  Node/native"
+        )
+        for solver in ("desbrun", "xpbd"):
+            for grid in GRIDS:
+                options: Any = {"solver": solver, "grid": grid}
+                settings = Settings(**options)
+                panel = live_panels(banner(settings), settings, LANES)[0]
+                plan = write_plan(panel, info)
+                native(settings, 1)  # loads the kernels
+                expected, there = native(settings, STEPS)
+                state, here = played(folder, plan, WIND, 1, timed)
+                here_too = live_panels(banner(settings), settings)[0]  # this processor's lanes
+                pulled = replayed(here_too, PULLS) == played(folder, plan, PULLS, 0, 0)[0]
+                same = state == expected
+                equal = equal and same and pulled
+                print(
+                    f"{solver:8} {grid[0]:2}x{grid[1]:2} {len(gzip.compress(plan)):14}"
+                    f" {'equal' if same else 'DIFFERS':>5} {'equal' if pulled else 'DIFFERS':>15}"
+                    f" {there:10.0f} {here:8.0f} {here / there:12.2f}",
+                    flush=True,
+                )
+        for solver in ("desbrun", "xpbd"):
+            options = {"solver": solver, "grid": (11, 21)}
+            settings = Settings(**options)
+            panel = live_panels(banner(settings), settings, LANES)[0]
+            each = played(folder, write_plan(panel, info), [], BANNERS, timed)[1]
+            frame = each * BANNERS / 1000
+            print(
+                f"{BANNERS} banners 11x21, {solver}: {frame:.1f} ms a frame of 16.7 ms, one thread"
+            )
+        print(f"{time.process_time() - start:.0f} s of this process")
+    return 0 if equal else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
