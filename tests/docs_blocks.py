@@ -53,6 +53,8 @@ def blocks(page: Path) -> Iterator[Block]:
     for token in MarkdownIt().parse(page.read_text("utf-8")):
         if token.type == "html_block":
             note = token.content.strip().removeprefix("<!--").removesuffix("-->").strip()
+        elif token.type == "code_block":
+            yield Block(token.map[0] if token.map else 0, "", "", note, token.content)
         elif token.type == "fence":
             language, _, more = token.info.strip().partition(" ")
             title = re.search(r'title="([^"]+)"', more)

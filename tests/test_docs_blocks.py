@@ -9,9 +9,14 @@ from conftest import Run
 from docs_blocks import DOCS, ROOT, SHELL, Block, Reader, blocks, check_command, commands
 from PIL import Image
 
+from drapery import Banner, draw_face
+from drapery.styles import find_style
+
 TUTORIAL = DOCS / "tutorial.md"
 GUIDES = ("pack-authors", "maps-and-servers", "wikis-and-bots", "research")
-"""The guides whose blocks all run; the pages below them have tests of their own."""
+"""The guides whose blocks all run. Of the other pages the programs in Python run."""
+TESTED = ("blazon", "garments", "solvers")
+"""Pages that tests of their own run."""
 ALL = sorted([*ROOT.glob("*.md"), *DOCS.glob("**/*.md"), *ROOT.glob("examples/**/*.md")])
 PICTURES = {"banner.png": 0, "heart.png": 0, "difference.png": 0.02}
 """Those of the tutorial, and the share of their numbers that may differ: one has labels."""
@@ -56,6 +61,23 @@ def test_a_guide_runs_as_it_is_typed(name: str, reader: Reader) -> None:
     page = DOCS / "guides" / f"{name}.md"
     for block in blocks(page):
         reader.type(page, block)
+
+
+@pytest.mark.parametrize(
+    "page",
+    [p for p in ALL if p.is_relative_to(DOCS / "guides") and p.stem not in (*GUIDES, *TESTED)],
+    ids=lambda page: page.stem,
+)
+def test_the_programs_of_a_page_run(page: Path, reader: Reader) -> None:
+    (make_pack,) = (block for block in blocks(TUTORIAL) if block.title == "make_pack.py")
+    reader.type(TUTORIAL, make_pack)
+    reader.run("python make_pack.py")
+    shutil.make_archive("my-pack", "zip", "my-pack")
+    (reader.folder / "my.toml").write_text(find_style("ink").describe(), "utf-8")
+    draw_face(Banner.parse("white cross:red"), scale=2).save("flag.png")
+    for block in blocks(page):
+        if block.language == "python":
+            reader.type(page, block)
 
 
 @pytest.mark.parametrize("page", ALL, ids=lambda page: page.relative_to(ROOT).as_posix())
