@@ -143,7 +143,7 @@ def call_by_address(result: type, example: tuple[Any, ...]) -> Any:
 
 def address_of(function: Any, example: tuple[Any, ...]) -> int:
     """Where the compiled code of an entry point is in memory, for arguments as in `example`."""
-    compiled = function.ahead(example)
+    compiled = function.ahead(example) if isinstance(function, EntryPoint) else None
     if compiled:
         return int(compiled.address)
     from drapery.jit_calls import compiled_address
