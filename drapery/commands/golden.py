@@ -20,11 +20,15 @@ def check(
     report: Annotated[Path, typer.Option(help="Folder for the pictures of failures.")] = Path(
         "drapery-report"
     ),
+    summary: Annotated[
+        Path | None,
+        typer.Option(help="A Markdown file to which a table of what changed is added, for CI."),
+    ] = None,
 ) -> None:
     """Draw every case and compare: exit code 0 all as before, 1 some differ, 2 bad input."""
     from drapery.testing.case_check import check_cases, unused_goldens
     from drapery.testing.cases import read_cases
-    from drapery.testing.failures import clear_report, write_report
+    from drapery.testing.failures import clear_report, markdown_report, write_report
 
     cases = read_cases(file)
     clear_report(report)
@@ -37,6 +41,9 @@ def check(
     for path in unused_goldens(cases, file.parent):
         print(f"unused golden: {path}")
     page = write_report(report)
+    if summary is not None:
+        with summary.open("a", encoding="utf-8") as file:
+            file.write(markdown_report(report))
     print(f"{len(cases.case) - failed} as before, {failed} not" + (f"; see {page}" if page else ""))
     raise typer.Exit(1 if failed else 0)
 
@@ -54,3 +61,24 @@ def update(file: FileArgument) -> None:
         if outcome.written:
             print(f"wrote {outcome.name}")
     print(f"{sum(o.written for o in outcomes)} of {len(outcomes)} goldens written")
+
+
+@app.command()
+def accept(
+    report: Annotated[
+        Path, typer.Argument(metavar="REPORT", help="The folder of a report.")
+    ] = Path("drapery-report"),
+    only: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="The decisions that the report's page saved; else all are written."
+        ),
+    ] = None,
+) -> None:
+    """Write the failed pictures of a report as goldens, as its page decided."""
+    from drapery.testing.failures import accept_failures, read_approvals
+
+    paths = list(accept_failures(report, None if only is None else read_approvals(only)))
+    for path in paths:
+        print(f"wrote {path}")
+    print(f"{len(paths)} goldens written")

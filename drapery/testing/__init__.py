@@ -14,7 +14,14 @@ if TYPE_CHECKING:
     from drapery.testing.case_check import CaseResult, check_cases, unused_goldens, update_cases
     from drapery.testing.cases import Case, CaseFile, read_cases
     from drapery.testing.explain import LayerNote, explain_change, layer_notes
-    from drapery.testing.failures import clear_report, keep_failure, write_report
+    from drapery.testing.failures import (
+        GoldenUpdate,
+        accept_failures,
+        clear_report,
+        keep_failure,
+        markdown_report,
+        write_report,
+    )
     from drapery.testing.garment_check import check_garment
     from drapery.testing.golden import (
         GoldenError,
@@ -34,8 +41,10 @@ __all__ = [
     "CaseResult",
     "Golden",
     "GoldenError",
+    "GoldenUpdate",
     "LayerNote",
     "Tolerance",
+    "accept_failures",
     "agrees",
     "as_frame",
     "check_cases",
@@ -48,6 +57,7 @@ __all__ = [
     "fingerprint",
     "keep_failure",
     "layer_notes",
+    "markdown_report",
     "read_cases",
     "unused_goldens",
     "update_cases",
@@ -60,7 +70,14 @@ __getattr__, __dir__ = lazy_names(
         "testing.case_check": ("CaseResult", "check_cases", "unused_goldens", "update_cases"),
         "testing.cases": ("Case", "CaseFile", "read_cases"),
         "testing.explain": ("LayerNote", "explain_change", "layer_notes"),
-        "testing.failures": ("clear_report", "keep_failure", "write_report"),
+        "testing.failures": (
+            "GoldenUpdate",
+            "accept_failures",
+            "clear_report",
+            "keep_failure",
+            "markdown_report",
+            "write_report",
+        ),
         "testing.garment_check": ("check_garment",),
         "testing.golden": (
             "GoldenError",

@@ -12,7 +12,7 @@ from drapery.render import Frame, make_folder, replacing
 from drapery.settings import Settings
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
-from drapery.testing.failures import keep_failure
+from drapery.testing.failures import GoldenUpdate, keep_failure
 from drapery.testing.golden import (
     GoldenError,
     Tolerance,
@@ -91,15 +91,16 @@ def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:
 def _fault(
     case: Case, path: Path, frame: Frame, notes: list[LayerNote] | None, report: Path
 ) -> str | None:
+    new = GoldenUpdate(path, fingerprint(frame) if case.hashed else encode(frame, notes))
     if not path.exists():
-        keep_failure(report, "case", case.name, None, frame, "there is no golden yet")
+        keep_failure(report, "case", case.name, None, frame, "there is no golden yet", new)
         return f"no golden at {path}; write it with `drapery golden update`"
     data = path.read_bytes()
     if case.hashed:
         if data == fingerprint(frame):
             return None
         line = f"the hash changed to {fingerprint(frame).decode().strip()}"
-        keep_failure(report, "case", case.name, None, frame, line)
+        keep_failure(report, "case", case.name, None, frame, line, new)
         return line
     try:
         expected, before = decode(data)
@@ -108,5 +109,5 @@ def _fault(
     if agrees(expected, frame, Tolerance(case.tolerance, case.pixels)):
         return None
     line = explain_change(expected, frame, before, notes)
-    keep_failure(report, "case", case.name, expected, frame, line)
+    keep_failure(report, "case", case.name, expected, frame, line, new)
     return line

@@ -14,7 +14,7 @@ from drapery import Banner
 from drapery.errors import OutputError
 from drapery.render import Frame, Scene
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
-from drapery.testing.failures import keep_failure
+from drapery.testing.failures import GoldenUpdate, keep_failure
 from drapery.testing.golden import (
     GoldenError,
     Tolerance,
@@ -92,15 +92,16 @@ def check_golden(
     frame = _drawn(picture, backend)
     notes = _notes(design)
     extension = HashGolden if hashed else _picture_golden(Tolerance(*tolerance))
-    update = request.config.getoption("--drapery-update")
-    snapshot = _snapshot(request, extension, bool(update))
+    snapshot = _snapshot(request, extension, bool(request.config.getoption("--drapery-update")))
     label = _label(name, snapshot.num_executions, backend)
     location = snapshot.extension.get_location(test_location=snapshot.test_location, index=label)
     _check_case(request.config, label, Path(location))
     if snapshot(name=label) == (frame, notes):
         return None
     result = list(snapshot.executions.values())[-1]
-    return _fault(request.node.nodeid, label, result, frame, notes, report)
+    content = fingerprint(frame) if hashed else encode(frame, notes)
+    update = GoldenUpdate(Path(result.snapshot_location or location), content)
+    return _fault(request.node.nodeid, label, result, frame, notes, report, update)
 
 
 _NAMES: pytest.StashKey[dict[Path, dict[str, str]]] = pytest.StashKey()
@@ -176,7 +177,13 @@ def _label(name: str | None, number: int, backend: str) -> str:
 
 
 def _fault(
-    test: str, label: str, result: Any, frame: Frame, notes: list[LayerNote] | None, report: Path
+    test: str,
+    label: str,
+    result: Any,
+    frame: Frame,
+    notes: list[LayerNote] | None,
+    report: Path,
+    update: GoldenUpdate,
 ) -> str:
     path = result.snapshot_location
     if result.exception is not None:
@@ -185,7 +192,7 @@ def _fault(
 
     def failed(line: str, expected: Frame | None = None) -> str:
         try:
-            picture = keep_failure(report, test, label, expected, frame, line)
+            picture = keep_failure(report, test, label, expected, frame, line, update)
         except OutputError as error:
             return f"golden {label!r}: {line}; {error}"
         return f"golden {label!r}: {line}; see {picture}; accept it with --drapery-update"

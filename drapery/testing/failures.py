@@ -1,29 +1,72 @@
-"""The report of failed checks: expected, actual and difference of each, and a page of them all.
+"""The report of failed checks: a page that compares pictures, and what accepts them as goldens.
 
 Workers of pytest-xdist write at the same time: every failure has separate files, and the main
 process makes the page from them at the end.
 """
 
 import hashlib
+import io
 import json
 import re
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from importlib.resources import files
 from pathlib import Path
 
-from drapery.comparison import ReportEntry, data_of, html_report, side_by_side, write_text
+import numpy as np
+
+from drapery.comparison import data_of, difference_panel, side_by_side, write_text
 from drapery.errors import OutputError
-from drapery.render import Frame, make_folder
+from drapery.render import Frame, Pixels, make_folder, png_bytes, replacing
 
 _FACTS = ".failure.json"
+_CONTENT = ".golden"
 _PICTURES = ("expected", "actual", "difference")
 _PAGE = "index.html"
+GOLDENS = (".png", ".sha256")
+"""The endings of goldens; no other file is written when pictures are accepted."""
+
+
+@dataclass(frozen=True)
+class FailedPicture:
+    """A failed check as its report holds it.
+
+    id: the beginning of the names of its files. golden: where its golden is or will be, relative
+    to the folder in which the checks ran; empty if it is elsewhere. line: what changed.
+    """
+
+    id: str
+    name: str
+    line: str
+    golden: str
+    folder: Path
+
+    def picture(self, kind: str) -> bytes | None:
+        """The PNG that was expected or is actual, if there is one."""
+        path = self.folder / f"{self.id}.{kind}.png"
+        return path.read_bytes() if path.exists() else None
+
+
+@dataclass(frozen=True)
+class GoldenUpdate:
+    """A golden as it would be if the picture were accepted: its path, and the file's content."""
+
+    path: Path
+    content: bytes
 
 
 def keep_failure(
-    folder: Path, test: str, label: str, expected: Frame | None, actual: Frame, line: str
+    folder: Path,
+    test: str,
+    label: str,
+    expected: Frame | None,
+    actual: Frame,
+    line: str,
+    update: GoldenUpdate | None = None,
 ) -> Path:
     """Write a failure's pictures and facts; returns the picture to look at first.
 
-    Raises OutputError.
+    update: what `accept_failures` writes. Raises OutputError.
     """
     make_folder(folder)
     stem = _stem(test, label)
@@ -34,24 +77,99 @@ def keep_failure(
             pictures["difference"] = side_by_side(expected.pixels, actual.pixels)
     for kind, frame in pictures.items():
         frame.save(folder / f"{stem}.{kind}.png")
-    write_text(folder / (stem + _FACTS), json.dumps({"name": f"{test} [{label}]", "line": line}))
+    facts = {"name": f"{test} [{label}]", "line": line, "golden": ""}
+    if update is not None:
+        facts["golden"] = _relative(update.path)
+        with replacing(folder / (stem + _CONTENT)) as beside:
+            beside.write_bytes(update.content)
+    write_text(folder / (stem + _FACTS), json.dumps(facts))
     return folder / f"{stem}.{'difference' if 'difference' in pictures else 'actual'}.png"
 
 
-def write_report(folder: Path) -> Path | None:
-    """Make the page of all failures in a folder; None if there are none. Raises OutputError."""
-    entries = [_entry(facts) for facts in sorted(folder.glob(f"*{_FACTS}"))]
-    if not entries:
+def failures_in(folder: Path) -> list[FailedPicture]:
+    """The failures of the last run, by the names of their files. Raises OutputError."""
+    found = []
+    for path in sorted(folder.glob(f"*{_FACTS}")):
+        try:
+            facts = json.loads(path.read_text(encoding="utf-8"))
+            words = [str(facts[name]) for name in ("name", "line", "golden")]
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise OutputError(f"{path} cannot be read ({error}); run the checks again") from None
+        found.append(FailedPicture(path.name.removesuffix(_FACTS), *words, folder))
+    return found
+
+
+def write_report(folder: Path, page: Path | None = None) -> Path | None:
+    """Make the page of all failures in a folder; None if there are none. Raises OutputError.
+
+    page: where to write it, by default index.html in the folder.
+    """
+    failures = failures_in(folder)
+    if not failures:
         return None
-    page = folder / _PAGE
-    plural = "s" if len(entries) > 1 else ""
-    summary = f"{len(entries)} picture{plural} not as expected."
-    write_text(page, html_report("Golden images", summary, entries))
+    page = page or folder / _PAGE
+    write_text(page, _page_of(failures, folder))
     return page
 
 
-def clear_report(folder: Path) -> None:
-    """Remove the failures of earlier runs; other files stay.
+def markdown_report(folder: Path) -> str:
+    """A table of all failures in a folder, for the summary of a job. Raises OutputError."""
+    failures = failures_in(folder)
+    if not failures:
+        return "All golden pictures are as before.\n"
+    plural = "s" if len(failures) > 1 else ""
+    rows = [f"| {_cell(each.name)} | {_cell(each.line)} |" for each in failures]
+    head = [
+        f"**{len(failures)} golden picture{plural} changed.**",
+        "",
+        "| picture | what changed |",
+    ]
+    return "\n".join([*head, "|---|---|", *rows, ""])
+
+
+def accept_failures(folder: Path, only: Collection[str] | None = None) -> Iterator[Path]:
+    """Write the actual pictures of a report as goldens; yields the path of each.
+
+    only: the ids of those to accept; None for all. Raises OutputError if a golden would lie
+    outside the present folder, as in a report that somebody else made.
+    """
+    known = failures_in(folder)
+    unknown = set(only or ()) - {each.id for each in known}
+    if unknown:
+        raise OutputError(f"{folder} has no picture {min(unknown)!r}; use the report of this run")
+    for each in known:
+        content = folder / (each.id + _CONTENT)
+        if (only is not None and each.id not in only) or not content.exists():
+            continue
+        path = Path(each.golden)
+        inside = path.resolve().is_relative_to(Path.cwd())
+        if not each.golden or not inside or path.suffix not in GOLDENS:
+            raise OutputError(
+                f"golden {each.golden or each.name!r} is not a golden in this folder; "
+                "run this where the checks ran"
+            )
+        make_folder(path.parent)
+        with replacing(path) as beside:
+            beside.write_bytes(content.read_bytes())
+        yield path
+
+
+def read_approvals(path: Path) -> list[str]:
+    """The ids of the accepted pictures in a file that the report's page saved.
+
+    Raises OutputError.
+    """
+    try:
+        accepted = json.loads(path.read_text(encoding="utf-8"))["accepted"]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        accepted = None
+    if not isinstance(accepted, list) or not all(isinstance(each, str) for each in accepted):
+        raise OutputError(f"{path} has no decisions; save them on the page of the report")
+    return accepted
+
+
+def clear_report(folder: Path, page: Path | None = None) -> None:
+    """Remove the failures of earlier runs; other files stay. page: see `write_report`.
 
     Raises OutputError if one cannot be removed, as in a folder of another user.
     """
@@ -60,8 +178,9 @@ def clear_report(folder: Path) -> None:
             stem = facts.name.removesuffix(_FACTS)
             for kind in _PICTURES:
                 (folder / f"{stem}.{kind}.png").unlink(missing_ok=True)
+            (folder / (stem + _CONTENT)).unlink(missing_ok=True)
             facts.unlink()
-            (folder / _PAGE).unlink(missing_ok=True)
+            (page or folder / _PAGE).unlink(missing_ok=True)
     except OSError as error:
         raise OutputError(
             f"the report of an earlier run in {folder} cannot be removed ({error.strerror});"
@@ -69,12 +188,57 @@ def clear_report(folder: Path) -> None:
         ) from None
 
 
-def _entry(facts: Path) -> ReportEntry:
-    known = json.loads(facts.read_text(encoding="utf-8"))
-    stem = facts.name.removesuffix(_FACTS)
-    paths = [(kind, facts.parent / f"{stem}.{kind}.png") for kind in _PICTURES]
-    pictures = [(kind, data_of(path.read_bytes(), "png")) for kind, path in paths if path.exists()]
-    return ReportEntry(known["name"], False, known["line"], pictures=tuple(pictures))
+def _page_of(failures: list[FailedPicture], folder: Path) -> str:
+    from jinja2 import Environment
+
+    here = files("drapery.testing")
+    texts = {name: (here / f"report.{name}").read_text("utf-8") for name in ("html", "css", "js")}
+    plural = "s" if len(failures) > 1 else ""
+    return (
+        Environment(autoescape=True)
+        .from_string(texts["html"])
+        .render(
+            summary=f"{len(failures)} picture{plural} not as expected.",
+            folder=folder.name,
+            style=texts["css"],
+            script=texts["js"],
+            entries=[
+                {"id": each.id, "name": each.name, "line": each.line, "pictures": _shown(each)}
+                for each in failures
+            ],
+        )
+    )
+
+
+def _shown(failure: FailedPicture) -> dict[str, str]:
+    """The pictures of a failure as data addresses, by their kinds."""
+    made = {kind: failure.picture(kind) for kind in ("expected", "actual")}
+    found = {kind: png for kind, png in made.items() if png is not None}
+    if len(found) == 2:
+        expected, actual = map(_decoded, found.values())
+        if expected.shape == actual.shape:
+            found["difference"] = png_bytes(difference_panel(expected, actual))
+    return {kind: data_of(png, "png") for kind, png in found.items()}
+
+
+def _decoded(png: bytes) -> Pixels:
+    from PIL import Image
+
+    return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"))
+
+
+def _relative(path: Path) -> str:
+    """A path relative to the present folder, or nothing if it lies elsewhere."""
+    whole = path.resolve()
+    if not whole.is_relative_to(Path.cwd()):
+        return ""
+    return whole.relative_to(Path.cwd()).as_posix()
+
+
+def _cell(text: str) -> str:
+    """A text in a table of Markdown that shows it as it is."""
+    plain = re.sub(r"([\\`*_{}\[\]<>()#+!|~-])", r"\\\1", " ".join(text.split()))
+    return plain.replace("&", "&amp;").replace("@", "&#64;")
 
 
 def _stem(test: str, label: str) -> str:

@@ -31,9 +31,10 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
     group.addoption(
         "--drapery-report",
-        metavar="DIR",
+        metavar="PATH",
         default="drapery-report",
-        help="where failed pictures and their report go (default: drapery-report)",
+        help="folder of failed pictures and their report (default: drapery-report), or the page"
+        " itself as a file .html; the pictures are then in a folder beside it",
     )
 
 
@@ -43,10 +44,10 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     from drapery.testing.failures import clear_report
 
     try:
-        clear_report(_report_folder(session.config))
+        clear_report(*_report_places(session.config))
     except DraperyError as error:
         session.config.stash[_STALE] = True
-        warning = pytest.PytestWarning(f"{error} with --drapery-report DIR")
+        warning = pytest.PytestWarning(f"{error} with --drapery-report PATH")
         session.config.issue_config_time_warning(warning, 2)
 
 
@@ -56,7 +57,7 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
     from drapery.testing.failures import write_report
 
     try:
-        page = write_report(_report_folder(config))
+        page = write_report(*_report_places(config))
     except DraperyError as error:
         terminalreporter.write_line(f"drapery: {error}")
         return
@@ -102,7 +103,7 @@ def golden(request: pytest.FixtureRequest) -> Golden:
                 hashed=hashed,
                 backend=backend,
                 design=None if banner is None else (banner, tuple(packs)),
-                report=_report_folder(request.config),
+                report=_report_places(request.config)[0],
             )
         except DraperyError as error:
             fault = str(error)
@@ -116,5 +117,7 @@ def _is_worker(config: pytest.Config) -> bool:
     return hasattr(config, "workerinput")
 
 
-def _report_folder(config: pytest.Config) -> Path:
-    return config.rootpath / str(config.getoption("--drapery-report"))
+def _report_places(config: pytest.Config) -> tuple[Path, Path | None]:
+    """The folder of failed pictures, and the page if it is not in that folder."""
+    path = config.rootpath / str(config.getoption("--drapery-report"))
+    return (path.with_suffix(".files"), path) if path.suffix == ".html" else (path, None)

@@ -5,6 +5,11 @@ import globals from "globals";
 export default [
   js.configs.recommended,
   {
+    files: ["drapery/testing/*.js"],
+    languageOptions: { sourceType: "script", globals: globals.browser },
+    rules: { eqeqeq: "error", "no-var": "error", "prefer-const": "error" },
+  },
+  {
     files: ["drapery/{studio,web}/**/*.js"],
     languageOptions: { sourceType: "module", globals: globals.browser },
     rules: {
