@@ -34,6 +34,7 @@ from drapery.commands import (
     show,
     studio,
     style,
+    web,
 )
 from drapery.commands.notices import adopt_warnings, say
 from drapery.errors import DraperyError
@@ -63,6 +64,7 @@ for name, command in {
     "batch": batch,
     "serve": serve,
     "studio": studio,
+    "web": web,
     "doctor": doctor,
 }.items():
     app.command(name, context_settings=getattr(command, "CONTEXT", None))(command.run)

@@ -13,7 +13,7 @@ from hypothesis import settings
 from studio_browser import chromium, compiled_kernels, studio
 from tracing import PROCESSES, trace_no_compiler
 
-from drapery import cli
+from drapery import Settings, cli
 
 # For `assets.drawing`, which draws our art and is not installed. Last, so that the installed
 # package comes first.
@@ -85,3 +85,14 @@ def drapery(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str])
         return int(ended.value.code or 0), out, err
 
     return run
+
+
+@pytest.fixture(scope="session")
+def playable() -> Callable[..., Settings]:
+    """Settings that a page can play with the kernels that tests build as WebAssembly."""
+    for module in ("ziglang", "wasmtime"):
+        pytest.importorskip(module, reason=f"{module} is not installed (drapery[dev])")
+    from wasm_player import built_module, quick_settings
+
+    built_module()
+    return quick_settings

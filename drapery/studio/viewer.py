@@ -5,10 +5,10 @@ from typing import Literal
 
 from nicegui import ui
 
-from drapery import web
+import drapery.web
 from drapery.studio.session import Session
 
-VIEWER = str(Path(web.__file__).parent / "viewer")
+VIEWER = str(Path(drapery.web.__file__).parent / "viewer")
 
 Which = Literal["all", "left", "right"]
 

@@ -16,9 +16,8 @@ export class Player extends View {
   // canvas: its picture goes there. name: of a file that `drapery.web.scene_file` wrote.
   static async open(canvas, name) {
     sharedContext();
-    const [file, module] = await Promise.all([fileBytes(name), fileBytes("cloth.wasm")]);
-    const stream = new Blob([file]).stream().pipeThrough(new DecompressionStream("gzip"));
-    const { header, arrays } = unpack(await new Response(stream).arrayBuffer());
+    const [scene, module] = await Promise.all([fileBytes(name), fileBytes("cloth.bin")]);
+    const { header, arrays } = unpack(scene.buffer);
     const cloths = await Promise.all(header.grip.map((_, number) => Cloth.load(module, arrays[`plan${number}`])));
     return new Player(canvas, header, arrays, cloths);
   }

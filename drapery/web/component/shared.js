@@ -30,17 +30,19 @@ function tick(now) {
   if (awake.size) requestAnimationFrame(tick);
 }
 
-// The bytes of a script of the page with this name, or of a file beside this module; the same object
-// for the same name.
+// The bytes of a script of the page with this name, or of a file beside this module, which are
+// compressed there; the same object for the same name.
 export function fileBytes(name) {
-  if (!files.has(name)) files.set(name, read(name));
+  if (!files.has(name)) files.set(name, readFile(name));
   return files.get(name);
 }
 
-async function read(name) {
+async function readFile(name) {
   const inPage = document.querySelector(`script[data-drapery="${CSS.escape(name)}"]`);
-  if (inPage) return Uint8Array.from(atob(inPage.textContent.trim()), (each) => each.charCodeAt(0));
-  const answer = await fetch(new URL(name, import.meta.url));
+  const answer = inPage
+    ? new Response(Uint8Array.from(atob(inPage.textContent.trim()), (each) => each.charCodeAt(0)))
+    : await fetch(new URL(name, import.meta.url));
   if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status}`);
-  return new Uint8Array(await answer.arrayBuffer());
+  const plain = answer.body.pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(plain).arrayBuffer());
 }

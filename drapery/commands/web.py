@@ -1,0 +1,40 @@
+"""`drapery web`: live cloth for pages without a server."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from drapery.commands import options as o
+from drapery.commands.notices import compile_notice
+
+NOT_PLAYED = ("layers", "pbr", "pixel", "rotation", "facing", "pose", "backend")
+"""Options of pictures that a page does not use."""
+SIZE = "320x480"
+
+
+@o.pictured(*NOT_PLAYED)
+def run(
+    out: Annotated[
+        Path,
+        typer.Option("-o", "--out", metavar="TARGET", help="The page, or the package's folder."),
+    ],
+    component: Annotated[
+        bool, typer.Option("--component", help="Write the package of <drapery-banner>.")
+    ] = False,
+    size: o.SizeOption = SIZE,
+    **words: Any,
+) -> None:
+    """Write a page with live cloth that needs no server, or the package of its custom element."""
+    from drapery.errors import OptionError
+    from drapery.settings import Settings
+    from drapery.web.page import write_component, write_page
+
+    settings = Settings(**o.options_of({**words, "size": size}))
+    if component:
+        if words["design"] is not None:
+            raise OptionError("the package shows any design; leave DESIGN out, or --component")
+        write_component(out, settings)
+        return
+    with compile_notice():
+        write_page(out, o.design_of(words), settings)

@@ -1,0 +1,38 @@
+"""The component's modules of JavaScript as one.
+
+The modules import each other only by names in braces, and no two have a top-level name in common,
+so their texts in the order of their imports are one module. A test checks both.
+"""
+
+import re
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+WEB = Path(__file__).parent
+ENTRY = WEB / "component" / "element.js"
+PUBLIC = ("DesignError", "DraperyBanner", "readDesign")
+"""What the module exports."""
+
+_IMPORT = re.compile(r'^import \{[^}]*\} from "([^"]+)";\n', re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=async function|function|class|const)", re.MULTILINE)
+_COMMENT = re.compile(r"^\s*//.*\n", re.MULTILINE)
+
+
+def bundled_module(entry: Path = ENTRY) -> str:
+    """The text of one module that has all that a module imports, without comments."""
+    imports: dict[Path, list[Path]] = {}
+    unseen = [entry.resolve()]
+    while unseen:
+        module = unseen.pop()
+        if module not in imports:
+            names = _IMPORT.findall(module.read_text(encoding="utf-8"))
+            imports[module] = [(module.parent / name).resolve() for name in names]
+            unseen += imports[module]
+    order = TopologicalSorter(imports).static_order()
+    inner = [_inner(module.read_text(encoding="utf-8")) for module in order]
+    return "".join([*inner, f"export {{ {', '.join(PUBLIC)} }};\n"])
+
+
+def _inner(text: str) -> str:
+    plain = _EXPORT.sub("", _IMPORT.sub("", _COMMENT.sub("", text)))
+    return re.sub(r"\n{2,}", "\n", plain).strip() + "\n"

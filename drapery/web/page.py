@@ -1,0 +1,113 @@
+"""Pages and packages that play live cloth without a server."""
+
+import base64
+import gzip
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from drapery import draw
+from drapery.banner import Banner, alt_text, write_banner
+from drapery.packs import open_packs
+from drapery.render import make_folder, png_bytes, replacing
+from drapery.settings import Placement, Settings
+from drapery.web.bundle import WEB, bundled_module
+from drapery.web.scene_file import scene_bytes
+from drapery.web.wasm.module import read_module
+
+MODULE = "drapery-banner.js"
+KERNELS = "cloth.bin"
+PLACEMENTS: tuple[Placement, ...] = ("standing", "wall")
+"""The kinds of banner that the component shows."""
+
+
+def page_text(design: Banner | None, settings: Settings) -> str:
+    """A page of one file that shows a design as live cloth; it needs no other file or server.
+
+    design: None for a cape or elytra. The page begins with the picture of these settings, and
+    keeps it where a browser cannot play the cloth.
+    Raises OptionError, PackError, or WasmBuildError where the kernels of the cloth are not built.
+    """
+    from jinja2 import Environment
+    from markupsafe import Markup
+
+    packs = open_packs(settings.packs, format=settings.format)
+    patterns = [layer.pattern for layer in design.layers] if design else []
+    kind = settings.placement if design else settings.kind
+    files = {f"{kind}.bin": scene_bytes(design, packs, settings, patterns)}
+    files |= {KERNELS: _kernels()}
+    attributes: dict[str, str] = {"kind": kind}
+    if design:
+        attributes |= {"design": write_banner(design, "text"), "alt": alt_text(design)}
+    template = (WEB / "page.html").read_text(encoding="utf-8")
+    text: str = (
+        Environment(autoescape=True)
+        .from_string(template)
+        .render(
+            title=alt_text(design) if design else kind.title(),
+            attributes=attributes,
+            width=settings.size[0],
+            height=settings.size[1],
+            picture=_base64(png_bytes(draw(design, settings).pixels)),
+            files={name: _base64(data) for name, data in files.items()},
+            module=Markup(bundled_module()),
+        )
+    )
+    return text
+
+
+def write_page(path: Path, design: Banner | None, settings: Settings) -> None:
+    """Write `page_text` to a file. Raises OutputError, and the errors of `page_text`."""
+    with replacing(path) as partial:
+        partial.write_text(page_text(design, settings), encoding="utf-8")
+
+
+def write_component(folder: Path, settings: Settings) -> None:
+    """Write the package of `<drapery-banner>`: its module, types, kernels, scenes and README.
+
+    Raises OutputError, and the errors of `scene_bytes`.
+    """
+    make_folder(folder)
+    for name, data in _component_files(settings):
+        with replacing(folder / name) as partial:
+            partial.write_bytes(data)
+
+
+def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
+    packs = open_packs(settings.packs, format=settings.format)
+    for placement in PLACEMENTS:
+        placed = replace(settings, placement=placement)
+        yield f"{placement}.bin", scene_bytes(Banner(), packs, placed)
+    yield KERNELS, _kernels()
+    yield MODULE, bundled_module().encode()
+    for name in ("README.md", "drapery-banner.d.ts"):
+        yield name, (WEB / "component" / name).read_bytes()
+    yield "package.json", (json.dumps(_package(), indent=2) + "\n").encode()
+
+
+def _package() -> dict[str, object]:
+    from importlib.metadata import version
+
+    files = ["*.bin", MODULE, "drapery-banner.d.ts"]
+    return {
+        "name": "drapery-banner",
+        "version": version("drapery"),
+        "description": "Minecraft banners of live cloth as a custom element.",
+        "license": "MIT AND CC0-1.0",
+        "type": "module",
+        "main": MODULE,
+        "types": "drapery-banner.d.ts",
+        "exports": {".": {"types": "./drapery-banner.d.ts", "default": f"./{MODULE}"}},
+        "files": files,
+        "sideEffects": True,
+    }
+
+
+def _kernels() -> bytes:
+    """The WebAssembly module, compressed. Raises WasmBuildError."""
+    return gzip.compress(read_module(), mtime=0)
+
+
+def _base64(data: bytes) -> str:
+    return base64.b64encode(data).decode()

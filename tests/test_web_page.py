@@ -1,0 +1,95 @@
+"""Pages and packages with live cloth: what is in their files, and what is refused."""
+
+import base64
+import gzip
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_javascript import NODE, run_node
+
+from drapery import Banner, OptionError
+from drapery.packs import open_packs
+from drapery.scenes import Stager
+from drapery.settings import Settings
+from drapery.style import body_of
+from drapery.web import page
+from drapery.web.bundle import ENTRY, bundled_module
+from drapery.web.messages import unpack
+from drapery.web.scene_file import scene_bytes
+
+DESIGN = Banner.parse("white creeper:lime border:black")
+SIZE = (320, 480)
+Playable = Callable[..., Settings]
+
+
+def files_of(text: str) -> dict[str, bytes]:
+    """The files in a page, by name."""
+    found = re.findall(r'data-drapery="([\w.]+)">([^<]*)</script>', text)
+    return {name: gzip.decompress(base64.b64decode(data)) for name, data in found}
+
+
+@pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
+def test_the_bundle_is_one_module_that_imports_nothing(tmp_path: Path) -> None:
+    text = bundled_module()
+    assert "import {" not in text and "</script" not in text
+    assert text.endswith("export { DesignError, DraperyBanner, readDesign };\n")
+    (tmp_path / "bundle.mjs").write_text(text, encoding="utf-8")
+    run_node("--check", tmp_path / "bundle.mjs")
+
+
+def test_the_bundle_has_every_module_that_the_element_imports() -> None:
+    text = bundled_module()
+    for module in [*ENTRY.parent.glob("*.js"), *(ENTRY.parent.parent / "wasm").glob("*.js")]:
+        for name in re.findall(r"^export (?:class|function|const) (\w+)", module.read_text(), re.M):
+            assert re.search(rf"^(class|function|async function|const) {name}\b", text, re.M), name
+
+
+def test_a_scene_begins_as_the_cloth_hangs(playable: Playable) -> None:
+    packs, settings = open_packs(()), playable(size=SIZE)
+    header, arrays = unpack(gzip.decompress(scene_bytes(DESIGN, packs, settings)))
+    stager = Stager(body_of(DESIGN, packs, settings), settings)
+    meshes = np.concatenate([mesh.positions for mesh in stager.meshes()])
+    np.testing.assert_array_equal(arrays["positions"], meshes.astype(np.float32).reshape(-1))
+    ((first, count),) = header["grip"]
+    assert first + count == header["vertices"] == len(meshes)
+    assert header["sheets"][:2] == ["", "base"] and len(header["sheets"]) == 44
+    assert len(arrays["plan0"]) > 1000
+
+
+def test_a_page_has_all_that_it_needs(playable: Playable) -> None:
+    text = page.page_text(DESIGN, playable(size=SIZE))
+    assert len(text) < 300_000
+    assert set(files_of(text)) == {"standing.bin", "cloth.bin"}
+    assert 'design="white creeper:lime border:black"' in text
+    assert re.findall(r'(?:src|href)="([^"]{,22})', text) == ["data:image/png;base64,"]
+    assert page.page_text(DESIGN, playable(size=SIZE)) == text
+
+
+def test_a_package_names_its_files(playable: Playable, tmp_path: Path) -> None:
+    page.write_component(tmp_path / "dist", playable())
+    found = {path.name for path in (tmp_path / "dist").iterdir()}
+    package = json.loads((tmp_path / "dist" / "package.json").read_text())
+    named = {package["main"], package["types"], "README.md", "package.json"}
+    assert found == named | {"standing.bin", "wall.bin", "cloth.bin"}
+
+
+@pytest.mark.parametrize(
+    ("design", "options", "fault"),
+    [
+        ("shield white", {}, "a page shows cloth that moves"),
+        ("white", {"placement": "item"}, "a page shows cloth that moves"),
+        ("white", {"pose": "vanilla"}, "a page shows cloth that moves"),
+        ("white", {"rotation": 4}, "leave out rotation"),
+        ("white", {"style": "felt"}, "style felt has shape steps"),
+        ("white", {"style": "pixel-art"}, "style pixel-art has motion steps"),
+    ],
+)
+def test_what_a_page_cannot_show_is_refused(
+    design: str, options: dict[str, object], fault: str
+) -> None:
+    with pytest.raises(OptionError, match=fault):
+        scene_bytes(Banner.parse(design), open_packs(()), Settings(**options))  # type: ignore[arg-type]
