@@ -107,9 +107,9 @@ export class DraperyBanner extends HTMLElement {
     try {
       const player = this.#player;
       if (name === "design" && this.hasAttribute("design")) player.setDesign(readDesign(this.getAttribute("design")));
-      if (name === "wind" || name === "direction") player.setWind(this.#number("wind"), this.#number("direction"));
       this.#play();
       this.#describe();
+      if (name === "wind" || name === "direction") player.setWind(this.#number("wind"), this.#number("direction"));
     } catch (error) {
       this.#tell(error);
     }

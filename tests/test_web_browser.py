@@ -1,0 +1,242 @@
+"""Pages with live cloth in a real browser: they wave, obey pointer and keys, and fall back."""
+
+import base64
+import io
+import threading
+from collections.abc import Callable, Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from selenium.webdriver import ActionChains, Keys
+from selenium.webdriver.common.by import By
+from studio_browser import WIDE, resize, wait_until
+
+from drapery import Banner
+from drapery.settings import Settings
+from drapery.web.page import write_component, write_page
+
+ELEMENT = "document.querySelector('drapery-banner')"
+HERE = Path(__file__).parent
+NO_WASM = "default-src 'self' data:; script-src 'self' 'unsafe-inline'; style-src 'unsafe-inline'"
+NO_WEBGL = """
+const get = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+  return kind === "webgl2" ? null : get.call(this, kind, ...more);
+};
+"""
+COUNT = """
+window.contexts = 0;
+const get = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+  window.contexts += kind === "webgl2";
+  return get.call(this, kind, ...more);
+};
+"""
+MANY = """<!doctype html><html lang="en"><title>Many</title>
+<script type="module" src="drapery-banner.js"></script><main>
+<drapery-banner design="red" wind="3"></drapery-banner>
+<drapery-banner design="blue cross:white" kind="wall"></drapery-banner>
+<drapery-banner design="plaid"><img alt="A plaid banner" src="data:,"></drapery-banner>
+<div style="height: 3000px"></div>
+<drapery-banner design="lime" id="below"></drapery-banner></main></html>
+"""
+
+
+class Handler(SimpleHTTPRequestHandler):
+    """Serves a folder; a query is the content security policy of the answer."""
+
+    def end_headers(self) -> None:
+        if "?" in self.path:
+            self.send_header("Content-Security-Policy", NO_WASM)
+        super().end_headers()
+
+    def log_message(self, format: str, *args: Any) -> None:
+        pass
+
+
+@pytest.fixture(scope="module")
+def site(
+    playable: Callable[..., Settings], tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[str]:
+    """The address of a page of one file, of a package, and of a page with many of its elements."""
+    folder = tmp_path_factory.mktemp("site")
+    design = Banner.parse("white creeper:lime border:black")
+    write_page(folder / "banner.html", design, playable(size=(320, 480)))
+    write_component(folder, playable(size=(320, 480)))
+    (folder / "many.html").write_text(MANY, encoding="utf-8")
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=str(folder)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}"
+    server.shutdown()
+
+
+def open_site(
+    browser: Any, address: str, *, moves: bool = True, ready: bool = True, script: str = ""
+) -> None:
+    """Load a page and wait for its cloth. moves: without a wish for less motion. script: before."""
+    resize(browser, WIDE)
+    motion = {"name": "prefers-reduced-motion", "value": "no-preference" if moves else "reduce"}
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [motion]})
+    browser.get_log("browser")
+    command = "Page.addScriptToEvaluateOnNewDocument"
+    added = browser.execute_cdp_cmd(command, {"source": script}) if script else {}
+    browser.get(address)
+    for identifier in added.values():
+        remove = "Page.removeScriptToEvaluateOnNewDocument"
+        browser.execute_cdp_cmd(remove, {"identifier": identifier})
+    if ready:
+        wait_until(lambda: ask(browser, "getAttribute('role')") == "img")
+
+
+def ask(browser: Any, what: str) -> Any:
+    return browser.execute_script(f"return {ELEMENT}.{what}")
+
+
+def picture(browser: Any, element: str = ELEMENT) -> np.ndarray:
+    """The pixels of an element's canvas, shape [H, W, 4]."""
+    url = browser.execute_script(f"return {element}.shadowRoot.querySelector('canvas').toDataURL()")
+    return np.asarray(Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2]))))
+
+
+def first_picture(browser: Any) -> np.ndarray:
+    wait_until(lambda: picture(browser)[..., 3].any())
+    return picture(browser)
+
+
+def changes(browser: Any, before: np.ndarray, element: str = ELEMENT) -> bool:
+    """Whether a part of an element's picture differs from an earlier one."""
+    now = picture(browser, element)
+    return now.shape == before.shape and bool((now != before).any(axis=2).mean() > 0.005)
+
+
+def element(browser: Any) -> Any:
+    return browser.find_element(By.CSS_SELECTOR, "drapery-banner")
+
+
+def warnings(browser: Any) -> list[str]:
+    """The lines of ours on the console."""
+    logged = (entry["message"] for entry in browser.get_log("browser"))
+    return [line.partition("drapery: ")[2] for line in logged if "drapery: " in line]
+
+
+def is_fallback(browser: Any) -> bool:
+    image = f"{ELEMENT}.querySelector('img')"
+    return bool(
+        browser.execute_script(
+            f"return {image}.checkVisibility() && {image}.naturalWidth > 0 &&"
+            f" {ELEMENT}.shadowRoot.querySelector('canvas').hidden && !{ELEMENT}.role"
+        )
+    )
+
+
+def test_a_page_of_one_file_waves_and_is_named(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/banner.html")
+    before = picture(chromium)
+    lime = (before[..., 1] > before[..., 0].astype(int) + 40) & (before[..., 3] == 255)
+    assert 0.01 < lime.mean() < 0.2, "the creeper is there"
+    wait_until(lambda: changes(chromium, before))
+    assert ask(chromium, "ariaLabel") == "Banner: Argent, a creeper Lime within a bordure Sable"
+    for script in ("page_names.js", "page_contrast.js"):
+        assert chromium.execute_script((HERE / script).read_text(encoding="utf-8")) == []
+    assert warnings(chromium) == []
+
+
+def test_keys_turn_it_and_pause_it(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/banner.html", moves=False)
+    assert ask(chromium, "paused"), "who wants less motion gets a still picture"
+    still = first_picture(chromium)
+    ActionChains(chromium).send_keys(Keys.TAB).perform()
+    focused = chromium.execute_script(f"return document.activeElement === {ELEMENT}")
+    outline = chromium.execute_script(f"return getComputedStyle({ELEMENT}).outlineStyle")
+    assert focused and outline == "solid"
+    assert not changes(chromium, still)
+    ActionChains(chromium).send_keys(Keys.ARROW_RIGHT * 4).perform()
+    wait_until(lambda: changes(chromium, still))
+    ActionChains(chromium).send_keys(Keys.HOME).perform()
+    wait_until(lambda: not changes(chromium, still))
+    ActionChains(chromium).send_keys(Keys.SPACE).perform()
+    wait_until(lambda: not ask(chromium, "paused") and changes(chromium, still))
+
+
+def test_the_pointer_pulls_the_cloth_and_turns_the_background(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/banner.html", moves=False)
+    still = first_picture(chromium)
+    width, height = element(chromium).size["width"], element(chromium).size["height"]
+    drag = ActionChains(chromium).move_to_element(element(chromium)).click_and_hold()
+    drag.move_by_offset(int(0.3 * width), int(-0.1 * height)).pause(0.5).perform()
+    wait_until(lambda: changes(chromium, still))
+    pulled = picture(chromium)
+    right = slice(int(0.75 * still.shape[1]), None)
+    assert pulled[:, right, 3].mean() > still[:, right, 3].mean(), "cloth follows to the right"
+    ActionChains(chromium).release().perform()
+    open_site(chromium, f"{site}/banner.html", moves=False)
+    still = first_picture(chromium)
+    corner = (-int(0.45 * width), -int(0.45 * height))
+    turn = ActionChains(chromium).move_to_element_with_offset(element(chromium), *corner)
+    turn.click_and_hold().move_by_offset(60, 0).release().perform()
+    wait_until(lambda: changes(chromium, still))
+
+
+def test_attributes_change_what_is_shown(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/many.html", moves=False)
+    red = first_picture(chromium)
+    assert ask(chromium, "ariaLabel") == "red banner"
+    chromium.execute_script(f"{ELEMENT}.setAttribute('design', 'blue skull:white')")
+    wait_until(lambda: changes(chromium, red))
+    blue = picture(chromium)
+    assert blue[..., 2].sum() > blue[..., 0].sum()
+    assert ask(chromium, "ariaLabel") == "blue banner, white skull"
+    chromium.execute_script(f"{ELEMENT}.setAttribute('design', 'paisley')")
+    chromium.execute_script(f"{ELEMENT}.setAttribute('wind', 'strong')")
+    assert not changes(chromium, blue), "what was seen stays"
+    lines = [line for line in warnings(chromium) if "plaid" not in line]
+    assert len(lines) == 2 and "'paisley'" in lines[0] and "wind" in lines[1]
+    chromium.execute_script(f"{ELEMENT}.setAttribute('design', 'blue skull:white')")
+    chromium.execute_script(f"{ELEMENT}.setAttribute('kind', 'wall')")
+    wait_until(lambda: changes(chromium, blue))
+
+
+def test_all_elements_of_a_page_share_a_context_and_rest_out_of_sight(
+    chromium: Any, site: str
+) -> None:
+    open_site(chromium, f"{site}/many.html", script=COUNT)
+    below = "document.getElementById('below')"
+    wait_until(lambda: chromium.execute_script(f"return {below}.role") == "img")
+    assert chromium.execute_script("return contexts") == 1
+    first, hidden = picture(chromium), picture(chromium, below)
+    wait_until(lambda: changes(chromium, first))
+    assert not changes(chromium, hidden, below)
+    chromium.execute_script(f"{below}.scrollIntoView()")
+    wait_until(lambda: changes(chromium, hidden, below))
+    chromium.execute_script("document.querySelector('main').replaceChildren()")
+    assert [line for line in warnings(chromium) if "plaid" not in line] == []
+
+
+@pytest.mark.parametrize(
+    ("query", "script", "reason"),
+    [
+        ("?policy", "", "WebAssembly"),
+        ("", NO_WEBGL, "WebGL 2 is missing"),
+        ("", "delete window.WebAssembly", "this browser has no WebAssembly"),
+    ],
+)
+def test_where_it_cannot_play_its_picture_is_shown(
+    chromium: Any, site: str, query: str, script: str, reason: str
+) -> None:
+    open_site(chromium, f"{site}/banner.html{query}", ready=False, script=script)
+    (line,) = wait_until(lambda: warnings(chromium))
+    assert reason in line
+    assert is_fallback(chromium)
+
+
+def test_an_unknown_design_shows_what_the_page_put_there(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/many.html")
+    plaid = "document.querySelector('[design=plaid]')"
+    assert chromium.execute_script(f"return {plaid}.querySelector('img').checkVisibility()")
+    assert not chromium.execute_script(f"return {plaid}.role")
+    assert len([line for line in warnings(chromium) if "unknown dye 'plaid'" in line]) == 1
