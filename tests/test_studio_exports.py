@@ -1,6 +1,7 @@
 """Exports have the bytes of the command line; an export that is stopped leaves no file."""
 
 import re
+import shlex
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -13,8 +14,9 @@ from drapery.errors import DraperyError, OptionError
 from drapery.settings import Settings
 from drapery.studio import exports
 from drapery.studio.exports import Export, ExportSlots, count_frames, make, stem_of
+from drapery.studio.scene_choice import scene_choice, what_follows
 from drapery.studio.session import Session
-from drapery.studio.snippets import KINDS, ExportRequest, file_name
+from drapery.studio.snippets import KINDS, ExportRequest, as_command, as_python, file_name
 
 BANNER = Banner("red", (Layer("creeper", "lime"), Layer("gradient", "blue")))
 PICTURE = Settings(size=(40, 48), wind=5.0, samples=4, pixel=2, background="#302050", view="hero")
@@ -52,6 +54,26 @@ def test_the_bytes_are_those_of_the_command(kind: str, tmp_path: Path, drapery) 
 def test_the_design_is_what_show_writes(tmp_path: Path, drapery) -> None:
     make(request_of("json"), tmp_path / "banner.json")
     assert (tmp_path / "banner.json").read_text() == drapery("show", TEXT, "--as", "json")[1]
+
+
+def test_a_scene_is_exported_with_the_design_and_the_wind(
+    tmp_path: Path, drapery, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = scene_choice("vanilla", BANNER, PICTURE)
+    assert dict(scene.words) == {"design": TEXT, "wind": "5"}
+    wanted = ExportRequest(BANNER, PICTURE, "gif", seconds=0.25, fps=8.0, scene=scene)
+    make(wanted, tmp_path / "page.gif")
+    monkeypatch.chdir(tmp_path)
+    code, _, err = drapery(*shlex.split(as_command(wanted, stem="line"))[1:])
+    assert code == 0, err
+    assert (tmp_path / "page.gif").read_bytes() == (tmp_path / "line.gif").read_bytes()
+    exec(as_python(wanted, stem="python"), {})
+    assert (tmp_path / "page.gif").read_bytes() == (tmp_path / "python.gif").read_bytes()
+
+
+def test_a_page_says_what_a_scene_takes_from_it() -> None:
+    assert what_follows("flag") == "This scene shows your banner, in your wind."
+    assert "a cloth of its own" in what_follows("sail")
 
 
 def test_every_kind_is_tested() -> None:

@@ -1,11 +1,13 @@
 """Who may speak to the studio: its own page only, from names that are its own, with the token."""
 
 import asyncio
+import ipaddress
 from typing import Any
 
 import pytest
 
 from drapery.cli import main
+from drapery.studio.app import reachable
 from drapery.studio.guard import LOOPBACK, Guard, host_name
 
 TOKEN = "open sesame & more"
@@ -116,3 +118,10 @@ def test_the_command_says_what_is_missing(words, said, monkeypatch, capsys) -> N
     assert ended.value.code == 2
     line = capsys.readouterr().err
     assert said in line and line.count("\n") == 1
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::"])
+def test_the_printed_address_can_be_opened_by_others(host: str) -> None:
+    assert reachable("192.168.1.2") == "192.168.1.2"
+    assert reachable(host) != host
+    assert ipaddress.ip_address(reachable(host))

@@ -23,6 +23,7 @@ from drapery.settings import Settings
 from drapery.studio.live import Live, Ray
 from drapery.studio.live_cloth import new_live_cloth
 from drapery.studio.player import Player, scene_show
+from drapery.studio.scene_choice import SceneChoice
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import sketch_of
 from drapery.studio.stream import UNDER_WAY, UNKNOWN, WRONG, add_routes
@@ -369,13 +370,15 @@ def test_upright_viewers_stack_scenes_but_not_banners(shape: tuple[int, int]) ->
     only, _ = unpack(MessageEncoder("right", shape).messages(live.shown())[0])
     assert [pane["label"] for pane in only["panes"]] == ["other"]
     scenes, _ = unpack(
-        MessageEncoder("all", shape).messages(Player(scene_show("fold"), shape).step())[0]
+        MessageEncoder("all", shape).messages(
+            Player(scene_show(SceneChoice("fold")), shape).step()
+        )[0]
     )
     assert scenes["columns"] == (2 if shape[0] > shape[1] else 1)
 
 
 def test_a_scene_comes_round_again() -> None:
-    player = Player(scene_show("fold"), (96, 96))
+    player = Player(scene_show(SceneChoice("fold")), (96, 96))
     player._clip = replace(player._clip, count=5)
     first = [player.step() for _ in range(5)]
     again = [player.step() for _ in range(5)]
@@ -390,7 +393,7 @@ def test_a_scene_comes_round_again() -> None:
 
 
 def test_a_finished_picture_is_hung_up_as_it_is() -> None:
-    shown = Player(scene_show("julia"), (96, 96)).step()
+    shown = Player(scene_show(SceneChoice("julia")), (96, 96)).step()
     (pane,) = shown.panes
     assert pane.flat
     scene = replace(pane.scene, camera=pane.framing(1.0))

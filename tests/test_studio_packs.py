@@ -10,6 +10,8 @@ from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.png import read_png
 from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
+from drapery.errors import PackError
+from drapery.settings import Settings
 from drapery.studio.art import (
     CELL,
     COLUMNS,
@@ -19,6 +21,7 @@ from drapery.studio.art import (
     pattern_sheet,
     thumbnail,
 )
+from drapery.studio.session import Session
 
 NAMES = ("creeper", "border", "gradient")
 
@@ -65,3 +68,20 @@ def test_a_thumbnail_is_the_face_made_small(kind, packs: Packs) -> None:
     small = read_png(thumbnail(banner, packs), "small")
     assert small.shape == (face.shape[0] // 4, face.shape[1] // 4, 4)
     np.testing.assert_array_equal(small, face[2::4, 2::4])
+
+
+def test_a_pack_has_the_warnings_of_the_commands_and_the_format_is_chosen(tmp_path: Path) -> None:
+    mask = np.zeros((64, 64, 4), np.uint8)
+    mask[..., :3], mask[8:20, 8:20, :3], mask[..., 3] = 0, 255, 255
+    files = {META: mcmeta(), f"{BANNER}creeper.png": png(mask)}
+    path = zip_pack(tmp_path / "old.zip", files)
+    session = Session(Settings(packs=(path,)))
+    (entry,) = session.pack_store.entries
+    assert ["use format 4" in line for line in entry.contents.warnings] == [True]
+    session.pack_store.read_as(4)
+    assert session.settings.format == 4
+    assert session.pack_store.entries[0].contents.warnings == ()
+    with pytest.raises(PackError):
+        session.pack_store.read_as(-3)
+    assert session.settings.format == 4
+    session.close()

@@ -99,12 +99,12 @@ def reachable(host: str) -> str:
     if host not in outside:
         return host
     family, other = outside[host]
-    with socket.socket(family, socket.SOCK_DGRAM) as probe:
-        try:
+    try:
+        with socket.socket(family, socket.SOCK_DGRAM) as probe:
             probe.connect((other, 9))
             return str(probe.getsockname()[0])
-        except OSError:  # there is no network
-            return "127.0.0.1" if family == socket.AF_INET else "::1"
+    except OSError:  # there is no such network
+        return "127.0.0.1" if family == socket.AF_INET else "::1"
 
 
 def _listen(host: str, port: int) -> socket.socket:

@@ -14,13 +14,17 @@ from drapery import Banner, DraperyError, OptionError
 from drapery.option import one_of
 from drapery.settings import frame_count
 from drapery.studio.document import Document
+from drapery.studio.scene_choice import SceneChoice
 from drapery.studio.snippets import (
     KINDS,
     LOOPS,
     SCALE,
+    STILLS,
     ExportRequest,
     file_name,
     options_for,
+    scene_clip,
+    scene_of,
     subject_of,
 )
 from drapery.studio.warning_log import collected_warnings
@@ -50,6 +54,9 @@ def make(request: ExportRequest, path: Path, progress: Progress | None = None) -
     """
     check(request)
     on_progress = progress or (lambda done, total: None)
+    if scene := scene_of(request):
+        _scene(request, scene, path, on_progress)
+        return
     if request.kind in LOOPS:
         _loop(request, path, on_progress)
         return
@@ -105,6 +112,26 @@ def _loop(request: ExportRequest, path: Path, on_progress: Progress) -> None:
         subject_of(request), options_for(request), seconds=request.seconds, fps=request.fps
     )
     save_animation(_counted(drawn, total, on_progress), request.fps, path, total=total)
+
+
+def _scene(request: ExportRequest, chosen: SceneChoice, path: Path, on_progress: Progress) -> None:
+    from drapery.render import check_animation_target, save_animation
+    from drapery.scenes import find_scene, scene_frames
+
+    scene = find_scene(chosen.name)
+    clip, parameters = scene_clip(request, scene), scene.parameters(dict(chosen.words))
+    style, backend = request.settings.style, request.settings.backend
+    if request.kind in STILLS:
+        on_progress(0, 1)
+        frame = next(scene_frames(scene, parameters, clip, backend, last=True, style=style))
+        on_progress(1, 1)
+        frame.save(path)
+        return
+    on_progress(0, clip.count)
+    check_animation_target(path)
+    drawn = scene_frames(scene, parameters, clip, backend, style=style)
+    counted = _counted(drawn, clip.count, on_progress)
+    save_animation(counted, request.fps, path, total=clip.count)
 
 
 def _model(request: ExportRequest, path: Path, on_progress: Progress) -> None:

@@ -1,5 +1,6 @@
 // All patterns in the chosen dyes: cells of one picture. Arrow keys move the focus among them.
 const UNLIKE = 9;
+const HOVER = 80; // How long the pointer rests on a pattern before it is shown [ms].
 
 // How well a pattern fits the words: 0 is the best, UNLIKE does not fit.
 function rank(pattern, wanted) {
@@ -20,7 +21,7 @@ export default {
         <input v-model="wanted" type="search" class="field" placeholder="Find a pattern  ( / )"
           aria-label="Find a pattern by a name, code or word in any language" @keydown.enter="first" @keydown.esc="leave">
         <div v-if="canSwap" class="segments" role="group" aria-label="What a pattern does">
-          <button type="button" :aria-pressed="!swaps" @click="$emit('swaps', false)">Add</button>
+          <button type="button" :aria-pressed="!swaps" @click="$emit('swaps', false)">New layer</button>
           <button type="button" :aria-pressed="swaps" @click="$emit('swaps', true)">Change layer</button>
         </div>
       </div>
@@ -28,8 +29,10 @@ export default {
         <button v-for="(pattern, index) in found" :key="pattern.name" type="button" class="pattern"
           :data-pattern="pattern.name" :aria-label="pattern.title" :title="pattern.title"
           :tabindex="index === at ? 0 : -1" :aria-pressed="swaps ? pattern.name === current : null"
-          @focus="at = index" @click="$emit('pattern', pattern.name)">
+          @focus="at = index; preview(pattern.name)" @blur="preview('')" @click="lay(pattern.name)"
+          @pointerenter="preview(pattern.name, $event)" @pointerleave="preview('')">
           <span class="cell" :style="cell(pattern.index)"></span>
+          <span class="pattern-title" aria-hidden="true">{{ pattern.title }}</span>
         </button>
       </div>
       <p v-if="!found.length" class="hint">No pattern is called that. Try another word, such as stripe or corner.</p>
@@ -38,7 +41,7 @@ export default {
   props: {
     patterns: Array, sheet: String, label: String, swaps: Boolean, canSwap: Boolean, current: String,
   },
-  emits: ["pattern", "swaps"],
+  emits: ["pattern", "preview", "swaps"],
   data: () => ({ wanted: "", at: 0 }),
   computed: {
     found() {
@@ -65,7 +68,17 @@ export default {
     },
     first(event) {
       event.preventDefault();
-      if (this.found.length) this.$emit("pattern", this.found[0].name);
+      if (this.found.length) this.lay(this.found[0].name);
+    },
+    lay(name) {
+      this.preview("");
+      this.$emit("pattern", name);
+    },
+    // Show the flat face with this pattern while the pointer or the focus is on it.
+    preview(name, event) {
+      if (event?.pointerType === "touch") return;
+      clearTimeout(this.waiting);
+      this.waiting = setTimeout(() => this.$emit("preview", name), name ? HOVER : 0);
     },
     leave(event) {
       event.stopPropagation();

@@ -18,6 +18,7 @@ from drapery.scenes import (
     find_scene,
     garment_loop,
 )
+from drapery.studio.scene_choice import SceneChoice
 from drapery.web.panes import ViewerState, shown_picture
 
 MAX_CACHED = 96 << 20
@@ -41,11 +42,11 @@ class Show:
     first: Callable[[Clip], Picture] | None = None
 
 
-def scene_show(name: str) -> Show:
+def scene_show(scene: SceneChoice) -> Show:
     """A scene of the catalogue. Raises OptionError for an unknown name."""
-    entry = find_scene(name)
-    parameters = entry.parameters(REDUCED.get(name, {}))
-    return Show(name, entry.clip, lambda clip: entry.play(parameters, clip))
+    entry = find_scene(scene.name)
+    parameters = entry.parameters(REDUCED.get(scene.name, {}) | dict(scene.words))
+    return Show(scene.name, entry.clip, lambda clip: entry.play(parameters, clip))
 
 
 def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:

@@ -54,7 +54,8 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
     @app.get("/face/{token}.png")
     def face(token: str) -> Response:
         session = session_of(token)
-        return _picture(session, lambda: face_png(banner_of(session.sketch), session.packs()))
+        shown = session.selection.shown_sketch
+        return _picture(session, lambda: face_png(banner_of(shown), session.packs()))
 
     @app.get("/steps/{token}/{count}.png")
     def step(token: str, count: int) -> Response:

@@ -2,9 +2,11 @@
 
 import secrets
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import Literal
 
+from drapery import DesignError
 from drapery.banner import DYES
 from drapery.studio import sketch as edits
 from drapery.studio.descriptions import MIDDLE_LUMINANCE, luminance
@@ -35,6 +37,7 @@ class Selection:
         self._base = document.sketch.base
         self.dye = visible_on(self._base, "black")
         self.swaps = False
+        self.previewed = ""
         document.listen("sketch", self._follow)
 
     @property
@@ -78,17 +81,40 @@ class Selection:
         self.notify()
 
     def press_pattern(self, pattern: str) -> None:
-        """Add a pattern in the current dye; with `swaps`, replace the chosen layer's pattern."""
+        """Add a pattern in the current dye; with `swaps`, replace the chosen layer's pattern.
+
+        A new layer is chosen, so that a click on a dye changes it.
+        """
+        edited = self._with_pattern(pattern)
+        self.previewed = ""
+        if not self._replaces():
+            self.dye = self.pattern_dye
+            # The choice comes before the edit, so that no listener sees the new design without it.
+            self.chosen = edited.strokes[-1].number
+        self._edit(edited)
+
+    def preview(self, pattern: str) -> None:
+        """Show the design as a click on this pattern would make it; with "" as it is."""
+        if pattern != self.previewed:
+            self.previewed = pattern
+            self._document.notify("preview")
+
+    @property
+    def shown_sketch(self) -> Sketch:
+        """The design, with the pattern that is previewed."""
+        with suppress(DesignError):  # there may be too many layers
+            if self.previewed:
+                return self._with_pattern(self.previewed)
+        return self._document.sketch
+
+    def _replaces(self) -> bool:
+        return self.swaps and isinstance(self.chosen, int)
+
+    def _with_pattern(self, pattern: str) -> Sketch:
         sketch = self._document.sketch
         if self.swaps and isinstance(self.chosen, int):
-            self._edit(edits.repattern(sketch, self.chosen, pattern))
-            return
-        added = edits.add(sketch, pattern, self.pattern_dye)
-        self.dye, self.swaps = self.pattern_dye, False
-        # Choose the new layer, so that a click on a dye changes it. The choice comes before the
-        # edit, so that no listener sees the new design with the old choice.
-        self.chosen = added.strokes[-1].number
-        self._edit(added)
+            return edits.repattern(sketch, self.chosen, pattern)
+        return edits.add(sketch, pattern, self.pattern_dye)
 
     def set_swaps(self, swaps: bool) -> None:
         """Choose whether a click on a pattern replaces the chosen layer's."""

@@ -3,14 +3,16 @@
 import json
 import shlex
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from drapery import Banner, Settings
 from drapery.banner import write_banner
 from drapery.garments import UNUSED_OPTIONS, Garment, find_garment
 from drapery.option import Option
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
+from drapery.scenes import Clip, SceneEntry, find_scene
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, frame_count
+from drapery.studio.scene_choice import SceneChoice
 
 STILLS = ("png",)
 LOOPS = ("gif", "apng", "webp", "mp4")
@@ -36,7 +38,8 @@ class ExportRequest:
     """The description of a file to make.
 
     kind: one of KINDS. seconds, fps: for a loop. scale: pixels per texel, for a face.
-    garment: the name or the file of a garment, which is drawn in place of the banner.
+    garment: the name or the file of a garment, which is drawn in place of the banner. scene: a
+    ready-made scene, which pictures and animations show in place of the banner.
     """
 
     banner: Banner | None
@@ -46,6 +49,20 @@ class ExportRequest:
     fps: float = LOOP_OPTIONS["fps"].default
     scale: int = SCALE.default
     garment: str | None = None
+    scene: SceneChoice | None = None
+
+
+def scene_of(request: ExportRequest) -> SceneChoice | None:
+    """The scene that the file shows; a model, a face and a design are of the banner."""
+    return request.scene if request.kind in (*STILLS, *LOOPS) else None
+
+
+def scene_clip(request: ExportRequest, scene: SceneEntry) -> Clip:
+    """The size and length of a picture or an animation of a scene."""
+    size = request.settings.size
+    if request.kind in STILLS:
+        return replace(scene.clip, size=size)
+    return Clip(size, frame_count(request.seconds, request.fps), request.fps)
 
 
 def subject_of(request: ExportRequest) -> Banner | Garment | None:
@@ -92,6 +109,8 @@ def as_command(
 
     called: the user's names of packs, by path.
     """
+    if scene := scene_of(request):
+        return _scene_command(request, scene, stem)
     found = _garment(request)
     banner = request.banner if found is None else _design_on(request, found)
     design = [] if banner is None else [_quoted(write_banner(banner, "text"))]
@@ -111,6 +130,8 @@ def as_python(
     request: ExportRequest, called: Mapping[str, str] | None = None, stem: str = "banner"
 ) -> str:
     """Lines of Python that write the file."""
+    if scene := scene_of(request):
+        return _scene_python(request, scene, stem)
     found, out = _garment(request), _text(file_name(request, stem))
     banner = [] if found is None and request.banner is None else ["banner"]
     named = _named(request, called or {})
@@ -125,6 +146,43 @@ def as_python(
         text = _text(write_banner(request.banner, "text"))
         lines = [f"banner = Banner.parse({text})", *lines]
     return "\n".join([*_imports(names), "", *lines, ""])
+
+
+def _scene_command(request: ExportRequest, scene: SceneChoice, stem: str) -> str:
+    words = ["drapery scene", scene.name, "-o", _quoted(file_name(request, stem))]
+    if request.kind in LOOPS:
+        words += ["--seconds", plain(request.seconds), "--fps", plain(request.fps)]
+    words += ["--size", "x".join(map(str, request.settings.size))]
+    for style in style_names_of(request):
+        words += ["--style", _quoted(style)]
+    for name, value in scene.words:
+        words += ["--set", _quoted(f"{name}={value}")]
+    return " ".join(words)
+
+
+def _scene_python(request: ExportRequest, scene: SceneChoice, stem: str) -> str:
+    clip, out = scene_clip(request, find_scene(scene.name)), _text(file_name(request, stem))
+    style = f", style={list(style_names_of(request))!r}" if style_names_of(request) else ""
+    still = request.kind in STILLS
+    lines = [
+        "from drapery.scenes import Clip, find_scene, scene_frames",
+        "",
+        f"scene = find_scene({_text(scene.name)})",
+        f"parameters = scene.parameters({dict(scene.words)!r})",
+        f"clip = Clip({clip.size!r}, {clip.count}, {plain(clip.fps)})",
+        f"frames = scene_frames(scene, parameters, clip{', last=True' if still else ''}{style})",
+        f"next(frames).save({out})"
+        if still
+        else f"save_animation(frames, {plain(clip.fps)}, {out}, total={clip.count})",
+        "",
+    ]
+    return "\n".join(lines if still else ["from drapery.render import save_animation", *lines])
+
+
+def style_names_of(request: ExportRequest) -> tuple[str, ...]:
+    """The styles of the settings, as names or paths."""
+    style = request.settings.style
+    return tuple(map(str, style if isinstance(style, tuple) else (style,)))
 
 
 _COMMANDS = {"png": "render", "face": "flat", "glb": "model"}

@@ -23,6 +23,7 @@ from drapery.studio.document import Document
 from drapery.studio.live import Live
 from drapery.studio.pack_store import PackStore
 from drapery.studio.player import Player, garment_show, scene_show
+from drapery.studio.scene_choice import SceneChoice, scene_choice
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import ExportRequest, options_for, subject_of
 from drapery.studio.wind_controls import wind_controls_of
@@ -366,9 +367,11 @@ class Viewport:
     def _choose_player(self, packs: Packs) -> None:
         """Begin another scene or garment if the request asks for one. Raises DraperyError."""
         request, document = self.request, self._document
-        wanted: object = request.scene
-        if request.garment is not None:
-            settings = document.settings if request.on else replace(document.settings, wind=0.0)
+        settings = document.settings if request.on else replace(document.settings, wind=0.0)
+        wanted: object = None
+        if request.scene is not None:
+            wanted = scene_choice(request.scene, _design(document), settings)
+        elif request.garment is not None:
             wanted = ExportRequest(_design(document), settings, garment=request.garment)
         if wanted == self._played:
             return
@@ -377,8 +380,8 @@ class Viewport:
             garment = subject_of(wanted)
             assert isinstance(garment, Garment)
             self._player = Player(garment_show(garment, packs, options_for(wanted)), self.size)
-        elif request.scene is not None:
-            self._player = Player(scene_show(request.scene), self.size)
+        elif isinstance(wanted, SceneChoice):
+            self._player = Player(scene_show(wanted), self.size)
         if self._player is not None:
             self._player.step()
 

@@ -17,6 +17,7 @@ from drapery.studio.form_field import FormField
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.snippets import plain
+from drapery.studio.widgets import text_element
 
 BLUR = "() => setTimeout(() => document.activeElement?.blur?.(), 60)"
 
@@ -148,6 +149,20 @@ class Controls:
         def show() -> None:
             button.props.update({"aria-pressed": str(get()).lower()})
             button.update()
+
+        self._states.append(show)
+
+    def enabled(self, button: ui.button, get: Callable[[], bool]) -> None:
+        """Let a button work only while `get` returns true."""
+        self._states.append(lambda: button.set_enabled(get()))
+
+    def line(self, get: Callable[[], str]) -> None:
+        """A line of text, which is hidden while it is empty."""
+        element = text_element("", "p").classes("hint").props("role=status")
+
+        def show() -> None:
+            element.set_text(get())
+            element.set_visibility(bool(get()))
 
         self._states.append(show)
 

@@ -16,14 +16,18 @@ def build(session: Session) -> None:
     # The change in words, for screen readers.
     announced = text_element("").classes("sr").props("role=status")
 
-    def show() -> None:
+    def show_picture() -> None:
         # Each state has a new address, so the browser cannot show an old picture from its cache.
         picture.props["src"] = f"/face/{session.token}.png?v={next(version)}"
         picture.props["alt"] = described(session.sketch)
         picture.props["data-kind"] = session.sketch.kind
         picture.update()
+
+    def show() -> None:
+        show_picture()
         announced.set_text(described(session.sketch))
 
     show()
     session.listen("sketch", show)
     session.listen("packs", show)
+    session.listen("preview", show_picture)

@@ -13,6 +13,7 @@ from drapery.option import Option
 from drapery.settings import LOOP_OPTIONS, OPTIONS
 from drapery.studio.descriptions import view_title
 from drapery.studio.panels.fields import Fields
+from drapery.studio.scene_choice import scene_choice
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import LOOPS, SCALE, ExportRequest
@@ -68,7 +69,9 @@ def request_of(session: Session, choice: FileChoice) -> ExportRequest:
     if not session.viewport.request.on:
         settings = replace(settings, wind=0.0)
     made = choice.kind, choice.seconds, choice.fps, choice.scale
-    return ExportRequest(banner, settings, *made, session.viewport.request.garment)
+    shown = session.viewport.request
+    scene = None if shown.scene is None else scene_choice(shown.scene, banner, settings)
+    return ExportRequest(banner, settings, *made, shown.garment, scene)
 
 
 BY_VIEW = {"": "by the view"}
@@ -197,6 +200,5 @@ def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups
 
 def difference(request: ViewportRequest, kind: str) -> str:
     """What the live banner shows but the file will not contain."""
-    if kind in ("face", "json") or request.scene is None:
-        return ""
-    return "The file shows your banner, not the scene."
+    is_model = kind == "glb" and request.scene is not None
+    return "A 3-D model shows your banner, not the scene." if is_model else ""

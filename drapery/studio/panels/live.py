@@ -10,6 +10,7 @@ from drapery.settings import OPTIONS
 from drapery.studio.descriptions import view_title
 from drapery.studio.file_field import FileField
 from drapery.studio.panels.controls import Controls
+from drapery.studio.scene_choice import what_follows
 from drapery.studio.session import Session
 from drapery.studio.viewer import ViewerElement
 from drapery.studio.viewport import in_thread
@@ -55,6 +56,9 @@ def build(session: Session) -> None:
                 lambda: viewport.request.garment,
                 lambda name: wear(session, name),
             )
+            controls.line(
+                lambda: what_follows(viewport.request.scene) if viewport.request.scene else ""
+            )
         FileField(
             session,
             "garment",
@@ -88,6 +92,8 @@ def _view(session: Session, controls: Controls, name: str) -> None:
     button = controls.button(view_title(name), choose)
     button.props(f'aria-label="View: {view_title(name)}"')
     controls.pressed(button, lambda: session.settings.view == name)
+    # A scene has a camera of its own.
+    controls.enabled(button, lambda: session.viewport.request.scene is None)
 
 
 def wear(session: Session, name: str | None) -> None:

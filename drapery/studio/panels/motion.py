@@ -7,6 +7,7 @@ from nicegui import ui
 from drapery.settings import OPTIONS, ROTATIONS
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
+from drapery.studio.widgets import text_element
 from drapery.studio.wind_controls import wind_controls_of
 
 GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (16, 31), (17, 33), (25, 49), (33, 65))
@@ -49,6 +50,14 @@ def _wind(session: Session, controls: Controls) -> None:
 
 
 def _cloth(session: Session, controls: Controls) -> None:
+    controls.choice("pins", "Held at")
+    controls.number("thickness", "Thickness", 0.25)
+    with ui.element("details").classes("advanced"):
+        text_element("Advanced", "summary")
+        _simulation(session, controls)
+
+
+def _simulation(session: Session, controls: Controls) -> None:
     controls.choice("solver", "Solver")
     # The list must contain the current grid, because a link can set any grid.
     grids = dict.fromkeys((*GRIDS, tuple(session.settings.grid)))
@@ -59,9 +68,7 @@ def _cloth(session: Session, controls: Controls) -> None:
         lambda: option.to_text(session.settings.grid),
         lambda text: session.adjust(grid=option.parse(text)),
     )
-    controls.choice("pins", "Held at")
     controls.choice("contact", "Contact")
-    controls.number("thickness", "Thickness", 0.25)
 
 
 def _placement(session: Session, controls: Controls) -> None:
@@ -112,13 +119,15 @@ def _light(session: Session, controls: Controls) -> None:
         lambda hour: f"{int(hour)}:{int(hour % 1 * 60):02d}",
         OPTIONS["daylight"].describe(),
     )
-    controls.number("sky_light", "Sky light", 1)
     controls.number("block_light", "Torch light", 1)
-    controls.switch(
-        "Shaded",
-        lambda: session.settings.lighting == "game",
-        lambda on: session.adjust(light="game" if on else "flat"),
-    )
+    with ui.element("details").classes("advanced"):
+        text_element("Advanced", "summary")
+        controls.number("sky_light", "Sky light", 1)
+        controls.switch(
+            "Shaded",
+            lambda: session.settings.lighting == "game",
+            lambda on: session.adjust(light="game" if on else "flat"),
+        )
 
 
 def daylight_at(hour: float) -> float:

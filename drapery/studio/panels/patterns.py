@@ -42,6 +42,7 @@ def build(session: Session) -> None:
             session.selection.press_pattern(str(pattern))
 
     grid.on("pattern", lambda event: press(value_of(event)))
+    grid.on("preview", lambda event: session.selection.preview(str(value_of(event))))
     grid.on("swaps", lambda event: session.selection.set_swaps(bool(value_of(event))))
     list_patterns()
     show()

@@ -1,0 +1,98 @@
+"""A page that is loaded again goes on from the work of the page before it."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import pytest
+from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
+
+from drapery.banner.design import Banner
+from drapery.errors import DesignError
+from drapery.studio import kept_work
+from drapery.studio.kept_work import KeptWork
+from drapery.studio.session import Session, Sessions
+from drapery.studio.sketch import sketch_of
+
+
+async def _chunks(data: bytes) -> AsyncIterator[bytes]:
+    yield data
+
+
+def send_pack(session: Session, path: Path) -> None:
+    chunks = _chunks(path.read_bytes())
+    upload = asyncio.run(session.uploads.receive(chunks, "pack", path.name))
+    session.pack_store.adopt(upload.number, session.pack_store.check(upload.number))
+
+
+@pytest.fixture
+def pack(tmp_path: Path) -> Path:
+    return zip_pack(tmp_path / "blue.zip", {META: mcmeta(), CREEPER: plain(0, 0, 255, 255)})
+
+
+@pytest.mark.parametrize("is_gone", [False, True])
+def test_undo_packs_and_the_librarys_entry_are_there_again(pack: Path, is_gone: bool) -> None:
+    sessions = Sessions()
+    first = sessions.open()
+    first.selection.press_pattern("creeper")
+    first.selection.press_dye("lime")
+    first.entries[first.sketch.origin] = 7
+    send_pack(first, pack)
+    if is_gone:
+        sessions.keep(first)
+    second = sessions.open(sketch=first.sketch)
+    second.resume(sessions.work(first.token))
+    assert second.history == first.history
+    assert [entry.title for entry in second.pack_store.entries] == ["blue.zip"]
+    assert second.packs().level("creeper") == 1
+    assert second.entries[second.sketch.origin] == 7
+    first.close()
+    assert second.settings.pack_paths[0].exists(), "the pack is a copy"
+    folder = Path(second.settings.pack_paths[0]).parent
+    sessions.close_all()
+    assert not folder.exists()
+
+
+def test_a_design_of_the_address_is_the_last_step() -> None:
+    sessions = Sessions()
+    first = sessions.open()
+    first.selection.press_dye("red")
+    other = sketch_of(Banner.parse("blue"))
+    second = sessions.open(sketch=other)
+    second.resume(sessions.work(first.token))
+    assert second.sketch == other
+    second.undo()
+    assert second.sketch == first.sketch
+    sessions.close_all()
+
+
+def test_nothing_is_kept_of_a_page_without_work() -> None:
+    sessions = Sessions()
+    session = sessions.open()
+    sessions.keep(session)
+    assert session.closed
+    assert sessions.work(session.token) is None
+
+
+def test_work_is_kept_for_a_time_and_up_to_a_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 0.0
+    kept = KeptWork(clock=lambda: now)
+    session = Session()
+    kept.add("first", session.work)
+    now = kept_work.KEEP - 1
+    assert kept.find("first") is not None
+    now = kept_work.KEEP + 1
+    assert kept.find("first") is None
+    monkeypatch.setattr(kept_work, "MAX_KEPT", 2)
+    for name in "abc":
+        kept.add(name, session.work)
+    assert kept.find("a") is None
+    assert len(kept) == 2
+    session.close()
+
+
+def test_a_pack_that_is_gone_is_one_line(tmp_path: Path) -> None:
+    session = Session()
+    with pytest.raises(DesignError, match=r"blue\.zip: the file is not here any more"):
+        session.uploads.copy(tmp_path / "none", "pack", "blue.zip")
+    session.close()
