@@ -1,5 +1,6 @@
 """Contact inside the steps of the solvers: no part of a cloth passes into a box or a plane."""
 
+from itertools import pairwise
 from typing import Any, get_args
 
 import numpy as np
@@ -22,6 +23,7 @@ from drapery.cloth import (
 )
 from drapery.cloth.colliders import straight
 from drapery.cloth.colliders.check import sample_distances
+from drapery.cloth.contact.box_data import bands_of
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array
 from drapery.settings import SolverName
@@ -71,20 +73,44 @@ def test_many_steps_in_one_call_are_the_same_as_one_each() -> None:
         assert np.allclose(once.state.positions, each.state.positions, atol=1e-5)
 
 
-def test_a_batch_in_contact_equals_its_cloths_alone_on_any_threads() -> None:
-    cloth = flag((5, 9))
-    origins = np.array([[0.0, 0, 0], [3, 0, 0], [0, 0, 5]])
-    wind = Wind((0.0, 0.0, -6.0), origins=origins)
+@pytest.mark.parametrize("method", [SolverDesbrun, SolverXPBD])
+def test_a_crowd_in_contact_equals_its_cloths_alone_on_any_threads(method: Any) -> None:
+    # More cloths than a register holds; gusts press some of them against the pole.
+    cloth, origins = flag((5, 9)), np.arange(60.0).reshape(20, 3)
+    wind = Wind((0.5, 0.0, 4.0), gusts=0.8, origins=origins)
+    frame = Collisions((POLE, BAR), thickness=UNIT)
     runs = [
-        MovingCloth.begin(cloth, SolverDesbrun(threads=threads), count=3, collisions=MET)
+        MovingCloth.begin(cloth, method(threads=threads), count=20, collisions=frame)
         for threads in (1, 2)
     ]
-    one, two = (run.advance((Gravity(), wind), 40).state.positions for run in runs)
-    assert np.array_equal(one, two)
-    for number, origin in enumerate(origins):
-        alone = MovingCloth.begin(cloth, collisions=MET)
-        alone = alone.advance((Gravity(), Wind((0.0, 0.0, -6.0), origins=origin[None])), 40)
-        assert np.array_equal(alone.state.positions[0], one[number])
+    one, two = (run.advance((Gravity(), wind), 40).state for run in runs)
+    assert np.array_equal(one.positions, two.positions)
+    assert np.array_equal(one.velocities, two.velocities)
+    free = MovingCloth.begin(cloth, method(), count=20).advance((Gravity(), wind), 40).state
+    met = (one.positions != free.positions).any(axis=(1, 2))
+    assert met.any() and not met.all()
+    for number in (0, 7, 15, 16, 19):
+        alone = MovingCloth.begin(cloth, method(), collisions=frame)
+        wind = Wind((0.5, 0.0, 4.0), gusts=0.8, origins=origins[[number]])
+        state = alone.advance((Gravity(), wind), 40).state
+        assert np.array_equal(state.positions[0], one.positions[number])
+        assert np.array_equal(state.velocities[0], one.velocities[number])
+
+
+def test_edges_and_faces_join_only_neighbouring_bands() -> None:
+    shuffled = np.random.default_rng(0).permutation(45).astype(np.int32)
+    for triangles in (flag((5, 9)).triangles, shuffled[flag((5, 9)).triangles]):
+        pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+        edges = np.unique(np.sort(pairs, axis=1), axis=0)
+        bands = bands_of(45, edges, triangles)
+        assert (bands[0] == 0).all() and (bands[-1] == (45, len(edges), len(triangles))).all()
+        for first, last in pairwise(bands):
+            later = bands[bands[:, 0] > last[0], 0].min(initial=45)
+            for parts, column in ((edges, 1), (triangles, 2)):
+                mine = parts[first[column] : last[column]]
+                assert ((mine >= first[0]) & (mine < later)).all()
+                assert (mine.min(axis=1, initial=45) < last[0]).all()
+    assert len(bands_of(45, edges[:0], triangles[:0])) == 2
 
 
 def test_a_falling_cloth_comes_to_rest_on_a_box_and_friction_holds_it() -> None:

@@ -199,7 +199,7 @@ def _narrowed(batch: Batch, lanes: int, wind: LiveWind) -> Batch:
         gusts=gusts,
         width=lanes,
         residuals=cut(batch.residuals),
-        work=_zeros(contact_work(1, batch.contact)),
+        work=_zeros(contact_work(batch.contact)),
     )
 
 

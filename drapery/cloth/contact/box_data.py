@@ -17,6 +17,10 @@ REACH = 1.5
 """No edge of a cloth is longer than this many times its longest edge at rest."""
 FAR = 1e3
 """Half the size of the box that stands for a plane [m]."""
+COLUMNS, TRACK = 12, 6
+"""Numbers of a particle in the frame of a box and in its track; see `box_frame`."""
+TOUCH = 1e-7
+"""Distances [m] below which a contact is exact."""
 
 
 class BoxContact(NamedTuple):
@@ -26,7 +30,7 @@ class BoxContact(NamedTuple):
     halves: half its edge lengths [m], [K, 3]. friction: [K].
     radius: distance that the cloth keeps [m].
     reach: no edge of the cloth is longer [m]. edges: [E, 2]. triangles: [T, 3]. inv_mass: [1/kg],
-    [N].
+    [N]. bands: see `bands_of`, [B + 1, 3].
     """
 
     starts: Array
@@ -38,6 +42,7 @@ class BoxContact(NamedTuple):
     edges: NDArray[np.int32]
     triangles: NDArray[np.int32]
     inv_mass: Array
+    bands: NDArray[np.int32]
 
 
 NO_CONTACT = BoxContact(
@@ -50,6 +55,7 @@ NO_CONTACT = BoxContact(
     np.zeros((0, 2), np.int32),
     np.zeros((0, 3), np.int32),
     np.zeros(0),
+    np.zeros((1, 3), np.int32),
 )
 """The contact of cloths that meet nothing."""
 
@@ -109,6 +115,7 @@ def box_colliders(
     lengths = np.sqrt(np.square(rest[edges[:, 0]] - rest[edges[:, 1]]).sum(axis=1))
     rests, halves = zip(*(_box_of(collider.shape) for collider in colliders), strict=True)
     poses = np.stack([np.append(pose.position, pose.rotation) for pose in rests])
+    faces = np.ascontiguousarray(triangles, np.int32)
     contact = BoxContact(
         poses,
         poses,
@@ -117,8 +124,9 @@ def box_colliders(
         radius,
         REACH * float(lengths.max(initial=0.0)),
         edges,
-        np.ascontiguousarray(triangles, np.int32),
+        faces,
         np.ascontiguousarray(inv_mass, float),
+        bands_of(len(inv_mass), edges, faces),
     )
     return BoxColliders(contact, tuple(collider.path for collider in colliders))
 
@@ -140,24 +148,73 @@ def _box_of(shape: Shape) -> tuple[Pose, Array]:
     return Pose(centre, rotation), np.full(3, FAR)
 
 
+def bands_of(
+    particles: int, edges: NDArray[np.int32], triangles: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """Bands of consecutive particles, such as the rows of a grid, of which no edge joins others
+    than neighbours: the first particle, edge and face of each band and the ends, [B + 1, 3].
+
+    An edge or a face belongs to the band of its first particle.
+    edges: [E, 2], sorted by their first particle. triangles: [T, 3].
+    """
+    span = int((edges[:, 1] - edges[:, 0]).max()) if len(edges) else particles + 1
+    first = triangles.min(axis=1) if len(triangles) else np.zeros(0, np.int32)
+    for size in (min(max(1, span - 1), particles), span, particles):
+        band = edges // size
+        if (band[:, 1] - band[:, 0] <= 1).all() and (np.diff(first // size) >= 0).all():
+            break
+    begin = np.arange(0, particles, size)
+    numbers = np.arange(len(begin))
+    starts = np.stack(
+        [
+            begin,
+            np.searchsorted(edges[:, 0] // size, numbers),
+            np.searchsorted(first // size, numbers),
+        ],
+        axis=1,
+    )
+    ends = np.array([[particles, len(edges), len(triangles)]])
+    return np.concatenate([starts, ends]).astype(np.int32)
+
+
 class Candidates(NamedTuple):
     """What of a cloth is near each box during a step: numbers of particles [K, N], edges [K, E] and
-    faces [K, T], and how many there are, [K, 3]."""
+    faces [K, T], and how many there are, [K, 3].
+
+    bounds: of each band, lowest and highest coordinates [m], [B, 6]. close: whether a band and the
+    next are near a box, [B]. codes, marks: of each particle and one box, see `near_boxes`, [N].
+    listed: whether a particle is near any box, [N]. frames, tracks: see `box_frame`, of shape
+    [K, N, COLUMNS] and [N, TRACK].
+    """
 
     particles: NDArray[np.int32]
     edges: NDArray[np.int32]
     faces: NDArray[np.int32]
     counts: NDArray[np.int64]
+    bounds: Array
+    close: NDArray[np.uint8]
+    codes: NDArray[np.uint8]
+    marks: NDArray[np.uint8]
+    listed: NDArray[np.uint8]
+    frames: Array
+    tracks: Array
 
 
 def candidate_arrays(contact: BoxContact) -> Candidates:
     """Arrays for the cloth and the boxes of a contact."""
-    boxes = len(contact.halves)
+    boxes, particles, bands = len(contact.halves), len(contact.inv_mass), len(contact.bands) - 1
     return Candidates(
-        np.empty((boxes, len(contact.inv_mass)), np.int32),
+        np.empty((boxes, particles), np.int32),
         np.empty((boxes, len(contact.edges)), np.int32),
         np.empty((boxes, len(contact.triangles)), np.int32),
         np.zeros((boxes, 3), np.int64),
+        np.empty((bands, 6)),
+        np.zeros(bands, np.uint8),
+        np.zeros(particles, np.uint8),
+        np.zeros(particles, np.uint8),
+        np.zeros(particles, np.uint8),
+        np.zeros((boxes, particles, COLUMNS)),
+        np.zeros((particles, TRACK)),
     )
 
 

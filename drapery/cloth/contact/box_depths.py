@@ -8,10 +8,10 @@ section 5.1).
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.cloth.colliders.primitives import cuboid_distance
 from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, subtract
-from drapery.cloth.contact.box_data import BoxContact
 from drapery.cloth.contact.box_frame import DISTANCE, START, blend, end_of, outward_of, start_of
 from drapery.cloth.contact.geometry import UP, grown, higher, lower, overlap
 from drapery.jit import kernel
@@ -158,23 +158,34 @@ def nearest_of_edge(
 
 
 @kernel
+def corner_of(half: Vector, number: int) -> Vector:
+    """Corner number 0 to 7 of a box."""
+    return (
+        half[0] if number & 1 else -half[0],
+        half[1] if number & 2 else -half[1],
+        half[2] if number & 4 else -half[2],
+    )
+
+
+@kernel
+def near_face(frame: Array, face: tuple[int, int, int], radius: float, corner: Vector) -> bool:
+    """Whether a corner of the box is within the radius of a face's bounds; a radius below 0 is
+    never kept."""
+    if radius < 0.0:
+        return False
+    a, b, c = end_of(frame, face[0]), end_of(frame, face[1]), end_of(frame, face[2])
+    low, high = lower(a, lower(b, c)), higher(a, higher(b, c))
+    return overlap(grown(low, -radius), grown(high, radius), corner, corner)
+
+
+@kernel
 def face_depth(
-    half: Vector, radius: float, frame: Array, face: tuple[int, int, int], corner: int
+    half: Vector, radius: float, frame: Array, face: tuple[int, int, int], corner: Vector
 ) -> tuple[Vector, float, Vector]:
     """The weights of the point of a face that is nearest to a corner of the box, if it is inside
     the face, the depth [m] to push it there, and the direction."""
-    point = (
-        half[0] if corner & 1 else -half[0],
-        half[1] if corner & 2 else -half[1],
-        half[2] if corner & 4 else -half[2],
-    )
-    if radius < 0.0:
-        return UP, 0.0, UP
     a, b, c = end_of(frame, face[0]), end_of(frame, face[1]), end_of(frame, face[2])
-    low, high = lower(a, lower(b, c)), higher(a, higher(b, c))
-    if not overlap(grown(low, -radius), grown(high, radius), point, point):
-        return UP, 0.0, UP
-    weights, foot = foot_on_face(a, b, c, point)
+    weights, foot = foot_on_face(a, b, c, corner)
     if not (weights[0] > 0.0 and weights[1] > 0.0 and weights[2] > 0.0):
         return weights, 0.0, UP
     d, normal = cuboid_distance(half, foot)
@@ -202,6 +213,6 @@ def foot_on_face(a: Vector, b: Vector, c: Vector, p: Vector) -> tuple[Vector, Ve
 
 
 @kernel
-def face_of(contact: BoxContact, t: int) -> tuple[int, int, int]:
+def face_of(triangles: NDArray[np.int32], t: int) -> tuple[int, int, int]:
     """The particles of a face."""
-    return contact.triangles[t, 0], contact.triangles[t, 1], contact.triangles[t, 2]
+    return triangles[t, 0], triangles[t, 1], triangles[t, 2]

@@ -5,6 +5,8 @@ the motion of the box counts as motion of the cloth. (If a box rotates, the true
 in its frame is curved; the error is of second order in the angle of the rotation in a step.)
 """
 
+import numpy as np
+
 from drapery.cloth.colliders.primitives import cuboid_distance
 from drapery.cloth.colliders.vectors import (
     Vector,
@@ -20,48 +22,63 @@ from drapery.cloth.contact.geometry import put
 from drapery.jit import kernel
 from drapery.mesh import Array
 
-START, END, DISTANCE, OUTWARD, MOVED, CARRIED, COLUMNS = 0, 3, 6, 7, 10, 11, 12
+START, END, DISTANCE, OUTWARD, MOVED, CHANGED = 0, 3, 6, 7, 10, 11
 """The columns of a cloth in the frame of a box, [N, COLUMNS]: the place at the start and the end of
-a step [m], the distance at the end [m] and its direction (infinite and unknown for particles that
-are not near), whether the particle was moved, and how far the boxes that moved it moved there [m].
-One array is passed on much faster than six."""
+a step [m], the distance at the end [m] and its direction, how far contacts with the box moved the
+particle since it entered the frame [m], and the turn in which these last changed."""
+CARRIED, SOLVED, TRAVEL, TURN = 0, 1, 4, 5
+"""The columns of a particle's track, [N, TRACK]: how far the boxes that moved it moved there [m],
+where its solver left it, in the world [m], the length of its path since then [m], and the turn in
+which a box last moved it. A turn is one pass over the contacts with one box."""
+NOW = np.inf
+"""CHANGED of a particle that is being moved."""
 
 
 @kernel
-def reset_frame(frame: Array) -> None:
+def reset_tracks(near: Candidates) -> None:
     """Prepare for a step: no particle was moved."""
-    for i in range(len(frame)):
-        frame[i, CARRIED] = 0.0
+    for i in range(len(near.tracks)):
+        near.tracks[i, CARRIED] = 0.0
 
 
 @kernel
 def enter_frame(
-    x0: Array, x: Array, contact: BoxContact, k: int, frame: Array, near: Candidates
+    x0: Array, x: Array, contact: BoxContact, k: int, near: Candidates, since: int, turn: int
 ) -> None:
-    """Set the places of near particles relative to a box, and their distances."""
+    """Set the places relative to a box, and the distances, of near particles that were moved in
+    turn `since` or later."""
     turn0, centre0 = contact.starts[k, 3:].reshape(3, 3), row(contact.starts, k)
-    turn, centre = contact.ends[k, 3:].reshape(3, 3), row(contact.ends, k)
-    half = row(contact.halves, k)
+    turn1, centre1 = contact.ends[k, 3:].reshape(3, 3), row(contact.ends, k)
+    half, frame = row(contact.halves, k), near.frames[k]
     for n in range(near.counts[k, 0]):
         i = near.particles[k, n]
-        put(frame, i, START, rotated_back(turn0, subtract(row(x0, i), centre0)))
-        put(frame, i, END, rotated_back(turn, subtract(row(x, i), centre)))
-        measure(half, frame, i)
-        frame[i, MOVED] = 0.0
+        if near.tracks[i, TURN] >= since:
+            put(frame, i, START, rotated_back(turn0, subtract(row(x0, i), centre0)))
+            put(frame, i, END, rotated_back(turn1, subtract(row(x, i), centre1)))
+            measure(half, frame, i)
+            frame[i, MOVED] = 0.0
+            frame[i, CHANGED] = turn
 
 
 @kernel
-def leave_frame(x: Array, contact: BoxContact, k: int, frame: Array, near: Candidates) -> None:
-    """Write the new places of the particles that were moved."""
+def leave_frame(x: Array, contact: BoxContact, k: int, near: Candidates, turn: int) -> float:
+    """Write the new places of the particles that were moved; returns the longest path [m]."""
+    longest = 0.0
     turn0, centre0 = contact.starts[k, 3:].reshape(3, 3), row(contact.starts, k)
-    turn, centre = contact.ends[k, 3:].reshape(3, 3), row(contact.ends, k)
+    turn1, centre1 = contact.ends[k, 3:].reshape(3, 3), row(contact.ends, k)
+    frame, tracks = near.frames[k], near.tracks
     for n in range(near.counts[k, 0]):
         i = near.particles[k, n]
         if frame[i, MOVED] > 0.0:
-            place = add_scaled(centre, 1.0, rotated(turn, end_of(frame, i)))
+            place = add_scaled(centre1, 1.0, rotated(turn1, end_of(frame, i)))
             before = add_scaled(centre0, 1.0, rotated(turn0, end_of(frame, i)))
-            frame[i, CARRIED] = max(frame[i, CARRIED], norm(subtract(place, before)))
+            tracks[i, CARRIED] = max(tracks[i, CARRIED], norm(subtract(place, before)))
+            tracks[i, TRAVEL] += frame[i, MOVED]
+            tracks[i, TURN] = turn
+            longest = max(longest, tracks[i, TRAVEL])
+            frame[i, MOVED] = 0.0
             put(x, i, 0, place)
+    return longest
 
 
 @kernel

@@ -5,14 +5,16 @@ start of the step. The start is free of penetration, so this ends without one, w
 could not solve.
 """
 
-from drapery.cloth.colliders.vectors import Vector, row
+from drapery.cloth.colliders.vectors import Vector, norm, row, subtract
 from drapery.cloth.contact.box_data import BoxContact, Candidates
 from drapery.cloth.contact.box_depths import (
+    corner_of,
     edge_depth,
     edge_radius,
     face_depth,
     face_of,
     face_radius,
+    near_face,
 )
 from drapery.cloth.contact.box_frame import (
     DISTANCE,
@@ -33,15 +35,18 @@ GUARDS = 16
 
 
 @kernel
-def guard_boxes(x0: Array, x: Array, contact: BoxContact, frame: Array, near: Candidates) -> None:
-    """Return particles to their start until no part of the cloth is in a box."""
+def guard_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> float:
+    """Return particles to their start until no part of the cloth is in a box; returns the longest
+    path of a particle [m]."""
+    longest = 0.0
     for k in range(len(contact.halves)):
         if near.counts[k, 0] > 0:
-            enter_frame(x0, x, contact, k, frame, near)
+            enter_frame(x0, x, contact, k, near, -1, 0)
             for _ in range(GUARDS):
-                if not return_some(contact, k, frame, near):
+                if not return_some(contact, k, near.frames[k], near):
                     break
-            leave_frame(x, contact, k, frame, near)
+            longest = max(longest, leave_frame(x, contact, k, near, 0))
+    return longest
 
 
 @kernel
@@ -60,9 +65,12 @@ def return_some(contact: BoxContact, k: int, frame: Array, near: Candidates) -> 
             found = to_start(half, contact.inv_mass, frame, i) or found
             found = to_start(half, contact.inv_mass, frame, j) or found
     for n in range(near.counts[k, 2]):
-        face = face_of(contact, near.faces[k, n])
+        face = face_of(contact.triangles, near.faces[k, n])
         kept = face_radius(half, contact.inv_mass, 0.0, frame, face)
-        for corner in range(8):
+        for number in range(8):
+            corner = corner_of(half, number)
+            if not near_face(frame, face, kept, corner):
+                continue
             _weights, depth, _normal = face_depth(half, kept, frame, face, corner)
             if depth > 0.0:
                 for i in face:
@@ -79,5 +87,5 @@ def to_start(half: Vector, w: Array, frame: Array, i: int) -> bool:
         return False
     put(frame, i, END, start)
     measure(half, frame, i)
-    frame[i, MOVED] = 1.0
+    frame[i, MOVED] += norm(subtract(end, start))
     return True

@@ -14,6 +14,12 @@ def put(rows: Array, i: int, first: int, values: Vector) -> None:
 
 
 @kernel
+def read(rows: Array, i: int, first: int) -> Vector:
+    """Three numbers of row i, from number `first` on."""
+    return rows[i, first], rows[i, first + 1], rows[i, first + 2]
+
+
+@kernel
 def lower(a: Vector, b: Vector) -> Vector:
     """The lower of each pair of coordinates."""
     return min(a[0], b[0]), min(a[1], b[1]), min(a[2], b[2])
@@ -45,10 +51,11 @@ def overlap(low: Vector, high: Vector, first: Vector, last: Vector) -> bool:
 
 
 @kernel
-def bounds_of(x0: Array, x: Array) -> tuple[Vector, Vector]:
-    """The least box about a cloth's places at the start and the end of a step."""
-    low, high = row(x, 0), row(x, 0)
-    for i in range(len(x)):
+def bounds_of(x0: Array, x: Array, first: int, last: int) -> tuple[Vector, Vector]:
+    """The least box about the places of particles first..last at the start and the end of a
+    step."""
+    low, high = row(x, first), row(x, first)
+    for i in range(first, last):
         a, b = row(x0, i), row(x, i)
         low, high = lower(low, lower(a, b)), higher(high, higher(a, b))
     return low, high

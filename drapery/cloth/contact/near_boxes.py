@@ -1,23 +1,118 @@
-"""What of a cloth is so near a box that it may touch it in a step."""
+"""What of a cloth is so near a box that it may touch it in a step.
+
+The bounds of each two neighbouring bands of the cloth are compared with those of the box. In what
+is left, each particle has a code of the planes about the box beyond which it lies; what lies beyond
+one plane as a whole cannot touch (Cohen and Sutherland; Newman, Sproull, "Principles of Interactive
+Computer Graphics", 1979, section 5.1). Functions that are called often take arrays, not the tuples
+that hold them: a call copies the whole tuple.
+"""
 
 import numpy as np
+from numpy.typing import NDArray
 
-from drapery.cloth.colliders.vectors import Vector, add, dot, row, subtract
-from drapery.cloth.contact.box_data import BoxContact, Candidates
-from drapery.cloth.contact.box_frame import DISTANCE, end_of, enter_frame
-from drapery.cloth.contact.geometry import bounds_of, grown, has_end, higher, lower, overlap
+from drapery.cloth.colliders.vectors import Vector, add, dot, rotated_back, row, subtract
+from drapery.cloth.contact.box_data import TOUCH, BoxContact, Candidates
+from drapery.cloth.contact.box_frame import (
+    CHANGED,
+    DISTANCE,
+    END,
+    MOVED,
+    SOLVED,
+    START,
+    TRAVEL,
+    TURN,
+    end_of,
+    measure,
+)
+from drapery.cloth.contact.geometry import (
+    bounds_of,
+    grown,
+    has_end,
+    higher,
+    lower,
+    overlap,
+    put,
+    read,
+)
 from drapery.jit import kernel
 from drapery.mesh import Array
 
+Marks = NDArray[np.uint8]
+Numbers = NDArray[np.int32]
+Counts = NDArray[np.int64]
+LISTED, MEASURED = 1, 2
+"""The marks of a particle: it is listed; its distance from the box is needed."""
+ITSELF, PAIR = 1, 2
+"""The marks of a band: it is near together with one of its neighbours; with the next one."""
+
 
 @kernel
-def find_boxes(x0: Array, x: Array, contact: BoxContact, frame: Array, near: Candidates) -> bool:
-    """List what is near the boxes; returns whether there is anything."""
-    low, high = bounds_of(x0, x)
+def whole_margin(contact: BoxContact) -> float:
+    """The distance [m] beyond the radius within which everything is looked at."""
+    return 2.0 * contact.radius + contact.reach
+
+
+@kernel
+def find_boxes(x0: Array, x: Array, contact: BoxContact, margin: float, near: Candidates) -> bool:
+    """List what is within a margin [m] beyond the radius; returns whether there is anything.
+
+    Nothing is listed near a box that nothing touches now: then no contact can move anything.
+    """
+    bands, bounds, close = contact.bands, near.bounds, near.close
+    for band in range(len(close)):
+        low, high = bounds_of(x0, x, bands[band, 0], bands[band + 1, 0])
+        put(bounds, band, 0, low)
+        put(bounds, band, 3, high)
+    for i in range(len(x)):
+        near.listed[i] = 0
     found = False
     for k in range(len(contact.halves)):
-        find_near(x0, x, low, high, contact, k, frame, near)
-        found = found or near.counts[k, 0] > 0
+        near.counts[k, 0] = near.counts[k, 1] = near.counts[k, 2] = 0
+        low, high = swept_extent(contact, k)
+        if find_close(bounds, close, grown(low, 0.5 * TOUCH), grown(high, -0.5 * TOUCH)):
+            low, high = grown(low, -margin), grown(high, margin)
+            find_close(bounds, close, low, high)
+            mark_particles(x0, x, bands, low, high, close, near.codes, near.marks)
+            find_edges(
+                contact.edges, bands, close, near.codes, near.marks, near.edges, near.counts, k
+            )
+            find_faces(
+                contact.triangles, bands, close, near.codes, near.marks, near.faces, near.counts, k
+            )
+            measure_marked(x0, x, contact, k, near)
+            choose_edges(contact, k, near)
+            choose_faces(contact, k, near)
+            list_particles(x, contact, k, near)
+            found = found or near.counts[k, 0] > 0
+    return found
+
+
+@kernel
+def swept_extent(contact: BoxContact, k: int) -> tuple[Vector, Vector]:
+    """The lowest and the highest coordinates of what a box keeps free at the start or the end of
+    the step."""
+    low, high = extent_of(contact, contact.starts, k)
+    low1, high1 = extent_of(contact, contact.ends, k)
+    return lower(low, low1), higher(high, high1)
+
+
+@kernel
+def find_close(bounds: Array, close: Marks, low: Vector, high: Vector) -> bool:
+    """Mark the bands that may, each with the next one, overlap an upright box; whether any does.
+
+    The last band stands alone.
+    """
+    found, last = False, len(close) - 1
+    for band in range(last + 1):
+        close[band] = 0
+    for band in range(last + 1):
+        after = min(band + 1, last)
+        first = lower(read(bounds, band, 0), read(bounds, after, 0))
+        end = higher(read(bounds, band, 3), read(bounds, after, 3))
+        if overlap(first, end, low, high):
+            close[band] = PAIR + ITSELF
+            close[after] |= ITSELF
+            found = True
     return found
 
 
@@ -33,77 +128,171 @@ def extent_of(contact: BoxContact, poses: Array, k: int) -> tuple[Vector, Vector
 
 
 @kernel
-def find_near(
+def mark_particles(
     x0: Array,
     x: Array,
+    bands: Numbers,
     low: Vector,
     high: Vector,
-    contact: BoxContact,
-    k: int,
-    frame: Array,
-    near: Candidates,
+    close: Marks,
+    codes: Marks,
+    marks: Marks,
 ) -> None:
-    """List what is so near a box that it may touch it in this step. low, high: of the cloth."""
-    near.counts[k, 0] = near.counts[k, 1] = near.counts[k, 2] = 0
-    first, last = extent_of(contact, contact.starts, k)
-    first1, last1 = extent_of(contact, contact.ends, k)
-    first, last = lower(first, first1), higher(last, last1)
-    margin = 2.0 * contact.radius + contact.reach
-    if not overlap(low, high, first, last):
-        return
-    first, last = grown(first, -margin), grown(last, margin)
+    """Set the codes of the particles of close bands, and list those that no plane separates from
+    what the box reaches, from low to high, at the start and at the end of the step."""
+    for band in range(len(close)):
+        if close[band]:
+            for i in range(bands[band, 0], bands[band + 1, 0]):
+                codes[i] = outcode(row(x, i), low, high)
+                marks[i] = LISTED * (codes[i] & outcode(row(x0, i), low, high) == 0)
+
+
+@kernel
+def outcode(place: Vector, low: Vector, high: Vector) -> int:
+    """A bit for each of the six planes about an upright box: whether a place is beyond it."""
+    return (
+        (place[0] < low[0])
+        + 2 * (place[0] > high[0])
+        + 4 * (place[1] < low[1])
+        + 8 * (place[1] > high[1])
+        + 16 * (place[2] < low[2])
+        + 32 * (place[2] > high[2])
+    )
+
+
+@kernel
+def find_edges(
+    edges: Numbers,
+    bands: Numbers,
+    close: Marks,
+    codes: Marks,
+    marks: Marks,
+    out: Numbers,
+    counts: Counts,
+    k: int,
+) -> None:
+    """List the edges of which no plane about box k separates both ends, and mark the ends."""
     found = 0
-    for i in range(len(x)):
-        frame[i, DISTANCE] = np.inf
-        a, b = row(x0, i), row(x, i)
-        if overlap(lower(a, b), higher(a, b), first, last):
-            frame[i, DISTANCE] = 0.0
-            near.particles[k, found] = i
-            found += 1
-    near.counts[k, 0] = found
-    if found == 0:
-        return
-    enter_frame(x0, x, contact, k, frame, near)
+    for band in range(len(close)):
+        if close[band] & PAIR:
+            for e in range(bands[band, 1], bands[band + 1, 1]):
+                i, j = edges[e, 0], edges[e, 1]
+                if codes[i] & codes[j] == 0:
+                    out[k, found] = e
+                    marks[i] |= MEASURED
+                    marks[j] |= MEASURED
+                    found += 1
+    counts[k, 1] = found
+
+
+@kernel
+def find_faces(
+    triangles: Numbers,
+    bands: Numbers,
+    close: Marks,
+    codes: Marks,
+    marks: Marks,
+    out: Numbers,
+    counts: Counts,
+    k: int,
+) -> None:
+    """The same for faces."""
     found = 0
-    for e in range(len(contact.edges)):
-        i, j = contact.edges[e, 0], contact.edges[e, 1]
-        if frame[i, DISTANCE] + frame[j, DISTANCE] < 2.0 * margin and may_touch(
-            contact, frame, i, j
-        ):
-            near.edges[k, found] = e
+    for band in range(len(close)):
+        if close[band] & PAIR:
+            for t in range(bands[band, 2], bands[band + 1, 2]):
+                i, j, m = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+                if codes[i] & codes[j] & codes[m] == 0:
+                    out[k, found] = t
+                    marks[i] |= MEASURED
+                    marks[j] |= MEASURED
+                    marks[m] |= MEASURED
+                    found += 1
+    counts[k, 2] = found
+
+
+@kernel
+def measure_marked(x0: Array, x: Array, contact: BoxContact, k: int, near: Candidates) -> None:
+    """Set the places relative to box k, and the distances, of marked particles."""
+    turn0, centre0 = contact.starts[k, 3:].reshape(3, 3), row(contact.starts, k)
+    turn, centre = contact.ends[k, 3:].reshape(3, 3), row(contact.ends, k)
+    half, frame, bands = row(contact.halves, k), near.frames[k], contact.bands
+    close, marks = near.close, near.marks
+    for band in range(len(close)):
+        if close[band]:
+            for i in range(bands[band, 0], bands[band + 1, 0]):
+                if marks[i]:
+                    put(frame, i, START, rotated_back(turn0, subtract(row(x0, i), centre0)))
+                    put(frame, i, END, rotated_back(turn, subtract(row(x, i), centre)))
+                    measure(half, frame, i)
+                    frame[i, MOVED] = frame[i, CHANGED] = 0.0
+
+
+@kernel
+def choose_edges(contact: BoxContact, k: int, near: Candidates) -> None:
+    """Keep the edges that may touch box k, and list their ends."""
+    found, edges, marks, frame = 0, near.edges, near.marks, near.frames[k]
+    ends, radius = contact.edges, contact.radius
+    for n in range(near.counts[k, 1]):
+        e = edges[k, n]
+        i, j = ends[e, 0], ends[e, 1]
+        if may_touch(radius, frame, i, j):
+            edges[k, found] = e
+            marks[i] |= LISTED
+            marks[j] |= LISTED
             found += 1
     near.counts[k, 1] = found
-    found = 0
-    for t in range(len(contact.triangles)):
-        if near_corner(contact, k, frame, t):
-            near.faces[k, found] = t
+
+
+@kernel
+def choose_faces(contact: BoxContact, k: int, near: Candidates) -> None:
+    """Keep the faces inside which a corner of box k may touch, and list their particles."""
+    found, faces, marks, frame = 0, near.faces, near.marks, near.frames[k]
+    half, radius, triangles = row(contact.halves, k), contact.radius, contact.triangles
+    for n in range(near.counts[k, 2]):
+        t = faces[k, n]
+        i, j, m = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        if near_corner(half, radius, frame, i, j, m):
+            faces[k, found] = t
+            marks[i] |= LISTED
+            marks[j] |= LISTED
+            marks[m] |= LISTED
             found += 1
     near.counts[k, 2] = found
 
 
 @kernel
-def may_touch(contact: BoxContact, frame: Array, i: int, j: int) -> bool:
-    """Whether an edge may come within the radius, contacts of the radius included."""
+def list_particles(x: Array, contact: BoxContact, k: int, near: Candidates) -> None:
+    """List the particles that are marked for it, in order, and begin their tracks."""
+    close, bands, marks, tracks = near.close, contact.bands, near.marks, near.tracks
+    found, particles, listed = 0, near.particles, near.listed
+    for band in range(len(close)):
+        if close[band]:
+            for i in range(bands[band, 0], bands[band + 1, 0]):
+                if marks[i] & LISTED:
+                    particles[k, found] = i
+                    listed[i] = 1
+                    put(tracks, i, SOLVED, row(x, i))
+                    tracks[i, TRAVEL] = tracks[i, TURN] = 0.0
+                    found += 1
+    near.counts[k, 0] = found
+
+
+@kernel
+def may_touch(radius: float, frame: Array, i: int, j: int) -> bool:
+    """Whether an edge may come within the radius [m], contacts of the radius included."""
     along = subtract(end_of(frame, j), end_of(frame, i))
-    total = frame[i, DISTANCE] + frame[j, DISTANCE] - 3.0 * contact.radius
+    total = frame[i, DISTANCE] + frame[j, DISTANCE] - 3.0 * radius
     near: bool = total < 0.0 or total * total < dot(along, along)
     return near
 
 
 @kernel
-def near_corner(contact: BoxContact, k: int, frame: Array, t: int) -> bool:
+def near_corner(half: Vector, radius: float, frame: Array, i: int, j: int, m: int) -> bool:
     """Whether a corner of the box may come near the inside of a face."""
-    i, j, m = contact.triangles[t, 0], contact.triangles[t, 1], contact.triangles[t, 2]
-    nearest = min(frame[i, DISTANCE], frame[j, DISTANCE], frame[m, DISTANCE])
-    if max(frame[i, DISTANCE], frame[j, DISTANCE], frame[m, DISTANCE]) == np.inf:
-        return False
-    if nearest > 3.0 * contact.radius + contact.reach:
-        return False
     a, b, c = end_of(frame, i), end_of(frame, j), end_of(frame, m)
     low, high = lower(a, lower(b, c)), higher(a, higher(b, c))
-    margin = 2.0 * contact.radius
-    low, high = grown(low, -margin), grown(high, margin)
-    half = row(contact.halves, k)
+    low, high = grown(low, -2.0 * radius), grown(high, 2.0 * radius)
     return (
         has_end(low[0], high[0], half[0])
         and has_end(low[1], high[1], half[1])

@@ -6,12 +6,10 @@ At the end the step is made safe (`safe_steps`). So a cloth that does not cross 
 of a step never does.
 """
 
-import numpy as np
-
 from drapery.cloth.colliders.vectors import add_scaled, dot, norm, row, scale, subtract
 from drapery.cloth.contact.box_contact import meet_boxes
 from drapery.cloth.contact.box_data import BoxContact, Candidates, empty_candidates
-from drapery.cloth.contact.box_frame import CARRIED, COLUMNS, reset_frame
+from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
 from drapery.cloth.contact.box_guard import guard_boxes
 from drapery.cloth.contact.geometry import put
 from drapery.cloth.contact.pair_distance import nearest
@@ -48,23 +46,23 @@ def meet_all(
     x0, x: places at the start and the end of a step [m], [B, N, 3]; x is changed.
     carried: is set to how far the boxes that moved a particle moved there [m], [B, N].
     """
-    frame, near = np.empty((len(contact.inv_mass), COLUMNS)), empty_candidates(boxes)
+    near = empty_candidates(boxes)
     for cloth in range(begin, end):
-        reset_frame(frame)
-        meet_one(x0[cloth], x[cloth], contact, boxes, frame, near)
-        for i in range(len(frame)):
-            carried[cloth, i] = frame[i, CARRIED]
+        reset_tracks(near)
+        meet_one(x0[cloth], x[cloth], contact, boxes, near)
+        for i in range(len(near.tracks)):
+            carried[cloth, i] = near.tracks[i, CARRIED]
 
 
 @kernel
 def meet_one(
-    x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, frame: Array, near: Candidates
+    x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates
 ) -> None:
     """The same for one cloth, [N, 3]."""
     meets_boxes = len(boxes.halves) > 0
     if is_smooth(x0, contact) and is_smooth(x, contact):
         if meets_boxes:
-            meet_boxes(x0, x, boxes, frame, near)
+            meet_boxes(x0, x, boxes, near)
         return
     wanted = x.copy()
     pairs = find_pairs(x0, x, contact)
@@ -74,14 +72,14 @@ def meet_one(
             deepest = push_pairs(x0, x, pairs, contact)
             if deepest < 0.02 * contact.thickness:
                 break
-        if not meets_boxes or not meet_boxes(x0, x, boxes, frame, near):
+        if not meets_boxes or not meet_boxes(x0, x, boxes, near):
             break
     for i in range(len(x)):
         change = subtract(row(x, i), row(wanted, i))
         length, limit = norm(change), 0.5 * (REACH - 1.0) * contact.thickness
         if length > limit:
             put(x, i, 0, add_scaled(row(wanted, i), limit / length, change))
-    make_safe(x0, x, pairs, contact, boxes, frame, near)
+    make_safe(x0, x, pairs, contact, boxes, near)
 
 
 @kernel
@@ -174,7 +172,6 @@ def make_safe(
     pairs: TouchingPairs,
     contact: SelfContact,
     boxes: BoxContact,
-    frame: Array,
     near: Candidates,
 ) -> None:
     """Shorten displacements until no pair can have crossed and no part of the cloth is in a box."""
@@ -182,7 +179,7 @@ def make_safe(
         found = shorten_unsafe(x0, x, pairs, contact.inv_mass, number >= GUARDS // 2)
         if len(boxes.halves) > 0:
             before = x.copy()
-            guard_boxes(x0, x, boxes, frame, near)
+            guard_boxes(x0, x, boxes, near)
             for i in range(len(x)):
                 for axis in range(3):
                     found = found or before[i, axis] != x[i, axis]

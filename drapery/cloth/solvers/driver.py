@@ -190,8 +190,7 @@ def _advance(
     batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads, boxes)
 
     def work(first: int, last: int) -> None:
-        cloths = 1 if solver_state.alone else min(batch.width, last - first)
-        mine = batch._replace(work=contact_work(cloths, batch.contact))
+        mine = batch._replace(work=contact_work(batch.contact))
         solver_state.kernel(
             first, last, plan, mine, steps, solver_state.substeps, *solver_state.options
         )
@@ -241,7 +240,7 @@ def batch_of(
         NO_CONTACT if boxes is None else boxes.contact,
         _box_poses(boxes, state.time, solver_state, steps),
         0 if boxes is None or not boxes.paths else resolve_address(),
-        contact_work(0, NO_CONTACT),
+        contact_work(NO_CONTACT),
         solver_state.often,
         len(state.positions),
     )

@@ -356,7 +356,7 @@ def _advance(
     rows, springs, bends = batch.x.shape[0], plan.body.springs, plan.bends
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        lanes_contact.begin_lanes(y, batch, start)
+        before = lanes_contact.begin_lanes(y, batch)
         lanes = y.shape[1]
         residuals = batch.residuals[start : start + lanes]
         b, dv = simd.empty_lanes(rows, lanes, batch.x), simd.empty_lanes(rows, lanes, batch.x)
@@ -386,5 +386,5 @@ def _advance(
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
             if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, batch, start, step // substeps, h * substeps)
+                lanes_contact.meet_lanes(y, u, before, batch, start, step // substeps, h * substeps)
         store_block(batch, y, u, start)

@@ -83,7 +83,7 @@ def _advance(
     h = dtype.type(batch.numbers[0])
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        lanes_contact.begin_lanes(y, batch, start)
+        before = lanes_contact.begin_lanes(y, batch)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -95,5 +95,5 @@ def _advance(
                 kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
             if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, batch, start, step // substeps, h * substeps)
+                lanes_contact.meet_lanes(y, u, before, batch, start, step // substeps, h * substeps)
         store_block(batch, y, u, start)

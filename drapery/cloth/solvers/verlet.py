@@ -120,7 +120,7 @@ def _advance(
     h, half = dtype.type(batch.numbers[0]), dtype.type(batch.numbers[0] / 2)
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        lanes_contact.begin_lanes(y, batch, start)
+        before = lanes_contact.begin_lanes(y, batch)
         for step in range(steps * substeps):
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
@@ -133,5 +133,5 @@ def _advance(
             kernels.set_velocities(u, y, old, h)
             kick(u, y, g, body, batch, wind, half, start, work)
             if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, batch, start, step // substeps, h * substeps)
+                lanes_contact.meet_lanes(y, u, before, batch, start, step // substeps, h * substeps)
         store_block(batch, y, u, start)

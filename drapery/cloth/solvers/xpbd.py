@@ -369,7 +369,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
-        lanes_contact.begin_lanes(y, batch, start)
+        before = lanes_contact.begin_lanes(y, batch)
         for step in range(steps):
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(batch.gusts.seeds.size):
@@ -391,10 +391,10 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
                 if (substeps - substep) % INTERVAL == 1:
                     apply_attachments(y, plan.attachments)
                 if batch.often:
-                    lanes_contact.meet_lanes(y, u, batch, start, turn, h)
+                    lanes_contact.meet_lanes(y, u, before, batch, start, turn, h)
             kernels.set_velocities(u, y, old, h)
             if not batch.often:
-                lanes_contact.meet_lanes(y, u, batch, start, step, dt)
+                lanes_contact.meet_lanes(y, u, before, batch, start, step, dt)
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -419,7 +419,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
-        lanes_contact.begin_plane(y, batch, sheet)
+        before = lanes_contact.begin_plane(y, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
         for step in range(steps):
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
@@ -447,7 +447,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                         y, plan.attachments, 0, last, sheet_kernels.LIMIT, work
                     )
                 if batch.often:
-                    lanes_contact.meet_plane(y, u, batch, turn, h, sheet)
+                    lanes_contact.meet_plane(y, u, before, batch, turn, h, sheet)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
@@ -457,6 +457,6 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 )
                 sheet_kernels.add_velocities(u, y, old, dt, sheet)
             if not batch.often:
-                lanes_contact.meet_plane(y, u, batch, step, dt, sheet)
+                lanes_contact.meet_plane(y, u, before, batch, step, dt, sheet)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)
