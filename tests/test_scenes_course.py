@@ -71,12 +71,13 @@ def test_two_corners_swing_like_a_curtain_and_lose_energy(shape) -> None:
 def test_a_sail_billows_where_the_wind_blows(direction) -> None:
     parameters = sail.SailParameters(gusts=0.0)
     script = f"0 direction {direction}\n0 strength 8\n1.5 off"
-    cloth = sail.square_sail(parameters.grid)
+    dressed = sail.rigged_sail(parameters)
+    (sewn,) = dressed.cloths
     states = list(
-        sail.sail_states(parameters, tuple(parse_script(script)), cloth, Clip((64, 64), 50, 20.0))
+        sail.sail_states(parameters, tuple(parse_script(script)), dressed, Clip((64, 64), 50, 20.0))
     )
     assert len(states) == 50
-    rest = cloth.rest_positions[:, 2].mean()
+    rest = sewn.start[:, 2].mean()
     ahead = [state.positions[0].reshape(10, 10, 3)[3:7, 3:7, 2].mean() - rest for state in states]
     blown, calm = ahead[29], ahead[-1]
     if direction == 0:
@@ -85,12 +86,13 @@ def test_a_sail_billows_where_the_wind_blows(direction) -> None:
     else:
         assert blown < 0.05  # taken aback: against the mast
     for state in states[::7]:
-        assert clearance(cloth, state, sail.spars(), order=3) > -1e-4
+        assert clearance(sewn.cloth, state, dressed.colliders(sewn), order=3) > -1e-4
 
 
 def test_a_sail_under_one_command_is_one_motion() -> None:
     """Commands that change nothing leave the motion as it is."""
-    parameters, cloth = sail.SailParameters(), sail.square_sail((6, 6))
+    parameters = sail.SailParameters(grid=(6, 6))
+    cloth = sail.rigged_sail(parameters)
     clip = Clip((64, 64), 12, 20.0)
     plain = sail.sail_states(parameters, tuple(parse_script("0 strength 6")), cloth, clip)
     parts = "0 strength 6\n0.2 strength 6\n0.3 on\n0.41 strength 6"

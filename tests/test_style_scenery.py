@@ -9,7 +9,7 @@ from drapery.style.block_world import blocks, plateau
 from drapery.style.creature import cells_of, fox
 from drapery.style.figure import PARTS, figure_material, figure_mesh
 from drapery.style.insect import beetle
-from drapery.style.scenery import beam, path_ground, post, sea, shadow
+from drapery.style.scenery import path_ground, pole, post, sea, shadow
 from drapery.style.tailoring import checked, dyed
 
 PACKS = open_packs(())
@@ -106,10 +106,11 @@ def test_the_fox_holds_together() -> None:
     assert {(-x, y, z) for x, y, z in cells} == cells
 
 
-def test_posts_stand_and_beams_lie() -> None:
+def test_posts_stand_and_poles_lie() -> None:
     standing = post(np.array([1.0, 2, 3]), 4.0, PACKS, 0.1).mesh.positions
     np.testing.assert_allclose([standing.min(0), standing.max(0)], [[0.9, 2, 2.9], [1.1, 6, 3.1]])
-    lying = beam(np.array([1.0, 2, 3]), 4.0, PACKS).mesh.positions
+    start = np.array([1.0, 2, 3])
+    lying = pole(start, start + np.array([4.0, 0, 0]), PACKS).mesh.positions
     np.testing.assert_allclose([lying.min(0), lying.max(0)], [[1, 1.94, 2.94], [5, 2.06, 3.06]])
 
 

@@ -77,16 +77,6 @@ def pole_frame(start: Array, end: Array) -> tuple[float, Array]:
     return length, np.stack([right, up, np.cross(right, up)], axis=1)
 
 
-def beam(start: Array, length: float, packs: Packs) -> Model:
-    """A pole along x. start: [m], shape [3]. length: [m]."""
-    upright_post = post(np.zeros(3), length, packs)
-    lay = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
-    mesh = upright_post.mesh
-    positions = np.einsum("ij,vj->vi", lay, mesh.positions) + start
-    normals = np.einsum("ij,vj->vi", lay, mesh.normals)
-    return replace(upright_post, mesh=replace(mesh, positions=positions, normals=normals))
-
-
 def sea(half: int, level: float) -> Model:
     """Water, `half` blocks to every side of the origin, at a height [m]."""
     x, z = (corner.reshape(-1) for corner in np.meshgrid(*[np.arange(-half, half)] * 2))
