@@ -132,7 +132,8 @@ class Dressed:
         who = self.garment.wearer
         if who and who.shown == "head":
             return ()
-        return put_outside(tailor(with_head_banner(self.garment), self.packs))
+        sewn = tailor(with_head_banner(self.garment), self.packs)
+        return put_outside(sewn) if who and who.kind == "player" else sewn
 
     @cached_property
     def wearer(self) -> Wearer | None:
