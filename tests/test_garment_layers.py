@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from drapery.cloth import Collisions, State, grid, rotation_about, sew
+from drapery.cloth.collisions import contact_stage
 from drapery.garments import SewnCloth, dressed_player, find_garment, make_wearer, tailor
 from drapery.garments.layering import outermost, put_outside
 from drapery.packs import open_packs
@@ -77,6 +79,26 @@ def test_only_cloth_on_the_body_meets_other_garments() -> None:
     assert common_bones((cape, coat), ("head", "body", "left_arm", "left_leg")) == (
         *("body", "left_leg"),
     )
+
+
+def test_contact_on_a_body_does_not_depend_on_its_motion() -> None:
+    sheets = [grid(3, 3, 0.2, 0.2, pins="none") for _ in range(2)]
+    stage = contact_stage(sew(sheets), Collisions(apart=0.02))
+    assert stage is not None
+    above = np.repeat([0.0, 0.03], 9)[:, None] * [0.0, 0.0, 1.0]
+    start = np.concatenate([sheet.rest_positions for sheet in sheets]) + above
+    nearer = start - above * 0.9
+    still = stage.resolve(state_at(start, 0.0), state_at(nearer, 0.01))
+    assert np.ptp(still.positions[0, :, 2]) > 0.012  # from 0.003
+    turn, shift = rotation_about((0, 1, 0), 30), np.array([0.0, 0.1, 0.2])
+    carried = np.einsum("ij,nj->ni", turn, nearer) + shift
+    moved = stage.resolve(state_at(start, 0.0), state_at(carried, 0.01), (turn, shift))
+    expected = np.einsum("ij,nj->ni", turn, still.positions[0]) + shift
+    np.testing.assert_allclose(moved.positions[0], expected, atol=1e-9)
+
+
+def state_at(positions: np.ndarray, time: float) -> State:
+    return State(positions[None], np.zeros_like(positions)[None], time)
 
 
 SETTINGS = find_garment("cape").settings()
