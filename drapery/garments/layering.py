@@ -125,6 +125,7 @@ def _radius(points: Array) -> Array:
 def _outwards(points: Array) -> Array:
     """The level direction away from the y axis, shape [N, 3]; to the front for points on it."""
     radius = _radius(points)
-    level = points * np.array([1.0, 0.0, 1.0]) / np.where(radius > 1e-9, radius, np.inf)[:, None]
+    far = np.where(radius > 1e-9, radius, np.inf)[:, None]
+    level: Array = points * np.array([1.0, 0.0, 1.0]) / far
     level[radius <= 1e-9] = 0.0, 0.0, 1.0
     return level

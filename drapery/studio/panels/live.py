@@ -108,8 +108,11 @@ def wear(session: Session, name: str | None) -> None:
 
 def _choices(session: Session) -> dict[str | None, str]:
     """What the viewer can show in place of the banner, by its name or path."""
-    own = session.garment_store
-    return {None: NONE, **({str(own.path): own.title} if own.path else {}), **_garments()}
+    own, choices = session.garment_store, dict[str | None, str]({None: NONE})
+    if own.path is not None:
+        choices[str(own.path)] = own.title
+    choices.update(_garments())
+    return choices
 
 
 @cache
