@@ -11,7 +11,6 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.extending import overload
 from numpy.typing import NDArray
 
 from drapery.cloth import kernels
@@ -36,7 +35,7 @@ from drapery.cloth.solvers.driver import Batch, batch_of
 from drapery.cloth.stepping import MovingCloth
 from drapery.cloth.wind import Wind
 from drapery.errors import OptionError
-from drapery.jit import entry_point, kernel
+from drapery.jit import entry_point, kernel, uses_numba
 from drapery.mesh import Array
 
 __all__ = ["LiveCall", "LiveControls", "LiveWind", "aim", "live_call", "play"]
@@ -232,17 +231,7 @@ def step_plan(plan: Any, batch: Any, substeps: Any) -> None:
     """One time step of the solver that the plan belongs to."""
 
 
-@overload(step_plan)
-def _step_plan(plan: Any, batch: Any, substeps: Any) -> Any:
-    advance = PLAYERS[plan.instance_class]
-
-    def implementation(plan: Any, batch: Any, substeps: Any) -> None:
-        advance(0, batch.cloths, plan, batch, 1, substeps)
-
-    def of_lanes(plan: Any, batch: Any, substeps: Any) -> None:
-        advance(0, batch.width, plan, batch, 1, substeps)
-
-    return of_lanes if plan.instance_class in BY_LANES else implementation
+uses_numba("drapery.cloth.live_choices")
 
 
 @entry_point

@@ -4,12 +4,13 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from drapery import jit
+from drapery import jit, jit_cache
 
 # No kernel is imported yet. Registers of WebAssembly have 16 bytes; and Python does not call the
 # code, which is not optimised, so it needs no wrappers and must not be kept.
 jit.REGISTER = 16
-vars(jit)["entry_point"] = jit.kernel
+jit.OUTER = jit.INNER
+vars(jit_cache)["cache_on_disk"] = lambda dispatcher: dispatcher
 
 from drapery import Banner, Settings  # noqa: E402
 from drapery.packs import open_packs  # noqa: E402

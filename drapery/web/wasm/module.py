@@ -3,7 +3,9 @@
 import hashlib
 import json
 from functools import cache
+from itertools import chain
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import drapery.cloth
@@ -13,18 +15,22 @@ from drapery.jit_cache import kernel_cache_status
 from drapery.web.wasm.image import WasmBuildError
 
 HERE = Path(__file__).parent
+BUILDERS = "compiler.py", "compiling.py", "image.py", "runtime.c"
 
 
 @cache
 def sources_hash() -> str:
-    """A hash of all sources of which the module and its plans are made."""
+    """A hash of all sources on which the module's code and the layout of its memory depend."""
     total = hashlib.sha256()
     packages = drapery.cloth, drapery.style, drapery.render
-    folders = [Path(str(package.__file__)).parent for package in packages]
-    for folder in (*folders, HERE):
-        for path in sorted([*folder.rglob("*.py"), *folder.rglob("*.c")]):
-            total.update(hashlib.sha256(path.read_bytes()).digest())
+    sources = [*chain(*(sorted(_folder(package).rglob("*.py")) for package in packages))]
+    for path in (*sources, *(HERE / name for name in BUILDERS)):
+        total.update(hashlib.sha256(path.read_bytes()).digest())
     return total.hexdigest()[:16]
+
+
+def _folder(package: ModuleType) -> Path:
+    return Path(str(package.__file__)).parent
 
 
 def module_places() -> list[Path]:
