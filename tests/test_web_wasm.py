@@ -150,12 +150,32 @@ def test_a_plan_is_the_same_at_every_writing_and_small() -> None:
         ({"contact": "all"}, "use contact world"),
         ({"style": "voxel"}, "steps of motion"),
         ({"pose": "vanilla"}, "use pose cloth"),
-        ({"grid": (40, 40)}, "has no kernel"),
     ],
 )
 def test_what_cannot_be_played_is_refused(options: Any, reason: str) -> None:
     with pytest.raises(DraperyError, match=reason):
         plan_of(quick_settings(**options))
+
+
+def test_a_module_without_the_kernel_is_refused() -> None:
+    settings = quick_settings()
+    (panel,) = live_panels(white_banner(settings), settings, LANES)
+    with pytest.raises(DraperyError, match="has no kernel aim for this cloth"):
+        write_plan(panel, {"sources": "", "kernels": {}})
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        ({"view": "hero"}, "cast shadows need Python"),
+        ({"shadow": True, "light": "game"}, "translucent materials"),
+        ({"pixel": 4, "light": "game"}, "leave out the picture"),
+    ],
+)
+def test_pictures_that_need_python_are_refused(options: Any, reason: str) -> None:
+    settings = quick_settings(time=0.0, **options)
+    with pytest.raises(DraperyError, match=reason):
+        live_panels(white_banner(settings), settings, picture=True)
 
 
 def test_a_build_without_its_compiler_names_the_extra(

@@ -57,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     path = places[-1 if given.cache else 0]
     try:
         build_module(path, given.only or tuple(METHODS))
-        for other in path.parent.glob("kernels-*.wasm"):
+        for other in () if given.cache else path.parent.glob("kernels-*.wasm"):
             if other != path:
                 other.unlink(missing_ok=True)  # it belongs to older sources
     except DraperyError as error:
