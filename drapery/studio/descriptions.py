@@ -5,6 +5,7 @@ from typing import Any
 from drapery.banner import PATTERNS, Dye
 from drapery.option import Option
 from drapery.studio.sketch import Sketch
+from drapery.studio.translation import translated
 
 MIDDLE_LUMINANCE = 0.18
 """The luminance with which black and white have the same contrast."""
@@ -12,7 +13,7 @@ MIDDLE_LUMINANCE = 0.18
 
 def dye_title(dye: str) -> str:
     """The dye's title: "Light blue" for `light_blue`."""
-    return dye.replace("_", " ").capitalize()
+    return translated(dye.replace("_", " ").capitalize())
 
 
 def dye_colour(dye: Dye) -> str:
@@ -33,7 +34,7 @@ def pattern_title(pattern: str) -> str:
     """The pattern's name in the game; for a pattern of a data pack, the end of its path."""
     known = PATTERNS.get(pattern)
     if known is not None:
-        return known.title
+        return translated(known.title)
     return pattern.partition(":")[2].rpartition("/")[2].replace("_", " ").capitalize() or pattern
 
 

@@ -77,6 +77,11 @@ class Document:
         """Redo one undone step, if there is one; notifies "sketch"."""
         self._go(self.history.redo())
 
+    def go_to(self, place: int) -> None:
+        """Go to a state of the history, by its place; notifies "sketch"."""
+        if 0 <= place < len(self.history.states) and place != len(self.history.past):
+            self._go(self.history.go_to(place))
+
     def _go(self, history: History[Sketch]) -> None:
         if history is not self.history:
             self.history = history

@@ -34,3 +34,13 @@ class History(Generic[T]):
         if not self.future:
             return self
         return History(self.future[0], (*self.past, self.present), self.future[1:])
+
+    @property
+    def states(self) -> tuple[T, ...]:
+        """All states, the earliest first."""
+        return (*self.past, self.present, *self.future)
+
+    def go_to(self, place: int) -> "History[T]":
+        """The history with the state at a place of `states` as the current one."""
+        states = self.states
+        return History(states[place], states[:place], states[place + 1 :])

@@ -30,16 +30,16 @@ export default {
       <li class="layer layer-field" :class="{ chosen: chosen === 'field' }" key="field">
         <span class="grip" aria-hidden="true"></span>
         <button type="button" class="row-main" data-part="main" :aria-pressed="chosen === 'field'"
-          :aria-label="'Field, ' + field.dyeTitle" @click="$emit('choose', 'field')">
+          :aria-label="words.field + ', ' + field.dyeTitle" @click="$emit('choose', 'field')">
           <span class="row-place" aria-hidden="true"></span>
           <span class="thumb" :style="{ backgroundColor: field.colour }"></span>
-          <span class="row-words" aria-hidden="true"><span class="row-title">Field</span>
+          <span class="row-words" aria-hidden="true"><span class="row-title">{{ words.field }}</span>
             <span class="row-dye"><i class="dot" :style="{ backgroundColor: field.colour }"></i>{{ field.dyeTitle }}</span></span>
         </button>
       </li>
-      <li v-if="!rows.length" class="hint">Choose the field's dye, then click a pattern to add it.</li>
+      <li v-if="!rows.length" class="hint">{{ words.empty }}</li>
     </ol>`,
-  props: { rows: Array, field: Object, chosen: [Number, String], count: Number },
+  props: { rows: Array, field: Object, chosen: [Number, String], count: Number, words: Object },
   emits: ["choose", "act"],
   data: () => ({ order: null, dragged: null }),
   computed: {

@@ -27,14 +27,17 @@ from drapery.studio.panels import (
     patterns,
     picture,
     shortcuts,
+    start,
+    steps,
     styles,
     text,
 )
 from drapery.studio.session import Session, Sessions
 from drapery.studio.share import opened_link, write_link
 from drapery.studio.sketch import Sketch, sketch_of
+from drapery.studio.translation import language, translated
 from drapery.studio.warning_log import collected_warnings
-from drapery.studio.widgets import text_element
+from drapery.studio.widgets import translated_text
 
 Place = Literal["left", "viewport", "under", "side"]
 
@@ -61,8 +64,10 @@ PANELS = (
     PagePanel("layers", layers.build, "Layers", "layers", "left"),
     PagePanel("live", live.build, "Live", "air", "viewport"),
     PagePanel("face", face.build, "Flat", "crop_portrait", "viewport"),
+    PagePanel("steps", steps.build, "History", "history", "under"),
     PagePanel("motion", motion.build, "Motion", "tune", "under"),
     PagePanel("patterns", patterns.build, "Patterns", "grid_view", "side"),
+    PagePanel("start", start.build, "Start", "auto_awesome", "side"),
     PagePanel("styles", styles.build, "Styles", "style", "side"),
     PagePanel("text", text.build, "Text", "code", "side"),
     PagePanel("letters", letters.build, "Letters", "abc", "side"),
@@ -166,6 +171,8 @@ def _write_into_address(session: Session) -> None:
 
 
 def _head(session: Session) -> None:
+    if language() != "en":
+        ui.add_head_html(f'<script>document.documentElement.lang = "{language()}";</script>')
     # Inline: each is small, and a page that arrives complete does not shift while it loads.
     for sheet in sorted(_FOLDER.glob("*.css")):
         ui.add_head_html(f"<style>{sheet.read_text()}</style>")
@@ -176,7 +183,8 @@ def _panels(session: Session, place: str) -> None:
     for panel in PANELS:
         if panel.place == place:
             section = ui.element("section").classes(f"panel panel-{panel.name}")
-            section.props(f'id="panel-{panel.name}" aria-label="{panel.title}"')
+            section.props(f'id="panel-{panel.name}"')
+            section.props["aria-label"] = translated(panel.title)
             if panel.name == FIRST_TAB:
                 section.props("data-active")
             with section:
@@ -197,4 +205,4 @@ def _tabs() -> None:
             )
             with tab:
                 ui.icon(panel.icon).props('aria-hidden="true"')
-                text_element(panel.title).classes("tab-title")
+                translated_text(panel.title).classes("tab-title")

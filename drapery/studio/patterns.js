@@ -18,11 +18,11 @@ export default {
   template: `
     <div class="patterns">
       <div class="patterns-head">
-        <input v-model="wanted" type="search" class="field" placeholder="Find a pattern  ( / )"
-          aria-label="Find a pattern by a name, code or word in any language" @keydown.enter="first" @keydown.esc="leave">
+        <input v-model="wanted" type="search" class="field" :placeholder="words.find + '  ( / )'"
+          :aria-label="words.find" @keydown.enter="first" @keydown.esc="leave">
         <div v-if="canSwap" class="segments" role="group" aria-label="What a pattern does">
-          <button type="button" :aria-pressed="!swaps" @click="$emit('swaps', false)">New layer</button>
-          <button type="button" :aria-pressed="swaps" @click="$emit('swaps', true)">Change layer</button>
+          <button type="button" :aria-pressed="!swaps" @click="$emit('swaps', false)">{{ words.add }}</button>
+          <button type="button" :aria-pressed="swaps" @click="$emit('swaps', true)">{{ words.change }}</button>
         </div>
       </div>
       <div class="pattern-grid" role="group" :aria-label="label" @keydown="key">
@@ -35,11 +35,11 @@ export default {
           <span class="pattern-title" aria-hidden="true">{{ pattern.title }}</span>
         </button>
       </div>
-      <p v-if="!found.length" class="hint">No pattern is called that. Try another word, such as stripe or corner.</p>
+      <p v-if="!found.length" class="hint">{{ words.nothing }}</p>
       <p class="sr" role="status">{{ wanted ? found.length + ' patterns' : '' }}</p>
     </div>`,
   props: {
-    patterns: Array, sheet: String, label: String, swaps: Boolean, canSwap: Boolean, current: String,
+    patterns: Array, sheet: String, label: String, swaps: Boolean, canSwap: Boolean, current: String, words: Object,
   },
   emits: ["pattern", "preview", "swaps"],
   data: () => ({ wanted: "", at: 0 }),

@@ -13,6 +13,7 @@ from fastapi.responses import FileResponse, JSONResponse
 from drapery import DesignError, DraperyError
 from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_rows, pattern_sheet, style_png
+from drapery.studio.own_designs import own_designs
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of
 from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name
@@ -71,6 +72,22 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
         if not 0 <= number < len(banners):
             raise HTTPException(404, "no such banner")
         return _picture(session, lambda: face_png(banners[number].banner, session.packs(), 2))
+
+    @app.get("/own/{token}/{number}.png")
+    def own(token: str, number: int) -> Response:
+        session, designs = session_of(token), own_designs()
+        if not 0 <= number < len(designs):
+            raise HTTPException(404, "no such design")
+        banner = designs[number].banner
+        return _picture(session, lambda: face_png(banner, session.packs(), 2), CACHING)
+
+    @app.get("/past/{token}/{step}.png")
+    def past(token: str, step: int) -> Response:
+        session = session_of(token)
+        states = session.history.states
+        if not 0 <= step < len(states):
+            raise HTTPException(404, "no such step")
+        return _picture(session, lambda: face_png(banner_of(states[step]), session.packs(), 2))
 
     @app.get("/patterns/{token}.png")
     def patterns(token: str, base: str, dye: str) -> Response:

@@ -6,11 +6,17 @@ from typing import Any
 from nicegui import ui
 from nicegui.element import Element
 
+from drapery.studio.translation import translated
+
 Press = Callable[[], object]
 
 
 def button(label: str, press: Press, *, icon: str = "", text: str = "", key: str = "") -> Element:
-    """A button. label: its accessible name; icon, text: what it shows; key: its shortcut."""
+    """A button. label: its accessible name; icon, text: what it shows; key: its shortcut.
+
+    Label and text are translated.
+    """
+    label = translated(label)
     element = ui.element("button").classes("button")
     element.props("type=button")
     element.props.update({"aria-label": label, "title": f"{label} ({key})" if key else label})
@@ -18,7 +24,7 @@ def button(label: str, press: Press, *, icon: str = "", text: str = "", key: str
         if icon:
             ui.icon(icon).props("aria-hidden=true")
         if text:
-            text_element(text)
+            translated_text(text)
     return element.on("click", lambda: press())
 
 
@@ -27,6 +33,11 @@ def text_element(text: str, tag: str = "span") -> ui.label:
     element = ui.label(text)
     element.tag = tag
     return element
+
+
+def translated_text(text: str, tag: str = "span") -> ui.label:
+    """An element with a text of the page in the user's language."""
+    return text_element(translated(text), tag)
 
 
 class SegmentedControl:
@@ -38,9 +49,9 @@ class SegmentedControl:
     def __init__(self, label: str, options: Mapping[str, str], choose: Callable[[str], Any]):
         self._buttons: dict[str, Element] = {}
         with ui.element("div").classes("segments") as group:
-            group.props("role=group").props.update({"aria-label": label})
+            group.props("role=group").props.update({"aria-label": translated(label)})
             for name, title in options.items():
-                element = text_element(title, "button").props("type=button")
+                element = translated_text(title, "button").props("type=button")
                 element.on("click", lambda name=name: choose(name))
                 self._buttons[name] = element
 

@@ -71,6 +71,23 @@ def _language(name: str, entry: dict[str, object]) -> Language:
     return Language(name, str(entry["banner"]), str(entry["shield"]), dyes, unique, phrases)
 
 
+def titles(name: str) -> tuple[dict[str, str], dict[str, str]]:
+    """The titles of dyes and of patterns in a language such as `de_de`, by their ids."""
+    entry = json.loads(files(__package__).joinpath("languages.json").read_text("utf-8"))[name]
+    dyes = {dye: _title(word) for dye, word in zip(DYE_NAMES, entry["dyes"], strict=True)}
+    patterns = {
+        pattern: _title(" ".join((before + after).split()))
+        for pattern, (_, before, after) in entry["patterns"].items()
+    }
+    return dyes, patterns
+
+
+def _title(words: str) -> str:
+    # In Chinese and Japanese the word for colour follows the dye, which is left out here.
+    words = words.removeprefix("色の").removeprefix("色")
+    return words[:1].upper() + words[1:]
+
+
 def may_be(text: str) -> bool:
     """Whether a short text without brackets could be in one of the languages."""
     return len(text) <= _LONGEST and not set("{}[]=/<>@").intersection(text)

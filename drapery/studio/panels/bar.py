@@ -11,6 +11,7 @@ from drapery.studio.form_field import FormField
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, Sketch, clear, random_sketch
+from drapery.studio.translation import translated
 from drapery.studio.widgets import SegmentedControl, button, text_element
 
 _KINDS = {"banner": "Banner", "shield": "Shield"}
@@ -53,8 +54,8 @@ def _title(session: Session) -> None:
     field = FormField("text", lambda: session.sketch.title, name).classes("field title")
     field.props.update(
         {
-            "placeholder": "Untitled",
-            "aria-label": "Title of the design",
+            "placeholder": translated("Untitled"),
+            "aria-label": translated("Title of the design"),
             "maxlength": MAX_TITLE,
         }
     )

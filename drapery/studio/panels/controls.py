@@ -17,6 +17,7 @@ from drapery.studio.form_field import FormField
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.snippets import plain
+from drapery.studio.translation import translated
 from drapery.studio.widgets import text_element
 
 BLUR = "() => setTimeout(() => document.activeElement?.blur?.(), 60)"
@@ -64,6 +65,7 @@ class Controls:
         help: str = "",
     ) -> None:
         """A slider with its value beside its label. bounds: minimum, maximum, step."""
+        label = translated(label)
         minimum, maximum, step = bounds
         with ui.element("div").classes("control"):
             with ui.element("div").classes("control-head"):
@@ -114,7 +116,9 @@ class Controls:
 
     def select(self, label: str, choices: Mapping[Any, str], get: Get, change: Set) -> ui.select:
         """A list of choices, by value, with their titles."""
-        element = ui.select(dict(choices), label=label, value=get()).classes("control")
+        label = translated(label)
+        titles = {value: translated(title) for value, title in choices.items()}
+        element = ui.select(titles, label=label, value=get()).classes("control")
         element.props(f'dense outlined options-dense aria-label="{label}"')
         # If it had the focus, it would consume the keys that change the wind.
         element.on("popup-hide", js_handler=BLUR)
@@ -123,7 +127,7 @@ class Controls:
 
     def switch(self, label: str, get: Get, change: Set) -> None:
         """A switch."""
-        element = ui.switch(label, value=get()).classes("control").props("dense")
+        element = ui.switch(translated(label), value=get()).classes("control").props("dense")
         self._listen(element, get, change)
 
     def button(
@@ -136,6 +140,7 @@ class Controls:
                 call()
             self.refresh()
 
+        label = translated(label)
         button = ui.button("" if icon else label, icon=icon, on_click=press)
         button.props(f'flat dense no-caps aria-label="{label}"')
         if icon:

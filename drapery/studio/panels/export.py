@@ -13,7 +13,7 @@ from drapery.studio.panels.file_options import FileChoice, build_options, reques
 from drapery.studio.session import Session
 from drapery.studio.share import write_link
 from drapery.studio.snippets import as_command, as_python
-from drapery.studio.widgets import button, text_element
+from drapery.studio.widgets import button, text_element, translated_text
 
 TICK = 0.15
 """How often progress is shown [s]."""
@@ -23,10 +23,10 @@ _CHANGES: tuple[Event, ...] = ("sketch", "settings", "packs", "scene")
 def build(session: Session) -> None:
     """Options, the button with its progress, then what can be copied."""
     choice = FileChoice()
-    text_element("Make a file", "h2").classes("heading")
+    translated_text("Make a file", "h2").classes("heading")
     fit = build_options(session, choice)
     _ExportForm(session, choice)
-    text_element("Link and code", "h2").classes("heading")
+    translated_text("Link and code", "h2").classes("heading")
     copy = _copies(session, choice)
 
     def show() -> None:

@@ -14,7 +14,8 @@ from nicegui.element import Element
 from drapery.option import Option
 from drapery.studio.form_field import FormField, Kind
 from drapery.studio.snippets import plain
-from drapery.studio.widgets import button, text_element
+from drapery.studio.translation import translated
+from drapery.studio.widgets import button, translated_text
 
 Get = Callable[[], Any]
 Change = Callable[[Any], object]
@@ -76,8 +77,9 @@ class Fields:
                 self.refresh()
 
         with ui.element("label").classes("option"):
-            text_element(label)
-            field = FormField(kind, get, changed, choices).classes("field")
+            translated_text(label)
+            shown = {name: translated(title) for name, title in (choices or {}).items()}
+            field = FormField(kind, get, changed, shown).classes("field")
             field.props.update(props)
         self._fields.append(field)
         return field
@@ -97,10 +99,10 @@ def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:
     """
     with ui.element("div").classes("copy"):
         with ui.element("div").classes("copy-head"):
-            text_element(label, "h3")
+            translated_text(label, "h3")
             press = button(f"Copy: {label}", lambda: None, icon="content_copy")
             with press:
-                text_element("Copy").classes("copy-label")
+                translated_text("Copy").classes("copy-label")
             press.props.update({"data-copy": name})
         area = ui.element("textarea").classes("field code").props("readonly")
         area.props.update({"id": name, "rows": rows, "aria-label": label, "spellcheck": "false"})

@@ -11,12 +11,14 @@ from drapery.studio.descriptions import dye_colour, dye_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import Stroke
+from drapery.studio.translation import translated
+from drapery.studio.widgets import translated_text
 
 
 def build(session: Session) -> None:
     """The list with its count, and warnings: too many layers for a loom, or a missing pattern."""
     with ui.element("div").classes("heading-line"):
-        ui.html("Layers", sanitize=False, tag="h2").classes("heading")
+        translated_text("Layers", "h2").classes("heading")
         count = ui.label().classes("count")
     warning = ui.label().classes("warning").props('role="status"')
     rows = LayerList().classes("rows-holder")
@@ -26,7 +28,7 @@ def build(session: Session) -> None:
         count.set_text(f"{shown} of {LOOM_LAYERS if session.survival else MAX_LAYERS}")
         too_many = session.survival and shown > LOOM_LAYERS
         count.classes(add="over" if too_many else "", remove="" if too_many else "over")
-        lines = [_TOO_MANY] * too_many + _missing(session)
+        lines = [translated(_TOO_MANY)] * too_many + _missing(session)
         warning.set_text(" ".join(lines))
         warning.set_visibility(bool(lines))
         rows.show(**_shown(session))
@@ -47,6 +49,14 @@ def build(session: Session) -> None:
 
 
 _TOO_MANY = f"A loom makes at most {LOOM_LAYERS} layers. This needs a command."
+
+
+_WORDS = {
+    "field": "Field",
+    "empty": "Choose the field's dye, then click a pattern to add it.",
+    "layers": "Layers",
+}
+"""The texts of the list itself."""
 
 
 def _missing(session: Session) -> list[str]:
@@ -70,6 +80,7 @@ def _shown(session: Session) -> dict[str, Any]:
         "field": field,
         "chosen": session.selection.chosen,
         "count": len(names),
+        "words": {key: translated(text) for key, text in _WORDS.items()},
     }
 
 

@@ -12,7 +12,7 @@ from drapery.studio.descriptions import dye_title
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
-from drapery.studio.widgets import button, text_element
+from drapery.studio.widgets import button, translated_text
 
 MAX_WORD = 40
 """The most characters of a word on the page."""
@@ -48,7 +48,7 @@ def build(session: Session) -> None:
         chosen = after
         show()
 
-    text_element("Letters", "h2").classes("heading")
+    translated_text("Letters", "h2").classes("heading")
     with ui.element("div").classes("options"):
         fields.line("Word", lambda: chosen.text, lambda text: change(text=text), maxlength=MAX_WORD)
         fields.choice("Ink", dyes, lambda: chosen.ink, lambda dye: change(ink=dye))
@@ -63,7 +63,7 @@ def build(session: Session) -> None:
     copy = button("Copy the commands", lambda: None, icon="content_copy")
     copy.props('data-copy="letters-text"')
     with copy:
-        text_element("Copy commands").classes("copy-label")
+        translated_text("Copy commands").classes("copy-label")
     written = (
         ui.element("textarea").classes("field code").props('id="letters-text" rows=4 readonly')
     )

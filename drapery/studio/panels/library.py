@@ -16,7 +16,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.share import SHARED, with_shared
 from drapery.studio.sketch import MAX_TITLE, banner_of
-from drapery.studio.widgets import button, text_element
+from drapery.studio.widgets import button, text_element, translated_text
 
 if TYPE_CHECKING:
     from drapery.studio.library import Library
@@ -65,7 +65,7 @@ class LibraryPanel:
         ui.timer(LATER, self._refresh, once=True)
 
     def _form(self) -> None:
-        text_element("Save this design", "h2").classes("heading")
+        translated_text("Save this design", "h2").classes("heading")
         self._fields = Fields()
         with ui.element("div").classes("options"):
             self._fields.line(
@@ -99,7 +99,7 @@ class LibraryPanel:
         self._session.tags[self._session.sketch.origin] = str(tags)
 
     def _search(self) -> None:
-        text_element("Find", "h2").classes("heading")
+        translated_text("Find", "h2").classes("heading")
         with ui.element("div").classes("search"):
             field = ui.element("input").classes("field").props("type=search maxlength=200")
             label = "Title, tag, dye or pattern"
@@ -128,10 +128,10 @@ class LibraryPanel:
         await self._refresh()
 
     def _whole_library(self) -> None:
-        text_element("The whole library", "h2").classes("heading")
+        translated_text("The whole library", "h2").classes("heading")
         with ui.element("div").classes("line"):
             export = (
-                text_element("Export it as a file", "a").props("download").classes("export-link")
+                translated_text("Export it as a file", "a").props("download").classes("export-link")
             )
             export.props["href"] = f"/library/{self._session.token}"
         FileField(
@@ -211,7 +211,7 @@ class LibraryPanel:
             picture = ui.element("img").props('alt=""')
             picture.props["src"] = f"data:image/png;base64,{b64encode(design.thumbnail).decode()}"
         text_element(name).classes("design-title").props.update({"title": name})
-        text_element(", ".join(design.tags)).classes("hint design-tags")
+        translated_text(", ".join(design.tags)).classes("hint design-tags")
         with ui.element("div").classes("design-acts"):
             edit = button(f"Rename or tag {name}", lambda: self._edit(design), icon="edit")
             gone = button(f"Delete {name}", lambda: self._remove(design.number), icon="delete")
@@ -295,7 +295,7 @@ class LibraryPanel:
             fields.line(label, lambda: wanted[name], take, maxlength=maximum)
 
         with ui.dialog() as dialog, ui.element("div").classes("studio-dialog"):
-            text_element("Rename or tag", "h2").classes("heading")
+            translated_text("Rename or tag", "h2").classes("heading")
             fields = Fields()
             line("Title", "title", MAX_TITLE)
             line("Tags, with commas between", "tags", 500)

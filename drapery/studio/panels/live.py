@@ -12,6 +12,7 @@ from drapery.studio.file_field import FileField
 from drapery.studio.panels.controls import Controls
 from drapery.studio.scene_choice import what_follows
 from drapery.studio.session import Session
+from drapery.studio.translation import translated
 from drapery.studio.viewer import ViewerElement
 from drapery.studio.viewport import in_thread
 
@@ -78,7 +79,7 @@ def build(session: Session) -> None:
         # Listing the scenes imports them, so do it after the first picture.
         names, _ = await in_thread(lambda: (_scenes(), _garments()))
         if not session.closed:
-            scenes.set_options({None: OWN, **names}, value=viewport.request.scene)
+            scenes.set_options({None: translated(OWN), **names}, value=viewport.request.scene)
             garments.set_options(_choices(session), value=viewport.request.garment)
 
     ui.timer(LATER, list_scenes, once=True)
@@ -90,7 +91,7 @@ def _view(session: Session, controls: Controls, name: str) -> None:
         session.viewport.look_anew()
 
     button = controls.button(view_title(name), choose)
-    button.props(f'aria-label="View: {view_title(name)}"')
+    button.props.update({"aria-label": f"{translated('View')}: {translated(view_title(name))}"})
     controls.pressed(button, lambda: session.settings.view == name)
     # A scene has a camera of its own.
     controls.enabled(button, lambda: session.viewport.request.scene is None)

@@ -18,13 +18,13 @@ from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
-from drapery.studio.widgets import button, text_element
+from drapery.studio.widgets import button, text_element, translated_text
 
 
 def build(session: Session) -> None:
     """The recipe, and a button that leaves out layers that cannot be seen."""
     version = count()
-    text_element("Loom recipe", "h2").classes("heading")
+    translated_text("Loom recipe", "h2").classes("heading")
     warning = text_element("", "p").classes("warning").props('role="status"')
     with ui.element("div").classes("line") as spare:
         hint = text_element("", "span").classes("hint grow")

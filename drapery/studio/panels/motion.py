@@ -7,7 +7,8 @@ from nicegui import ui
 from drapery.settings import OPTIONS, ROTATIONS
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
-from drapery.studio.widgets import text_element
+from drapery.studio.translation import translated
+from drapery.studio.widgets import translated_text
 from drapery.studio.wind_controls import wind_controls_of
 
 GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (16, 31), (17, 33), (25, 49), (33, 65))
@@ -27,9 +28,9 @@ def build(session: Session) -> None:
             with (
                 ui.element("div")
                 .classes("motion-group")
-                .props(f'role="group" aria-label="{title}"')
+                .props(f'role="group" aria-label="{translated(title)}"')
             ):
-                ui.element("h3").add_slot("default", title)
+                ui.element("h3").add_slot("default", translated(title))
                 draw(session, controls)
     controls.follow()
 
@@ -53,7 +54,7 @@ def _cloth(session: Session, controls: Controls) -> None:
     controls.choice("pins", "Held at")
     controls.number("thickness", "Thickness", 0.25)
     with ui.element("details").classes("advanced"):
-        text_element("Advanced", "summary")
+        translated_text("Advanced", "summary")
         _simulation(session, controls)
 
 
@@ -121,7 +122,7 @@ def _light(session: Session, controls: Controls) -> None:
     )
     controls.number("block_light", "Torch light", 1)
     with ui.element("details").classes("advanced"):
-        text_element("Advanced", "summary")
+        translated_text("Advanced", "summary")
         controls.number("sky_light", "Sky light", 1)
         controls.switch(
             "Shaded",

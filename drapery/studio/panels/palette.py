@@ -12,6 +12,7 @@ from drapery.studio.descriptions import (
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
+from drapery.studio.translation import translated
 
 
 def build(session: Session) -> None:
@@ -33,11 +34,13 @@ def build(session: Session) -> None:
 
 def _heading(session: Session) -> str:
     if session.selection.chosen == "field":
-        return "Dye of the field"
+        return translated("Dye of the field")
     if session.selection.chosen is None:
-        return "Dye of the next layer"
+        return translated("Dye of the next layer")
     place = place_of(session.sketch, session.selection.chosen)
-    return f"Dye of layer {place + 1}: {pattern_title(session.sketch.strokes[place].pattern)}"
+    pattern = pattern_title(session.sketch.strokes[place].pattern)
+    text = translated("Dye of layer {number}: {pattern}")
+    return text.format(number=place + 1, pattern=pattern)
 
 
 def _swatch(dye: Dye) -> dict[str, str]:

@@ -5,13 +5,16 @@ from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import PatternGrid, value_of
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.notices import errors_shown
+from drapery.studio.panels.start import build_examples
 from drapery.studio.pattern_words import search_words
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
+from drapery.studio.translation import translated
 
 
 def build(session: Session) -> None:
     """The grid; a click adds the pattern as a layer."""
+    build_examples(session)
     grid = PatternGrid()
 
     def show() -> None:
@@ -41,6 +44,7 @@ def build(session: Session) -> None:
         with errors_shown():
             session.selection.press_pattern(str(pattern))
 
+    grid.show(words={key: translated(text) for key, text in _WORDS.items()})
     grid.on("pattern", lambda event: press(value_of(event)))
     grid.on("preview", lambda event: session.selection.preview(str(value_of(event))))
     grid.on("swaps", lambda event: session.selection.set_swaps(bool(value_of(event))))
@@ -49,6 +53,15 @@ def build(session: Session) -> None:
     session.selection.listen(show)
     session.listen("packs", list_patterns)
     session.listen("packs", show)
+
+
+_WORDS = {
+    "find": "Find a pattern",
+    "add": "New layer",
+    "change": "Change layer",
+    "nothing": "No pattern is called that. Try another word, such as stripe or corner.",
+}
+"""The texts of the grid itself."""
 
 
 def _current(session: Session) -> str:

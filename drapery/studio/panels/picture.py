@@ -16,7 +16,7 @@ from drapery.studio.file_field import FileField
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
-from drapery.studio.widgets import text_element
+from drapery.studio.widgets import text_element, translated_text
 
 ENDINGS = ".png,.jpg,.jpeg,.webp"
 COUNT = 6
@@ -57,7 +57,7 @@ def build(session: Session) -> None:
         finally:
             session.uploads.remove(number)
 
-    text_element("Picture", "h2").classes("heading")
+    translated_text("Picture", "h2").classes("heading")
     FileField(
         session,
         "picture",

@@ -6,7 +6,7 @@ from nicegui.element import Element
 from drapery.studio.art import style_address
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
-from drapery.studio.widgets import text_element
+from drapery.studio.widgets import text_element, translated_text
 from drapery.styles import find_style, style_names
 
 
@@ -38,7 +38,7 @@ def build(session: Session) -> None:
                 pictures[name] = ui.element("img").props("loading=lazy alt=")
                 text_element(name)
             buttons[name] = button.on("click", lambda name=name: press(name))
-    text_element(
+    translated_text(
         "The live banner has the shapes and the texture of a style. Its lines, tones and large"
         " pixels are in the pictures that you export.",
         "p",

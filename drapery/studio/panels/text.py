@@ -10,7 +10,7 @@ from drapery.studio.notices import show_notice
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
 from drapery.studio.upload_queue import MAX_FOUND, UploadQueue
-from drapery.studio.widgets import button, text_element
+from drapery.studio.widgets import button, text_element, translated_text
 
 MAX_PLACE = 60
 """The most characters shown of the place where a banner was found."""
@@ -29,7 +29,7 @@ def build(session: Session) -> None:
 
 def _reader(session: Session) -> None:
     upload_queue = session.upload_queue
-    text_element("Read a design", "h2").classes("heading")
+    translated_text("Read a design", "h2").classes("heading")
     text = ui.element("textarea").classes("field code").props('id="design-text" rows=4')
     text.props.update({"placeholder": _PLACEHOLDER, "aria-label": "A design in any form"})
     fault = text_element("", "p").classes("fault").props('role="alert"')
@@ -38,10 +38,10 @@ def _reader(session: Session) -> None:
         press.classes("primary").props('id="read-text"')
         with ui.element("label").classes("button file"):
             ui.icon("upload_file").props("aria-hidden=true")
-            text_element("Choose a file")
+            translated_text("Choose a file")
             chooser = ui.element("input").props('id="design-file" type="file"')
             chooser.props.update({"aria-label": "A file of designs"})
-    text_element(
+    translated_text(
         "Or drop a file anywhere: schematics, structures, regions, saves, functions.", "p"
     ).classes("hint")
     listed = ui.element("div").classes("found-list")
@@ -111,7 +111,7 @@ def _shortened(place: str) -> str:
 
 
 def _writer(session: Session) -> None:
-    text_element("Write the design", "h2").classes("heading")
+    translated_text("Write the design", "h2").classes("heading")
     forms = {name: form.title for name, form in FORMS.items() if form.write is not None}
     with ui.element("div").classes("line"):
         choice = ui.element("select").classes("field grow").props('aria-label="Form of the text"')
@@ -121,7 +121,7 @@ def _writer(session: Session) -> None:
                 option.props.update({"value": name, "selected": name == "give"})
         copy = button("Copy the text", lambda: None, icon="content_copy").classes("primary")
         with copy:
-            text_element("Copy").classes("copy-label")
+            translated_text("Copy").classes("copy-label")
         copy.props('data-copy="written"')
     written = ui.element("textarea").classes("field code").props('id="written" rows=6 readonly')
     written.props.update({"aria-label": "The design as text", "spellcheck": "false"})

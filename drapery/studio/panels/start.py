@@ -1,0 +1,64 @@
+"""The start page: designs to begin with."""
+
+from nicegui import ui
+from nicegui.element import Element
+
+from drapery.studio.descriptions import described
+from drapery.studio.own_designs import EXAMPLES, OwnDesign, groups, own_designs
+from drapery.studio.session import Session
+from drapery.studio.sketch import Sketch, sketch_of
+from drapery.studio.widgets import button, text_element, translated_text
+
+
+def build(session: Session) -> None:
+    """A new design, and our own designs in their groups; each can be changed."""
+    translated_text("Begin with a design", "h2").classes("heading")
+    with ui.element("div").classes("line"):
+        button(
+            "A new, plain banner", lambda: session.selection.lay_out(Sketch()), text="New banner"
+        ).classes("primary")
+    translated_text("Or change one of these; Undo brings your own design back.", "p").classes(
+        "hint"
+    )
+    for group in groups():
+        translated_text(group.capitalize(), "h3")
+        with ui.element("div").classes("own-designs"):
+            for number, design in enumerate(own_designs()):
+                if design.group == group:
+                    _card(session, number, design)
+
+
+def build_examples(session: Session) -> None:
+    """A sentence and three designs, until something is designed."""
+    with ui.element("div").classes("welcome") as welcome:
+        translated_text(
+            "Choose a dye, then click patterns: each becomes a layer of your banner."
+            " Or begin with one of these:",
+            "p",
+        )
+        with ui.element("div").classes("own-designs"):
+            for number, design in enumerate(own_designs()):
+                if design.title in EXAMPLES:
+                    _card(session, number, design)
+
+    def show() -> None:
+        welcome.set_visibility(session.sketch == Sketch() and not session.history.past)
+
+    show()
+    session.listen("sketch", show)
+
+
+def _card(session: Session, number: int, design: OwnDesign) -> None:
+    choice = ui.element("button").classes("own-design").props("type=button")
+    choice.props.update({"data-own": design.title, "title": described(sketch_of(design.banner))})
+    choice.on("click", lambda: session.selection.lay_out(sketch_of(design.banner, design.title)))
+    with choice:
+        face_picture(f"/own/{session.token}/{number}.png")
+        text_element(design.title)
+
+
+def face_picture(address: str) -> Element:
+    """A small flat face, which the browser loads when it comes into sight."""
+    picture = ui.element("img").props('alt="" loading="lazy" width=40 height=80')
+    picture.props["src"] = address
+    return picture

@@ -1,0 +1,134 @@
+"""Editing on the real page: the first visit, previews, the history, search, every width."""
+
+from typing import Any
+
+import pytest
+from selenium.webdriver import ActionChains, Keys
+from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
+
+from drapery.banner.design import Banner
+from drapery.banner.formats import write_banner
+from drapery.studio.own_designs import EXAMPLES, own_designs
+
+
+@pytest.fixture
+def page(chromium: Any, studio: Studio) -> Any:
+    resize(chromium, WIDE)
+    open_page(chromium, studio)
+    click(chromium, ".live-bar button[aria-label=Pause]")
+    return chromium
+
+
+def find(page: Any, selector: str) -> Any:
+    return page.find_element("css selector", selector)
+
+
+def click(page: Any, selector: str) -> None:
+    page.execute_script("arguments[0].click()", find(page, selector))
+
+
+def is_now(page: Any, design: str) -> None:
+    wanted = write_banner(Banner.parse(design), "give")
+    script = "return document.getElementById('written').value"
+    wait_until(lambda: page.execute_script(script) == wanted)
+
+
+def is_shown(page: Any, selector: str) -> bool:
+    return any(each.is_displayed() for each in page.find_elements("css selector", selector))
+
+
+def test_a_first_visit_begins_with_an_example_and_goes_back(page: Any) -> None:
+    examples = page.find_elements("css selector", ".welcome .own-design")
+    assert [each.get_attribute("data-own") for each in examples] == [*EXAMPLES]
+    click(page, ".welcome [data-own=Pirate]")
+    is_now(page, "black skull:white border:gray")
+    wait_until(lambda: not is_shown(page, ".welcome") and page.title.startswith("Pirate - "))
+    click(page, ".step")
+    is_now(page, "white")
+    assert console_errors(page) == []
+
+
+def test_the_start_page_has_our_own_designs(page: Any) -> None:
+    page.execute_script("studio.tab('start')")
+    assert len(page.find_elements("css selector", "#panel-start .own-design")) >= 60
+    assert len({design.title for design in own_designs()}) == len(own_designs())
+    click(page, "#panel-start [data-own=Carpet]")
+    wait_until(lambda: page.title.startswith("Carpet - "))
+
+
+def test_a_pattern_is_previewed_and_found_by_an_everyday_word(page: Any) -> None:
+    face = find(page, "img.face")
+    before = face.get_attribute("src")
+    pattern = find(page, "[data-pattern=creeper]")
+    ActionChains(page).move_to_element(pattern).perform()
+    wait_until(lambda: find(page, "img.face").get_attribute("src") != before)
+    is_now(page, "white")
+    field = find(page, ".panel-patterns input")
+    field.send_keys("pirate", Keys.ENTER)
+    is_now(page, "white skull:black")
+    click(page, "[data-dye=red]")
+    is_now(page, "white skull:red")
+
+
+def test_a_page_that_is_loaded_again_has_its_undo(page: Any) -> None:
+    click(page, "[data-pattern=creeper]")
+    is_now(page, "white creeper:black")
+    wait_until(lambda: "?d=" in page.current_url)
+    page.refresh()
+    wait_until(lambda: page.execute_script("return !!window.studio?.ready"))
+    is_now(page, "white creeper:black")
+    wait_until(lambda: find(page, "button[aria-label=Undo]").is_enabled())
+    click(page, "button[aria-label=Undo]")
+    is_now(page, "white")
+
+
+def test_only_the_design_that_was_saved_can_save_changes(page: Any) -> None:
+    click(page, "[data-pattern=creeper]")
+    is_now(page, "white creeper:black")
+    page.execute_script("studio.tab('library')")
+    click(page, "#panel-library button[aria-label=Save]")
+    over = "#panel-library button[aria-label='Save changes']"
+    wait_until(lambda: is_shown(page, over))
+    click(page, "button[aria-label='Random design']")
+    wait_until(lambda: not is_shown(page, over))
+    click(page, "button[aria-label=Undo]")
+    wait_until(lambda: is_shown(page, over))
+
+
+def test_sliders_have_a_role_and_a_name_where_the_focus_is(page: Any) -> None:
+    sliders = page.find_elements("css selector", "#panel-motion .slider")
+    assert len(sliders) >= 7
+    for slider in sliders:
+        page.execute_script("arguments[0].focus()", slider)
+        active = page.switch_to.active_element
+        if active == slider:  # those behind Advanced are not shown
+            assert active.aria_role == "slider"
+            assert active.accessible_name
+
+
+@pytest.mark.parametrize(
+    "size", [(320, 640), (640, 400), (820, 1180), (1000, 700), (1280, 800), (3840, 2160)]
+)
+def test_the_live_view_comes_first_at_every_width(
+    chromium: Any, studio: Studio, size: tuple[int, int]
+) -> None:
+    resize(chromium, size)
+    open_page(chromium, studio, "?design=red+creeper:lime")
+    click(chromium, ".live-bar button[aria-label=Pause]")
+    script = """
+      const box = (name) => document.querySelector(name).getBoundingClientRect();
+      const [view, face] = [box(".live-view"), box(".face")];
+      const wide = document.documentElement.scrollWidth;
+      const over = [...document.querySelectorAll(".live-bar button")].filter(
+        (each) => each.getBoundingClientRect().right > box(".live-bar").right + 1);
+      return [view.width * view.height, face.width * face.height, view.top, wide, over.length];
+    """
+    view, face, top, wide, over = chromium.execute_script(script)
+    assert view > face
+    assert top < size[1] / 2
+    assert wide <= size[0]
+    assert over == 0
+    if size[0] < 1000:
+        chromium.execute_script("window.scrollTo(0, 400)")
+        wait_until(lambda: chromium.execute_script(script)[2] >= -1)
+    resize(chromium, WIDE)
