@@ -91,6 +91,19 @@ def test_work_is_kept_for_a_time_and_up_to_a_number(monkeypatch: pytest.MonkeyPa
     session.close()
 
 
+def test_work_is_kept_up_to_a_size(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kept_work, "MAX_BYTES", pack.stat().st_size)
+    kept, tokens = KeptWork(), []
+    for _ in range(2):
+        session = Session()
+        send_pack(session, pack)
+        kept.add(session.token, session.work)
+        tokens.append(session.token)
+        session.close()
+    assert [kept.find(token) is not None for token in tokens] == [False, True]
+    kept.clear()
+
+
 def test_a_pack_that_is_gone_is_one_line(tmp_path: Path) -> None:
     session = Session()
     with pytest.raises(DesignError, match=r"blue\.zip: the file is not here any more"):

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from drapery.banner.dyes import DYE_NAMES, DYES, Dye
     from drapery.banner.formats.form import BinaryForm, Form
     from drapery.banner.formats.found import FoundBanner, find_banners
+    from drapery.banner.formats.languages import game_languages, game_titles
     from drapery.banner.formats.reading import read_design, read_designs
     from drapery.banner.formats.registry import (
         FORMS,
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
         write_banner,
         write_blocks,
     )
+    from drapery.banner.formats.studio_link import hidden_layers, pack_link, unpack_link
     from drapery.banner.letters import letter_banners, letter_characters
     from drapery.banner.loom import LoomStep, fits_loom, loom_steps, simplify
     from drapery.banner.names import dye_name, pattern_id
@@ -78,9 +80,13 @@ __all__ = [
     "find_banners",
     "fits_loom",
     "flag_layers",
+    "game_languages",
+    "game_titles",
+    "hidden_layers",
     "letter_banners",
     "letter_characters",
     "loom_steps",
+    "pack_link",
     "parse_banner",
     "parse_banners",
     "pattern_id",
@@ -90,6 +96,7 @@ __all__ = [
     "recognise",
     "shield_layers",
     "simplify",
+    "unpack_link",
     "write_banner",
     "write_blocks",
 ]
@@ -103,6 +110,8 @@ __getattr__, __dir__ = lazy_names(
         "banner.dyes": ("DYES", "DYE_NAMES", "Dye"),
         "banner.formats.form": ("BinaryForm", "Form"),
         "banner.formats.found": ("FoundBanner", "find_banners"),
+        "banner.formats.languages": ("game_languages", "game_titles"),
+        "banner.formats.studio_link": ("hidden_layers", "pack_link", "unpack_link"),
         "banner.formats.reading": ("read_design", "read_designs"),
         "banner.formats.registry": (
             "FORMS",

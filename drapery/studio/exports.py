@@ -120,7 +120,8 @@ def _scene(request: ExportRequest, chosen: SceneChoice, path: Path, on_progress:
 
     scene = find_scene(chosen.name)
     clip, parameters = scene_clip(request, scene), scene.parameters(dict(chosen.words))
-    style, backend = request.settings.style, request.settings.backend
+    style, named = request.settings.style, request.settings.backend
+    backend = named if isinstance(named, str) else "auto"  # a page has names alone
     if request.kind in STILLS:
         on_progress(0, 1)
         frame = next(scene_frames(scene, parameters, clip, backend, last=True, style=style))

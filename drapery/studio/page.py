@@ -120,6 +120,7 @@ def build(session: Session, sessions: Sessions) -> None:
     """Draw the whole page for a session. sessions: of the pages that it may go on from."""
     _head(session)
     with ui.element("div").classes("studio").props(f'data-token="{session.token}"') as root:
+        root.props["data-language"] = language()
         with ui.element("header").classes("bar"):
             bar.build(session)
         for place in ("left", "viewport", "under"):
@@ -171,8 +172,6 @@ def _write_into_address(session: Session) -> None:
 
 
 def _head(session: Session) -> None:
-    if language() != "en":
-        ui.add_head_html(f'<script>document.documentElement.lang = "{language()}";</script>')
     # Inline: each is small, and a page that arrives complete does not shift while it loads.
     for sheet in sorted(_FOLDER.glob("*.css")):
         ui.add_head_html(f"<style>{sheet.read_text()}</style>")

@@ -2,9 +2,7 @@
 
 from functools import cache
 
-from drapery.banner import PATTERNS
-from drapery.banner.formats.languages import known_languages
-from drapery.banner.names import BEDROCK_CODES
+from drapery.banner import PATTERNS, game_languages, game_titles
 
 _EVERYDAY = """
 base: full whole solid plain background fill
@@ -48,8 +46,8 @@ skull: pirate bones jolly roger death skeleton crossbones wither head
 flower: daisy plant blossom rose sun
 mojang: thing logo apple
 piglin: pig snout nose
-flow: wind swirl spiral wave breeze trial
-guster: wind swirl breeze face trial
+flow: flw wind swirl spiral wave breeze trial
+guster: gus wind swirl breeze face trial
 """
 
 
@@ -61,11 +59,11 @@ def search_words() -> dict[str, str]:
     """
     words = {name: [name, name.replace("_", " ")] for name in PATTERNS}
     for name, pattern in PATTERNS.items():
-        words[name] += [pattern.code or BEDROCK_CODES.get(name, ""), pattern.title.lower()]
+        words[name] += [pattern.code or "", pattern.title.lower()]
     for line in _EVERYDAY.strip().splitlines():
         name, _, everyday = line.partition(": ")
         words[name].append(everyday)
-    for language in known_languages():
-        for title, name in language.patterns.items():
-            words[name].append(title)
+    for language in game_languages():
+        for name, title in game_titles(language)[1].items():
+            words[name].append(title.lower())
     return {name: " ".join(dict.fromkeys(filter(None, each))) for name, each in words.items()}

@@ -11,8 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from drapery import Banner, DesignError, Settings
-from drapery.banner import parse_banner, write_banner
-from drapery.banner.formats import studio_link
+from drapery.banner import (
+    hidden_layers,
+    pack_link,
+    parse_banner,
+    unpack_link,
+    write_banner,
+)
 from drapery.option import shown
 from drapery.options import check_options
 from drapery.settings import NAMED_OPTIONS
@@ -33,12 +38,12 @@ def write_link(sketch: Sketch, settings: Settings) -> str:
 
     settings: the link leaves out its packs, texture, backend, and styles that are not names.
     """
-    return studio_link.pack(as_tree(sketch, settings))
+    return pack_link(as_tree(sketch, settings))
 
 
 def read_link(text: str) -> tuple[Sketch, Settings]:
     """Read the output of `write_link`. Raises DesignError for any other text."""
-    return of_tree(studio_link.unpack(text))
+    return of_tree(unpack_link(text))
 
 
 def opened_link(base: Settings, link: str) -> tuple[Settings, Sketch]:
@@ -93,7 +98,7 @@ def of_tree(tree: object) -> tuple[Sketch, Settings]:
     if not isinstance(tree, dict):
         raise DesignError(f"the design is not a JSON object; {_REMEDY}")
     sketch = sketch_of(_banner_in(tree))
-    hidden = studio_link.hidden_places(tree, len(sketch.strokes))
+    hidden = hidden_layers(tree, len(sketch.strokes))
     strokes = tuple(replace(s, hidden=n in hidden) for n, s in enumerate(sketch.strokes))
     title = checked_title(tree.get("title", ""))
     return replace(sketch, strokes=strokes, title=title), settings_of(tree.get("options", {}))
@@ -149,7 +154,7 @@ def checked_title(title: object) -> str:
 
 
 def _banner_in(tree: dict[str, Any]) -> Banner:
-    design = {name: tree[name] for name in studio_link.KEYS if name in tree}
+    design = {name: tree[name] for name in ("base", "layers", "kind") if name in tree}
     try:
         return parse_banner(json.dumps(design), form="json")
     except RecursionError:

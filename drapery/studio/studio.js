@@ -184,6 +184,7 @@ document.addEventListener("change", (event) => {
 new MutationObserver((_, observer) => {
   if (!root() || !window.Quasar) return;
   observer.disconnect();
+  if (root().dataset.language !== "en") document.documentElement.lang = root().dataset.language;
   let stored = null;
   try {
     stored = localStorage.getItem("drapery-theme");

@@ -13,8 +13,7 @@ from babel import negotiate_locale
 from babel.messages.pofile import read_po
 from nicegui import context
 
-from drapery.banner import PATTERNS
-from drapery.banner.formats.languages import titles
+from drapery.banner import PATTERNS, game_titles
 
 GAME_LANGUAGES = {
     "de": "de_de",
@@ -47,7 +46,7 @@ def language() -> str:
 @lru_cache(maxsize=256)
 def chosen(accepted: str) -> str:
     """The language for a header `Accept-Language` (RFC 9110, section 12.5.4)."""
-    weighed = []
+    weighed: list[tuple[float, int, str]] = []
     for part in accepted.split(",")[:32]:
         name, _, weight = part.partition(";q=")
         try:
@@ -67,7 +66,7 @@ def catalogue(language: str) -> Mapping[str, str]:
         texts = {
             str(each.id): str(each.string) for each in read_po(file) if each.id and each.string
         }
-    dyes, patterns = titles(GAME_LANGUAGES[language])
+    dyes, patterns = game_titles(GAME_LANGUAGES[language])
     names = {name.replace("_", " ").capitalize(): title for name, title in dyes.items()}
     names |= {PATTERNS[name].title: title for name, title in patterns.items()}
     return names | texts

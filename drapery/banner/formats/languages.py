@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYE_NAMES
@@ -48,8 +49,15 @@ class Language:
 @cache
 def known_languages() -> tuple[Language, ...]:
     """Every language of the data file."""
-    data = json.loads(files(__package__).joinpath("languages.json").read_text("utf-8"))
-    return tuple(_language(name, entry) for name, entry in data.items())
+    return tuple(_language(name, entry) for name, entry in _data().items())
+
+
+@cache
+def _data() -> dict[str, Any]:
+    data: dict[str, Any] = json.loads(
+        files(__package__).joinpath("languages.json").read_text("utf-8")
+    )
+    return data
 
 
 def _language(name: str, entry: dict[str, object]) -> Language:
@@ -71,9 +79,14 @@ def _language(name: str, entry: dict[str, object]) -> Language:
     return Language(name, str(entry["banner"]), str(entry["shield"]), dyes, unique, phrases)
 
 
-def titles(name: str) -> tuple[dict[str, str], dict[str, str]]:
+def game_languages() -> tuple[str, ...]:
+    """The names of the languages with titles, such as `de_de`."""
+    return tuple(_data())
+
+
+def game_titles(name: str) -> tuple[dict[str, str], dict[str, str]]:
     """The titles of dyes and of patterns in a language such as `de_de`, by their ids."""
-    entry = json.loads(files(__package__).joinpath("languages.json").read_text("utf-8"))[name]
+    entry = _data()[name]
     dyes = {dye: _title(word) for dye, word in zip(DYE_NAMES, entry["dyes"], strict=True)}
     patterns = {
         pattern: _title(" ".join((before + after).split()))

@@ -44,13 +44,13 @@ def recognises(text: str) -> bool:
 
 def write(banner: Banner) -> str:
     """The address at a studio that was started with its defaults."""
-    return ADDRESS + pack(json.loads(own_json.write(banner)))
+    return ADDRESS + pack_link(json.loads(own_json.write(banner)))
 
 
 def parse(text: str) -> Banner:
     """The design of such an address, or of the value of its `d`. Raises DesignError."""
     address = _ADDRESS.fullmatch(text)
-    return banner_of(unpack(address[1] if address else text))
+    return banner_of(unpack_link(address[1] if address else text))
 
 
 def banner_of(tree: object) -> Banner:
@@ -58,7 +58,7 @@ def banner_of(tree: object) -> Banner:
     if not isinstance(tree, dict):
         raise DesignError(f"the link does not hold a design; {_REMEDY}")
     banner = own_json.from_tree({key: tree[key] for key in KEYS if key in tree})
-    hidden = hidden_places(tree, len(banner.layers))
+    hidden = hidden_layers(tree, len(banner.layers))
     layers = (layer for place, layer in enumerate(banner.layers) if place not in hidden)
     return replace(banner, layers=tuple(layers))
 
@@ -67,7 +67,7 @@ KEYS = ("base", "layers", "kind")
 """The keys of a link's JSON that describe the design."""
 
 
-def hidden_places(tree: dict[str, object], count: int) -> frozenset[int]:
+def hidden_layers(tree: dict[str, object], count: int) -> frozenset[int]:
     """The places of hidden layers among `count`, from 0. Raises DesignError."""
     hidden = tree.get("hidden", [])
     if not isinstance(hidden, list) or not all(
@@ -77,13 +77,13 @@ def hidden_places(tree: dict[str, object], count: int) -> frozenset[int]:
     return frozenset(hidden)
 
 
-def pack(tree: object) -> str:
+def pack_link(tree: object) -> str:
     """JSON as the characters of a link."""
     text = json.dumps(tree, separators=(",", ":"), ensure_ascii=False)
     return VERSION + urlsafe_b64encode(zlib.compress(text.encode(), 9)).decode().rstrip("=")
 
 
-def unpack(text: str) -> object:
+def unpack_link(text: str) -> object:
     """The JSON of a link. Raises DesignError for any other text."""
     word = text.strip()
     if len(word) > MAX_LINK:

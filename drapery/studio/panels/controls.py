@@ -159,7 +159,11 @@ class Controls:
 
     def enabled(self, button: ui.button, get: Callable[[], bool]) -> None:
         """Let a button work only while `get` returns true."""
-        self._states.append(lambda: button.set_enabled(get()))
+
+        def show() -> None:
+            button.set_enabled(get())
+
+        self._states.append(show)
 
     def line(self, get: Callable[[], str]) -> None:
         """A line of text, which is hidden while it is empty."""
