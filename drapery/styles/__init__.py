@@ -6,7 +6,7 @@ from drapery.styles import Style, find_style
 
 banner = Banner.parse("white creeper:lime border:black")
 draw(banner, style="ink").save("ink.png")
-draw(banner, style=find_style("tattered") | Style.load("my.toml")).save("mine.png")
+draw(banner, style=Style.load("my.toml") | find_style("tattered")).save("mine.png")
 ```
 
 A `Style` holds `StyleStep`s of four kinds. Each is a plain function with keyword parameters:
