@@ -13,8 +13,8 @@ from drapery.banner.design import Banner, Layer
 from drapery.errors import DraperyError, OptionError
 from drapery.settings import Settings
 from drapery.studio import exports
+from drapery.studio.chosen_scene import scene_choice, what_follows
 from drapery.studio.exports import Export, ExportSlots, count_frames, make, stem_of
-from drapery.studio.scene_choice import scene_choice, what_follows
 from drapery.studio.session import Session
 from drapery.studio.snippets import KINDS, ExportRequest, as_command, as_python, file_name
 

@@ -20,10 +20,10 @@ from drapery.render.light import GAME_LIGHT
 from drapery.render.soft import draw_scene
 from drapery.scenes.stager import STEP, ClothSpec, still
 from drapery.settings import Settings
+from drapery.studio.chosen_scene import SceneChoice
 from drapery.studio.live import Live, Ray
 from drapery.studio.live_cloth import new_live_cloth
 from drapery.studio.player import Player, scene_show
-from drapery.studio.scene_choice import SceneChoice
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import sketch_of
 from drapery.studio.stream import UNDER_WAY, UNKNOWN, WRONG, add_routes

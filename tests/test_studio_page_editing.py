@@ -8,7 +8,7 @@ from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import write_banner
-from drapery.studio.own_designs import EXAMPLES, own_designs
+from drapery.studio.design_catalogue import EXAMPLES, own_designs
 
 
 @pytest.fixture

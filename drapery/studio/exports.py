@@ -13,8 +13,8 @@ from typing import TypeVar
 from drapery import Banner, DraperyError, OptionError
 from drapery.option import one_of
 from drapery.settings import frame_count
+from drapery.studio.chosen_scene import SceneChoice
 from drapery.studio.document import Document
-from drapery.studio.scene_choice import SceneChoice
 from drapery.studio.snippets import (
     KINDS,
     LOOPS,

@@ -18,7 +18,7 @@ from drapery.scenes import (
     find_scene,
     garment_loop,
 )
-from drapery.studio.scene_choice import SceneChoice
+from drapery.studio.chosen_scene import SceneChoice
 from drapery.web.panes import ViewerState, shown_picture
 
 MAX_CACHED = 96 << 20

@@ -13,7 +13,7 @@ from fastapi.responses import FileResponse, JSONResponse
 from drapery import DesignError, DraperyError
 from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_rows, pattern_sheet, style_png
-from drapery.studio.own_designs import own_designs
+from drapery.studio.design_catalogue import own_designs
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of
 from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name

@@ -12,7 +12,7 @@ from drapery.garments import UNUSED_OPTIONS, Garment, find_garment
 from drapery.option import Option
 from drapery.scenes import Clip, SceneEntry, find_scene
 from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, frame_count
-from drapery.studio.scene_choice import SceneChoice
+from drapery.studio.chosen_scene import SceneChoice
 
 STILLS = ("png",)
 LOOPS = ("gif", "apng", "webp", "mp4")

@@ -19,11 +19,11 @@ from drapery import Banner, DraperyError
 from drapery.garments import Garment
 from drapery.packs import Packs, open_packs
 from drapery.scenes import STEP
+from drapery.studio.chosen_scene import SceneChoice, scene_choice
 from drapery.studio.document import Document
 from drapery.studio.live import Live
 from drapery.studio.pack_store import PackStore
 from drapery.studio.player import Player, garment_show, scene_show
-from drapery.studio.scene_choice import SceneChoice, scene_choice
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import ExportRequest, options_for, subject_of
 from drapery.studio.wind_controls import wind_controls_of

@@ -11,9 +11,9 @@ from nicegui.element import Element
 
 from drapery.option import Option
 from drapery.settings import LOOP_OPTIONS, OPTIONS
+from drapery.studio.chosen_scene import scene_choice
 from drapery.studio.descriptions import view_title
 from drapery.studio.panels.fields import Fields
-from drapery.studio.scene_choice import scene_choice
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import LOOPS, SCALE, ExportRequest

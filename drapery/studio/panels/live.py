@@ -7,10 +7,10 @@ from nicegui import run, ui
 from drapery.garments import find_garment, garment_names
 from drapery.scenes import find_scene, scene_names
 from drapery.settings import OPTIONS
+from drapery.studio.chosen_scene import what_follows
 from drapery.studio.descriptions import view_title
 from drapery.studio.file_field import FileField
 from drapery.studio.panels.controls import Controls
-from drapery.studio.scene_choice import what_follows
 from drapery.studio.session import Session
 from drapery.studio.translation import translated
 from drapery.studio.viewer import ViewerElement
@@ -109,7 +109,7 @@ def wear(session: Session, name: str | None) -> None:
 
 def _choices(session: Session) -> dict[str | None, str]:
     """What the viewer can show in place of the banner, by its name or path."""
-    own, choices = session.garment_store, dict[str | None, str]({None: NONE})
+    own, choices = session.garment_store, dict[str | None, str]({None: translated(NONE)})
     if own.path is not None:
         choices[str(own.path)] = own.title
     choices.update(_garments())

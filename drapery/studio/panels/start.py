@@ -4,7 +4,7 @@ from nicegui import ui
 from nicegui.element import Element
 
 from drapery.studio.descriptions import described
-from drapery.studio.own_designs import EXAMPLES, OwnDesign, groups, own_designs
+from drapery.studio.design_catalogue import EXAMPLES, OwnDesign, groups, own_designs
 from drapery.studio.session import Session
 from drapery.studio.sketch import Sketch, sketch_of
 from drapery.studio.widgets import button, text_element, translated_text
