@@ -23,13 +23,15 @@ It cannot have the name of a built-in backend. `drapery doctor` draws a triangle
 
 from collections.abc import Callable
 from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from drapery.errors import BackendError
 from drapery.render.buffers import Buffers
 from drapery.render.frame import Frame
 from drapery.render.scene import Scene
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 DrawScene = Callable[[Scene], Frame]
 """A backend."""
@@ -92,7 +94,9 @@ def added_backends() -> dict[str, str]:
     return {name: point.dist.name if point.dist else name for name, point in _added().items()}
 
 
-def _added() -> dict[str, EntryPoint]:
+def _added() -> "dict[str, EntryPoint]":
+    from importlib.metadata import entry_points
+
     points = sorted(entry_points(group=GROUP), key=lambda point: point.name)
     return {point.name: point for point in points if point.name not in BUILT_IN}
 

@@ -1,7 +1,6 @@
 """`drapery doctor`: versions, which backends work, and remedies for those that do not."""
 
 import platform
-from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -10,6 +9,8 @@ if TYPE_CHECKING:
 
 def run() -> None:
     """Report what works on this machine, with a remedy for each part that does not."""
+    from importlib.metadata import version
+
     from rich.console import Console
     from rich.markup import escape
 

@@ -9,14 +9,17 @@ point is the name of the style, its value is a `Style`. In the package's pyproje
 
 from collections.abc import Iterable
 from functools import cache, reduce
-from importlib.metadata import EntryPoint, entry_points
 from importlib.resources import as_file, files
 from operator import or_
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from drapery.errors import OptionError
 from drapery.option import shown
 from drapery.styles.style import Style
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP = "drapery.styles"
 ENDING = ".toml"
@@ -74,7 +77,7 @@ def _preset(name: str) -> Style:
         return Style.load(path)
 
 
-def _loaded(name: str, point: EntryPoint) -> Style:
+def _loaded(name: str, point: "EntryPoint") -> Style:
     try:
         style = point.load()
     except Exception as fault:  # a package may raise anything while it is imported
@@ -87,6 +90,8 @@ def _loaded(name: str, point: EntryPoint) -> Style:
     return style
 
 
-def _added() -> dict[str, EntryPoint]:
+def _added() -> "dict[str, EntryPoint]":
+    from importlib.metadata import entry_points
+
     points = sorted(entry_points(group=GROUP), key=lambda point: point.name)
     return {point.name: point for point in points}

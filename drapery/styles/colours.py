@@ -1,18 +1,12 @@
 """Colours in styles: as text in files, as levels, and as words of pixels."""
 
-from typing import Annotated
-
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
 from drapery.render.pixels import Pixels
 
 COLOUR_PATTERN = r"^#[0-9a-fA-F]{6}$"
 """A colour in a style, such as `#5a3c1e`."""
-
-Colour = Annotated[str, Field(pattern=COLOUR_PATTERN)]
-"""A parameter that is a colour."""
 
 Words = NDArray[np.uint32]
 """Pixels as one number each: red, green, blue and alpha from the lowest byte to the highest."""

@@ -15,7 +15,8 @@ from drapery.banner.dyes import DYES
 from drapery.mesh import Array
 from drapery.render.flatten import lay_over
 from drapery.render.scene import Material, Texels, TextureLayer
-from drapery.styles.colours import Colour, as_pixels, rgb_of
+from drapery.styles.colour_field import Colour
+from drapery.styles.colours import as_pixels, rgb_of
 from drapery.styles.palettes import (
     DARK_AND_LIGHT,
     DitherPattern,

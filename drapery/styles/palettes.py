@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.mesh import Array
-from drapery.styles.colours import Colour, Words, rgb_of
+from drapery.styles.colour_field import Colour
+from drapery.styles.colours import Words, rgb_of
 from drapery.styles.palette_files import MAX_COLOURS
 from drapery.styles.void_and_cluster import blue_noise
 

@@ -14,7 +14,8 @@ from pydantic import Field
 from drapery.render.buffers import BACKGROUND, Buffers
 from drapery.render.pixels import Pixels
 from drapery.styles.canvas import Canvas, laid_over
-from drapery.styles.colours import Colour, Words, as_pixels, rgb_of, word_of
+from drapery.styles.colour_field import Colour
+from drapery.styles.colours import Words, as_pixels, rgb_of, word_of
 from drapery.styles.palettes import (
     DARK_AND_LIGHT,
     DitherPattern,

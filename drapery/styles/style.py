@@ -19,8 +19,6 @@ from drapery.render.scene import Material, Scene
 from drapery.settings import Lighting, Settings
 from drapery.styles.canvas import Canvas, laid_over
 from drapery.styles.colours import as_pixels
-from drapery.styles.loading import read_style_file
-from drapery.styles.pixel_steps import pixels
 from drapery.styles.sheet import Sheet
 from drapery.styles.step import StepKind, StyleStep, as_toml, parameter_lines
 
@@ -73,6 +71,9 @@ class Style:
 
         Raises OptionError that names the file, the line, the field and the remedy.
         """
+        # Imported here: a picture without a style needs no step, and no pydantic.
+        from drapery.styles.loading import read_style_file
+
         parsed, steps = read_style_file(path)
         return cls(Path(path).stem, steps, parsed.light, parsed.samples, parsed.description)
 
@@ -159,7 +160,7 @@ class Style:
         self._check_samples(width * height * samples)
         if isinstance(scene, Frame):
             canvas = Canvas(scene.pixels, partial(_flat_buffers, scene))
-        elif steps and steps[0].function is pixels:
+        elif steps and _makes_pixels(steps[0]):
             canvas = _large_pixels(scene, dict(steps[0].parameters)["size"], draw_scene)
             steps = steps[1:]
         else:
@@ -219,6 +220,12 @@ def _flat_buffers(frame: Frame) -> Buffers:
     found.uv[..., 0] = np.where(shown, (np.arange(size[0]) + 0.5) / size[0], 0)
     found.uv[..., 1] = np.where(shown, (np.arange(size[1])[:, None] + 0.5) / size[1], 0)
     return found
+
+
+def _makes_pixels(step: StyleStep) -> bool:
+    from drapery.styles.pixel_steps import pixels
+
+    return step.function is pixels
 
 
 def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
