@@ -42,8 +42,8 @@ def check(
         print(f"unused golden: {path}")
     page = write_report(report)
     if summary is not None:
-        with summary.open("a", encoding="utf-8") as file:
-            file.write(markdown_report(report))
+        with summary.open("a", encoding="utf-8") as text:
+            text.write(markdown_report(report))
     print(f"{len(cases.case) - failed} as before, {failed} not" + (f"; see {page}" if page else ""))
     raise typer.Exit(1 if failed else 0)
 

@@ -92,10 +92,10 @@ def failures_in(folder: Path) -> list[FailedPicture]:
     for path in sorted(folder.glob(f"*{_FACTS}")):
         try:
             facts = json.loads(path.read_text(encoding="utf-8"))
-            words = [str(facts[name]) for name in ("name", "line", "golden")]
+            name, line, golden = (str(facts[key]) for key in ("name", "line", "golden"))
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise OutputError(f"{path} cannot be read ({error}); run the checks again") from None
-        found.append(FailedPicture(path.name.removesuffix(_FACTS), *words, folder))
+        found.append(FailedPicture(path.name.removesuffix(_FACTS), name, line, golden, folder))
     return found
 
 
