@@ -101,7 +101,7 @@ def test_a_shield_is_outside_the_left_hand_with_its_design_outwards(
     assert inner[0] < hand[0] + 2 and plate.bone == handle.bone == "left_arm"
 
 
-def test_a_shield_stops_cloth_that_does_not_begin_in_it() -> None:
+def test_cloth_begins_behind_a_shield_which_stops_it() -> None:
     player = dressed_player(make_wearer(shield="white", **STAND), wear=("cape", "poncho"))
     dressed = Dressed(player, NONE, player.settings())
     plate = np.array([1, 12, 22]) * TEXEL
@@ -109,7 +109,9 @@ def test_a_shield_stops_cloth_that_does_not_begin_in_it() -> None:
         any(isinstance(c.shape, Box) and np.allclose(c.shape.size, plate) for c in met)
         for met in map(dressed.colliders, dressed.cloths)
     ]
-    assert stopped == [True, False]
+    assert stopped == [True, True]
+    poncho = dressed.cloths[1].start / TEXEL
+    assert poncho[:, 0].max() < 9 and poncho[:, 0].min() < -10  # the plate is from 9 to 10
 
 
 def test_armour_stands_off_the_body_by_the_texels_of_the_game() -> None:

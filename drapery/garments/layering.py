@@ -29,6 +29,8 @@ SAMPLES = (
     / 3
 )
 """Where on each triangle two cloths are compared, as shares of its corners."""
+BESIDE = 2.0
+"""Cloth also begins behind a plate up to this distance beside it [texels]."""
 EDGE = 1e-6
 """A ray meets a triangle up to this part beside it."""
 MAX_PAIRS = 1 << 19
@@ -65,6 +67,23 @@ def _outside(cloth: SewnCloth, below: Sequence[SewnCloth]) -> SewnCloth:
             break
         start += push[:, None] * _outwards(start)
     return replace(cloth, start=start, cloth=_widened(cloth.cloth, cloth.start, start))
+
+
+def put_behind(cloth: SewnCloth, low: Array, high: Array) -> SewnCloth:
+    """A cloth that begins on the wearer's side of an upright plate, such as a shield.
+
+    low, high: corners of the plate [m], each [3]; it is flat along one axis.
+    """
+    axis = int(np.argmin(high - low))
+    side = 1.0 if low[axis] + high[axis] > 0 else -1.0
+    gap = CLEAR * cloth.distance / 2
+    limit = min(side * low[axis], side * high[axis]) - gap
+    around = BESIDE * cloth.texel
+    before = (cloth.start > low - around) & (cloth.start < high + around)
+    before[:, axis] = side * cloth.start[:, axis] > limit
+    start = cloth.start.copy()
+    start[before.all(axis=1), axis] = side * limit
+    return replace(cloth, start=start)
 
 
 def _widened(cloth: Cloth, old: Array, new: Array) -> Cloth:

@@ -27,7 +27,7 @@ from drapery.cloth import (
 )
 from drapery.cloth.solvers.registry import solver
 from drapery.garments.assembly import SewnCloth, tailor
-from drapery.garments.layering import put_outside, sampled
+from drapery.garments.layering import put_behind, put_outside, sampled
 from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
@@ -133,7 +133,12 @@ class Dressed:
         if who and who.shown == "head":
             return ()
         sewn = tailor(with_head_banner(self.garment), self.packs)
-        return put_outside(sewn) if who and who.kind == "player" else sewn
+        if self.wearer is None or who is None or who.kind != "player":
+            return sewn
+        for box, _ in self.wearer.held_boxes():
+            low, high = box.centre - np.asarray(box.size) / 2, box.centre + np.asarray(box.size) / 2
+            sewn = tuple(put_behind(e, low, high) if _begins_in(e, box) else e for e in sewn)
+        return put_outside(sewn)
 
     @cached_property
     def wearer(self) -> Wearer | None:
@@ -176,7 +181,7 @@ class Dressed:
         found += [Collider(_pole_box(each, texel), friction=friction) for each in self.garment.pole]
         if self.wearer is not None:
             found += self.wearer.colliders(sewn.solid)
-            # Cloth that begins in a shield, as a poncho does, passes through it.
+            # Cloth that begins in a shield passes through it.
             found += [
                 Collider(box, path, friction=friction)
                 for box, path in self.wearer.held_boxes()
