@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from drapery import Banner, OptionError, draw_face
 from drapery.match import Matcher, match
 from drapery.match.art import read_art
+from drapery.match.colours import MEASURED, PERCEIVED, Metric
 from drapery.match.exact import ExactSearch
 from drapery.match.nearest import NearestSearch
 from drapery.packs import MemoryPack, open_packs
@@ -90,14 +91,33 @@ def test_the_design_is_found_in_the_look_of_a_pack() -> None:
     )
 
 
-def test_errors_of_all_choices_are_those_of_the_faces() -> None:
+@pytest.mark.parametrize("metric", [PERCEIVED, MEASURED])
+def test_errors_of_all_choices_are_those_of_the_faces(metric: Metric) -> None:
     art = read_art(open_packs(()))
-    goal = NearestSearch(art).goal(np.random.default_rng(0).integers(0, 256, 2400), np.ones(800))
+    face = np.random.default_rng(0).integers(0, 256, 2400)
+    goal = NearestSearch(art).goal(face, np.ones(800), metric)
     base, layers = 3, ((5, 2), (33, 7), (10, 1), (32, 4))
     table = goal.choices(goal.below(base, layers[:2]), goal.over(layers[3:]))
     for choice in ((5, 5), (32, 2), (40, 9)):
         true = goal.error((base, (*layers[:2], choice, layers[3])))
         assert abs(table[choice] - true) < 0.002 * true
+
+
+def test_layers_below_the_top_ones_are_searched_anew() -> None:
+    art = read_art(open_packs(()))
+    names = ("triangle_top", "stripe_bottom", "circle")
+    triangle, stripe, circle = map(art.patterns.index, names)
+    right = (0, ((triangle, 14), (stripe, 15), (circle, 4)))
+    goal = NearestSearch(art).goal(art.paint(*right), np.ones(800))
+    wrong = (7, ((stripe, 3), (triangle, 5), (circle, 4)))
+    assert min(map(goal.error, goal.regrown(wrong, 3, 4))) == 0
+
+
+def test_layers_in_a_wrong_order_are_swapped() -> None:
+    art = read_art(open_packs(()))
+    right = (0, ((4, 15), (31, 1), (20, 10)))
+    goal = NearestSearch(art).goal(art.paint(*right), np.ones(800))
+    assert goal.error(goal.reordered((0, ((20, 10), (31, 1), (4, 15))))) == 0
 
 
 def test_alternatives_differ_and_come_best_first(matcher: Matcher) -> None:

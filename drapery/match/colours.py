@@ -1,5 +1,10 @@
-"""Colours as people see them: OKLab (Ottosson, "A perceptual color space", 2020)."""
+"""How far colours are apart: as people see them, or as a camera does.
 
+People: OKLab (Ottosson, "A perceptual color space", 2020). Cameras: 8-bit levels.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -14,6 +19,9 @@ of them are the same in any order."""
 
 _STEP = 4
 """Colours are looked up in a table with every fourth value of each channel."""
+
+_FARTHEST = 180
+"""The greatest distance of colours in levels."""
 
 _TO_CONES = (
     (0.4122214708, 0.5363325363, 0.0514459929),
@@ -58,6 +66,41 @@ def distances(lab: Floats, other: Floats) -> Whole:
     np.sqrt(length, out=length)
     length *= np.float32(UNIT)
     return np.asarray(np.rint(length, out=length), np.int32)
+
+
+def level_distances(rgb: Floats, other: Floats) -> Whole:
+    """Between 8-bit colours [..., 3]: the sums over channels, at most _FARTHEST, in 1 / 16."""
+    away = rgb - other
+    np.abs(away, out=away)
+    length = away[..., 0] + away[..., 1]
+    length += away[..., 2]
+    np.minimum(length, np.float32(_FARTHEST), out=length)
+    length *= np.float32(16)
+    return np.asarray(np.rint(length, out=length), np.int32)
+
+
+def _levels(rgb: NDArray[np.generic]) -> Floats:
+    return np.asarray(rgb, np.float32)
+
+
+@dataclass(frozen=True)
+class Metric:
+    """How far colours are apart.
+
+    coordinates: from 8-bit colours [..., 3], exactly. quick_coordinates: nearly, from values
+    between whole ones. distances: between coordinates [..., 3], whole numbers.
+    """
+
+    coordinates: Callable[[NDArray[np.generic]], Floats]
+    quick_coordinates: Callable[[Floats], Floats]
+    distances: Callable[[Floats, Floats], Whole]
+
+
+PERCEIVED = Metric(oklab, quick_oklab, distances)
+"""For pictures that people look at."""
+
+MEASURED = Metric(_levels, _levels, level_distances)
+"""For photos. Texels that are far off count as much as any wrong one."""
 
 
 @cache

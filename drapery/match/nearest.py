@@ -7,14 +7,14 @@ and all patterns share most of these; only translucent texels depend on the patt
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.match.art import SIZE, FaceArt, Levels, Stack
-from drapery.match.colours import Floats, Whole, distances, oklab, quick_oklab
+from drapery.match.colours import PERCEIVED, Floats, Metric, Whole
 
 Totals = NDArray[np.int64]
 
@@ -30,14 +30,26 @@ _SWEEPS = 6
 class _Parts:
     """The texels of all patterns, those of each pattern side by side.
 
-    colours: [n, 16, 3], of each entry in each dye. texels: of each entry, [n].
+    colours: [n, 16, 3], of each entry in each dye, times its alpha. clear: 1 less its alpha, [n].
+    texels: of each entry, [n].
     entries: which entries each pattern has, [m]. starts: where the entries of each pattern begin.
     """
 
     colours: Floats
+    clear: Floats
     texels: NDArray[np.intp]
     entries: NDArray[np.intp]
     starts: NDArray[np.intp]
+
+    def within(self, chosen: NDArray[np.bool_]) -> "_Parts":
+        """Those at some of the texels, [N / 3]."""
+        used = chosen[self.texels]
+        if used.all():
+            return self
+        kept = used[self.entries]
+        entries = (np.cumsum(used) - 1)[self.entries[kept]]
+        starts = np.append(0, np.cumsum(kept))[self.starts]
+        return _Parts(self.colours[used], self.clear[used], self.texels[used], entries, starts)
 
     def sums(self, values: Whole) -> Totals:
         """The sums over each pattern's entries of values [n, 16], as [P, 16]."""
@@ -73,56 +85,64 @@ class NearestSearch:
                 rows.append(known[key])
         entries = np.array(rows, np.intp)
         made = np.array(colours, np.float32).reshape(-1, _DYES, 3)
-        return _Parts(made, np.array(texels, np.intp), entries, np.array(starts, np.intp))
+        clear = np.zeros(len(made), np.float32)
+        return _Parts(made, clear, np.array(texels, np.intp), entries, np.array(starts, np.intp))
 
     @cached_property
     def _translucent(self) -> _Parts:
-        """Translucent texels, with colours that are multiplied by alpha."""
-        colours, texels, starts, count = [], [], [], 0
+        """Translucent texels."""
+        colours, clear, texels, starts, count = [], [], [], [], 0
         for pattern, alpha in enumerate(self.art.alpha[:, ::3]):
             starts.append(count)
             part = np.flatnonzero((alpha > 0) & (alpha < 255))
             dyed = self.art.dyed[pattern].reshape(_DYES, _TEXELS, 3)[:, part]
             colours.append(dyed.transpose(1, 0, 2) * (alpha[part] / 255)[:, None, None])
+            clear.append(1 - alpha[part] / 255)
             texels.append(part)
             count += len(part)
-        made = np.concatenate(colours).astype(np.float32)
-        order = np.arange(count, dtype=np.intp)
-        return _Parts(made, np.concatenate(texels), order, np.array(starts, np.intp))
-
-    @cached_property
-    def _shares(self) -> Floats:
-        """The alpha of each translucent entry, 0 to 1, [n]."""
-        ends = np.append(self._translucent.starts[1:], len(self._translucent.texels))
-        patterns = np.arange(len(self.art.patterns)).repeat(ends - self._translucent.starts)
-        alpha = self.art.alpha[patterns, 3 * self._translucent.texels]
-        return np.asarray(alpha / 255, np.float32)
+        return _Parts(
+            np.concatenate(colours).astype(np.float32),
+            np.concatenate(clear).astype(np.float32),
+            np.concatenate(texels),
+            np.arange(count, dtype=np.intp),
+            np.array(starts, np.intp),
+        )
 
     @cached_property
     def _alpha(self) -> Floats:
         return np.asarray(self.art.alpha[:, ::3, None] / 255, np.float32)
 
-    def goal(self, face: NDArray[np.generic], weights: NDArray[np.generic]) -> "Goal":
+    def goal(
+        self, face: NDArray[np.generic], weights: NDArray[np.generic], metric: Metric = PERCEIVED
+    ) -> "Goal":
         """What is searched for: a face [N], and the weight of each texel [N / 3]."""
-        lab = oklab(np.asarray(face).reshape(_TEXELS, 3))
-        return Goal(self, lab, np.asarray(weights, np.int32).reshape(_TEXELS))
+        target = metric.coordinates(np.asarray(face).reshape(_TEXELS, 3))
+        return Goal(self, target, np.asarray(weights, np.int32).reshape(_TEXELS), metric)
 
 
 @dataclass(frozen=True, eq=False)
 class Goal:
-    """A face that is searched for: its colours in OKLab [N / 3, 3] and the weights of its texels.
+    """A face that is searched for: its colours [N / 3, 3] and the weights of its texels.
 
     Errors are sums of weighted distances, whole numbers.
     """
 
     search: NearestSearch
-    lab: Floats
+    target: Floats
     weights: Whole
+    metric: Metric
+
+    @cached_property
+    def _parts(self) -> tuple[_Parts, _Parts]:
+        """The opaque and the translucent texels of patterns that count."""
+        counts = self.weights > 0
+        return self.search._opaque.within(counts), self.search._translucent.within(counts)
 
     def error(self, stack: Stack) -> int:
         """Of the face that a stack of layers shows."""
         face = self.search.art.paint(*stack).reshape(_TEXELS, 3)
-        return int((distances(oklab(face), self.lab) * self.weights).sum(dtype=np.int64))
+        apart = self.metric.distances(self.metric.coordinates(face), self.target)
+        return int((apart * self.weights).sum(dtype=np.int64))
 
     def bases(self, over: tuple[Floats, Floats] | None = None) -> Totals:
         """The errors of the sixteen bases below layers that add and let through `over`, [16]."""
@@ -140,29 +160,23 @@ class Goal:
         """
         added, through = over or _nothing()
         before = self._errors(added + through * below, slice(None))
-        opaque, part = self.search._opaque, self.search._translucent
-        seen = through[opaque.texels, None] * opaque.colours
-        seen += added[opaque.texels, None]
-        gained = self._errors(seen, opaque.texels)
-        gained -= before[opaque.texels, None]
-        total = before.sum(dtype=np.int64) + opaque.sums(gained)
-        # What is below shows through translucent texels.
-        shown = added[part.texels] + through[part.texels] * (
-            (1 - self.search._shares)[:, None] * below[part.texels]
-        )
-        seen = through[part.texels, None] * part.colours
-        seen += shown[:, None]
-        gained = self._errors(seen, part.texels)
-        gained -= before[part.texels, None]
-        total += part.sums(gained)
+        total = np.full((1, 1), before.sum(dtype=np.int64))
+        for part in self._parts:
+            # What is below shows through translucent texels.
+            shown = part.clear[:, None] * below[part.texels]
+            seen = through[part.texels, None] * (part.colours + shown[:, None])
+            seen += added[part.texels, None]
+            gained = self._errors(seen, part.texels)
+            gained -= before[part.texels, None]
+            total = total + part.sums(gained)
         return np.asarray(total)
 
     def _errors(self, seen: Floats, texels: slice | NDArray[np.intp]) -> Whole:
         """Of colours [n, 16, 3] at texels [n], or [..., N / 3, 3] at all of them."""
-        lab, weights = self.lab[texels], self.weights[texels]
+        target, weights = self.target[texels], self.weights[texels]
         if not isinstance(texels, slice):
-            lab, weights = lab[:, None], weights[:, None]
-        found = distances(quick_oklab(seen), lab)
+            target, weights = target[:, None], weights[:, None]
+        found = self.metric.distances(self.metric.quick_coordinates(seen), target)
         found *= weights
         return found
 
@@ -188,13 +202,21 @@ class Goal:
             through = through * (1 - alpha)
         return added.astype(np.float32), through.astype(np.float32)
 
-    def grow(self, layers: int, width: int) -> Iterator[list[Stack]]:
-        """The `width` best stacks of 0, 1, 2, ... layers, each found from those before it."""
-        errors = self.bases()
+    def grow(
+        self, layers: int, width: int, above: Sequence[tuple[int, int]] = ()
+    ) -> Iterator[list[Stack]]:
+        """The `width` best stacks of 0, 1, 2, ... layers, each found from those before it.
+
+        above: layers that lie on top of them, and are not part of what is returned.
+        """
+        over = self.over(above)
+        # Only what shows through the layers above differs.
+        goal = replace(self, weights=np.where(over[1][:, 0] > 0, self.weights, 0))
+        errors = goal.bases(over)
         stacks: list[Stack] = [(int(base), ()) for base in np.argsort(errors, kind="stable")]
         yield stacks
         for _ in range(layers):
-            tables = [self.choices(self.below(*stack)).reshape(-1) for stack in stacks]
+            tables = [goal.choices(goal.below(*stack), over).reshape(-1) for stack in stacks]
             grown: list[Stack] = []
             seen: set[int] = set()
             every = np.concatenate(tables)
@@ -206,6 +228,18 @@ class Goal:
                     grown.append((base, (*below, divmod(choice, _DYES))))
             stacks = grown
             yield stacks
+
+    def regrown(self, stack: Stack, layers: int, width: int) -> Iterator[Stack]:
+        """Stacks of at most `layers` layers that keep the top ones of a stack: 1, 2, 3, ... .
+
+        What is below them is searched anew: it is easier to find once the layers that hide a part
+        of it are known.
+        """
+        for kept in range(1, len(stack[1]) + 1):
+            above = stack[1][len(stack[1]) - kept :]
+            for stacks in self.grow(layers - kept, width, above):
+                base, below = stacks[0]
+                yield base, (*below, *above)
 
     def descend(self, stack: Stack) -> Stack:
         """Replace each layer by the best one, and the base, until nothing is better."""
@@ -225,6 +259,19 @@ class Goal:
                 break
             least = error
         return base, tuple(layers)
+
+    def reordered(self, stack: Stack) -> Stack:
+        """The stack after swaps of two layers that make it better."""
+        base, layers = stack
+        error = self.error(stack)
+        for second in range(1, len(layers)):
+            for first in range(second):
+                tried = list(layers)
+                tried[first], tried[second] = tried[second], tried[first]
+                other = self.error((base, tuple(tried)))
+                if other < error:
+                    layers, error = tuple(tried), other
+        return base, layers
 
     def pruned(self, stack: Stack) -> Stack:
         """The stack without the layers that hardly make it better, or do not."""

@@ -13,17 +13,20 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.match.art import HEIGHT, WIDTH
+from drapery.match.smooth import Reals, least_squares, orders, products, row_sums
 
-Reals = NDArray[np.float64]
 Corner = tuple[float, float]
 """Pixels to the right and down from the picture's upper left corner."""
 
-BENDS = 10
+_ORDERS = 4, 3
+BENDS = (_ORDERS[0] + 1) * (_ORDERS[1] + 1)
 """Numbers of a bend along one axis: the factors of the polynomial's terms."""
 
 MIN_SIDE = 8.0
 """The shortest side of a flag in a photo [pixels]."""
 
+_AROUND = 0.3
+"""How far around the corners the outline of a flag is searched for, as a share of its sides."""
 _SAMPLES = 4
 """Samples of a texel along each axis; none lies in its outermost 15 %."""
 _APART = 14.0
@@ -76,31 +79,67 @@ class PhotoView:
 
         bend: how far the texels lie from where the corners put them [texels], [2, BENDS].
         """
-        from scipy.ndimage import map_coordinates
-
         u, v = _SAMPLE_GRID
         if bend is not None:
             shift = (bend[:, :, None, None] * _SAMPLE_TERMS).sum(axis=1)
             u, v = u + shift[0] / WIDTH, v + shift[1] / HEIGHT
+        samples = self.colours(u, v).reshape(HEIGHT, _SAMPLES, WIDTH, _SAMPLES, 3)
+        ordered = np.sort(samples.swapaxes(1, 2).reshape(HEIGHT * WIDTH, _SAMPLES**2, 3), axis=1)
+        # The outermost values are those of neighbours, where the cloth is not quite aligned.
+        quarter = _SAMPLES**2 // 4
+        return np.asarray(ordered[:, quarter:-quarter].mean(axis=1))
+
+    def colours(self, u: Reals, v: Reals) -> Reals:
+        """The colours at places of the unit square [...], between pixels, [..., 3]."""
+        height, width = self.picture.shape[:2]
         x, y, scale = (row[0] * u + row[1] * v + row[2] for row in self._map)
-        places = np.stack([y / scale - 0.5, x / scale - 0.5])
-        channels = [
-            map_coordinates(
-                self.picture[..., channel].astype(np.float64), places, order=1, mode="nearest"
-            )
-            for channel in range(3)
-        ]
-        shape = (HEIGHT, _SAMPLES, WIDTH, _SAMPLES)
-        means = [channel.reshape(shape).mean(axis=(1, 3)) for channel in channels]
-        return np.stack(means, axis=-1).reshape(-1, 3)
+        x = np.clip(x / scale - 0.5, 0, width - 1.001)
+        y = np.clip(y / scale - 0.5, 0, height - 1.001)
+        left, top = x.astype(np.intp), y.astype(np.intp)
+        right, down = (x - left)[..., None], (y - top)[..., None]
+        pixels, first = self._pixels, top * width + left
+        upper = pixels[first] * (1 - right) + pixels[first + 1] * right
+        lower = pixels[first + width] * (1 - right) + pixels[first + width + 1] * right
+        return np.asarray(upper * (1 - down) + lower * down)
 
+    @cached_property
+    def _pixels(self) -> Reals:
+        return self.picture.reshape(-1, 3).astype(np.float64)
 
-def bend_terms(u: Reals, v: Reals) -> Reals:
-    """The terms of a bend's polynomial at places of the unit square, [BENDS, ...]."""
-    x, y = u - 0.5, v - 0.5
-    return np.stack(
-        [np.ones_like(x), x, y, x * y, x * x, y * y, x * x * y, x * y * y, y**3, x * y**3]
-    )
+    def outline_bend(self) -> Reals:
+        """The bend that moves the left, right and lower edge of the flag to where they are seen.
+
+        It is 0 where no flag before a background of one colour is seen. [2, BENDS].
+        """
+        part = flag_part(self.picture)
+        bend = np.zeros((2, BENDS))
+        if part is None:
+            return bend
+        u = np.linspace(-_AROUND, 1 + _AROUND, int(20 * (1 + 2 * _AROUND) * WIDTH))
+        v = np.linspace(-_AROUND, 1 + _AROUND, int(10 * (1 + 2 * _AROUND) * HEIGHT))
+        across, down = np.meshgrid(u, v)
+        x, y, scale = (row[0] * across + row[1] * down + row[2] for row in self._map)
+        column = np.clip(x / scale, 0, part.shape[1] - 1).astype(np.intp)
+        line = np.clip(y / scale, 0, part.shape[0] - 1).astype(np.intp)
+        seen = part[line, column]
+        rows = np.flatnonzero((v > 0.05) & (v < 0.95) & seen.any(axis=1))
+        columns = np.flatnonzero((u > 0.1) & (u < 0.9) & seen.any(axis=0))
+        left = u[seen[rows].argmax(axis=1)]
+        right = u[len(u) - 1 - seen[rows][:, ::-1].argmax(axis=1)] - 1
+        low = v[len(v) - 1 - seen[:, columns][::-1].argmax(axis=0)] - 1
+        sides, ends = np.repeat([0.0, 1.0], len(rows)), np.repeat([0.0, 1.0], len(columns))
+        # The upper edge hangs on a bar, which is not told from the flag; it is taken as straight.
+        low = np.concatenate([np.zeros(len(columns)), low])
+        for axis, places, apart in (
+            (0, (sides, np.tile(v[rows], 2)), np.concatenate([left, right]) * WIDTH),
+            (1, (np.tile(u[columns], 2), ends), low * HEIGHT),
+        ):
+            weights = np.ones(len(apart))
+            for _ in range(3):
+                terms = products(*places, *_ORDERS)
+                bend[axis] = least_squares(terms, apart, weights, 1 / USUAL_BENDS**2)
+                weights = 1 / (1 + (apart - row_sums(terms.T, bend[axis])) ** 2)
+        return bend
 
 
 def _grid(samples: int, margin: float) -> tuple[Reals, Reals]:
@@ -112,9 +151,18 @@ def _grid(samples: int, margin: float) -> tuple[Reals, Reals]:
 
 
 _SAMPLE_GRID = _grid(_SAMPLES, 0.15)
-_SAMPLE_TERMS = bend_terms(*_SAMPLE_GRID)
-TEXEL_TERMS = bend_terms(*_grid(1, 0.0)).reshape(BENDS, -1)
+_SAMPLE_TERMS = products(*_SAMPLE_GRID, *_ORDERS)
+TEXEL_TERMS = products(*_grid(1, 0.0), *_ORDERS).reshape(BENDS, -1)
 """The terms at the middle of each texel, [BENDS, HEIGHT * WIDTH]."""
+
+
+def _usual_bends() -> Reals:
+    first, second = orders(*_ORDERS)
+    return np.asarray(0.8 / (1 + first**2 / 4 + second**2 / 3))
+
+
+USUAL_BENDS = _usual_bends()
+"""How large the factors of the terms usually are [texels], [BENDS]."""
 
 
 def find_corners(picture: NDArray[np.uint8]) -> tuple[Corner, ...]:
@@ -122,6 +170,20 @@ def find_corners(picture: NDArray[np.uint8]) -> tuple[Corner, ...]:
 
     picture: [H, W, 3]. The flag must stand upright, and wholly in the picture.
     Raises OptionError if nothing there has the shape of a flag.
+    """
+    part = flag_part(picture)
+    corners = None if part is None else _quadrilateral(part)
+    if corners is None:
+        raise OptionError(
+            "no flag was found before a background of one colour; give its corners with --corners"
+        )
+    return corners
+
+
+def flag_part(picture: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
+    """The pixels of the largest thing before a background of one colour, without its pole.
+
+    picture: [H, W, 3]. None if nothing there is as large as a flag.
     """
     from scipy.ndimage import binary_fill_holes, binary_opening, label
 
@@ -136,12 +198,7 @@ def find_corners(picture: NDArray[np.uint8]) -> tuple[Corner, ...]:
     width = int(np.median(part.sum(axis=1)[part.any(axis=1)])) if count else 0
     if width >= MIN_SIDE:
         part = binary_opening(part, np.ones((1, max(width // 6, 1)), bool))
-    corners = _quadrilateral(part) if part.sum() > MIN_SIDE**2 else None
-    if corners is None:
-        raise OptionError(
-            "no flag was found before a background of one colour; give its corners with --corners"
-        )
-    return corners
+    return part if part.sum() > MIN_SIDE**2 else None
 
 
 def _quadrilateral(part: NDArray[np.bool_]) -> tuple[Corner, ...] | None:

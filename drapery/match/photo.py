@@ -1,34 +1,59 @@
-"""From a photo or screenshot of a banner to its design."""
+"""From a photo or screenshot of a banner to its design.
 
-from collections.abc import Sequence
+Light, bends of the cloth and design are estimated by turns: designs are searched for in the light
+of the best one so far, then the photo is aligned with the best of them, and so on.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.banner import DYES, LOOM_LAYERS, MAX_LAYERS
+from drapery.banner import LOOM_LAYERS, MAX_LAYERS
 from drapery.match.art import HEIGHT, WIDTH, Stack, read_art
-from drapery.match.colours import UNIT, distances, oklab
-from drapery.match.lit import LitFace, LitSearch, lit_face
+from drapery.match.colours import MEASURED, UNIT, distances, oklab
+from drapery.match.light import SeenFace, seen_face
+from drapery.match.nearest import Goal, NearestSearch
 from drapery.match.perspective import (
     BENDS,
     TEXEL_TERMS,
+    USUAL_BENDS,
     Corner,
     PhotoView,
-    Reals,
     as_corners,
     checked_picture,
     find_corners,
 )
 from drapery.match.search import MAX_ALTERNATIVES, Match
+from drapery.match.smooth import Reals, least_squares, row_sums
 from drapery.option import within
 from drapery.packs import PackLike, open_packs
 
-_GAINS = (0.5, 0.6, 0.68, 0.76, 0.84, 0.92, 1.0)
-"""Lights that the search begins with."""
-_KICKS = 16
-_SEED = 19
-_STIFF = 3000.0
-"""How much a flag resists being bent by `_aligned`."""
+_GAINS = (0.7, 0.78, 0.86)
+"""Even lights that the search begins with."""
+_LAYER = 40.0
+"""What a layer costs, as an error [levels, summed over texels]."""
+_BENT = 6.0
+"""What a usual bend of a term costs, likewise."""
+_TINTED = 600.0
+"""What light of a colour costs, times the range of its channels, likewise."""
+_STIFF = 4000.0
+"""How much a flag resists being bent by `_aligned`, times the square of a usual bend."""
+_SOFTENED = (8, 8, 4, 2, 1)
+"""How often both faces are softened in each step of `_aligned`: first what is large is aligned."""
+_EACH = 2
+"""With how many designs of each number of layers the photo is aligned."""
+_STARTS, _TURNS = 3, 3
+"""How many designs are refined, and how often the best one is."""
+_THINNED = 2
+"""How many designs with a layer less are refined in each turn."""
+_WIDTH = 6
+"""How many stacks are kept while layers are added."""
+_WEIGHT = 1000
+"""Weights are rounded to this many steps."""
+_LITTLE = 1.0
+"""The search ends when the error falls by less than this [levels, summed over texels]."""
 
 
 def match_photo(
@@ -42,8 +67,8 @@ def match_photo(
 ) -> list[Match]:
     """The designs that a banner in a photo or screenshot most likely has, best first.
 
-    The light is estimated: a gain of each channel, and the shades of folds. So is how the cloth
-    bends between its corners.
+    The light is estimated, which changes smoothly over the cloth. So is how the cloth bends between
+    its corners.
 
     picture: sRGB, uint8 [H, W, 3] or [H, W, 4]. corners: of the flag as one sees it, upper left,
     upper right, lower right, lower left [pixels right, pixels down]; None finds them, before a
@@ -56,115 +81,174 @@ def match_photo(
     within("alternatives", alternatives, 1, MAX_ALTERNATIVES, "designs")
     shown = checked_picture(picture)
     view = PhotoView(shown, find_corners(shown) if corners is None else as_corners(corners))
-    art = read_art(open_packs(packs, format=format))
-    search = LitSearch(art, np.array([dye.rgb for dye in DYES.values()], np.float64), layers)
-    found: dict[Stack, tuple[float, LitFace]] = {}
-    for start in _starts(search, lit_face(view.face())):
-        _refine(search, view, start, found)
-    _kick(search, found)
-    best = min(found, key=lambda stack: found[stack][0])
-    _refine(search, view, best, found)
-    best = min(found, key=lambda stack: found[stack][0])
-    face = found[best][1]
-    for variant in search.variants(face, best):
-        _put(search, face, variant, found)
-    chosen = _distinct(search, sorted(found, key=lambda stack: found[stack][0]), alternatives)
+    search = NearestSearch(read_art(open_packs(packs, format=format)))
+    found = _PhotoSearch(view, search, layers)
+    found.run()
     return [
-        Match(art.banner(*stack), _distance(search, found[stack][1], stack)) for stack in chosen
+        Match(search.art.banner(*stack), found.distance(stack))
+        for stack in found.distinct(alternatives)
     ]
 
 
-def _starts(search: LitSearch, face: LitFace) -> list[Stack]:
-    """Designs to align a photo with: the best of each number of layers, and the best of all."""
-    tried: dict[Stack, float] = {}
-    for gain in _GAINS:
-        lit = LitFace(face.seen, face.weights, np.full(3, gain), face.shade)
-        for stack in search.beam(lit, 4, 12, 2):
-            shown = search.paint(*stack)
-            fits = lit.relit(shown, shaded=False).relit(shown, shaded=True)
-            tried[stack] = fits.error(shown, len(stack[1]))
-    ordered = sorted(tried, key=lambda stack: tried[stack])
-    found: dict[Stack, tuple[float, LitFace]] = {}
-    for stack in ordered[:3]:
-        lit = face.relit(search.paint(*stack), shaded=False)
-        for one in dict.fromkeys([stack, *search.beam(lit, 6, 40, 4)[:4]]):
-            _put(search, lit, search.descend(lit, one)[1], found)
-    best = sorted(found, key=lambda stack: found[stack][0])[:2]
-    counts = (next((s for s in ordered if len(s[1]) == count), None) for count in (1, 2, 3))
-    return list(dict.fromkeys([*best, *(stack for stack in counts if stack is not None)]))
+@dataclass(frozen=True, eq=False)
+class _Fit:
+    """How a design is seen in a photo: the texels, the light [n, 3], the bend, and the error."""
+
+    seen: SeenFace
+    light: Reals
+    bend: Reals
+    error: float
 
 
-def _refine(
-    search: LitSearch, view: PhotoView, stack: Stack, found: dict[Stack, tuple[float, LitFace]]
-) -> None:
-    """Align the photo with a design, search in the light that fits, and again."""
-    bend = np.zeros((2, BENDS))
-    shown = search.paint(*stack)
-    face = lit_face(view.face()).relit(shown, shaded=False).relit(shown, shaded=True)
-    for last in (False, False, True):
-        bend = _aligned(view, bend, search.paint(*stack) * face.light)
-        seen = lit_face(view.face(bend))
-        face = LitFace(seen.seen, seen.weights, face.gain, face.shade)
-        face = face.relit(search.paint(*stack), shaded=False)
-        starts = [stack] if last else [stack, *search.beam(face, 6, 30, 3)[:3]]
-        results = sorted(search.descend(face, one) for one in dict.fromkeys(starts))
-        for _, one in results[:3]:
-            _put(search, face, one, found)
-        stack = results[0][1]
-        face = face.relit(search.paint(*stack), shaded=True)
+@dataclass(eq=False)
+class _PhotoSearch:
+    """The designs that were found for a photo, and how each fits."""
 
+    view: PhotoView
+    search: NearestSearch
+    layers: int
+    fits: dict[Stack, _Fit] = field(default_factory=dict)
 
-def _kick(search: LitSearch, found: dict[Stack, tuple[float, LitFace]]) -> None:
-    """Descend from a wide beam, and from the best design after random changes."""
-    rng = np.random.default_rng(_SEED)
-    best = min(found, key=lambda stack: found[stack][0])
-    face = found[best][1]
-    for stack in search.beam(face, search.most, 100, 4)[:4]:
-        _put(search, face, search.descend(face, stack)[1], found)
-    for _ in range(_KICKS):
-        base, layers = min(found, key=lambda stack: found[stack][0])
-        changed = list(layers)
-        for _ in range(int(rng.integers(1, 3))):
-            place = int(rng.integers(len(changed) + 1))
-            layer = int(rng.integers(search.patterns)), int(rng.integers(len(search.dyes)))
-            changed[place : place + int(rng.integers(2))] = [layer]
-        _put(search, face, search.descend(face, (base, tuple(changed[: search.most])))[1], found)
+    def run(self) -> None:
+        """Find designs, and better ones until there are none."""
+        self.start()
+        self.align()
+        for stack in self.distinct(_STARTS):
+            self.refine(stack)
+        for _ in range(_TURNS):
+            before, best = self.error, self.best()[0]
+            for stack in [*self.thin(best), best]:
+                self.refine(stack)
+            if self.error > before - _LITTLE:
+                break
+        self.vary(self.best()[0])
 
+    def start(self) -> None:
+        """Find designs in even lights, with the cloth bent as its outline is."""
+        bend = self.view.outline_bend()
+        seen = seen_face(self.view.face(bend))
+        for gain in _GAINS:
+            _, quick = self._goals(seen, np.full((HEIGHT * WIDTH, 3), gain))
+            stacks = [grown[0] for grown in quick.grow(self.layers, 2 * _WIDTH)]
+            self._put(seen, bend, [*stacks, quick.descend(stacks[-1])])
 
-def _put(
-    search: LitSearch, face: LitFace, stack: Stack, found: dict[Stack, tuple[float, LitFace]]
-) -> None:
-    """Add a design with its error in the light that fits it, unless it is known as better."""
-    shown = search.paint(*stack)
-    lit = face.relit(shown, shaded=True)
-    error = lit.error(shown, len(stack[1]))
-    if stack not in found or error < found[stack][0]:
-        found[stack] = error, lit
+    def refine(self, stack: Stack) -> None:
+        """Align the photo with a design, and search for better designs in its light."""
+        seen, bend = self._realign(stack, self.fits[stack])
+        goal, quick = self._goals(seen, seen.light_on(self._paint(stack)))
+        grown = [stack, *quick.regrown(stack, self.layers, _WIDTH)]
+        near = {one: goal.error(one) for one in grown}
+        best = sorted(near, key=lambda one: near[one])[:3]
+        self._put(seen, bend, [goal.reordered(goal.descend(one)) for one in best])
 
+    def vary(self, stack: Stack) -> None:
+        """Try the next best layer in place of each one of a design."""
+        fit = self.fits[stack]
+        goal, _ = self._goals(fit.seen, fit.light)
+        base, layers = stack
+        for place, layer in enumerate(layers):
+            table = goal.choices(goal.below(base, layers[:place]), goal.over(layers[place + 1 :]))
+            table[layer] = np.iinfo(table.dtype).max
+            other = divmod(int(table.argmin()), table.shape[1])
+            self._put(fit.seen, fit.bend, [(base, (*layers[:place], other, *layers[place + 1 :]))])
 
-def _distinct(search: LitSearch, stacks: list[Stack], count: int) -> list[Stack]:
-    """The first stacks whose faces differ."""
-    chosen: list[Stack] = []
-    for stack in stacks:
-        shown = search.paint(*stack)
-        if all(np.abs(search.paint(*other) - shown).mean() > 1 for other in chosen):
-            chosen.append(stack)
-        if len(chosen) == count:
-            break
-    return chosen
+    def best(self) -> list[Stack]:
+        """The designs, best first."""
+        return sorted(self.fits, key=lambda stack: (self.fits[stack].error, stack))
 
+    def align(self) -> None:
+        """Align the photo with the best designs of each number of layers."""
+        counts = [0] * (self.layers + 1)
+        for stack in self.best():
+            counts[len(stack[1])] += 1
+            if counts[len(stack[1])] <= _EACH:
+                self._realign(stack, self.fits[stack])
 
-def _distance(search: LitSearch, face: LitFace, stack: Stack) -> float:
-    seen = np.clip(face.colours, 0, 255).astype(np.float32)
-    shown = np.clip(search.paint(*stack), 0, 255).astype(np.float32)
-    return float(distances(oklab(seen), oklab(shown)).mean() / UNIT)
+    def thin(self, stack: Stack) -> list[Stack]:
+        """The best designs that have one layer less, aligned: it may only hide other faults."""
+        fit, (base, layers) = self.fits[stack], stack
+        fewer = [(base, (*layers[:n], *layers[n + 1 :])) for n in range(len(layers))]
+        for one in fewer:
+            self._realign(one, fit)
+        return sorted(fewer, key=lambda one: self.fits[one].error)[:_THINNED]
+
+    def _realign(self, stack: Stack, fit: _Fit) -> tuple[SeenFace, Reals]:
+        """The texels after the photo has been aligned with a design, and the bend.
+
+        fit: that of this design, or of a similar one.
+        """
+        bend = _aligned(self.view, fit.bend, self._paint(stack) * fit.light)
+        seen = seen_face(self.view.face(bend))
+        self._put(seen, bend, [stack])
+        return seen, bend
+
+    @property
+    def error(self) -> float:
+        """That of the best design."""
+        return min(fit.error for fit in self.fits.values())
+
+    def distinct(self, count: int) -> list[Stack]:
+        """The best designs whose faces differ."""
+        chosen: list[Stack] = []
+        for stack in self.best():
+            shown = self._paint(stack)
+            if all(np.abs(self._paint(other) - shown).mean() > 1 for other in chosen):
+                chosen.append(stack)
+            if len(chosen) == count:
+                break
+        return chosen
+
+    def distance(self, stack: Stack) -> float:
+        """The mean distance in OKLab between the face that was seen and that of a design."""
+        fit = self.fits[stack]
+        seen = oklab(fit.seen.without(fit.light))
+        return float(distances(seen, oklab(self._paint(stack))).mean() / UNIT)
+
+    def _goals(self, seen: SeenFace, light: Reals) -> tuple[Goal, Goal]:
+        """The face without its light, and the same with every other texel only, which is quick."""
+        # Differences are those of what is seen, so they count less where it is dark.
+        weights = np.rint(seen.weights * light.mean(axis=1) * _WEIGHT).astype(np.int32)
+        goal = self.search.goal(seen.without(light).reshape(-1), weights, MEASURED)
+        row, column = np.divmod(np.arange(HEIGHT * WIDTH), WIDTH)
+        return goal, replace(goal, weights=np.where((row + column) % 2, weights, 0))
+
+    def _paint(self, stack: Stack) -> Reals:
+        return self.search.art.paint(*stack).reshape(-1, 3).astype(np.float64)
+
+    def _put(self, seen: SeenFace, bend: Reals, stacks: Iterable[Stack]) -> None:
+        """Add designs, each in the light that fits it, and without layers that are not needed."""
+        for stack in dict.fromkeys(stacks):
+            fit = self._fit(seen, bend, stack)
+            self._keep(stack, fit)
+            (base, layers), place = stack, 0
+            while place < len(layers):
+                fewer = (*layers[:place], *layers[place + 1 :])
+                tried = self._fit(seen, bend, (base, fewer), fit.light)
+                if tried.error < fit.error:
+                    layers, fit, place = fewer, tried, 0
+                else:
+                    place += 1
+            self._keep((base, layers), fit)
+
+    def _keep(self, stack: Stack, fit: _Fit) -> None:
+        known = self.fits.get(stack)
+        if known is None or fit.error < known.error:
+            self.fits[stack] = fit
+
+    def _fit(self, seen: SeenFace, bend: Reals, stack: Stack, light: Reals | None = None) -> _Fit:
+        face = self._paint(stack)
+        light = seen.light_on(face) if light is None else light
+        bent = float(((bend / USUAL_BENDS) ** 2).sum())
+        tint = light[0] / light[0].mean()
+        cost = _LAYER * len(stack[1]) + _BENT * bent + _TINTED * float(tint.max() - tint.min())
+        return _Fit(seen, light, bend, seen.error(face, light) + cost)
 
 
 def _aligned(view: PhotoView, bend: Reals, wanted: Reals) -> Reals:
     """A bend with which the face looks more like one that is wanted, by Gauss-Newton steps."""
     terms = TEXEL_TERMS
-    for step in range(4):
-        times = 2 if step < 2 else 1
+    stiffness = _STIFF / np.tile(USUAL_BENDS, 2) ** 2
+    for times in _SOFTENED:
         seen, goal = _softened(view.face(bend), times), _softened(wanted, times)
         levels = seen.reshape(HEIGHT, WIDTH, 3)
         slopes = [np.asarray(np.gradient(levels, axis=axis)).reshape(-1, 3) for axis in (1, 0)]
@@ -172,12 +256,9 @@ def _aligned(view: PhotoView, bend: Reals, wanted: Reals) -> Reals:
         weights = 1 / (1 + (np.abs(rest).mean(axis=1) / 25) ** 2)
         rows = np.concatenate([terms[:, :, None] * slope for slope in slopes])
         rows = rows.reshape(2 * BENDS, -1)
-        weighted = rows * np.repeat(weights, 3)
-        square = np.einsum("in,jn->ij", weighted, rows)
-        linear = np.einsum("in,n->i", weighted, rest.ravel()) - _STIFF * bend.ravel()
-        square[np.diag_indices(2 * BENDS)] *= 1.001
-        square[np.diag_indices(2 * BENDS)] += _STIFF
-        bend = bend + _solved(square, linear).reshape(2, BENDS)
+        # The whole bend is fitted, not the step, so that it is the bend that resists.
+        whole = rest.ravel() + row_sums(rows.T, bend.ravel())
+        bend = least_squares(rows, whole, np.repeat(weights, 3), stiffness).reshape(2, BENDS)
     return bend
 
 
@@ -191,15 +272,3 @@ def _softened(face: Reals, times: int) -> Reals:
             )
             levels = (first + 2 * middle + last) / 4
     return levels.reshape(-1, 3)
-
-
-def _solved(matrix: Reals, right: Reals) -> Reals:
-    """The solution of a positive definite system, by Gaussian elimination in a fixed order."""
-    rows = np.concatenate([matrix, right[:, None]], axis=1)
-    count = len(right)
-    for pivot in range(count):
-        rows[pivot] /= rows[pivot, pivot]
-        factors = rows[:, pivot].copy()
-        factors[pivot] = 0
-        rows -= factors[:, None] * rows[pivot]
-    return rows[:, -1]
