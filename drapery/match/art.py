@@ -32,16 +32,22 @@ SIZE = HEIGHT * WIDTH * 3
 
 @dataclass(frozen=True, eq=False)
 class FaceArt:
-    """What each dye and each pattern shows on a face. N is SIZE, P the number of patterns.
+    """What each dye and each pattern shows on a face.
 
-    patterns: their ids. bases: the undecorated face in each dye, [16, N].
-    alpha: of each pattern, [P, N]. dyed: the colours of each pattern in each dye, [P, 16, N].
+    N is SIZE, P the number of patterns, D that of dyes, which is 16 unless some are left out.
+    patterns: their ids. bases: the undecorated face in each dye, [D, N].
+    alpha: of each pattern, [P, N]. dyed: the colours of each pattern in each dye, [P, D, N].
     """
 
     patterns: tuple[str, ...]
     bases: Levels
     alpha: Levels
     dyed: Levels
+
+    @property
+    def dyes(self) -> int:
+        """How many dyes there are."""
+        return len(self.bases)
 
     def paint(self, base: int, layers: Sequence[tuple[int, int]]) -> Levels:
         """The face [N] of a base dye and layers of (pattern, dye), lowest first, all by index."""

@@ -19,7 +19,6 @@ from drapery.match.colours import PERCEIVED, Floats, Metric, Whole
 Totals = NDArray[np.int64]
 
 _TEXELS = SIZE // 3
-_DYES = 16
 _HARDLY = 0.005
 """A layer is left out if the error grows by no more than this share of it."""
 _SWEEPS = 6
@@ -30,7 +29,7 @@ _SWEEPS = 6
 class _Parts:
     """The texels of all patterns, those of each pattern side by side.
 
-    colours: [n, 16, 3], of each entry in each dye, times its alpha. clear: 1 less its alpha, [n].
+    colours: [n, D, 3], of each entry in each dye, times its alpha. clear: 1 less its alpha, [n].
     texels: of each entry, [n].
     entries: which entries each pattern has, [m]. starts: where the entries of each pattern begin.
     """
@@ -52,8 +51,8 @@ class _Parts:
         return _Parts(self.colours[used], self.clear[used], self.texels[used], entries, starts)
 
     def sums(self, values: Whole) -> Totals:
-        """The sums over each pattern's entries of values [n, 16], as [P, 16]."""
-        total = np.zeros((len(self.starts), _DYES), np.int64)
+        """The sums over each pattern's entries of values [n, D], as [P, D]."""
+        total = np.zeros((len(self.starts), values.shape[1]), np.int64)
         has = np.diff(self.starts, append=len(self.entries)) > 0
         if has.any():
             rows = values[self.entries]
@@ -75,7 +74,7 @@ class NearestSearch:
         known: dict[tuple[int, bytes], int] = {}
         for pattern, alpha in enumerate(self.art.alpha[:, ::3]):
             starts.append(len(rows))
-            dyed = self.art.dyed[pattern].reshape(_DYES, _TEXELS, 3)
+            dyed = self.art.dyed[pattern].reshape(-1, _TEXELS, 3)
             for texel in np.flatnonzero(alpha == 255):
                 key = (int(texel), dyed[:, texel].tobytes())
                 if key not in known:
@@ -84,7 +83,7 @@ class NearestSearch:
                     texels.append(int(texel))
                 rows.append(known[key])
         entries = np.array(rows, np.intp)
-        made = np.array(colours, np.float32).reshape(-1, _DYES, 3)
+        made = np.array(colours, np.float32).reshape(-1, self.art.dyes, 3)
         clear = np.zeros(len(made), np.float32)
         return _Parts(made, clear, np.array(texels, np.intp), entries, np.array(starts, np.intp))
 
@@ -95,7 +94,7 @@ class NearestSearch:
         for pattern, alpha in enumerate(self.art.alpha[:, ::3]):
             starts.append(count)
             part = np.flatnonzero((alpha > 0) & (alpha < 255))
-            dyed = self.art.dyed[pattern].reshape(_DYES, _TEXELS, 3)[:, part]
+            dyed = self.art.dyed[pattern].reshape(-1, _TEXELS, 3)[:, part]
             colours.append(dyed.transpose(1, 0, 2) * (alpha[part] / 255)[:, None, None])
             clear.append(1 - alpha[part] / 255)
             texels.append(part)
@@ -145,15 +144,15 @@ class Goal:
         return int((apart * self.weights).sum(dtype=np.int64))
 
     def bases(self, over: tuple[Floats, Floats] | None = None) -> Totals:
-        """The errors of the sixteen bases below layers that add and let through `over`, [16]."""
-        colours = self.search.art.bases.reshape(_DYES, _TEXELS, 3).astype(np.float32)
+        """The errors of the bases below layers that add and let through `over`, [D]."""
+        colours = self.search.art.bases.reshape(-1, _TEXELS, 3).astype(np.float32)
         added, through = over or _nothing()
         return np.asarray(
             self._errors(added + through * colours, slice(None)).sum(axis=1, dtype=np.int64)
         )
 
     def choices(self, below: Floats, over: tuple[Floats, Floats] | None = None) -> Totals:
-        """The errors of all patterns in all dyes as one layer, the others held, [P, 16].
+        """The errors of all patterns in all dyes as one layer, the others held, [P, D].
 
         below: what is below the layer, [N / 3, 3]. over: what the layers above add [N / 3, 3], and
         let through [N / 3, 1].
@@ -172,7 +171,7 @@ class Goal:
         return np.asarray(total)
 
     def _errors(self, seen: Floats, texels: slice | NDArray[np.intp]) -> Whole:
-        """Of colours [n, 16, 3] at texels [n], or [..., N / 3, 3] at all of them."""
+        """Of colours [n, D, 3] at texels [n], or [..., N / 3, 3] at all of them."""
         target, weights = self.target[texels], self.weights[texels]
         if not isinstance(texels, slice):
             target, weights = target[:, None], weights[:, None]
@@ -225,7 +224,7 @@ class Goal:
                     seen.add(int(every[place]))
                     number, choice = divmod(int(place), len(tables[0]))
                     base, below = stacks[number]
-                    grown.append((base, (*below, divmod(choice, _DYES))))
+                    grown.append((base, (*below, divmod(choice, self.search.art.dyes))))
             stacks = grown
             yield stacks
 
@@ -251,7 +250,7 @@ class Goal:
             for number in range(len(layers)):
                 # The layers above are those of the last sweep: layers change from below upwards.
                 table = self.choices(below, over[number])
-                layers[number] = divmod(int(table.argmin()), _DYES)
+                layers[number] = divmod(int(table.argmin()), self.search.art.dyes)
                 below = self.lay(*layers[number], below)
             errors = self.bases(self.over(layers))
             base, error = int(errors.argmin()), int(errors.min())

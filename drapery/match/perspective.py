@@ -136,7 +136,7 @@ class PhotoView:
         ):
             weights = np.ones(len(apart))
             for _ in range(3):
-                terms = products(*places, *_ORDERS)
+                terms = products(places[0], places[1], *_ORDERS)
                 bend[axis] = least_squares(terms, apart, weights, 1 / USUAL_BENDS**2)
                 weights = 1 / (1 + (apart - row_sums(terms.T, bend[axis])) ** 2)
         return bend

@@ -23,7 +23,6 @@ MAX_ALTERNATIVES = 64
 
 _BEAM = 8
 _SEED = 19
-_DYES = 16
 _WEIGHT = 1000
 """Weights are rounded to this many steps."""
 
@@ -156,6 +155,14 @@ def match(
     )
 
 
+def nearest_stacks(goal: Goal, layers: int, alternatives: int, effort: int) -> list[Stack]:
+    """The stacks that are nearest to a goal, best first; see `match`."""
+    pool = _Pool(goal, alternatives)
+    for _ in _improved(goal, pool, layers, alternatives, effort):
+        pass
+    return pool.best()
+
+
 class _Pool:
     """The best stacks that were found, with their errors."""
 
@@ -209,17 +216,17 @@ def _improved(
     rng = np.random.default_rng(_SEED)
     now = min(pool.errors, key=lambda stack: pool.errors[stack])
     for _ in range(effort):
-        tried = goal.descend(_kicked(now, layers, len(goal.search.art.patterns), rng))
+        tried = goal.descend(_kicked(now, layers, goal.search.art, rng))
         if pool.add(tried) <= 1.01 * goal.error(now) or rng.random() < 0.03:
             now = tried
         yield
 
 
-def _kicked(stack: Stack, most: int, patterns: int, rng: np.random.Generator) -> Stack:
+def _kicked(stack: Stack, most: int, art: FaceArt, rng: np.random.Generator) -> Stack:
     """A stack of `most` layers with some layers swapped, moved or replaced at random."""
 
     def any_layer() -> tuple[int, int]:
-        return int(rng.integers(patterns)), int(rng.integers(_DYES))
+        return int(rng.integers(len(art.patterns))), int(rng.integers(art.dyes))
 
     base, layers = stack[0], list(stack[1])
     while len(layers) < most:
