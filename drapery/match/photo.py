@@ -44,8 +44,8 @@ _SOFTENED = (8, 8, 4, 2, 1)
 """How often both faces are softened in each step of `_aligned`: first what is large is aligned."""
 _EACH = 2
 """With how many designs of each number of layers the photo is aligned."""
-_STARTS, _TURNS = 3, 3
-"""How many designs are refined, and how often the best one is."""
+_STARTS, _TURNS = 3, 6
+"""How many designs are refined, and how often at most the best one is."""
 _THINNED = 2
 """How many designs with a layer less are refined in each turn."""
 _WIDTH = 6
