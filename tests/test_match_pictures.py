@@ -94,6 +94,10 @@ def test_a_mask_and_weights_say_what_counts() -> None:
     assert not seen.weights[:, 10:].any()
     edges = fit_picture(picture(20, 40), weighting="edges").weights
     assert edges[5, 9] > edges[5, 0] == 1
+    stroke = picture(20, 40)
+    stroke[:, :9], stroke[:, 11:] = (90, 90, 90, 255), (92, 90, 90, 255)
+    rare = fit_picture(stroke, weighting="rare").weights
+    assert (rare[:, 9:11] > 8).all() and (rare[:, :9] == 1).all()
     centre = fit_picture(picture(20, 40), weighting="centre").weights
     assert centre[20, 10] > centre[0, 0]
     with pytest.raises(OptionError, match="the mask is 3 x 5 px"):

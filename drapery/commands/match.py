@@ -61,8 +61,11 @@ MaskOption = Annotated[
     typer.Option(metavar="FILE", help="A picture that is bright where pixels count."),
 ]
 WeightingOption = Annotated[
-    Literal["even", "centre", "edges"],
-    typer.Option("--weights", help="Which part of the picture counts most."),
+    Literal["even", "centre", "edges", "rare"],
+    typer.Option(
+        "--weights",
+        help="Which part of the picture counts most: its centre, edges, or rare colours.",
+    ),
 ]
 MuralOption = Annotated[
     str | None,

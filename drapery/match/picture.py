@@ -13,11 +13,11 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from drapery.banner import DYES
 from drapery.errors import OptionError, PackError
 from drapery.match.art import HEIGHT, WIDTH
-from drapery.match.colours import distances, oklab
+from drapery.match.colours import UNIT, distances, oklab
 from drapery.packs import Texels, read_png
 
 Fit = Literal["cover", "contain", "stretch"]
-Weighting = Literal["even", "centre", "edges"]
+Weighting = Literal["even", "centre", "edges", "rare"]
 
 FITS: tuple[Fit, ...] = get_args(Fit)
 WEIGHTINGS: tuple[Weighting, ...] = get_args(Weighting)
@@ -32,6 +32,8 @@ PITCH = (24, 48)
 
 _EXTRA = 2.0
 """The weight in the centre by `centre`, and at the strongest edge by `edges`, is 1 + this."""
+_ALIKE = UNIT // 10
+"""Colours that are nearer to each other are alike."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,4 +242,8 @@ def _importance(face: NDArray[np.uint8], weighting: Weighting) -> NDArray[np.flo
             steps += (change * change).sum(axis=2)
         strength = np.sqrt(steps)
         return 1 + _EXTRA * strength / max(float(strength.max()), 1e-9)
+    if weighting == "rare":
+        colours = oklab(face).reshape(-1, 3)
+        alike = (distances(colours[:, None], colours) < _ALIKE).sum(axis=1)
+        return (alike.max() / alike).reshape(HEIGHT, WIDTH)
     return np.ones((HEIGHT, WIDTH))
