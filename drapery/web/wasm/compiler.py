@@ -59,9 +59,7 @@ def compile_module(kernels: list[ExportedKernel], info: Mapping[str, Any], folde
     assert whole is not None
     _keep_only(whole, {kernel.name for kernel in kernels})
     machine = _llvm.Target.from_triple(TRIPLE).create_target_machine(opt=3, features=FEATURES)
-    options = _llvm.create_pipeline_tuning_options(speed_level=3)
-    builder = _llvm.create_pass_builder(machine, options)
-    builder.getModulePassManager().run(whole, builder)
+    _optimize(whole, machine)
     (folder / "kernels.o").write_bytes(machine.emit_object(whole))
     runtime = Path(__file__).with_name("runtime.c")
     target = ["-target", "wasm32-freestanding", "-mcpu=generic+simd128+bulk_memory"]
@@ -74,6 +72,17 @@ def compile_module(kernels: list[ExportedKernel], info: Mapping[str, Any], folde
         *("kernels.o", "runtime.o", "-o", "kernels.wasm"),
     )
     return (folder / "kernels.wasm").read_bytes() + section("drapery", json.dumps(info).encode())
+
+
+def _optimize(code: Any, machine: Any) -> None:
+    """Optimise the code, take out the counting of references to arrays that are used anyway, which
+    takes most of the time, and optimise what is left."""
+    options = _llvm.create_pipeline_tuning_options(speed_level=3)
+    for _ in range(2):
+        builder = _llvm.create_pass_builder(machine, options)
+        passes = builder.getModulePassManager()
+        passes.add_refprune_pass()
+        passes.run(code, builder)
 
 
 def _zig(folder: Path, *arguments: str) -> None:
