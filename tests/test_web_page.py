@@ -83,7 +83,6 @@ def test_a_package_names_its_files(playable: Playable, tmp_path: Path) -> None:
         ("shield white", {}, "a page shows cloth that moves"),
         ("white", {"placement": "item"}, "a page shows cloth that moves"),
         ("white", {"pose": "vanilla"}, "a page shows cloth that moves"),
-        ("white", {"rotation": 4}, "leave out rotation"),
         ("white", {"style": "felt"}, "style felt has shape steps"),
         ("white", {"style": "pixel-art"}, "style pixel-art has motion steps"),
     ],

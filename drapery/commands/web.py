@@ -7,9 +7,8 @@ import typer
 
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice
+from drapery.web import NOT_PLAYED
 
-NOT_PLAYED = ("layers", "pbr", "pixel", "rotation", "facing", "pose", "backend")
-"""Options of pictures that a page does not use."""
 SIZE = "320x480"
 
 

@@ -1,1 +1,4 @@
 """Live cloth in a browser: the viewer, its messages, and pages that need no server."""
+
+NOT_PLAYED = ("layers", "pbr", "pixel", "pose", "backend")
+"""Options of pictures that a page with live cloth does not use."""

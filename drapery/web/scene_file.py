@@ -5,6 +5,7 @@ its first `moment`, and
 
 aspect: width / height of the picture that the camera frames. sheets: the names of the flag's
 sheets of texels in the order of its layers ("" is the bare cloth), None where no design is shown.
+turned: the angle of rotation or facing [degrees], see `Settings.turned`.
 plan0, plan1, …: the plan of each panel of cloth, see `drapery.web.wasm`; `grip` has the vertices of
 each panel in the same order.
 """
@@ -18,7 +19,7 @@ import numpy as np
 
 from drapery.banner import PATTERN_NAMES, Banner
 from drapery.errors import OptionError
-from drapery.mesh import Array
+from drapery.mesh import Array, Mesh
 from drapery.packs import Packs
 from drapery.render import Material, TextureLayer
 from drapery.scenes import Stager, cloth_at_rest, cloth_spec, floor_under
@@ -52,7 +53,8 @@ def scene_bytes(
     encoder = MessageEncoder(shape=stager.settings.size, flat=False)
     scene, moment = map(unpack, encoder.messages(state))
     plans = [np.frombuffer(plan, np.uint8) for plan in plans_of(body, stager.settings)]
-    header = {**moment[0], **scene[0], "aspect": aspect, "sheets": sheets}
+    extra = {"aspect": aspect, "sheets": sheets, "turned": stager.settings.turned}
+    header = {**moment[0], **scene[0], **extra}
     arrays = {**scene[1], **moment[1], **{f"plan{n}": plan for n, plan in enumerate(plans)}}
     if max(header["atlas"]) > MAX_SIDE:
         width, height = header["atlas"]
@@ -66,8 +68,6 @@ def _check(stager: Stager) -> None:
     if not stager.cloths:
         remedy = "use kind banner, cape or elytra, pose cloth, placement standing or wall"
         raise OptionError(f"a page shows cloth that moves; {remedy}")
-    if settings.turned:
-        raise OptionError("a page can be turned by hand; leave out rotation and facing")
     if settings.pbr:
         raise OptionError("pbr needs the renderer; leave it out")
     for kind in ("motion", "shape", "picture"):
@@ -101,11 +101,13 @@ def _state(stager: Stager, shown: Body) -> ViewerState:
 
 
 def _swings(stager: Stager) -> list[Array]:
-    """Where light wind moves the cloth, in the frame of the body [m], each [N, 3]."""
+    """Where light wind moves the cloth [m], each [N, 3]."""
     specs = [cloth_spec(panel, stager.settings) for panel in stager.body.panels]
     rests = [cloth_at_rest(spec).cloth.rest_positions for spec in specs]
-    return [
+    points = [
         rest + panel.origin + swing
         for rest, panel in zip(rests, stager.body.panels, strict=True)
         for swing in SWINGS
     ]
+    nothing = np.zeros((0, 3), np.int32)
+    return [stager.turned(Mesh(each, each, nothing, each)).positions for each in points]

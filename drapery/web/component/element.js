@@ -196,7 +196,8 @@ export class DraperyBanner extends HTMLElement {
   #follow({ pointerType, offsetX }) {
     if (pointerType !== "mouse") return;
     const side = (2 * offsetX) / this.#canvas.clientWidth - 1;
-    this.#player.setWind(this.#number("wind"), this.#player.azimuth() + FOLLOW * side);
+    const heading = this.#player.azimuth() + this.#player.header.turned + FOLLOW * side;
+    this.#player.setWind(this.#number("wind"), heading);
   }
 }
 

@@ -126,7 +126,7 @@ export class Player extends View {
     const found = this.cloths.flatMap((cloth) => {
       const places = [...Array(cloth.positions.length / 3).keys()].filter((index) => !cloth.info.pins.includes(index));
       return places.map((index) => {
-        const place = add(cloth.positions.subarray(3 * index, 3 * index + 3), cloth.info.origin);
+        const place = this.placeOf(cloth, index);
         return { cloth, index, place, miss: length(cross(subtract(place, origin), unit(along))) };
       });
     });
@@ -138,8 +138,21 @@ export class Player extends View {
     const { origin, along, facing } = this.rayAt(x, y, 0).ray;
     const { cloth, index, place } = this.grab;
     const share = dot(subtract(place, origin), facing) / dot(along, facing);
-    cloth.pull(index, ...subtract(add(origin, scale(along, share)), cloth.info.origin));
+    cloth.pull(index, ...subtract(this.unturned(add(origin, scale(along, share))), cloth.info.origin));
     wake(this);
+  }
+
+  // Where a particle is: between its vertices on the front and on the back.
+  placeOf(cloth, index) {
+    const vertex = (number) => cloth.vertices.subarray(3 * number, 3 * number + 3);
+    return scale(add(vertex(index), vertex(index + cloth.positions.length / 3)), 0.5);
+  }
+
+  // A point in the frame of the body, which is turned about the middle of its block.
+  unturned([x, y, z]) {
+    const angle = (this.header.turned * Math.PI) / 180;
+    const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+    return [cos * (x - 0.5) + sin * (z - 0.5) + 0.5, y, cos * (z - 0.5) - sin * (x - 0.5) + 0.5];
   }
 
   drop() {
