@@ -77,10 +77,23 @@ def test_a_page_says_what_a_scene_takes_from_it() -> None:
 
 
 def test_every_kind_is_tested() -> None:
-    assert {*COMMANDS, "json"} == set(KINDS)
+    assert {*COMMANDS, "json", "html"} == set(KINDS)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+def test_a_page_is_that_of_the_command(tmp_path: Path, drapery, playable) -> None:
+    settings = playable(size=(64, 96), wind=5.0, rotation=3)
+    wanted = ExportRequest(BANNER, settings, "html", garment="flag")
+    make(wanted, tmp_path / "page.html")
+    command = as_command(wanted, stem="line")
+    line, python = tmp_path / "line.html", tmp_path / "python.html"
+    code, _, err = drapery(*shlex.split(command.replace("line.html", str(line)))[1:])
+    assert code == 0, err
+    exec(as_python(wanted, stem="python").replace("python.html", str(python)), {})
+    text = (tmp_path / "page.html").read_bytes()
+    assert text == line.read_bytes() == python.read_bytes()
+
+
+@pytest.mark.parametrize("kind", [*COMMANDS, "json"])
 def test_progress_goes_to_the_end(kind: str, tmp_path: Path) -> None:
     wanted, events = request_of(kind), []
     make(wanted, tmp_path / file_name(wanted), lambda done, total: events.append((done, total)))

@@ -17,7 +17,7 @@ from tracing import untraced_environment
 from drapery.banner.design import Banner, Layer
 from drapery.banner.formats import parse_banner
 from drapery.banner.formats.shorthand import write
-from drapery.commands import animate, flat, model, render
+from drapery.commands import animate, flat, model, render, web
 from drapery.garments import find_garment
 from drapery.settings import Settings
 from drapery.studio import snippets
@@ -134,6 +134,7 @@ def test_a_garment_shows_the_design_where_its_file_has_one(tmp_path: Path) -> No
         (snippets.PICTURE_OPTIONS, animate),
         (snippets.MODEL_OPTIONS, model),
         (snippets.FACE_OPTIONS, flat),
+        (snippets.WEB_OPTIONS, web),
     ],
 )
 def test_the_commands_have_these_options_and_no_others(names, command) -> None:

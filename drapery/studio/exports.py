@@ -153,6 +153,15 @@ def _model(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     save_model(_counted(scenes, total, on_progress), path, fps=request.fps)
 
 
+def _page(request: ExportRequest, path: Path, on_progress: Progress) -> None:
+    from drapery.web.page import page_text
+
+    on_progress(0, 1)
+    text = page_text(request.banner, options_for(request))
+    on_progress(1, 1)
+    path.write_text(text, encoding="utf-8")
+
+
 def _design(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery.banner import write_banner
 
@@ -165,6 +174,7 @@ _ONCE: dict[str, Callable[[ExportRequest, Path, Progress], None]] = {
     "png": _still,
     "face": _face,
     "glb": _model,
+    "html": _page,
     "json": _design,
 }
 

@@ -13,11 +13,13 @@ from drapery.option import Option
 from drapery.scenes import Clip, SceneEntry, find_scene
 from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, frame_count
 from drapery.studio.chosen_scene import SceneChoice
+from drapery.web import NOT_PLAYED
 
 STILLS = ("png",)
 LOOPS = ("gif", "apng", "webp", "mp4")
-KINDS = (*STILLS, "face", *LOOPS, "glb", "json")
-"""The kinds of files: `face` is the flat face without cloth, `json` is the design itself."""
+KINDS = (*STILLS, "face", *LOOPS, "glb", "html", "json")
+"""The kinds of files: `face` is the flat face without cloth, `html` is a page with live cloth,
+`json` is the design itself."""
 
 PICTURE_OPTIONS = tuple(NAMED_OPTIONS)
 SCALE = Option("scale", "Pixels of a texel", int, 8, bounds=(1, 256), unit="pixels")
@@ -29,6 +31,8 @@ MODEL_OPTIONS = (
 )
 """Options of `drapery model`; the others have no effect on a 3-D file."""
 FACE_OPTIONS = ("packs", "format")
+WEB_OPTIONS = tuple(name for name in PICTURE_OPTIONS if name not in NOT_PLAYED)
+"""Options of `drapery web`."""
 
 _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-:./,#")
 
@@ -53,7 +57,7 @@ class ExportRequest:
 
 
 def scene_of(request: ExportRequest) -> SceneChoice | None:
-    """The scene that the file shows; a model, a face and a design are of the banner."""
+    """The scene that the file shows; a model, a face, a page and a design are of the banner."""
     return request.scene if request.kind in (*STILLS, *LOOPS) else None
 
 
@@ -75,8 +79,8 @@ def subject_of(request: ExportRequest) -> Banner | Garment | None:
 
 
 def _garment(request: ExportRequest) -> Garment | None:
-    """The garment that is drawn; a face and a design are of the banner."""
-    if request.garment is None or request.kind in ("face", "json"):
+    """The garment that is drawn; a face, a page and a design are of the banner."""
+    if request.garment is None or request.kind in ("face", "html", "json"):
         return None
     return find_garment(request.garment)
 
@@ -185,13 +189,12 @@ def style_names_of(request: ExportRequest) -> tuple[str, ...]:
     return tuple(map(str, style if isinstance(style, tuple) else (style,)))
 
 
-_COMMANDS = {"png": "render", "face": "flat", "glb": "model"}
+_COMMANDS = {"png": "render", "face": "flat", "glb": "model", "html": "web"}
+_OPTIONS = {"glb": MODEL_OPTIONS, "face": FACE_OPTIONS, "html": WEB_OPTIONS, "json": ()}
 
 
 def _names(request: ExportRequest) -> tuple[str, ...]:
-    if request.kind == "json":
-        return ()
-    names = {"glb": MODEL_OPTIONS, "face": FACE_OPTIONS}.get(request.kind, PICTURE_OPTIONS)
+    names: tuple[str, ...] = _OPTIONS.get(request.kind, PICTURE_OPTIONS)
     if _garment(request) is not None:
         names = tuple(name for name in names if name not in (*UNUSED_OPTIONS, "texture"))
     return names
@@ -218,6 +221,8 @@ def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any
 def _timing(request: ExportRequest) -> dict[str, Any]:
     if request.kind == "face":
         return {} if request.scale == SCALE.default else {"scale": request.scale}
+    if request.kind == "html":
+        return {"size": request.settings.size}  # the command has another default
     if request.kind in STILLS:
         return {}
     chosen = {"seconds": request.seconds, "fps": request.fps}
@@ -313,4 +318,10 @@ def _call(function: str, arguments: list[str], named: list[str]) -> str:
     return f"{function}({', '.join([*arguments, *named])})"
 
 
-_PYTHON = {"png": _still, "face": _face, "glb": _model, "json": _design}
+def _page(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
+    settings = f"Settings({', '.join(named)})"
+    lines = [f"write_page(Path({out}), {banner[0] if banner else None}, {settings})"]
+    return ["pathlib.Path", "drapery.Settings", "drapery.web.page.write_page"], lines
+
+
+_PYTHON = {"png": _still, "face": _face, "glb": _model, "html": _page, "json": _design}

@@ -28,12 +28,14 @@ KINDS = {
     "webp": "WebP, waving",
     "mp4": "MP4, waving",
     "glb": "GLB, a 3-D model that waves",
+    "html": "Web page, live cloth",
     "json": "JSON, the design",
 }
 HINTS = {
     "gif": "A GIF has no half transparency and at most 50 frames/s.",
     "mp4": "A video has no transparency: without a background it is white.",
     "glb": "The model has its own size and light; it loops in Blender and on the web.",
+    "html": "One file that waves in any browser, without this studio; it can be turned and pulled.",
     "face": "As banner sites show it; the wind has no effect.",
 }
 PICTURES = frozenset({"png", *LOOPS})
@@ -86,13 +88,13 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
     fields, groups = Fields(), Groups()
     with ui.element("div").classes("options"):
         fields.choice("File", KINDS, lambda: choice.kind, lambda kind: choice.set(kind=kind))
-        with _only(groups, lambda: choice.kind in PICTURES):
+        with _only(groups, lambda: choice.kind in PICTURES | {"html"}):
             _sides(session, fields)
         with _only(groups, lambda: choice.kind in MOVING):
             _times(choice, fields)
         with _only(groups, lambda: choice.kind == "face"):
             _choice_number(fields, "Pixels a texel", choice, SCALE)
-        with _only(groups, lambda: choice.kind in PICTURES | {"glb"}):
+        with _only(groups, lambda: choice.kind in PICTURES | {"glb", "html"}):
             views = {str(name): view_title(str(name)) for name in OPTIONS["view"].choices}
             _pick(session, fields, "View", "view", views)
             _number(session, fields, "Gusts (seed)", "seed")
@@ -200,5 +202,7 @@ def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups
 
 def difference(request: ViewportRequest, kind: str) -> str:
     """What the live banner shows but the file will not contain."""
-    is_model = kind == "glb" and request.scene is not None
-    return "A 3-D model shows your banner, not the scene." if is_model else ""
+    if kind == "glb" and request.scene is not None:
+        return "A 3-D model shows your banner, not the scene."
+    other = request.scene or request.garment
+    return "A web page shows your banner." if kind == "html" and other is not None else ""
