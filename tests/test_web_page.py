@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import Run
 from test_javascript import NODE, run_node
 
 from drapery import Banner, OptionError
@@ -92,3 +93,10 @@ def test_what_a_page_cannot_show_is_refused(
 ) -> None:
     with pytest.raises(OptionError, match=fault):
         scene_bytes(Banner.parse(design), open_packs(()), Settings(**options))  # type: ignore[arg-type]
+
+
+def test_the_command_refuses_targets_and_designs_that_do_not_fit(drapery: Run) -> None:
+    code, _, err = drapery("web", "white", "-o", "banner.png")
+    assert code == 2 and "banner.png: a page is an .html file" in err
+    code, _, err = drapery("web", "white", "--component", "-o", "dist")
+    assert code == 2 and "the package shows any design" in err

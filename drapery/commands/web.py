@@ -35,5 +35,7 @@ def run(
             raise OptionError("the package shows any design; leave DESIGN out, or --component")
         write_component(out, settings)
         return
+    if out.suffix.lower() not in (".html", ".htm"):
+        raise OptionError(f"{out}: a page is an .html file; name it so, or use --component")
     with compile_notice():
         write_page(out, o.design_of(words), settings)
