@@ -15,7 +15,8 @@ import typer.main
 from drapery.cli import app
 from drapery.option import Option
 from drapery.player_settings import PLAYER_OPTIONS
-from drapery.settings import LOOP_OPTIONS, OPTIONS
+from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
+from drapery.web.wasm.module import module_places
 
 ROOT = Path(__file__).parent.parent
 AUDIENCES = {"anyone": "yes", "local": "no", "python": "Python only"}
@@ -24,7 +25,16 @@ pages: dict[str, tuple[str, str]] = {}
 
 
 def on_config(config: Any) -> None:
-    """Copy the sources for mkdocstrings, with `render/` in `drapery/` as it is installed."""
+    """Copy the sources for mkdocstrings, with `render/` in `drapery/` as it is installed.
+
+    Pages load the element `<drapery-banner>` if its kernels are built; else they show its picture.
+    """
+    if any(path.is_file() for path in module_places()):
+        from mkdocs.config.config_options import ExtraScriptValue
+
+        script = ExtraScriptValue("element/drapery-banner.js")
+        script.type = "module"
+        config["extra_javascript"].append(script)
     copy = ROOT / "build" / "api" / "drapery"
     shutil.rmtree(copy, ignore_errors=True)
     sources = shutil.ignore_patterns("__pycache__", "*.png", "*.js", "*.wasm")
@@ -41,8 +51,12 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
 
 
 def on_post_build(config: Any) -> None:
-    """Write llms.txt, and the Markdown of each page beside its HTML."""
+    """Write llms.txt, the Markdown of each page beside its HTML, and the element of live cloth."""
     site = Path(config["site_dir"])
+    if config["extra_javascript"]:
+        from drapery.web.page import write_component
+
+        write_component(site / "element", Settings())
     lines = [f"# {config['site_name']}", "", f"> {config['site_description']}", ""]
     for name, (title, text) in pages.items():
         target = site / name
