@@ -97,6 +97,16 @@ def _options(table: Mapping[str, Option]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _garments() -> str:
+    """A section of each garment: its picture and its file."""
+    folder = ROOT / "drapery" / "garments" / "files"
+    return "\n".join(
+        f"## {path.stem}\n\n![{path.stem}](../pictures/garments/{path.stem}.png)\n\n"
+        f"```toml\n{path.read_text(encoding='utf-8')}```\n"
+        for path in sorted(folder.glob("*.toml"))
+    )
+
+
 def commands() -> str:
     """A table of all commands, and a section of each with its options."""
     sections = list(_command("drapery", typer.main.get_command(app)))
@@ -142,4 +152,5 @@ TABLES: dict[str, Callable[[], str]] = {
     "loop-options": lambda: _options(LOOP_OPTIONS),
     "player-options": lambda: _options(PLAYER_OPTIONS),
     "commands": commands,
+    "garments": _garments,
 }

@@ -53,9 +53,12 @@ def test_links_lead_somewhere(page: str) -> None:
 def test_every_picture_of_the_docs_has_its_command() -> None:
     folder = ROOT / "docs" / "pictures"
     page = (ROOT / "docs" / "reference" / "pictures.md").read_text("utf-8")
-    named = set(re.findall(r"`([\w/-]+\.(?:png|webp|gif))`", page.replace("NAME", "cel")))
-    shown = {p.relative_to(folder).as_posix() for p in folder.rglob("*.*")}
-    assert named == {name for name in shown if not name.startswith("styles/")} | {"styles/cel.png"}
+    named = set(re.findall(r"`([\w/-]+\.(?:png|webp|gif))`", page))
+    shown = {path.relative_to(folder).as_posix() for path in folder.rglob("*.*")}
+    galleries = re.compile(r"^(styles|garments)/[\w-]+\.png$")
+    assert named == {galleries.sub(r"\1/NAME.png", name) for name in shown}
+    drawn = {path.stem for path in (folder / "garments").iterdir()}
+    assert drawn == {path.stem for path in ROOT.glob("drapery/garments/files/*.toml")}
 
 
 def test_the_citation_has_the_version_of_the_package() -> None:
