@@ -1,1 +1,1 @@
-"""What is needed to publish Drapery; not installed. See `docs/release.md`."""
+"""What is needed to publish Drapery; not installed. See CONTRIBUTING.md."""

@@ -1,0 +1,105 @@
+"""Build the source archive and the wheel: `python -m release.build [--platform TAG] [-o dist]`.
+
+The bytes are the same on every run and machine: the times of all files are SOURCE_DATE_EPOCH, by
+default the time of the last commit. With `--platform`, as manylinux_2_17_x86_64, only a wheel is
+built, which holds the kernels that `python -m release.kernels` has compiled before; without it they
+are left out. A wheel of over 1.5 MB is an error.
+"""
+
+import argparse
+import gzip
+import io
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+MAX_WHEEL = 1_500_000
+"""The most bytes of a wheel; its 700 files of source alone take 1.2 MB."""
+NOT_SOURCES = ("drapery/aot/kernels-*", "drapery/web/wasm/*.wasm")
+"""Built files in a checkout, which no source archive or plain wheel holds."""
+
+
+def epoch() -> int:
+    """The time that built files bear [s]."""
+    given = os.environ.get("SOURCE_DATE_EPOCH")
+    if given:
+        return int(given)
+    command = ["git", "-C", ROOT, "log", "-1", "--format=%ct"]
+    return int(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+
+def build(out: Path, platform: str | None) -> list[Path]:
+    """Build into a folder; returns the files. platform: see above."""
+    time = epoch()
+    with tempfile.TemporaryDirectory() as folder:
+        tree, made = Path(folder, "source"), Path(folder, "made")
+        copy_sources(tree, with_built=platform is not None)
+        kinds = ["--wheel"] if platform else ["--sdist", "--wheel"]
+        words = [f"-C--build-option=--plat-name={platform}"] if platform else []
+        env = os.environ | {"SOURCE_DATE_EPOCH": str(time)}
+        command = [sys.executable, "-m", "build", "--no-isolation", *kinds, *words, "-o", made]
+        subprocess.run([*command, tree], env=env, check=True, stdout=subprocess.DEVNULL)
+        for archive in made.glob("*.tar.gz"):
+            archive.write_bytes(same_times(archive.read_bytes(), time))
+        for wheel in made.glob("*.whl"):
+            if wheel.stat().st_size > MAX_WHEEL:
+                raise SystemExit(f"{wheel.name} has {wheel.stat().st_size} bytes: over {MAX_WHEEL}")
+        out.mkdir(parents=True, exist_ok=True)
+        return [Path(shutil.copy(path, out)) for path in sorted(made.iterdir())]
+
+
+def copy_sources(tree: Path, with_built: bool) -> None:
+    """Copy what git knows, with fixed rights; with_built: and the kernels of this platform."""
+    listed = ["git", "-C", ROOT, "ls-files", "-z"]
+    names = subprocess.run(listed, capture_output=True, text=True, check=True).stdout
+    paths = [ROOT / name for name in names.split("\0") if name]
+    if with_built:
+        built = [path for pattern in NOT_SOURCES for path in ROOT.glob(pattern)]
+        if not built:
+            raise SystemExit("no kernels are compiled; run python -m release.kernels first")
+        paths += built
+    for path in paths:
+        if path.is_file():
+            copied = tree / path.relative_to(ROOT)
+            copied.parent.mkdir(parents=True, exist_ok=True)
+            copied.write_bytes(path.read_bytes())
+            copied.chmod(0o755 if path.stat().st_mode & 0o100 else 0o644)
+
+
+def same_times(archive: bytes, time: int) -> bytes:
+    """An archive .tar.gz with files in order, of one time and of nobody."""
+    content = io.BytesIO()
+    with (
+        tarfile.open(fileobj=io.BytesIO(archive)) as old,
+        tarfile.open(fileobj=content, mode="w", format=tarfile.PAX_FORMAT) as new,
+    ):
+        for member in sorted(old.getmembers(), key=lambda each: each.name):
+            member.mtime, member.uid, member.gid = time, 0, 0
+            member.uname = member.gname = ""
+            member.pax_headers = {}
+            member.mode = 0o755 if member.isdir() or member.mode & 0o100 else 0o644
+            new.addfile(member, old.extractfile(member) if member.isfile() else None)
+    packed = io.BytesIO()
+    with gzip.GzipFile(filename="", fileobj=packed, mode="wb", mtime=time) as file:
+        file.write(content.getvalue())
+    return packed.getvalue()
+
+
+def main(words: Sequence[str] | None = None) -> None:
+    """The command."""
+    parser = argparse.ArgumentParser("python -m release.build", description=__doc__)
+    parser.add_argument("-o", "--out", type=Path, default=Path("dist"))
+    parser.add_argument("--platform", metavar="TAG", help="as manylinux_2_17_x86_64")
+    given = parser.parse_args(words)
+    for path in build(given.out, given.platform):
+        print(f"{path}: {path.stat().st_size} bytes")
+
+
+if __name__ == "__main__":
+    main()
