@@ -1,5 +1,14 @@
 """Registers of lanes calculate what numpy does, to the bit."""
 
+import llvmlite.ir
+import numba.core.caching
+import numba.core.cgutils
+import numba.core.datamodel
+import numba.core.dispatcher
+import numba.core.event
+import numba.core.registry
+import numba.extending
+import numba.misc.appdirs
 import numpy as np
 import pytest
 from numba import njit
@@ -44,3 +53,26 @@ def test_empty_lanes_begin_with_a_cache_line(dtype):
 @pytest.mark.parametrize("count, lanes", [(0, 0), (1, 16), (16, 16), (17, 32)])
 def test_lanes_are_filled_up_to_whole_registers(count, lanes):
     assert simd.padded_count(count, np.float32) == lanes
+
+
+INTERNALS = {
+    numba.extending: "intrinsic overload lower_builtin models register_model type_callable",
+    numba.core.cgutils: "get_or_insert_function if_unlikely",
+    numba.core.caching: "_CacheLocator CompileResultCacheImpl FunctionCache IndexDataCacheFile",
+    numba.core.dispatcher: "Dispatcher",
+    numba.core.event: "Listener register unregister",
+    numba.core.datamodel: "default_manager",
+    numba.misc.appdirs: "AppDirs",
+    numba.core.registry.cpu_target.typing_context: "refresh resolve_value_type",
+    numba.core.registry.cpu_target.target_context: "refresh call_conv make_array get_value_type",
+    llvmlite.ir: "Constant DoubleType FloatType FunctionType PointerType Undefined VectorType",
+}
+"""Names of numba and llvmlite that are not promised to stay, and that kernels are made with."""
+
+
+@pytest.mark.parametrize("owner", INTERNALS, ids=lambda o: getattr(o, "__name__", type(o).__name__))
+def test_numba_and_llvmlite_have_what_kernels_are_made_with(owner):
+    """If this fails with new versions: adapt `simd_instructions`, `jit`, `jit_cache`, `jit_calls`
+    and `user_calls`, or lower the highest versions in pyproject.toml."""
+    missing = [name for name in INTERNALS[owner].split() if not hasattr(owner, name)]
+    assert not missing
