@@ -127,7 +127,9 @@ class Controls:
 
     def switch(self, label: str, get: Get, change: Set) -> None:
         """A switch."""
-        element = ui.switch(translated(label), value=get()).classes("control").props("dense")
+        label = translated(label)
+        element = ui.switch(label, value=get()).classes("control").props("dense")
+        element.props.update({"aria-label": label})
         self._listen(element, get, change)
 
     def button(

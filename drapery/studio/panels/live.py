@@ -109,8 +109,9 @@ def wear(session: Session, name: str | None) -> None:
 
 def _choices(session: Session) -> dict[str | None, str]:
     """What the viewer can show in place of the banner, by its name or path."""
-    own, choices = session.garment_store, dict[str | None, str]({None: translated(NONE)})
-    if own.path is not None:
+    own = session.garment_store
+    choices: dict[str | None, str] = {None: translated(NONE)}
+    if own.path:
         choices[str(own.path)] = own.title
     choices.update(_garments())
     return choices
