@@ -6,6 +6,7 @@ from pathlib import Path
 from starlette.concurrency import run_in_threadpool
 
 from drapery import DesignError, DraperyError, FoundBanner, parse_banners, read_designs
+from drapery.studio.item_names import item_name
 from drapery.studio.uploads import Uploads, shown_name
 from drapery.studio.warning_log import collected_warnings
 
@@ -21,6 +22,7 @@ class UploadQueue:
 
     found: the banners. line: the error, or "". notes: the warnings. name: the file's name, or "".
     beside: whether the text field was read; then the page shows the line next to that field.
+    title: the name of the item in a text, or "".
     """
 
     def __init__(self, uploads: Uploads) -> None:
@@ -29,6 +31,7 @@ class UploadQueue:
         self.notes: tuple[str, ...] = ()
         self.name = ""
         self.beside = False
+        self.title = ""
         self._uploads = uploads
         self._listeners: list[Callable[[], None]] = []
 
@@ -38,7 +41,7 @@ class UploadQueue:
 
     def read_text(self, text: str, *, beside: bool = False) -> None:
         """Read a text in any form; the text is never used as the path of a file."""
-        self._finish("", *_read(lambda: parse_banners(text)), beside=beside)
+        self._finish("", *_read(lambda: parse_banners(text)), beside=beside, title=item_name(text))
 
     async def receive(self, chunks: AsyncIterator[bytes], name: str) -> None:
         """Read a file that the page sends under a name. Raises OSError if it cannot be stored."""
@@ -64,8 +67,10 @@ class UploadQueue:
         notes: list[str],
         *,
         beside: bool = False,
+        title: str = "",
     ) -> None:
         self.found, self.line, self.name = tuple(found), line, name
+        self.title = title
         self.notes, self.beside = tuple(notes[:MAX_NOTES]), beside
         for call in self._listeners:
             call()

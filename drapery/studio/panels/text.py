@@ -73,7 +73,7 @@ def _arrive(session: Session, upload_queue: UploadQueue) -> None:
         if not upload_queue.beside:
             show_notice(upload_queue.line, "fault")
     elif len({found.banner for found in upload_queue.found}) == 1:
-        _open(session, upload_queue.found[0].banner)
+        _open(session, upload_queue.found[0].banner, upload_queue.title)
     else:
         ui.run_javascript("studio.tab('text')")
         show_notice(
@@ -81,8 +81,8 @@ def _arrive(session: Session, upload_queue: UploadQueue) -> None:
         )
 
 
-def _open(session: Session, banner: Banner) -> None:
-    sketch = sketch_of(banner, session.sketch.title)
+def _open(session: Session, banner: Banner, title: str = "") -> None:
+    sketch = sketch_of(banner, title or session.sketch.title)
     session.selection.lay_out(sketch)
     count = len(sketch.strokes)
     show_notice(f"Read a {sketch.kind} of {count} layer{'' if count == 1 else 's'}")
