@@ -10,7 +10,7 @@ from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.png import read_png
 from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
-from drapery.errors import PackError
+from drapery.errors import OptionError, PackError
 from drapery.settings import Settings
 from drapery.studio.art import (
     CELL,
@@ -19,9 +19,12 @@ from drapery.studio.art import (
     face_png,
     pattern_rows,
     pattern_sheet,
+    style_png,
     thumbnail,
 )
+from drapery.studio.panels.layers import missing_patterns
 from drapery.studio.session import Session
+from drapery.studio.sketch import sketch_of
 
 NAMES = ("creeper", "border", "gradient")
 
@@ -85,3 +88,16 @@ def test_a_pack_has_the_warnings_of_the_commands_and_the_format_is_chosen(tmp_pa
         session.pack_store.read_as(-3)
     assert session.settings.format == 4
     session.close()
+
+
+def test_a_pattern_that_no_pack_has_is_named_beside_the_layers() -> None:
+    session = Session()
+    session.selection.lay_out(sketch_of(Banner.parse("red acme:anvil:lime creeper:blue")))
+    (line,) = missing_patterns(session)
+    assert line.startswith("acme:anvil is in none of the packs")
+    session.close()
+
+
+def test_a_style_is_not_drawn_for_a_page_that_is_gone() -> None:
+    with pytest.raises(OptionError, match="the page is gone"):
+        style_png(Banner("red"), open_packs(()), "game", lambda: False)

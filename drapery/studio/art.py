@@ -2,12 +2,13 @@
 
 import threading
 from base64 import b64encode
+from collections.abc import Callable
 from weakref import WeakKeyDictionary
 from zlib import crc32
 
 import numpy as np
 
-from drapery import Banner, Layer, Settings
+from drapery import Banner, Layer, OptionError, Settings
 from drapery.banner import FLAG_REGIONS, SHIELD_REGIONS, composite, flag_layers, shield_layers
 from drapery.packs import Packs, Texels, read_png
 from drapery.render import draw_scene, png_bytes
@@ -91,12 +92,17 @@ _styled: WeakKeyDictionary[Packs, dict[tuple[Banner, str], bytes]] = WeakKeyDict
 _one_style = threading.Lock()
 
 
-def style_png(banner: Banner, packs: Packs, style: str) -> bytes:
+def style_png(
+    banner: Banner, packs: Packs, style: str, is_wanted: Callable[[], bool] = lambda: True
+) -> bytes:
     """The design as cloth in a style, small. Raises OptionError, PackError.
 
     One is drawn at a time, because a page asks for all of them at once.
+    is_wanted: asked when its turn comes; a page that is gone must not hold the server's end.
     """
     with _one_style:
+        if not is_wanted():
+            raise OptionError("the page is gone; open it again")
         drawn = _styled.setdefault(packs, {})
         if (banner, style) not in drawn:
             while len(drawn) >= MAX_STYLES:

@@ -100,7 +100,11 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
         if name not in style_names():  # `find_style` would read a file
             raise HTTPException(404, "no such style")
         banner = banner_of(session.sketch)
-        return _picture(session, lambda: style_png(banner, session.packs(), name), CACHING)
+
+        def draw() -> bytes:
+            return style_png(banner, session.packs(), name, lambda: not session.closed)
+
+        return _picture(session, draw, CACHING)
 
     @app.get("/compare/{token}/{pack}/{what}.png")
     def compare(

@@ -28,7 +28,7 @@ def build(session: Session) -> None:
         count.set_text(f"{shown} of {LOOM_LAYERS if session.survival else MAX_LAYERS}")
         too_many = session.survival and shown > LOOM_LAYERS
         count.classes(add="over" if too_many else "", remove="" if too_many else "over")
-        lines = [translated(_TOO_MANY)] * too_many + _missing(session)
+        lines = [translated(_TOO_MANY)] * too_many + missing_patterns(session)
         warning.set_text(" ".join(lines))
         warning.set_visibility(bool(lines))
         rows.show(**_shown(session))
@@ -59,7 +59,7 @@ _WORDS = {
 """The texts of the list itself."""
 
 
-def _missing(session: Session) -> list[str]:
+def missing_patterns(session: Session) -> list[str]:
     """A line for each pattern of the design that no pack has."""
     packs = session.packs()
     added = {each.pattern for each in session.sketch.strokes if each.pattern not in PATTERNS}
