@@ -132,3 +132,22 @@ def test_the_live_view_comes_first_at_every_width(
         chromium.execute_script("window.scrollTo(0, 400)")
         wait_until(lambda: chromium.execute_script(script)[2] >= -1)
     resize(chromium, WIDE)
+
+
+def test_the_page_speaks_the_language_of_the_browser(chromium: Any, studio: Studio) -> None:
+    resize(chromium, WIDE)
+    chromium.execute_cdp_cmd("Network.enable", {})
+    header = {"headers": {"Accept-Language": "de-AT,en;q=0.5"}}
+    chromium.execute_cdp_cmd("Network.setExtraHTTPHeaders", header)
+    try:
+        open_page(chromium, studio)
+        wait_until(lambda: find(chromium, "html").get_attribute("lang") == "de")
+        assert find(chromium, "#tab-patterns").text.endswith("Muster")
+        assert is_shown(chromium, "button[aria-label='Rückgängig']")
+        assert find(chromium, "[data-pattern=cross]").get_attribute("title") == "Andreaskreuz"
+        assert find(chromium, "[data-dye=light_blue]").get_attribute("title") == "Hellblau"
+        click(chromium, "[data-pattern=cross]")
+        heading = ".panel-palette h2"
+        wait_until(lambda: find(chromium, heading).text == "Farbe von Lage 1: Andreaskreuz")
+    finally:
+        chromium.execute_cdp_cmd("Network.setExtraHTTPHeaders", {"headers": {}})
