@@ -42,7 +42,7 @@ PASSES = 6
 """The most passes over all contacts in a step."""
 TOLERANCE = 0.02
 """A pass whose deepest contact is shallower than this part of the radius is the last one."""
-CLOSE, FARTHER = 0.5, 6.0
+CLOSE, FARTHER = 2.0, 6.0
 """At first only what is within this many times the radius, beyond the radius, is looked at; then
 within so many times as much."""
 GUARDED = 0.25
