@@ -1,14 +1,13 @@
 """Find designs for the glyphs of `letter_glyphs.txt`, and say how well those of `letters` fit.
 
 `python -m benchmarks.letters` prints, for each character, how far its design is from its own glyph
-and which glyph comes next. `python -m benchmarks.letters --search AB` prints new designs of at most
-five layers below a border, the best first. `--sheet FILE` draws all designs, to look at.
-
-The search has a beam of states, and then descends one layer at a time from its best states with
-random kicks: the squared errors of all choices for one layer are a quadratic in its coverage.
+and which glyph comes next. `python -m benchmarks.letters --search AB` prints the designs of at most
+five layers below a border that `drapery match` finds, and the one of the file, each with its error.
+`--sheet FILE` draws all designs, to look at; with `--search`, those found beside those of the file.
 """
 
 import argparse
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -16,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from drapery.banner import (
+    DYES,
     FLAG_REGIONS,
     PATTERN_NAMES,
     Banner,
@@ -25,18 +25,25 @@ from drapery.banner import (
     letter_banners,
     letter_characters,
 )
+from drapery.banner.letters import NO_BORDER
+from drapery.match.art import Stack, read_art
+from drapery.match.colours import UNIT
+from drapery.match.nearest import Goal, NearestSearch
+from drapery.match.search import nearest_stacks
 from drapery.packs import open_packs
 from drapery.sheets import PictureSheet, SheetCell
 
 Array = npt.NDArray[np.float64]
-Design = tuple[int, tuple[tuple[int, int], ...]]
-"""The base, 0 for the ground and 1 for the ink, and (pattern, colour) from the lowest layer."""
 
 LARGE = ("gradient", "gradient_up", "bricks")
 CHARGES = ("globe", "creeper", "skull", "flower", "mojang", "piglin", "flow", "guster")
 SHAPES = [name for name in PATTERN_NAMES if name not in {"base", "border", *LARGE, *CHARGES}]
 
-LAYERS = 5
+LAYERS, EFFORT = 5, 60
+LAYER = 0.004
+"""What a layer costs when the best of the designs that were found is chosen."""
+WORDS = {"white": "ground", "black": "ink"}
+"""The dyes in which designs are searched, and their words in `letters.txt`."""
 COLUMNS = [3, 5, 7, 9, 11, 13, 15, 17]
 ROWS = [3, 5.75, 8.5, 11.25, 14, 17, 20, 23, 26, 28.75, 31.5, 34.25, 37]
 """Edges of a glyph's cells [texels], inside the border and where the stripes have theirs."""
@@ -66,12 +73,6 @@ def target(rows: list[str]) -> tuple[Array, Array]:
     return (wanted * inside).ravel(), weights.ravel()
 
 
-@cache
-def coverage(pattern: str) -> Array:
-    """How much of each texel a pattern covers in our own art, [800], 0 to 1."""
-    return face(Banner("black", (Layer(pattern, "white"),)))
-
-
 def face(banner: Banner) -> Array:
     """A banner of black and white as numbers, 0 where it is black to 1 where it is white, [800]."""
 
@@ -83,107 +84,45 @@ def face(banner: Banner) -> Array:
     return np.clip((grey(banner) - dark) / (light - dark), 0, 1)
 
 
-class GlyphSearch:
-    """Looks for the designs of one glyph; `found` has every design that it met, with its error."""
-
-    def __init__(self, rows: list[str], seed: int = 19) -> None:
-        self.rng = np.random.default_rng(seed)
-        self.masks = np.stack([coverage(name) for name in SHAPES])
-        self.wanted, self.weights = target(rows)
-        self.found: dict[Design, float] = {}
-
-    def picture(self, base: int, layers: tuple[tuple[int, int], ...]) -> Array:
-        """The face of a design, [800], 0 ground to 1 ink."""
-        value = np.full(800, float(base))
-        for pattern, colour in layers:
-            value = value + self.masks[pattern] * (colour - value)
-        return value
-
-    def error(self, value: Array) -> float:
-        """The weighted squared error of a face."""
-        return float((((value - self.wanted) ** 2) * self.weights).sum())
-
-    def beam(self, width: int) -> None:
-        """Add layer after layer to the best `width` states."""
-        states: list[Design] = [(0, ()), (1, ())]
-        for _ in range(LAYERS):
-            values = np.stack([self.picture(*state) for state in states])
-            errors = np.stack([self._added(values, colour) for colour in (0, 1)], axis=-1)
-            order = np.argsort(errors, axis=None, kind="stable")[: 6 * width]
-            seen: dict[float, Design] = {}
-            for index in order:
-                state, pattern, colour = (int(n) for n in np.unravel_index(index, errors.shape))
-                base, layers = states[state]
-                seen.setdefault(
-                    round(float(errors.flat[index]), 4), (base, (*layers, (pattern, colour)))
-                )
-            best = list(seen.items())[:width]
-            self.found |= {state: error for error, state in best[:100]}
-            states = [state for _, state in best]
-
-    def _added(self, values: Array, colour: int) -> Array:
-        """Errors of every state with every pattern in a colour on top, [states, patterns]."""
-        rest, step = values - self.wanted, colour - values
-        linear = (rest * step * self.weights) @ self.masks.T
-        square = (step * step * self.weights) @ (self.masks**2).T
-        return ((rest**2) @ self.weights)[:, None] + 2 * linear + square
-
-    def kick(self, start: Design, rounds: int) -> None:
-        """Descend from a design, and again and again after random changes."""
-        now = self._descend(start)
-        for _ in range(rounds):
-            base, layers = now[1][0], list(now[1][1])
-            for _ in range(int(self.rng.integers(1, 4))):
-                place = int(self.rng.integers(len(layers) + 1))
-                layer = (int(self.rng.integers(len(SHAPES))), int(self.rng.integers(2)))
-                layers[place : place + int(self.rng.integers(2))] = [layer]
-            found = self._descend((base, tuple(layers[:LAYERS])))
-            if found[0] <= 1.05 * now[0]:
-                now = found
-
-    def _descend(self, design: Design) -> tuple[float, Design]:
-        base, layers = design[0], list(design[1])
-        error = self.error(self.picture(base, tuple(layers)))
-        while True:
-            before = error
-            for place in range(len(layers)):
-                layers[place], error = self._best_layer(base, layers, place)
-            if error > before - 0.1:
-                break
-        self.found[base, tuple(layers)] = error
-        return error, (base, tuple(layers))
-
-    def _best_layer(
-        self, base: int, layers: list[tuple[int, int]], place: int
-    ) -> tuple[tuple[int, int], float]:
-        below = self.picture(base, tuple(layers[:place]))
-        # What is above is a linear function of what is below: value * shows + added.
-        added = self.picture(0, tuple(layers)[place + 1 :])
-        shows = self.picture(1, tuple(layers)[place + 1 :]) - added
-        rest = below * shows + added - self.wanted
-        choices = []
-        for colour in (0, 1):
-            step = shows * (colour - below)
-            errors = 2 * self.masks @ (rest * step * self.weights)
-            errors += (self.masks**2) @ (step * step * self.weights)
-            pattern = int(errors.argmin())
-            choices.append((float(errors[pattern]), (pattern, colour)))
-        gain, best = min(choices)
-        return best, gain + self.error(below * shows + added)
+@cache
+def two_dyes() -> NearestSearch:
+    """The search in an art of white, which is ground, and black, which is ink."""
+    art = read_art(open_packs(()), SHAPES)
+    chosen = [DYES[name].number for name in WORDS]
+    dyed = art.dyed[:, chosen]
+    return NearestSearch(replace(art, bases=art.bases[chosen], dyed=dyed))
 
 
-def searched(rows: list[str], count: int = 4) -> list[str]:
-    """The designs of least error, with a small cost for each layer, as lines of `letters.txt`."""
-    search = GlyphSearch(rows)
-    search.beam(400)
-    for start in sorted(search.found, key=lambda one: search.found[one])[:40:20]:
-        search.kick(start, 150)
-    best = sorted(search.found, key=lambda one: search.found[one] + 2.0 * len(one[1]))
-    words = ("ground", "ink")
-    return [
-        " ".join([words[base], *(f"{SHAPES[pattern]}:{words[c]}" for pattern, c in layers)])
-        for base, layers in best[:count]
-    ]
+def goal_of(rows: list[str]) -> Goal:
+    """What is searched for: a glyph as a face. Ink and ground count alike, however thin one is."""
+    wanted, weights = target(rows)
+    ink = (weights * wanted).sum() / weights.sum()
+    weights = weights * np.where(wanted > 0.5, 0.5 / ink, 0.5 / (1 - ink))
+    search = two_dyes()
+    ground, black = search.art.bases.reshape(2, -1, 3)
+    face = ground + wanted[:, None] * (black - ground)
+    whole = np.rint(weights / weights.max() * 1000)
+    return search.goal(np.rint(face).astype(np.int32), whole)
+
+
+def written(stack: Stack) -> str:
+    """A design as in `letters.txt`."""
+    words, patterns = list(WORDS.values()), two_dyes().art.patterns
+    base, layers = stack
+    return " ".join([words[base], *(f"{patterns[p]}:{words[dye]}" for p, dye in layers)])
+
+
+def composed(character: str) -> Stack:
+    """The design of `letters.txt`."""
+    (banner,) = letter_banners(character, ink="black", ground="white", border=NO_BORDER)
+    dyes, patterns = list(WORDS), two_dyes().art.patterns
+    layers = tuple((patterns.index(one.pattern), dyes.index(one.dye)) for one in banner.layers)
+    return dyes.index(banner.base), layers
+
+
+def searched(rows: list[str], count: int = 3, effort: int = EFFORT) -> list[Stack]:
+    """The designs that are nearest to a glyph, best first."""
+    return nearest_stacks(goal_of(rows), LAYERS, count, effort)
 
 
 def distances() -> dict[str, dict[str, float]]:
@@ -206,15 +145,27 @@ def main() -> None:
     parser.add_argument("--search", default="", metavar="CHARACTERS")
     parser.add_argument("--sheet", type=Path)
     chosen = parser.parse_args()
-    for character in chosen.search:
-        for line in searched(glyphs()[character]):
-            print(character, line)
+    faces = [(character, letter_banners(character)[0]) for character in letter_characters()]
+    if chosen.search:
+        faces = []
+        for character in chosen.search:
+            goal = goal_of(glyphs()[character])
+            stacks = [composed(character), *searched(glyphs()[character])]
+            errors = [goal.error(stack) / int(goal.weights.sum()) / UNIT for stack in stacks]
+            for number, (stack, error) in enumerate(zip(stacks, errors, strict=True)):
+                print(character, f"{error:.4f}", written(stack), "" if number else "(file)")
+            costs = [e + LAYER * len(stack[1]) for e, stack in zip(errors, stacks, strict=True)]
+            best = stacks[1:][int(np.argmin(costs[1:]))]
+            for name, stack in ((character, stacks[0]), (f"{character} found", best)):
+                made = Banner.parse(
+                    written(stack).replace("ground", "white").replace("ink", "black")
+                )
+                faces.append((name, Banner(made.base, (*made.layers, Layer("border", "white")))))
     if chosen.sheet is not None:
         cells = []
-        for character in letter_characters():
-            (banner,) = letter_banners(character)
+        for name, banner in faces:
             sheet = composite(flag_layers(banner, open_packs(())))
-            cells.append(SheetCell(character, FLAG_REGIONS["front"].sample(sheet, 4)))
+            cells.append(SheetCell(name, FLAG_REGIONS["front"].sample(sheet, 4)))
         PictureSheet("Letters", tuple(cells), 14).save(chosen.sheet)
     if chosen.search or chosen.sheet:
         return
