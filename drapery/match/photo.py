@@ -6,13 +6,14 @@ of the best one so far, then the photo is aligned with the best of them, and so 
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner import LOOM_LAYERS, MAX_LAYERS
 from drapery.match.art import HEIGHT, WIDTH, Stack, read_art
-from drapery.match.colours import MEASURED, UNIT, distances, oklab
+from drapery.match.colours import MEASURED, PERCEIVED, UNIT, Metric, distances, oklab
 from drapery.match.light import SeenFace, seen_face
 from drapery.match.nearest import Goal, NearestSearch
 from drapery.match.perspective import (
@@ -32,6 +33,8 @@ from drapery.packs import PackLike, open_packs
 
 _GAINS = (0.7, 0.78, 0.86)
 """Even lights that the search begins with."""
+_METRICS = (MEASURED, PERCEIVED)
+"""What one metric does not find, the other one often does."""
 _LAYER = 40.0
 """What a layer costs, as an error [levels, summed over texels]."""
 _BENT = 6.0
@@ -48,6 +51,8 @@ _STARTS, _TURNS = 3, 6
 """How many designs are refined, and how often at most the best one is."""
 _THINNED = 2
 """How many designs with a layer less are refined in each turn."""
+_DESCENTS = 2
+"""How many designs are improved layer by layer after each search."""
 _WIDTH = 6
 """How many stacks are kept while layers are added."""
 _WEIGHT = 1000
@@ -127,24 +132,26 @@ class _PhotoSearch:
         """Find designs in even lights, with the cloth bent as its outline is."""
         bend = self.view.outline_bend()
         seen = seen_face(self.view.face(bend))
-        for gain in _GAINS:
-            _, quick = self._goals(seen, np.full((HEIGHT * WIDTH, 3), gain))
+        for gain, metric in product(_GAINS, _METRICS):
+            _, quick = self._goals(seen, np.full((HEIGHT * WIDTH, 3), gain), metric)
             stacks = [grown[0] for grown in quick.grow(self.layers, 2 * _WIDTH)]
             self._put(seen, bend, [*stacks, quick.descend(stacks[-1])])
 
     def refine(self, stack: Stack) -> None:
         """Align the photo with a design, and search for better designs in its light."""
         seen, bend = self._realign(stack, self.fits[stack])
-        goal, quick = self._goals(seen, seen.light_on(self._paint(stack)))
-        grown = [stack, *quick.regrown(stack, self.layers, _WIDTH)]
-        near = {one: goal.error(one) for one in grown}
-        best = sorted(near, key=lambda one: near[one])[:3]
-        self._put(seen, bend, [goal.reordered(goal.descend(one)) for one in best])
+        light = seen.light_on(self._paint(stack))
+        for metric in _METRICS:
+            goal, quick = self._goals(seen, light, metric)
+            grown = [stack, *quick.regrown(stack, self.layers, _WIDTH)]
+            near = {one: goal.error(one) for one in grown}
+            best = sorted(near, key=lambda one: near[one])[:_DESCENTS]
+            self._put(seen, bend, [goal.reordered(goal.descend(one)) for one in best])
 
     def vary(self, stack: Stack) -> None:
         """Try the next best layer in place of each one of a design."""
         fit = self.fits[stack]
-        goal, _ = self._goals(fit.seen, fit.light)
+        goal, _ = self._goals(fit.seen, fit.light, MEASURED)
         base, layers = stack
         for place, layer in enumerate(layers):
             table = goal.choices(goal.below(base, layers[:place]), goal.over(layers[place + 1 :]))
@@ -204,11 +211,11 @@ class _PhotoSearch:
         seen = oklab(fit.seen.without(fit.light))
         return float(distances(seen, oklab(self._paint(stack))).mean() / UNIT)
 
-    def _goals(self, seen: SeenFace, light: Reals) -> tuple[Goal, Goal]:
+    def _goals(self, seen: SeenFace, light: Reals, metric: Metric = MEASURED) -> tuple[Goal, Goal]:
         """The face without its light, and the same with every other texel only, which is quick."""
         # Differences are those of what is seen, so they count less where it is dark.
         weights = np.rint(seen.weights * light.mean(axis=1) * _WEIGHT).astype(np.int32)
-        goal = self.search.goal(seen.without(light).reshape(-1), weights, MEASURED)
+        goal = self.search.goal(seen.without(light).reshape(-1), weights, metric)
         row, column = np.divmod(np.arange(HEIGHT * WIDTH), WIDTH)
         return goal, replace(goal, weights=np.where((row + column) % 2, weights, 0))
 
