@@ -66,14 +66,20 @@ export class Cloth {
     for (const [at, name] of this.info.functions) {
       view.setBigInt64(at, BigInt(this.kernels.exports[name]()), true);
     }
+    this.covered = false;
     this.call("aim");
-    this.call("cover");
   }
 
   step(steps = 1) {
     this.array("clock")[1] = BigInt(steps);
+    this.covered = false;
     this.call("play");
-    this.call("cover");
+  }
+
+  // The thick cloth, which is made where it is wanted: a page may make several steps a frame.
+  cover() {
+    if (!this.covered) this.call("cover");
+    this.covered = true;
   }
 
   get time() {
@@ -89,14 +95,17 @@ export class Cloth {
   }
 
   get vertices() {
+    this.cover();
     return this.array("vertices");
   }
 
   get normals() {
+    this.cover();
     return this.array("normals");
   }
 
   get light() {
+    this.cover();
     return this.array("light");
   }
 
@@ -117,6 +126,7 @@ export class Cloth {
   // The picture of the plan's settings with the cloth as it is: what ImageData takes.
   picture() {
     if (!this.info.picture) throw new Error("the plan was written without a picture");
+    this.cover();
     this.call("draw");
     const [width, height] = this.info.picture;
     const pixels = this.array("picture");
