@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Run
-from docs_blocks import DOCS, ROOT, SHELL, Block, Reader, blocks, check_command, commands
+from docs_blocks import DOCS, ROOT, SHELL, Block, Reader, blocks, check_command, commands, prints
 from PIL import Image
 
 from drapery import Banner, draw_face
@@ -97,3 +97,9 @@ def test_a_block_has_the_note_before_it_and_its_title(tmp_path: Path) -> None:
         Block(6, "python", "x.py", "", "b\n"),
     ]
     assert next(blocks(page)).exit_code == 1
+
+
+def test_dots_stand_for_what_a_page_leaves_out() -> None:
+    assert prints("a\n...\nd\n", "a\nb\nc\nd\n") and prints("...\nd\n", "d\n")
+    assert prints("x has 1 texel; ...\n", "x has 1 texel; 25 pixels\n")
+    assert not prints("a\nd\n", "a\nb\nd\n")
