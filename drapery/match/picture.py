@@ -245,5 +245,6 @@ def _importance(face: NDArray[np.uint8], weighting: Weighting) -> NDArray[np.flo
     if weighting == "rare":
         colours = oklab(face).reshape(-1, 3)
         alike = (distances(colours[:, None], colours) < _ALIKE).sum(axis=1)
-        return (alike.max() / alike).reshape(HEIGHT, WIDTH)
+        weights: NDArray[np.float64] = alike.max() / alike
+        return weights.reshape(HEIGHT, WIDTH)
     return np.ones((HEIGHT, WIDTH))
