@@ -56,7 +56,8 @@ def whole_margin(contact: BoxContact) -> float:
 def find_boxes(x0: Array, x: Array, contact: BoxContact, margin: float, near: Candidates) -> bool:
     """List what is within a margin [m] beyond the radius; returns whether there is anything.
 
-    Nothing is listed near a box that nothing touches now: then no contact can move anything.
+    Nothing is listed if nothing touches any box now: then no contact can move anything. Otherwise
+    what is near other boxes is listed too, because contact may move cloth to them.
     """
     bands, bounds, close = contact.bands, near.bounds, near.close
     for band in range(len(close)):
@@ -65,13 +66,18 @@ def find_boxes(x0: Array, x: Array, contact: BoxContact, margin: float, near: Ca
         put(bounds, band, 3, high)
     for i in range(len(x)):
         near.listed[i] = 0
-    found = False
+    found = touched = False
     for k in range(len(contact.halves)):
         near.counts[k, 0] = near.counts[k, 1] = near.counts[k, 2] = 0
         low, high = swept_extent(contact, k)
-        if find_close(bounds, close, grown(low, 0.5 * TOUCH), grown(high, -0.5 * TOUCH)):
-            low, high = grown(low, -margin), grown(high, margin)
-            find_close(bounds, close, low, high)
+        low, high = grown(low, 0.5 * TOUCH), grown(high, -0.5 * TOUCH)
+        touched = touched or find_close(bounds, close, low, high)
+    if not touched:
+        return False
+    for k in range(len(contact.halves)):
+        low, high = swept_extent(contact, k)
+        low, high = grown(low, -margin), grown(high, margin)
+        if find_close(bounds, close, low, high):
             mark_particles(x0, x, bands, low, high, close, near.codes, near.marks)
             find_edges(
                 contact.edges, bands, close, near.codes, near.marks, near.edges, near.counts, k

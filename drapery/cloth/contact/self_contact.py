@@ -12,6 +12,7 @@ from drapery.cloth.contact.box_data import BoxContact, Candidates, empty_candida
 from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
 from drapery.cloth.contact.box_guard import guard_boxes
 from drapery.cloth.contact.geometry import put
+from drapery.cloth.contact.near_boxes import find_boxes, whole_margin
 from drapery.cloth.contact.pair_distance import nearest
 from drapery.cloth.contact.safe_steps import shorten_unsafe
 from drapery.cloth.contact.self_contact_data import SelfContact
@@ -79,6 +80,8 @@ def meet_one(
         length, limit = norm(change), 0.5 * (REACH - 1.0) * contact.thickness
         if length > limit:
             put(x, i, 0, add_scaled(row(wanted, i), limit / length, change))
+    if meets_boxes:  # what was near before the pairs were pushed may not be all
+        find_boxes(x0, x, boxes, whole_margin(boxes), near)
     make_safe(x0, x, pairs, contact, boxes, near)
 
 
