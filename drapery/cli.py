@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from copy import copy
 from io import TextIOWrapper
 from types import FrameType
+from typing import Any
 
 import typer
 from typer.exceptions import TyperException
@@ -72,6 +73,15 @@ for name, command in {
 app.add_typer(golden.app, name="golden")
 app.add_typer(sheet.app, name="sheet")
 app.add_typer(style.app, name="style")
+
+
+class _Stopped(KeyboardInterrupt):
+    """A signal to stop.
+
+    A plain KeyboardInterrupt in code that is compiled from a text, as that of dataclasses, makes
+    CPython end by the signal although it was caught (`run_eval_code_obj` in pythonrun.c).
+    """
+
 
 INTERRUPTED = 130
 """The exit code after Ctrl-C: 128 and the number of SIGINT."""
@@ -140,20 +150,27 @@ def _ended_by_signals(received: list[int]) -> Iterator[None]:
     SIGHUP. Windows has no SIGHUP, and only the main thread may change what signals do.
     """
 
+    usual: dict[int, Any] = {
+        signal.SIGINT: signal.default_int_handler,
+        signal.SIGTERM: signal.SIG_DFL,
+    }
+    if hasattr(signal, "SIGHUP"):
+        usual[signal.SIGHUP] = signal.SIG_DFL
+
     def restore() -> None:
-        for number in numbers:
-            signal.signal(number, signal.SIG_DFL)
+        for number in changed:
+            signal.signal(number, usual[number])
 
     def end(number: int, frame: FrameType | None) -> None:
         restore()
-        received.append(number)
-        raise KeyboardInterrupt
+        if number != signal.SIGINT:
+            received.append(number)
+        raise _Stopped
 
-    known = [getattr(signal, name, None) for name in ("SIGTERM", "SIGHUP")]
     if threading.current_thread() is not threading.main_thread():
-        known = []
-    numbers = [n for n in known if n is not None and signal.getsignal(n) is signal.SIG_DFL]
-    for number in numbers:
+        usual = {}
+    changed = [number for number in usual if signal.getsignal(number) is usual[number]]
+    for number in changed:
         signal.signal(number, end)
     try:
         yield

@@ -23,7 +23,7 @@ def added(monkeypatch: pytest.MonkeyPatch) -> None:
         EntryPoint("broken", "no_such_module:draw", backends.GROUP),
         EntryPoint("soft", "no_such_module:draw", backends.GROUP),
     ]
-    monkeypatch.setattr(backends, "entry_points", lambda group: points)
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda group: points)
 
 
 def test_auto_is_our_own_rasteriser() -> None:

@@ -7,8 +7,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, TextIO
 
-from drapery.jit import when_numba_compiles
-
 if TYPE_CHECKING:
     from rich.progress import Progress
 
@@ -51,6 +49,8 @@ def compile_notice() -> Iterator[None]:
     While this process compiles the cloth's kernels, another one compiles those of the renderer;
     this process then reads them from the cache.
     """
+    from drapery.jit import when_numba_compiles
+
     with when_numba_compiles(_say_compiling):
         yield
 
