@@ -27,9 +27,11 @@ def delayed(address: str, seconds: float) -> Iterator[str]:
     thread = threading.Thread(target=lambda: asyncio.run(serve()), daemon=True)
     thread.start()
     loop, stop, port = started.result(10)
-    yield target._replace(netloc=f"127.0.0.1:{port}").geturl()
-    loop.call_soon_threadsafe(stop.set)
-    thread.join(10)
+    try:
+        yield target._replace(netloc=f"127.0.0.1:{port}").geturl()
+    finally:
+        loop.call_soon_threadsafe(stop.set)
+        thread.join(10)
 
 
 async def _connect(
@@ -54,8 +56,10 @@ async def _pump(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, seco
     async def read() -> None:
         data = b"-"
         while data:
-            with suppress(ConnectionError):
+            try:
                 data = await reader.read(1 << 16)
+            except OSError:
+                data = b""
             under_way.put_nowait((clock() + seconds, data))
 
     reading = asyncio.create_task(read())

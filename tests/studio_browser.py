@@ -28,6 +28,7 @@ FLAGS = (
     *("--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
     *("--disable-quic", "--disable-sync", "--disable-component-update"),
     *("--disable-background-networking", "--force-prefers-reduced-motion"),
+    "--no-proxy-server",
 )
 
 WIDE = (1280, 800)

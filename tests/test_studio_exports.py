@@ -15,6 +15,7 @@ from drapery.settings import Settings
 from drapery.studio import exports
 from drapery.studio.chosen_scene import scene_choice, what_follows
 from drapery.studio.exports import Export, ExportSlots, count_frames, make, stem_of
+from drapery.studio.routes import MEDIA_TYPES
 from drapery.studio.session import Session
 from drapery.studio.snippets import KINDS, ExportRequest, as_command, as_python, file_name
 
@@ -78,6 +79,11 @@ def test_a_page_says_what_a_scene_takes_from_it() -> None:
 
 def test_every_kind_is_tested() -> None:
     assert {*COMMANDS, "json", "html"} == set(KINDS)
+
+
+def test_every_kind_can_be_downloaded() -> None:
+    names = [file_name(ExportRequest(BANNER, PICTURE, kind)) for kind in KINDS]
+    assert {Path(name).suffix for name in names} <= MEDIA_TYPES.keys()
 
 
 def test_a_page_is_that_of_the_command(tmp_path: Path, drapery, playable) -> None:

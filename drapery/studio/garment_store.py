@@ -1,6 +1,7 @@
 """The garment of a tab's own: a TOML file that was sent, checked and given the user's name."""
 
 import re
+import shutil
 from pathlib import Path
 
 from drapery import DraperyError
@@ -37,7 +38,11 @@ class GarmentStore:
             path.write_bytes(upload.path.read_bytes())
             garment = Garment.load(path)
             self._check(garment)
+        except OSError as error:
+            shutil.rmtree(folder, ignore_errors=True)
+            raise OptionError(f"{upload.name} cannot be stored: {error.strerror}") from None
         except DraperyError as error:
+            shutil.rmtree(folder, ignore_errors=True)
             raise type(error)(str(error).replace(str(path), upload.name)) from None
         finally:
             self._uploads.remove(number)

@@ -43,6 +43,13 @@ class _Kept:
     size: int
 
 
+def _moved(entry: PackEntry, folder: Path | None) -> PackEntry:
+    if not entry.upload or folder is None:
+        return entry
+    # A move would fail on Windows, where the tab has the file open.
+    return replace(entry, path=Path(shutil.copyfile(entry.path, folder / entry.path.name)))
+
+
 class KeptWork:
     """The work of closed tabs by the tab's token, oldest first. clock: gives the time [s]."""
 
@@ -54,20 +61,19 @@ class KeptWork:
         return len(self._kept)
 
     def add(self, token: str, work: Work) -> None:
-        """Keep a tab's work; its uploaded packs are moved to a folder of their own."""
+        """Keep a tab's work; its uploaded packs are copied to a folder of their own, because the
+        tab's folder goes when it closes. Raises OSError.
+        """
         uploads = [entry for entry in work.packs if entry.upload]
         folder = Path(tempfile.mkdtemp(prefix="drapery-kept-")) if uploads else None
-        size = 0
-        packs = []
-        for entry in work.packs:
-            if entry.upload and folder is not None:
-                path = folder / entry.path.name
-                shutil.move(entry.path, path)
-                size += path.stat().st_size
-                entry = replace(entry, path=path)
-            packs.append(entry)
-        work = replace(work, packs=tuple(packs))
-        self._kept[token] = _Kept(work, self._clock() + KEEP, folder, size)
+        try:
+            packs = tuple(_moved(entry, folder) for entry in work.packs)
+            size = sum(entry.path.stat().st_size for entry in packs if entry.upload)
+        except OSError:
+            if folder is not None:
+                shutil.rmtree(folder, ignore_errors=True)
+            raise
+        self._kept[token] = _Kept(replace(work, packs=packs), self._clock() + KEEP, folder, size)
         self.prune()
 
     def find(self, token: str) -> Work | None:

@@ -55,6 +55,7 @@ export default {
   watch: {
     wanted() {
       this.at = 0;
+      this.preview(""); // a pattern that is not found any more gets no event of the pointer
     },
   },
   methods: {

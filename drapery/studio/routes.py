@@ -27,6 +27,7 @@ MEDIA_TYPES = {
     ".mp4": "video/mp4",
     ".glb": "model/gltf-binary",
     ".json": "application/json",
+    ".html": "text/html; charset=utf-8",
 }
 
 CACHING = "private, max-age=3600"

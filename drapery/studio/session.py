@@ -1,5 +1,6 @@
 """The session of one browser tab (its document and all that serves it), and all open sessions."""
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -79,8 +80,10 @@ class Session(Document):
         self.survival = work.survival
         same = here == as_tree(work.history.present, work.settings)
         self.history = work.history if same else work.history.push(self.sketch)
-        self.pack_store.restore(work.packs)
-        self.notify("sketch")
+        try:
+            self.pack_store.restore(work.packs)
+        finally:
+            self.notify("sketch")
 
 
 class Sessions:
@@ -119,7 +122,8 @@ class Sessions:
         """End the session of a page that is gone; keep its work if it has any."""
         has_packs = any(entry.upload for entry in session.pack_store.entries)
         if not session.closed and (session.history.past or has_packs):
-            self._kept.add(session.token, session.work)
+            with suppress(OSError):  # without its packs no page can go on from there
+                self._kept.add(session.token, session.work)
         session.close()
 
     def work(self, token: str) -> Work | None:

@@ -47,7 +47,7 @@ def language() -> str:
 def chosen(accepted: str) -> str:
     """The language for a header `Accept-Language` (RFC 9110, section 12.5.4)."""
     weighed: list[tuple[float, int, str]] = []
-    for part in accepted.split(",")[:32]:
+    for part in accepted.lower().replace(" ", "").split(",")[:32]:
         name, _, weight = part.partition(";q=")
         try:
             weighed.append((-float(weight or 1), len(weighed), name.strip()))

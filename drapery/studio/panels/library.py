@@ -211,7 +211,7 @@ class LibraryPanel:
             picture = ui.element("img").props('alt=""')
             picture.props["src"] = f"data:image/png;base64,{b64encode(design.thumbnail).decode()}"
         text_element(name).classes("design-title").props.update({"title": name})
-        translated_text(", ".join(design.tags)).classes("hint design-tags")
+        text_element(", ".join(design.tags)).classes("hint design-tags")
         with ui.element("div").classes("design-acts"):
             edit = button(f"Rename or tag {name}", lambda: self._edit(design), icon="edit")
             gone = button(f"Delete {name}", lambda: self._remove(design.number), icon="delete")

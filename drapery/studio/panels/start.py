@@ -1,5 +1,7 @@
 """The start page: designs to begin with."""
 
+from zlib import crc32
+
 from nicegui import ui
 from nicegui.element import Element
 
@@ -53,8 +55,20 @@ def _card(session: Session, number: int, design: OwnDesign) -> None:
     choice.props.update({"data-own": design.title, "title": described(sketch_of(design.banner))})
     choice.on("click", lambda: session.selection.lay_out(sketch_of(design.banner, design.title)))
     with choice:
-        face_picture(f"/own/{session.token}/{number}.png")
+        picture = face_picture(_address(session, number))
         text_element(design.title)
+
+    def show() -> None:
+        picture.props["src"] = _address(session, number)
+        picture.update()
+
+    session.listen("packs", show)
+
+
+def _address(session: Session, number: int) -> str:
+    """Where a design's face is; another one for other packs, because browsers keep pictures."""
+    read = session.settings.packs, session.settings.format
+    return f"/own/{session.token}/{number}.png?v={crc32(repr(read).encode()):x}"
 
 
 def face_picture(address: str) -> Element:

@@ -28,7 +28,8 @@ def build(session: Session) -> None:
                 step.props.update({"aria-label": words, "title": words})
                 step.props["aria-current"] = "step" if place == now else "false"
                 step.on("click", lambda place=place: session.go_to(place))
-                mark = crc32(repr((states[place], session.settings.packs)).encode())
+                read = session.settings.packs, session.settings.format
+                mark = crc32(repr((states[place], read)).encode())
                 with step:
                     picture = ui.element("img").props('alt="" width=20 height=40')
                     picture.props["src"] = f"/past/{session.token}/{place}.png?v={mark:x}"

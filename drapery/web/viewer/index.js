@@ -39,8 +39,8 @@ export class Viewer extends View {
     for (const [target, name, call] of this.listeners) target.addEventListener(name, call);
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(this.canvas);
-    this.seeing = new IntersectionObserver(([entry]) => {
-      this.away = !entry.isIntersecting;
+    this.seeing = new IntersectionObserver((entries) => {
+      this.away = !entries.at(-1).isIntersecting;
       this.hide();
     });
     this.seeing.observe(this.canvas);
