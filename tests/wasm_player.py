@@ -1,6 +1,8 @@
 """Plays plans in wasmtime, as `cloth.js` does in a browser."""
 
-import fcntl
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -26,11 +28,21 @@ def built_module() -> bytes:
     sources and kept beside numba's kernels."""
     path = module_places()[-1]
     path.parent.mkdir(parents=True, exist_ok=True)
-    with Path(f"{path}.lock").open("wb") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with _locked(Path(f"{path}.lock")):
         if not path.is_file():
             build_module(path, QUICK)
     return path.read_bytes()
+
+
+@contextmanager
+def _locked(path: Path) -> Iterator[None]:
+    """Only one process at a time is here; on Windows several may do the same work."""
+    with path.open("wb") as lock:
+        if sys.platform != "win32":
+            import fcntl
+
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def quick_settings(**options: Any) -> Settings:

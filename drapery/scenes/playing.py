@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.contact import lanes_contact
-from drapery.cloth.live import aim, live_call, play
+from drapery.cloth.live import aim, live_call
+from drapery.cloth.live import play as play_cloth  # what is called `play` here is a scene
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.soft.live_picture import draw_live, make_live_picture
@@ -143,7 +144,7 @@ def _live_panel(stager: Stager, panel: Panel, lanes: int | None) -> LivePanel:
         },
         {
             "aim": LiveKernel("aim", aim, (live, blown, batch.gusts)),
-            "play": LiveKernel(f"play_{method}", play, (live, plan, batch, substeps)),
+            "play": LiveKernel(f"play_{method}", play_cloth, (live, plan, batch, substeps)),
             "cover": LiveKernel("cover", cover, (live.positions, shell)),
         },
         {

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from drapery import draw
 from drapery.banner import Banner, alt_text, write_banner
+from drapery.errors import OptionError
 from drapery.packs import open_packs
 from drapery.render import make_folder, png_bytes, replacing
 from drapery.settings import Placement, Settings
@@ -37,15 +38,16 @@ def page_text(design: Banner | None, settings: Settings) -> str:
     kind = settings.placement if design else settings.kind
     files = {f"{kind}.bin": scene_bytes(design, packs, settings, patterns)}
     files |= {KERNELS: _kernels()}
-    attributes: dict[str, str] = {"kind": kind}
+    title = alt_text(design) if design else kind.title()
+    attributes: dict[str, str] = {"kind": kind, "alt": title}
     if design:
-        attributes |= {"design": write_banner(design, "text"), "alt": alt_text(design)}
+        attributes["design"] = write_banner(design, "text")
     template = (WEB / "page.html").read_text(encoding="utf-8")
     text: str = (
         Environment(autoescape=True)
         .from_string(template)
         .render(
-            title=alt_text(design) if design else kind.title(),
+            title=title,
             attributes=attributes,
             width=settings.size[0],
             height=settings.size[1],
@@ -68,8 +70,13 @@ def write_component(folder: Path, settings: Settings) -> None:
 
     Raises OutputError, and the errors of `scene_bytes`.
     """
+    if settings.rotation or settings.facing is not None:
+        raise OptionError(
+            "the package shows banners that are not turned; leave out rotation and facing"
+        )
+    files = list(_component_files(settings))
     make_folder(folder)
-    for name, data in _component_files(settings):
+    for name, data in files:
         with replacing(folder / name) as partial:
             partial.write_bytes(data)
 

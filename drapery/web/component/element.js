@@ -37,7 +37,7 @@ export class DraperyBanner extends HTMLElement {
   #canvas = document.createElement("canvas");
   #slot = document.createElement("slot");
   #resizing = new ResizeObserver(() => this.#resize());
-  #seeing = new IntersectionObserver(([entry]) => this.#play(entry.isIntersecting));
+  #seeing = new IntersectionObserver((entries) => this.#play(entries.at(-1).isIntersecting));
 
   constructor() {
     super();
@@ -94,7 +94,12 @@ export class DraperyBanner extends HTMLElement {
       const design = this.hasAttribute("design") && readDesign(this.getAttribute("design"));
       const player = await Player.open(this.#canvas, `${this.getAttribute("kind") ?? "standing"}.bin`);
       if (attempt !== this.#attempt) return player.end();
-      if (design) player.setDesign(design);
+      try {
+        if (design) player.setDesign(design);
+      } catch (error) {
+        player.end();
+        throw error;
+      }
       this.#player?.end();
       this.#player = player;
       this.#show(true);
@@ -166,7 +171,11 @@ export class DraperyBanner extends HTMLElement {
     const ratio = devicePixelRatio || 1;
     const finer = ratio < 1.5 ? 2 : 1; // the browser scales the picture down, which smooths edges
     const { clientWidth, clientHeight } = this.#canvas;
-    Object.assign(this.#canvas, { width: Math.round(clientWidth * ratio * finer), height: Math.round(clientHeight * ratio * finer) });
+    const [width, height] = [clientWidth, clientHeight].map((side) => Math.round(side * ratio * finer));
+    if (this.#canvas.width !== width || this.#canvas.height !== height) {
+      Object.assign(this.#canvas, { width, height });
+      if (this.#player?.moved && width && height) this.#player.draw(); // a new size clears the canvas
+    }
     this.#play();
   }
 
@@ -197,7 +206,11 @@ export class DraperyBanner extends HTMLElement {
     if (pointerType !== "mouse") return;
     const side = (2 * offsetX) / this.#canvas.clientWidth - 1;
     const heading = this.#player.azimuth() + this.#player.header.turned + FOLLOW * side;
-    this.#player.setWind(this.#number("wind"), heading);
+    try {
+      this.#player.setWind(this.#number("wind"), heading);
+    } catch (error) {
+      this.#tell(error);
+    }
   }
 }
 

@@ -36,6 +36,7 @@ export class Player extends View {
     this.drawing.setScene(this.header, this.arrays);
     this.drawing.setMoment(this.header, this.arrays);
     if (this.design) this.setDesign(this.design);
+    if (this.moved) this.upload();
     wake(this);
   }
 
@@ -69,7 +70,11 @@ export class Player extends View {
   // speed: [m/s]. heading: to which it blows [degrees from +z towards +x]. Undefined: as planned.
   setWind(speed, heading) {
     for (const cloth of this.cloths) {
-      const [x, , z] = cloth.info.wind;
+      const [x, y, z] = cloth.info.wind;
+      if (speed === undefined && heading === undefined) {
+        cloth.setWind(x, y, z);
+        continue;
+      }
       const angle = heading === undefined ? Math.atan2(x, z) : (heading * Math.PI) / 180;
       const rate = speed ?? Math.hypot(x, z);
       cloth.setWind(rate * Math.sin(angle), 0, rate * Math.cos(angle));
@@ -89,12 +94,19 @@ export class Player extends View {
 
   step(steps) {
     this.moved = true;
-    for (const [number, cloth] of this.cloths.entries()) {
+    for (const cloth of this.cloths) {
       try {
         cloth.step(steps);
       } catch {
         cloth.reset(); // it has blown up
       }
+    }
+    this.upload();
+  }
+
+  // Give the vertices of the cloth to the drawing.
+  upload() {
+    for (const [number, cloth] of this.cloths.entries()) {
       const moment = { runs: [this.header.grip[number]], tints: this.header.tints };
       this.drawing.setMoment(moment, { positions: cloth.vertices, light: cloth.light });
     }
@@ -121,6 +133,7 @@ export class Player extends View {
 
   // Grab the particle nearest to the line of sight, if cloth is what is seen there.
   grabAt(x, y) {
+    this.drop();
     if (!this.hitsCloth(x, y)) return;
     const { origin, along } = this.rayAt(x, y).ray;
     const found = this.cloths.flatMap((cloth) => {

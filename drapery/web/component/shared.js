@@ -26,14 +26,26 @@ export function wake(player) {
 function tick(now) {
   const seconds = Math.min(0.1, (now - before) / 1000);
   before = now;
-  for (const player of awake) if (!players.has(player) || !player.moment(seconds)) awake.delete(player);
+  for (const player of awake) {
+    let goesOn = false;
+    try {
+      goesOn = players.has(player) && player.moment(seconds);
+    } catch (error) {
+      console.warn(`drapery: ${error.message}`); // the other players go on
+    }
+    if (!goesOn) awake.delete(player);
+  }
   if (awake.size) requestAnimationFrame(tick);
 }
 
 // The bytes of a script of the page with this name, or of a file beside this module, which are
 // compressed there; the same object for the same name.
 export function fileBytes(name) {
-  if (!files.has(name)) files.set(name, readFile(name));
+  if (!files.has(name)) {
+    const reading = readFile(name);
+    files.set(name, reading);
+    reading.catch(() => files.delete(name)); // the next element tries again
+  }
   return files.get(name);
 }
 

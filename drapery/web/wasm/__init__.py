@@ -42,18 +42,19 @@ module: memory that grows moves. They hold the start before the first step.
 
 The header of a plan (`info`), JSON: `columns`, `rows` of the grid; `step` [s]; `size` of the panel
 [m]; `origin` of the panel in the body [m]; `pins`: numbers of pinned particles; `wind`: the plan's
-mean wind [m/s]; `vertices`: V; `solver`. Triangles, texture coordinates and materials of the thick
-cloth do not move: the viewer has them from the scene, in the same order of vertices (front sheet,
-back sheet, four for each edge of the rim).
+mean wind [m/s]; `vertices`: V; `method` of stepping. Triangles, texture coordinates and materials
+of the thick cloth do not move: the viewer has them from the scene, in the same order of vertices
+(front sheet, back sheet, four for each edge of the rim).
 
 A plan as bytes, little-endian: the length of the header (4 bytes), the header, padded with blanks
 to a multiple of 16 bytes, then the memory image. The header also has what the loader needs:
-`entry`: the name of the exported kernel; `image`: the image's length in memory, which is at least
-that in the file, the rest is 0; `pointers`: places of 32-bit pointers in the image, whose values
-count from its start; `functions`: places of the addresses of kernels that kernels call, with their
-names; `fields`: the places, types and lengths of the arrays and numbers that the loader uses;
-`module`: the hash of the sources for which it is valid. The order of a kernel's arguments in the
-image is that of numba's data models; nothing about it is written by hand.
+`calls`: by purpose, the name of the exported kernel and the place of its arguments; `image`: the
+image's length in memory, which is at least that in the file, the rest is 0; `pointers`: places of
+32-bit pointers in the image, whose values count from its start; `functions`: places of the
+addresses of kernels that kernels call, with their names; `fields`: the places, types and lengths of
+the arrays and numbers that the loader uses; `module`: the hash of the sources for which it is
+valid. The order of a kernel's arguments in the image is that of numba's data models; nothing about
+it is written by hand.
 
 From Python: `drapery.web.wasm.plan.plans_of(body, settings)` gives the plans of a body's panels,
 and `drapery.web.wasm.module.read_module()` the module.

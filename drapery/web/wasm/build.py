@@ -60,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for other in () if given.cache else path.parent.glob("kernels-*.wasm"):
             if other != path:
                 other.unlink(missing_ok=True)  # it belongs to older sources
-    except DraperyError as error:
+    except (DraperyError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     print(f"{path}: {path.stat().st_size} bytes")
