@@ -112,7 +112,10 @@ def run(
     packs: o.PackOption = None,
     format: o.FormatOption = None,
 ) -> None:
-    """Find the banners that look most like a picture. Ctrl-C shows the best that were found."""
+    """Find the banners that look most like a picture.
+
+    Ctrl-C shows the best that were found, except for a photo.
+    """
     from drapery.match import read_picture
     from drapery.packs import open_packs
 

@@ -31,6 +31,8 @@ _SAMPLES = 4
 """Samples of a texel along each axis; none lies in its outermost 15 %."""
 _APART = 14.0
 """The least distance of a flag's colours from the background's, in 8-bit levels."""
+_OUTLINED = 0.8
+"""The least overlap of what is seen with the flag, over their union, for finding its edges."""
 _FILLED = 0.85
 """The least part of the quadrilateral that a flag fills."""
 
@@ -103,13 +105,14 @@ class PhotoView:
         return np.asarray(upper * (1 - down) + lower * down)
 
     @cached_property
-    def _pixels(self) -> Reals:
-        return self.picture.reshape(-1, 3).astype(np.float64)
+    def _pixels(self) -> NDArray[np.uint8]:
+        return self.picture.reshape(-1, 3)
 
     def outline_bend(self) -> Reals:
         """The bend that moves the left, right and lower edge of the flag to where they are seen.
 
-        It is 0 where no flag before a background of one colour is seen. [2, BENDS].
+        It is 0 where no flag before a background of one colour is seen between the corners.
+        [2, BENDS].
         """
         part = flag_part(self.picture)
         bend = np.zeros((2, BENDS))
@@ -122,6 +125,9 @@ class PhotoView:
         column = np.clip(x / scale, 0, part.shape[1] - 1).astype(np.intp)
         line = np.clip(y / scale, 0, part.shape[0] - 1).astype(np.intp)
         seen = part[line, column]
+        inside = (np.abs(across - 0.5) < 0.5) & (np.abs(down - 0.5) < 0.5)
+        if (seen & inside).sum() < _OUTLINED * (seen | inside).sum():
+            return bend
         rows = np.flatnonzero((v > 0.05) & (v < 0.95) & seen.any(axis=1))
         columns = np.flatnonzero((u > 0.1) & (u < 0.9) & seen.any(axis=0))
         left = u[seen[rows].argmax(axis=1)]
@@ -189,7 +195,9 @@ def flag_part(picture: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
 
     edge = np.concatenate([picture[0], picture[-1], picture[:, 0], picture[:, -1]])
     background = np.median(edge.astype(np.float64), axis=0)
-    apart = np.abs(picture - background).max(axis=-1) > _APART
+    apart = np.zeros(picture.shape[:2], bool)
+    for channel, level in enumerate(background):  # a copy of all channels takes much memory
+        apart |= np.abs(picture[..., channel] - level) > _APART
     parts, count = label(apart)
     sizes = np.bincount(parts.ravel(), minlength=count + 1)
     sizes[0] = 0
