@@ -64,6 +64,11 @@ class SewnCloth:
     texel: float
     order: int = 0
 
+    @property
+    def is_on_body(self) -> bool:
+        """Whether the body stops it; the flag of a banner on the head meets no garment."""
+        return self.solid is None or "body" in self.solid
+
     def pin_path(self, poses: BonePoses) -> PinPath:
         """Where its pins are at a time [s]. poses: of all bones at a time."""
         rest = self.start[self.cloth.inv_mass == 0]

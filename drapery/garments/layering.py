@@ -41,7 +41,8 @@ def put_outside(cloths: Sequence[SewnCloth]) -> tuple[SewnCloth, ...]:
     """The cloths of a wearer, each moved outwards where one of a lower `order` is in its way."""
     placed: list[SewnCloth] = []
     for cloth in cloths:
-        below = [each for each in placed if each.order < cloth.order]
+        on_body = [each for each in placed if each.is_on_body and cloth.is_on_body]
+        below = [each for each in on_body if each.order < cloth.order]
         placed.append(_outside(cloth, below) if below else cloth)
     return tuple(placed)
 

@@ -170,8 +170,8 @@ class Dressed:
         """The longest time step [s]."""
         return STEP if self.wearer is None else WORN_STEP
 
-    def colliders(self, sewn: SewnCloth) -> tuple[Collider, ...]:
-        """What a cloth meets, in the garment's own frame."""
+    def colliders(self, sewn: SewnCloth, *others: SewnCloth) -> tuple[Collider, ...]:
+        """What a cloth, and others that meet it, are stopped by, in the garment's own frame."""
         friction, texel = self.garment.fabric.friction, self.garment.texel
         found = [Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])), friction=FRICTION)]
         for block in self.garment.block:
@@ -185,7 +185,7 @@ class Dressed:
             found += [
                 Collider(box, path, friction=friction)
                 for box, path in self.wearer.held_boxes()
-                if not _begins_in(sewn, box)
+                if not any(_begins_in(each, box) for each in (sewn, *others))
             ]
         return tuple(found)
 
@@ -247,7 +247,11 @@ class Dressed:
         common = replace(sewn[0], solid=common_bones(sewn, tuple(self.wearer.parts)))
         poses = self.wearer.poses
         motion = layered_motion(
-            sewn, worn, self.colliders(common), lambda time: poses(time)["body"], at.every
+            sewn,
+            worn,
+            self.colliders(common, *sewn[1:]),
+            lambda time: poses(time)["body"],
+            at.every,
         )
         moments = islice(motion, at.first, at.first + at.count)
         return [np.stack(moment) for moment in zip(*moments, strict=True)]

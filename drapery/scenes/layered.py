@@ -33,9 +33,9 @@ class WornCloth:
 def meet_each_other(cloths: Sequence[SewnCloth]) -> list[int]:
     """The numbers of the cloths that meet those of other garments.
 
-    The body must stop them: the flag of a banner on the head, for one, meets no garment.
+    The body must stop them.
     """
-    met = [n for n, each in enumerate(cloths) if each.solid is None or "body" in each.solid]
+    met = [number for number, each in enumerate(cloths) if each.is_on_body]
     return met if len({cloths[number].order for number in met}) > 1 else []
 
 
