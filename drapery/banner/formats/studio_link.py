@@ -34,7 +34,9 @@ MAX_JSON = 16 << 10
 
 _LETTERS = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_")
 _REMEDY = "copy the whole link again"
-_ADDRESS = re.compile(r"\s*https?://[^\s?#]{1,256}\?(?:[^\s#]{0,256}&)?d=(a[\w-]{8,})[^\s]*\s*")
+_ADDRESS = re.compile(
+    r"\s*https?://[^\s?#]{1,256}\?(?:[^\s#]{0,256}&)?d=(a[\w-]{8,})(?![\w-])[^\s]*\s*"
+)
 
 
 def recognises(text: str) -> bool:
