@@ -1,6 +1,8 @@
 """The report of changed goldens: its page, its table for a CI job, and accepted pictures."""
 
 import json
+import os
+import re
 from pathlib import Path
 from shutil import copytree
 
@@ -41,7 +43,7 @@ def test_a_changed_texel_is_named_accepted_and_then_as_before(drapery: Run, pack
     assert "layer 1 \\(creeper, red\\) has 1 changed texel" in summary
     page = Path("drapery-report/index.html").read_text(encoding="utf-8")
     assert page.count('<section id="') == 2 and page.count("data:image/png") == 6
-    assert "http" not in page.replace("data:image/png", "")
+    assert "http" not in re.sub(r"base64,[^\"]+", "", page)
 
     (heart,) = Path("drapery-report").glob("case-heart-????????.failure.json")
     decisions = {"accepted": [heart.name.partition(".")[0]], "rejected": []}
@@ -114,6 +116,7 @@ def test_the_action_and_the_hook_call_commands_that_exist() -> None:
     scripts = [step["run"] for step in action["runs"]["steps"] if "run" in step]
     assert scripts == ['"$ACTION/release/check_goldens.sh"']
     assert all("${{" not in script for script in scripts), "inputs must come by the environment"
-    assert (ROOT / "release/check_goldens.sh").stat().st_mode & 0o111
+    if os.name == "posix":
+        assert (ROOT / "release/check_goldens.sh").stat().st_mode & 0o111
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
     assert hook["entry"] == "drapery golden check" and hook["args"] == ["cases.toml"]

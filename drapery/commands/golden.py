@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from drapery.commands.notices import compile_notice
+from drapery.errors import DraperyError
 
 app = typer.Typer(help="Golden images from a TOML or YAML file of cases.", no_args_is_help=True)
 
@@ -33,11 +34,15 @@ def check(
     cases = read_cases(file)
     clear_report(report)
     failed = 0
-    with compile_notice():
-        for outcome in check_cases(cases, file.parent, report):
-            if outcome.fault is not None:
-                failed += 1
-                print(f"{outcome.name}: {outcome.fault}")
+    try:
+        with compile_notice():
+            for outcome in check_cases(cases, file.parent, report):
+                if outcome.fault is not None:
+                    failed += 1
+                    print(f"{outcome.name}: {outcome.fault}")
+    except DraperyError:
+        write_report(report)  # what was found before the case that cannot be drawn
+        raise
     for path in unused_goldens(cases, file.parent):
         print(f"unused golden: {path}")
     page = write_report(report)
@@ -80,5 +85,5 @@ def accept(
 
     paths = list(accept_failures(report, None if only is None else read_approvals(only)))
     for path in paths:
-        print(f"wrote {path}")
+        print(f"wrote {path.as_posix()}")
     print(f"{len(paths)} goldens written")

@@ -105,7 +105,9 @@ def _fault(
     try:
         expected, before = decode(data)
     except GoldenError as error:
-        return f"{path}: {error}; restore it, or replace it with `drapery golden update`"
+        line = f"{path}: {error}; restore it, or replace it with `drapery golden update`"
+        keep_failure(report, "case", case.name, None, frame, line, new)
+        return line
     if agrees(expected, frame, Tolerance(case.tolerance, case.pixels)):
         return None
     line = explain_change(expected, frame, before, notes)

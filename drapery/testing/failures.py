@@ -8,6 +8,7 @@ import hashlib
 import io
 import json
 import re
+import shlex
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from importlib.resources import files
@@ -23,6 +24,8 @@ _FACTS = ".failure.json"
 _CONTENT = ".golden"
 _PICTURES = ("expected", "actual", "difference")
 _PAGE = "index.html"
+_MOST_ROWS = 500
+"""The most rows of a summary: CI services refuse long ones."""
 GOLDENS = (".png", ".sha256")
 """The endings of goldens; no other file is written when pictures are accepted."""
 
@@ -93,7 +96,7 @@ def failures_in(folder: Path) -> list[FailedPicture]:
         try:
             facts = json.loads(path.read_text(encoding="utf-8"))
             name, line, golden = (str(facts[key]) for key in ("name", "line", "golden"))
-        except (OSError, ValueError, KeyError, TypeError) as error:
+        except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
             raise OutputError(f"{path} cannot be read ({error}); run the checks again") from None
         found.append(FailedPicture(path.name.removesuffix(_FACTS), name, line, golden, folder))
     return found
@@ -118,7 +121,9 @@ def markdown_report(folder: Path) -> str:
     if not failures:
         return "All golden pictures are as before.\n"
     plural = "s" if len(failures) > 1 else ""
-    rows = [f"| {_cell(each.name)} | {_cell(each.line)} |" for each in failures]
+    rows = [f"| {_cell(each.name)} | {_cell(each.line)} |" for each in failures[:_MOST_ROWS]]
+    if len(failures) > _MOST_ROWS:
+        rows.append(f"| and {len(failures) - _MOST_ROWS} more | |")
     head = [
         f"**{len(failures)} golden picture{plural} changed.**",
         "",
@@ -133,6 +138,8 @@ def accept_failures(folder: Path, only: Collection[str] | None = None) -> Iterat
     only: the ids of those to accept; None for all. Raises OutputError if a golden would lie
     outside the present folder, as in a report that somebody else made.
     """
+    if not folder.is_dir():
+        raise OutputError(f"{folder} is not a folder; use the report of drapery golden check")
     known = failures_in(folder)
     unknown = set(only or ()) - {each.id for each in known}
     if unknown:
@@ -142,7 +149,7 @@ def accept_failures(folder: Path, only: Collection[str] | None = None) -> Iterat
         if (only is not None and each.id not in only) or not content.exists():
             continue
         path = Path(each.golden)
-        inside = path.resolve().is_relative_to(Path.cwd())
+        inside = "\0" not in each.golden and path.resolve().is_relative_to(Path.cwd().resolve())
         if not each.golden or not inside or path.suffix not in GOLDENS:
             raise OutputError(
                 f"golden {each.golden or each.name!r} is not a golden in this folder; "
@@ -199,7 +206,7 @@ def _page_of(failures: list[FailedPicture], folder: Path) -> str:
         .from_string(texts["html"])
         .render(
             summary=f"{len(failures)} picture{plural} not as expected.",
-            folder=folder.name,
+            folder=shlex.quote(_relative(folder) or folder.name),
             style=texts["css"],
             script=texts["js"],
             entries=[

@@ -10,12 +10,7 @@ let current = -1;
 
 function show(mode) {
   document.body.dataset.mode = mode;
-  for (const image of document.images) {
-  image.decode().then(() => {
-    image.width = image.naturalWidth * Math.max(1, Math.round(WIDTH / image.naturalWidth));
-  });
-}
-for (const each of modes) each.checked = each.value === mode;
+  for (const each of modes) each.checked = each.value === mode;
 }
 
 function go(step) {
