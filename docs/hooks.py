@@ -18,7 +18,7 @@ from drapery.player_settings import PLAYER_OPTIONS
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 from drapery.web.wasm.module import module_places
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).resolve().parent.parent
 AUDIENCES = {"anyone": "yes", "local": "no", "python": "Python only"}
 pages: dict[str, tuple[str, str]] = {}
 """The title and the Markdown of each page, by its path."""
@@ -29,7 +29,7 @@ def on_config(config: Any) -> None:
 
     Pages load the element `<drapery-banner>` if its kernels are built; else they show its picture.
     """
-    if any(path.is_file() for path in module_places()):
+    if module_places()[0].is_file():  # that of the cache may have the kernels of tests alone
         from mkdocs.config.config_options import ExtraScriptValue
 
         script = ExtraScriptValue("element/drapery-banner.js")

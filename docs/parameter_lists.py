@@ -23,7 +23,7 @@ def with_lists(text: str, names: set[str]) -> str:
     listing = False
     for line in text.splitlines():
         found = LINE.match(line)
-        if found and {name.lstrip("*") for name in found[1].split(", ")} <= names:
+        if found and set(found[1].split(", ")) <= names:
             shown = ", ".join(f"`{name}`" for name in found[1].split(", "))
             if not listing and lines and lines[-1]:
                 lines.append("")

@@ -1,9 +1,10 @@
 """Build the source archive and the wheel: `python -m release.build [--platform TAG] [-o dist]`.
 
-The bytes are the same on every run and machine: the times of all files are SOURCE_DATE_EPOCH, by
-default the time of the last commit. With `--platform`, as manylinux_2_17_x86_64, only a wheel is
-built, which holds the kernels that `python -m release.kernels` has compiled before; without it they
-are left out. A wheel of over 1.5 MB is an error.
+The bytes are the same on every run with the same Python: the times of all files are
+SOURCE_DATE_EPOCH, by default the time of the last commit. With `--platform`, as
+manylinux_2_17_x86_64, only a wheel is built, which holds the kernels that `python -m
+release.kernels` and `python -m drapery.web.wasm.build` have compiled before; without it they are
+left out. A wheel of over 1.5 MB is an error.
 """
 
 import argparse
@@ -21,8 +22,11 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 MAX_WHEEL = 1_500_000
 """The most bytes of a wheel; its 700 files of source alone take 1.2 MB."""
-NOT_SOURCES = ("drapery/aot/kernels-*", "drapery/web/wasm/*.wasm")
-"""Built files in a checkout, which no source archive or plain wheel holds."""
+NOT_SOURCES = {
+    "drapery/aot/kernels-*": "release.kernels",
+    "drapery/web/wasm/*.wasm": "drapery.web.wasm.build",
+}
+"""Built files in a checkout, which no source archive or plain wheel holds, and what makes them."""
 
 
 def epoch() -> int:
@@ -60,10 +64,11 @@ def copy_sources(tree: Path, with_built: bool) -> None:
     names = subprocess.run(listed, capture_output=True, text=True, check=True).stdout
     paths = [ROOT / name for name in names.split("\0") if name]
     if with_built:
-        built = [path for pattern in NOT_SOURCES for path in ROOT.glob(pattern)]
-        if not built:
-            raise SystemExit("no kernels are compiled; run python -m release.kernels first")
-        paths += built
+        for pattern, maker in NOT_SOURCES.items():
+            built = sorted(ROOT.glob(pattern))
+            if not built:
+                raise SystemExit(f"there is no {pattern}; run python -m {maker} first")
+            paths += built
     for path in paths:
         if path.is_file():
             copied = tree / path.relative_to(ROOT)

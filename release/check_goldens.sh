@@ -9,7 +9,7 @@ venv=${VENV:-$(mktemp -d)/venv}
 python3 -m venv "$venv"
 bin=$venv/bin
 [ -d "$bin" ] || bin=$venv/Scripts
-"$bin/python" -m pip install --quiet --disable-pip-version-check "${PACKAGE:-$here}[testing]"
+"$bin/python" -m pip install --quiet --disable-pip-version-check "${PACKAGE:-$here}"
 report=${REPORT:-drapery-report}
 exec "$bin/drapery" golden check "${CASES:-cases.toml}" --report "$report" \
   --summary "${GITHUB_STEP_SUMMARY:-/dev/stdout}"

@@ -37,7 +37,7 @@ def test_lines_on_parameters_become_a_list() -> None:
 
 
 def test_the_architecture_page_names_every_package() -> None:
-    text = (ROOT / "docs/explanation/architecture.md").read_text()
+    text = (ROOT / "docs/explanation/architecture.md").read_text("utf-8")
     packages = {path.parent for path in (ROOT / "drapery").glob("*/__init__.py")}
     for package in packages:
         assert f"`{package.relative_to(ROOT).as_posix()}/`" in text
@@ -46,7 +46,7 @@ def test_the_architecture_page_names_every_package() -> None:
 @pytest.mark.parametrize("page", PAGES)
 def test_links_lead_somewhere(page: str) -> None:
     path = ROOT / page
-    for target in re.findall(r"\]\((?!https?:)([^)#]+)", path.read_text()):
+    for target in re.findall(r"\]\((?!https?:)([^)#]+)", path.read_text("utf-8")):
         assert (path.parent / target).exists(), target
 
 
