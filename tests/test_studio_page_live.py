@@ -3,6 +3,7 @@
 import base64
 import io
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -69,6 +70,13 @@ def press(page: Any, key: str, seconds: float) -> None:
     ActionChains(page).key_down(key).pause(seconds).key_up(key).perform()
 
 
+def hold(page: Any, key: str, condition: Callable[[], object]) -> None:
+    """Hold a key until the condition is true: a page that has just been opened answers late."""
+    ActionChains(page).key_down(key).perform()
+    wait_until(condition)
+    ActionChains(page).key_up(key).perform()
+
+
 def shows(page: Any, text: str) -> bool:
     return text in page.find_element(By.CSS_SELECTOR, ".viewer").text
 
@@ -84,10 +92,8 @@ def test_it_waves_and_says_how_often(page: Any) -> None:
 def test_keys_steer_the_wind(page: Any) -> None:
     canvas(page).send_keys("")
     heading = ask(page, "wind")[1]
-    press(page, "a", 0.5)
-    wait_until(lambda: abs(ask(page, "wind")[1] - heading) > 30)
-    press(page, "e", 0.4)
-    wait_until(lambda: ask(page, "wind")[0] > 5)
+    hold(page, "a", lambda: abs(ask(page, "wind")[1] - heading) > 30)
+    hold(page, "e", lambda: ask(page, "wind")[0] > 5)
     speed = page.find_element(By.CSS_SELECTOR, "#panel-motion .control-value")
     wait_until(lambda: float(speed.text.split()[0]) > 5)
     page.execute_script("document.activeElement.blur()")
