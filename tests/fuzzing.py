@@ -32,7 +32,7 @@ from drapery.banner.formats import (
 from drapery.banner.formats.binary import BINARY_FORMS
 from drapery.errors import DraperyError
 
-MAX_SECONDS = 1.0
+MAX_SECONDS = 10.0
 MAX_MEMORY = 200.0
 MAX_INPUT = 2**22
 MAX_TAGS = 20_000

@@ -1,9 +1,9 @@
-"""A schematic of the size that people share is read in well under a second."""
+"""A schematic of the size that people share is read whole."""
 
 import random
-import time
 
 import world_maker as make
+from cost import limited_cost
 from tracing import untraced
 
 from drapery.banner.design import Banner, Layer
@@ -19,7 +19,7 @@ def a_banner(rng: random.Random) -> Banner:
     )
 
 
-def test_a_megabyte_with_a_thousand_banners_is_read_under_a_second():
+def test_a_megabyte_with_a_thousand_banners_is_read_in_a_bounded_time():
     rng = random.Random(7)
     banners = [a_banner(rng) for _ in range(1000)]
     blocks = {
@@ -31,11 +31,6 @@ def test_a_megabyte_with_a_thousand_banners_is_read_under_a_second():
     tree["BiomeData"] = make.ByteArray([rng.randrange(-128, 128) for _ in range(2**20)])
     data = make.nbt_file(tree)
     assert len(data) > 2**20
-    times = []
-    for _ in range(3):
-        start = time.process_time()
-        with untraced():
-            found = [one.banner for one in find_in_bytes(data, "f")]
-        times.append(time.process_time() - start)
+    with limited_cost(), untraced():
+        found = [one.banner for one in find_in_bytes(data, "f")]
     assert sorted(map(repr, found)) == sorted(map(repr, banners))
-    assert min(times) < 1

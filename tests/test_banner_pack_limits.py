@@ -4,13 +4,13 @@ import os
 import random
 import stat
 import struct
-import time
 import zipfile
 import zlib
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from cost import limited_cost
 from pack_maker import BANNER, CREEPER, folder_pack, mcmeta, plain, zip_pack
 
 from drapery.banner.packs.checks import MAX_FILES
@@ -188,9 +188,8 @@ def test_zip_bombs_that_lie_about_their_size(tmp_path: Path) -> None:
     central = data.find(b"PK\1\2")
     data[central + 24 : central + 28] = struct.pack("<I", 1000)
     path.write_bytes(data)
-    start = time.process_time()
-    assert "creeper.png" in refusal(path)
-    assert time.process_time() - start < 1
+    with limited_cost():
+        assert "creeper.png" in refusal(path)
 
 
 def listing(count: int) -> bytes:
@@ -212,9 +211,8 @@ def test_nameless_entries(tmp_path: Path) -> None:
 @pytest.mark.parametrize("count", [MAX_FILES + 1, 1_000_000])
 def test_millions_of_files(tmp_path: Path, count: int) -> None:
     (tmp_path / "a.zip").write_bytes(listing(count))
-    start = time.process_time()
-    assert str(MAX_FILES) in refusal(tmp_path / "a.zip")
-    assert time.process_time() - start < 4
+    with limited_cost(40):
+        assert str(MAX_FILES) in refusal(tmp_path / "a.zip")
 
 
 def test_millions_of_files_behind_a_zip64_record(tmp_path: Path) -> None:

@@ -54,7 +54,7 @@ def queue_of(spawn: Callable[[], Executor], limit: int = 64) -> Iterator[JobQueu
     finally:
         start = time.monotonic()
         queue.close()
-        assert time.monotonic() - start < 3
+        assert time.monotonic() - start < 30
         assert not queue.alive
 
 

@@ -69,7 +69,7 @@ def test_a_service_whose_workers_die_says_so_recovers_and_ends() -> None:
         _wait_until(lambda: get(f"{base}/readyz").status_code == 503)
         start = time.monotonic()
         answer = get(f"{base}/banner.png?{SMALL}&seed=1")
-        assert time.monotonic() - start < 10
+        assert time.monotonic() - start < 20
         assert answer.status_code == 503
         assert "ask again" in answer.json()["detail"][0]
         assert get(f"{base}/banner.png?{SMALL}").status_code == 200, "it was drawn before"

@@ -1,6 +1,5 @@
 """One table describes every option, and all that takes options agrees with it."""
 
-import time
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
@@ -9,6 +8,7 @@ import numpy as np
 import pytest
 import typer.main
 from conftest import Run
+from cost import limited_cost
 
 from drapery import settings
 from drapery.cli import app
@@ -246,8 +246,7 @@ def test_paths_and_packs_in_memory_are_distinguished() -> None:
 
 
 def test_many_unknown_names_are_refused_soon() -> None:
-    start = time.process_time()
-    faults = check_options({f"winds{number}": 1 for number in range(20_000)}, Path())
+    with limited_cost():
+        faults = check_options({f"winds{number}": 1 for number in range(20_000)}, Path())
     assert isinstance(faults, list) and len(faults) == 20_000
     assert "did you mean wind" in faults[0] and "leave it out" in faults[-1]
-    assert time.process_time() - start < 1
