@@ -24,22 +24,26 @@ pages: dict[str, tuple[str, str]] = {}
 """The title and the Markdown of each page, by its path."""
 
 
-def on_config(config: Any) -> None:
+def on_startup(**_: Any) -> None:
     """Copy the sources for mkdocstrings, with `render/` in `drapery/` as it is installed.
 
-    Pages load the element `<drapery-banner>` if its kernels are built; else they show its picture.
+    It is done before any plugin is configured: mkdocstrings leaves out folders that do not exist.
     """
+    copy = ROOT / "build" / "api" / "drapery"
+    shutil.rmtree(copy, ignore_errors=True)
+    sources = shutil.ignore_patterns("__pycache__", "*.png", "*.js", "*.wasm")
+    shutil.copytree(ROOT / "drapery", copy, ignore=sources)
+    shutil.copytree(ROOT / "render", copy / "render", ignore=sources)
+
+
+def on_config(config: Any) -> None:
+    """Let pages load `<drapery-banner>` if its kernels are built; else they show its picture."""
     if module_places()[0].is_file():  # that of the cache may have the kernels of tests alone
         from mkdocs.config.config_options import ExtraScriptValue
 
         script = ExtraScriptValue("element/drapery-banner.js")
         script.type = "module"
         config["extra_javascript"].append(script)
-    copy = ROOT / "build" / "api" / "drapery"
-    shutil.rmtree(copy, ignore_errors=True)
-    sources = shutil.ignore_patterns("__pycache__", "*.png", "*.js", "*.wasm")
-    shutil.copytree(ROOT / "drapery", copy, ignore=sources)
-    shutil.copytree(ROOT / "render", copy / "render", ignore=sources)
 
 
 def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
