@@ -9,6 +9,7 @@ written, kernels are compiled in every process, and a warning says so once.
 """
 
 import hashlib
+import inspect
 import os
 import pickle
 import shutil
@@ -137,7 +138,7 @@ class _Locator(_caching._CacheLocator):  # type: ignore[misc]
 
     def __init__(self, function: Callable[..., object]) -> None:
         self._function = function
-        self._py_file = function.__code__.co_filename  # numba's warnings name it
+        self._py_file = inspect.getfile(function)  # numba's warnings name it
 
     def get_cache_path(self) -> str:
         if self._function.__module__.startswith("drapery."):

@@ -1,6 +1,7 @@
 """The source files that a kernel is compiled from, and a hash of them."""
 
 import hashlib
+import inspect
 import sys
 from collections.abc import Callable
 from functools import cache
@@ -11,7 +12,7 @@ def source_files(function: Callable[..., object]) -> list[Path]:
     """The sources that a kernel may call: those of its top-level package, else only its file."""
     package = package_of(function)
     if not package.startswith("drapery."):
-        return [Path(function.__code__.co_filename)]
+        return [Path(inspect.getfile(function))]
     return _sources_of(package)
 
 
