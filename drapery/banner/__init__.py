@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from drapery.banner.dyes import DYE_NAMES, DYES, Dye
     from drapery.banner.formats.form import BinaryForm, Form
     from drapery.banner.formats.found import FoundBanner, find_banners
+    from drapery.banner.formats.give_details import GIVE_FORMS, ItemDetails, write_give
     from drapery.banner.formats.languages import game_languages, game_titles
     from drapery.banner.formats.reading import read_design, read_designs
     from drapery.banner.formats.registry import (
@@ -56,6 +57,7 @@ __all__ = [
     "DYE_NAMES",
     "FLAG_REGIONS",
     "FORMS",
+    "GIVE_FORMS",
     "LOOM_LAYERS",
     "MAX_LAYERS",
     "PATTERNS",
@@ -67,6 +69,7 @@ __all__ = [
     "Dye",
     "Form",
     "FoundBanner",
+    "ItemDetails",
     "Layer",
     "LoomStep",
     "Pattern",
@@ -99,6 +102,7 @@ __all__ = [
     "unpack_link",
     "write_banner",
     "write_blocks",
+    "write_give",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -110,6 +114,7 @@ __getattr__, __dir__ = lazy_names(
         "banner.dyes": ("DYES", "DYE_NAMES", "Dye"),
         "banner.formats.form": ("BinaryForm", "Form"),
         "banner.formats.found": ("FoundBanner", "find_banners"),
+        "banner.formats.give_details": ("GIVE_FORMS", "ItemDetails", "write_give"),
         "banner.formats.languages": ("game_languages", "game_titles"),
         "banner.formats.studio_link": ("hidden_layers", "pack_link", "unpack_link"),
         "banner.formats.reading": ("read_design", "read_designs"),

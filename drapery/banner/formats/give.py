@@ -4,10 +4,13 @@ Version 1.21.5 changed other components (`tooltip_display`, names as SNBT); they
 banner, and the grammar reads both spellings.
 """
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 from drapery.banner.design import Banner
 from drapery.banner.formats.commands import command_of
 from drapery.banner.formats.snbt import write_snbt
-from drapery.banner.formats.tree import is_banner_id, is_shield_id, names
+from drapery.banner.formats.tree import DataTree, is_banner_id, is_shield_id, names
 
 NAME = "give"
 TITLE = "Java 1.20.5+ command or item argument"
@@ -31,12 +34,13 @@ def write(banner: Banner) -> str:
     return f"/give @p {argument(banner)}"
 
 
-def argument(banner: Banner) -> str:
-    """The item argument: id and components."""
+def argument(banner: Banner, more: Mapping[str, DataTree] = MappingProxyType({})) -> str:
+    """The item argument: id and components. more: other components of the item."""
     shield = banner.kind == "shield"
     components = [f'base_color="{banner.base}"'] if shield else []
     if banner.layers:
         components.append(f"banner_patterns={write_snbt(names(banner.layers))}")
+    components += [f"{name}={write_snbt(value)}" for name, value in more.items()]
     item = "minecraft:shield" if shield else f"minecraft:{banner.base}_banner"
     return f"{item}[{','.join(components)}]" if components else item
 

@@ -1,5 +1,8 @@
 """Java 1.13 to 1.20.4: `white_banner{BlockEntityTag:{Patterns:[{Pattern:"cre",Color:5}]}}`."""
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYES
 from drapery.banner.formats.give import recognises as is_command
@@ -31,15 +34,14 @@ def write(banner: Banner) -> str:
     return f"/give @p {argument(banner)}"
 
 
-def argument(banner: Banner) -> str:
-    """The item argument: id and tag."""
+def argument(banner: Banner, more: Mapping[str, DataTree] = MappingProxyType({})) -> str:
+    """The item argument: id and tag. more: other entries of the tag."""
     layers = legacy_layers(banner.layers, "1.20.4")
     if banner.kind == "shield":
         base = {"Base": DYES[banner.base].number}
-        return f"minecraft:shield{write_snbt(tag(base | _patterns(layers)))}"
-    return f"minecraft:{banner.base}_banner" + (
-        write_snbt(tag(_patterns(layers))) if layers else ""
-    )
+        return f"minecraft:shield{write_snbt(tag(base | _patterns(layers)) | dict(more))}"
+    whole = (tag(_patterns(layers)) if layers else {}) | dict(more)
+    return f"minecraft:{banner.base}_banner" + (write_snbt(whole) if whole else "")
 
 
 def tag(entity: dict[str, DataTree]) -> dict[str, DataTree]:
