@@ -8,9 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from drapery import draw
-from drapery.banner import Banner, alt_text, write_banner
-from drapery.errors import OptionError
-from drapery.packs import open_packs
+from drapery.banner import PATTERN_NAMES, Banner, alt_text, write_banner
+from drapery.errors import DraperyError, OptionError
+from drapery.packs import Packs, open_packs
 from drapery.render import make_folder, png_bytes, replacing
 from drapery.settings import Placement, Settings
 from drapery.web.bundle import WEB, bundled_module
@@ -27,16 +27,16 @@ def page_text(design: Banner | None, settings: Settings) -> str:
     """A page of one file that shows a design as live cloth; it needs no other file or server.
 
     design: None for a cape or elytra. The page begins with the picture of these settings, and
-    keeps it where a browser cannot play the cloth.
+    keeps it where a browser cannot play the cloth. A text after `#` in the page's address is shown
+    in place of the design.
     Raises OptionError, PackError, or WasmBuildError where the kernels of the cloth are not built.
     """
     from jinja2 import Environment
     from markupsafe import Markup
 
     packs = open_packs(settings.packs, format=settings.format)
-    patterns = [layer.pattern for layer in design.layers] if design else []
     kind = settings.placement if design else settings.kind
-    files = {f"{kind}.bin": scene_bytes(design, packs, settings, patterns)}
+    files = {f"{kind}.bin": _scene(design, packs, settings)}
     files |= {KERNELS: _kernels()}
     title = alt_text(design) if design else kind.title()
     attributes: dict[str, str] = {"kind": kind, "alt": title}
@@ -57,6 +57,18 @@ def page_text(design: Banner | None, settings: Settings) -> str:
         )
     )
     return text
+
+
+def _scene(design: Banner | None, packs: Packs, settings: Settings) -> bytes:
+    """The scene with all patterns, because the page's address may hold another design.
+
+    Where all patterns are too large or one is damaged, it has only those of the design.
+    """
+    own = [layer.pattern for layer in design.layers] if design else []
+    try:
+        return scene_bytes(design, packs, settings, [*PATTERN_NAMES, *own])
+    except DraperyError:
+        return scene_bytes(design, packs, settings, own)
 
 
 def write_page(path: Path, design: Banner | None, settings: Settings) -> None:
