@@ -14,7 +14,9 @@ from drapery.banner import (
     loom_steps,
     simplify,
 )
+from drapery.packs import Packs
 from drapery.studio.descriptions import dye_title, pattern_title
+from drapery.studio.icons import icon_address
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
@@ -48,7 +50,8 @@ def build(session: Session) -> None:
         some = "one layer changes" if unseen == 1 else f"{unseen} layers change"
         hint.set_text(f"{some.capitalize()} nothing that can be seen.")
         spare.set_visibility(unseen > 0)
-        recipe.set_content(_recipe(banner, f"/steps/{session.token}", next(version)))
+        address = f"/steps/{session.token}"
+        recipe.set_content(_recipe(banner, session.packs(), address, next(version)))
 
     show()
     session.listen("sketch", show)
@@ -62,8 +65,8 @@ def simplify_design(session: Session) -> None:
         session.selection.lay_out(sketch_of(banner, session.sketch.title), same=True)
 
 
-def _recipe(banner: Banner, address: str, version: int) -> str:
-    items = "".join(_item(one) for one in crafting_items(banner))
+def _recipe(banner: Banner, packs: Packs, address: str, version: int) -> str:
+    items = "".join(_item(one, packs) for one in crafting_items(banner))
     rows = "".join(
         _row(
             f"{address}/{number}.png?v={version}",
@@ -79,13 +82,14 @@ def _recipe(banner: Banner, address: str, version: int) -> str:
     )
 
 
-def _item(item: CraftingItem) -> str:
-    """One item with its count; a hint tells of those that are kept or not crafted."""
+def _item(item: CraftingItem, packs: Packs) -> str:
+    """One item with its icon and count; a hint says if it is kept, and where it comes from."""
     words = f"{item.count} {item.item.replace('_', ' ')}"
     hints = [] if item.consumed else ["kept"]
     hints += [item.source.replace("_", " ")] if item.source else []
     hint = f' <span class="hint">{escape(", ".join(hints))}</span>' if hints else ""
-    return f"<li>{escape(words)}{hint}</li>"
+    picture = f'<img src="{icon_address(item.item, packs)}" alt="" width="24" height="24">'
+    return f"<li>{picture}<span>{escape(words)}{hint}</span></li>"
 
 
 def _row(address: str, did: str, item: str | None) -> str:

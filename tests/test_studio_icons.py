@@ -1,0 +1,36 @@
+"""Every item that a design takes has an icon, of the packs or our own."""
+
+import base64
+import io
+
+import numpy as np
+from PIL import Image
+
+from drapery import Banner, Layer
+from drapery.banner import DYE_NAMES, PATTERN_NAMES, crafting_items
+from drapery.packs import MemoryPack, open_packs
+from drapery.studio.icons import icon_address, own_icon
+
+
+def test_every_item_of_every_pattern_has_an_icon_of_its_own_kind() -> None:
+    paper = own_icon("paper")
+    for dye, pattern in zip(DYE_NAMES * 3, PATTERN_NAMES, strict=False):
+        banner = Banner(dye, (Layer(pattern, dye),))
+        for item in crafting_items(banner):
+            icon = own_icon(item.item)
+            assert icon.shape == (8, 8, 4) and icon[..., 3].any()
+            assert item.item == "paper" or not np.array_equal(icon, paper), item.item
+
+
+def test_wool_and_dye_have_their_dye() -> None:
+    assert not np.array_equal(own_icon("red_wool"), own_icon("lime_wool"))
+    red = own_icon("red_dye")
+    assert red[red[..., 3] > 0][:, 0].mean() > 100
+
+
+def test_a_pack_shows_its_own_item() -> None:
+    blue = np.full((16, 16, 4), (0, 0, 255, 255), np.uint8)
+    pack = MemoryPack(textures={"minecraft:item/red_dye": blue})
+    address = icon_address("red_dye", open_packs((pack,)))
+    data = base64.b64decode(address.partition(",")[2])
+    np.testing.assert_array_equal(np.asarray(Image.open(io.BytesIO(data)).convert("RGBA")), blue)
