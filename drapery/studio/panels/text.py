@@ -2,13 +2,13 @@
 
 from nicegui import context, ui
 
-from drapery import Banner, DesignError
-from drapery.banner import FORMS, write_banner
+from drapery import Banner
 from drapery.studio.components import value_of
 from drapery.studio.descriptions import described
 from drapery.studio.notices import show_notice
+from drapery.studio.panels.written import build_writer
 from drapery.studio.session import Session
-from drapery.studio.sketch import banner_of, sketch_of
+from drapery.studio.sketch import sketch_of
 from drapery.studio.upload_queue import MAX_FOUND, UploadQueue
 from drapery.studio.widgets import button, text_element, translated_text
 
@@ -24,7 +24,7 @@ _PLACEHOLDER = (
 def build(session: Session) -> None:
     """A field that reads designs, and a field to copy the design from."""
     _reader(session)
-    _writer(session)
+    build_writer(session)
 
 
 def _reader(session: Session) -> None:
@@ -108,43 +108,3 @@ def _choices(session: Session, upload_queue: UploadQueue) -> None:
 
 def _shortened(place: str) -> str:
     return place if len(place) <= MAX_PLACE else f"{place[: MAX_PLACE - 1]}…"
-
-
-def _writer(session: Session) -> None:
-    translated_text("Write the design", "h2").classes("heading")
-    forms = {name: form.title for name, form in FORMS.items() if form.write is not None}
-    with ui.element("div").classes("line"):
-        choice = ui.element("select").classes("field grow").props('aria-label="Form of the text"')
-        with choice:
-            for name, title in forms.items():
-                option = text_element(f"{name}: {title}", "option")
-                option.props.update({"value": name, "selected": name == "give"})
-        copy = button("Copy the text", lambda: None, icon="content_copy").classes("primary")
-        with copy:
-            translated_text("Copy").classes("copy-label")
-        copy.props('data-copy="written"')
-    written = ui.element("textarea").classes("field code").props('id="written" rows=6 readonly')
-    written.props.update({"aria-label": "The design as text", "spellcheck": "false"})
-    form = "give"
-
-    def show() -> None:
-        try:
-            text, fault = write_banner(banner_of(session.sketch), form), False
-        except DesignError as error:
-            text, fault = str(error), True
-        written.props["value"] = text
-        written.classes(add="is-fault" if fault else "", remove="" if fault else "is-fault")
-        copy.props["disabled"] = fault
-        for element in (written, copy):
-            element.update()
-
-    def choose(name: object) -> None:
-        nonlocal form
-        form = str(name)
-        show()
-
-    choice.on(
-        "change", lambda event: choose(value_of(event)), js_handler="(e) => emit(e.target.value)"
-    )
-    show()
-    session.listen("sketch", show)

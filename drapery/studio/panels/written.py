@@ -1,0 +1,117 @@
+"""The design as text in any form; give commands have a player, a count, a name and lore."""
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from nicegui import ui
+
+from drapery import Banner, DesignError
+from drapery.banner import FORMS, GIVE_FORMS, ItemDetails, write_banner, write_give
+from drapery.option import Option
+from drapery.studio.panels.fields import Fields
+from drapery.studio.session import Session
+from drapery.studio.sketch import MAX_TITLE, banner_of
+from drapery.studio.translation import translated
+from drapery.studio.widgets import button, translated_text
+
+COUNT = Option("count", "How many items the command gives", int, 1, bounds=(1, 1600))
+MAX_LORE = 500
+"""The most characters of all lines of lore."""
+
+
+@dataclass
+class WrittenForm:
+    """The chosen form, and what a give command says beside the design."""
+
+    form: str = "give"
+    details: ItemDetails = field(default_factory=ItemDetails)
+
+    def text(self, banner: Banner) -> str:
+        """The design as text. Raises DesignError."""
+        if self.form in GIVE_FORMS:
+            return write_give(banner, self.form, self.details)
+        return write_banner(banner, self.form)
+
+
+def build_writer(session: Session) -> None:
+    """The choice of the form, what a command says beside the design, and the text to copy."""
+    chosen = WrittenForm()
+    fields = Fields()
+    translated_text("Write the design", "h2").classes("heading")
+    forms = {name: f"{name}: {form.title}" for name, form in FORMS.items() if form.write}
+
+    def change(**changes: Any) -> None:
+        chosen.details = replace(chosen.details, **changes)
+        show()
+
+    def choose(form: str) -> None:
+        chosen.form = form
+        show()
+
+    with ui.element("div").classes("options"):
+        fields.choice("Form of the text", forms, lambda: chosen.form, choose)
+        with ui.element("div").classes("option-group") as item:
+            _item_fields(fields, chosen, change)
+        with ui.element("div").classes("option-group") as older:
+            fields.tick(
+                "Name and lore for 1.20.5 to 1.21.4",
+                lambda: chosen.details.json_text,
+                lambda on: change(json_text=bool(on)),
+            )
+    with ui.element("div").classes("line"):
+        copy = button("Copy the text", lambda: None, icon="content_copy").classes("primary")
+        with copy:
+            translated_text("Copy").classes("copy-label")
+    copy.props('data-copy="written"')
+    written = ui.element("textarea").classes("field code").props('id="written" rows=6 readonly')
+    written.props.update({"aria-label": translated("The design as text"), "spellcheck": "false"})
+
+    def show() -> None:
+        try:
+            text, fault = chosen.text(banner_of(session.sketch)), False
+        except DesignError as error:
+            text, fault = str(error), True
+        written.props["value"] = text
+        written.classes(add="is-fault" if fault else "", remove="" if fault else "is-fault")
+        copy.props["disabled"] = fault
+        for element in (written, copy):
+            element.update()
+        item.set_visibility(chosen.form in GIVE_FORMS)
+        named = bool(chosen.details.name or chosen.details.lore)
+        older.set_visibility(chosen.form == "give" and named)
+
+    def keep_name() -> None:
+        """The name of a pasted item."""
+        if not session.upload_queue.line:
+            change(name=session.upload_queue.title)
+            fields.refresh()
+
+    show()
+    session.listen("sketch", show)
+    session.upload_queue.listen(keep_name)
+
+
+def _item_fields(fields: Fields, chosen: WrittenForm, change: Any) -> None:
+    fields.line(
+        "Player or selector",
+        lambda: chosen.details.target,
+        lambda text: change(target=str(text).strip() or ItemDetails.target),
+        maxlength=200,
+    )
+    fields.number("Count", COUNT, lambda: chosen.details.count, lambda number: change(count=number))
+    fields.line(
+        "Name of the item",
+        lambda: chosen.details.name,
+        lambda text: change(name=str(text).strip()),
+        maxlength=MAX_TITLE,
+    )
+    fields.line(
+        "Lore, with | between lines",
+        lambda: " | ".join(chosen.details.lore),
+        lambda text: change(lore=_lines(str(text))),
+        maxlength=MAX_LORE,
+    )
+
+
+def _lines(text: str) -> tuple[str, ...]:
+    return tuple(line.strip() for line in text.split("|")) if text.strip() else ()
