@@ -2,13 +2,18 @@
 
 import asyncio
 from collections.abc import AsyncIterator, Iterator
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from drapery import Banner
 from drapery.errors import DesignError, OptionError
 from drapery.garments import find_garment
+from drapery.render import png_bytes
 from drapery.studio.garment_store import MAX_PARTICLES
 from drapery.studio.session import Session
+from drapery.studio.snippets import ExportRequest, as_command, as_python, drawn_garment
 
 SHAWL = """\
 description = "A shawl"
@@ -82,3 +87,31 @@ def test_a_garment_has_a_largest_size(session: Session) -> None:
         session.garment_store.adopt(send(session, big))
     with pytest.raises(DesignError, match=r"is over 65536 bytes; send a smaller one"):
         send(session, "#" * 70_000)
+
+
+def test_a_skin_that_is_sent_becomes_a_player_with_the_design_on_its_head(
+    session: Session,
+) -> None:
+    texels = np.full((64, 64, 4), 255, np.uint8)
+
+    async def pieces(data: bytes) -> AsyncIterator[bytes]:
+        yield data
+
+    def upload(data: bytes) -> int:
+        return asyncio.run(session.uploads.receive(pieces(data), "skin", "Me & I.png")).number
+
+    path = session.garment_store.adopt_skin(upload(png_bytes(texels)))
+    request = ExportRequest(Banner.parse("red"), session.settings, garment="cape", skin=path)
+    player = drawn_garment(request)
+    assert player is not None and player.wearer is not None
+    assert player.wearer.skin == path and player.wearer.head == Banner("red")
+    assert [each.name for each in player.over] == ["cape"]
+    command = as_command(request, session.garment_store.names)
+    assert command.startswith("drapery player --skin 'Me & I.png' --wear cape --head red -o")
+    code = as_python(request, session.garment_store.names)
+    assert 'player_of(PlayerSettings(skin="Me & I.png", wear=["cape"], head="red"))' in code
+    for name, kind in (("tent", "tent"), ("caparison", "caparison")):  # no player wears these
+        other = drawn_garment(replace(request, garment=name))
+        assert other is not None and other.name == kind
+    with pytest.raises(OptionError, match=r"Me & I\.png"):
+        session.garment_store.adopt_skin(upload(png_bytes(texels[:40])))

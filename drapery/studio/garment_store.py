@@ -1,55 +1,83 @@
-"""The garment of a tab's own: a TOML file that was sent, checked and given the user's name."""
+"""The garment and the skin of a tab's own: files that were sent, checked and named by the user."""
 
 import re
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 from drapery import DraperyError
 from drapery.errors import OptionError
-from drapery.garments import Garment, tailor
+from drapery.garments import Garment, check_skin, tailor
 from drapery.studio.document import Document
 from drapery.studio.uploads import Uploads
 
 MAX_PARTICLES = 4096
-"""The most particles of all its pieces."""
+"""The most particles of all pieces of a garment."""
+MAX_SKIN = 1024
+"""The widest skin [pixels]."""
 MAX_NAME = 32
 
 
 class GarmentStore:
-    """The last file of a garment that was sent. path: of it, by which `find_garment` finds it."""
+    """The last garment and the last skin that were sent.
+
+    path: of the garment, by which `find_garment` finds it. title: what the user sees of it. skin:
+    the path of the skin. names: the user's names of the files by their paths.
+    """
 
     def __init__(self, document: Document, uploads: Uploads) -> None:
         self._document = document
         self._uploads = uploads
         self.path: Path | None = None
         self.title = ""
+        self.skin: Path | None = None
+        self.names: dict[str, str] = {}
 
     def adopt(self, number: int) -> str:
-        """Check an uploaded file and keep it in place of the one before; returns its path.
+        """Check an uploaded garment and keep it in place of the one before; returns its path.
 
         Raises OptionError or PackError, whose line names the user's file.
         """
-        upload = self._uploads.get(number, "garment")
+        self.path = self._keep(number, "garment", ".toml", self._check)
+        found = Garment.load(self.path)
+        self.title = f"{self.names[str(self.path)]}: {found.description}".removesuffix(": ")
+        return str(self.path)
+
+    def adopt_skin(self, number: int) -> str:
+        """Check an uploaded skin and keep it in place of the one before; returns its path.
+
+        Raises OptionError or PackError, whose line names the user's file.
+        """
+        self.skin = self._keep(number, "skin", ".png", lambda path: check_skin(path, MAX_SKIN))
+        return str(self.skin)
+
+    def _keep(
+        self, number: int, purpose: str, ending: str, check: Callable[[Path], object]
+    ) -> Path:
+        upload = self._uploads.get(number, purpose)
         stem = re.sub(r"[^a-z0-9_-]+", "-", Path(upload.name).stem.lower())[:MAX_NAME].strip("-")
-        folder = self._document.folder / f"garment-{number}-own"
-        path = folder / f"{stem or 'garment'}.toml"
+        folder = self._document.folder / f"{purpose}-{number}-own"
+        path = folder / f"{stem or purpose}{ending}"
         try:
             folder.mkdir()
             path.write_bytes(upload.path.read_bytes())
-            garment = Garment.load(path)
-            self._check(garment)
+            check(path)
         except OSError as error:
             shutil.rmtree(folder, ignore_errors=True)
             raise OptionError(f"{upload.name} cannot be stored: {error.strerror}") from None
         except DraperyError as error:
             shutil.rmtree(folder, ignore_errors=True)
-            raise type(error)(str(error).replace(str(path), upload.name)) from None
+            line = str(error).replace(str(path), upload.name)
+            if not line.startswith(upload.name):
+                line = f"{upload.name}: {line}"
+            raise type(error)(line) from None
         finally:
             self._uploads.remove(number)
-        self.path, self.title = path, f"{upload.name}: {garment.description}".removesuffix(": ")
-        return str(path)
+        self.names[str(path)] = upload.name
+        return path
 
-    def _check(self, garment: Garment) -> None:
+    def _check(self, path: Path) -> None:
+        garment = Garment.load(path)
         if garment.paths:
             raise OptionError(
                 f"garment {garment.name} names the file {garment.paths[0].name}, which the studio"

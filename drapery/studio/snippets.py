@@ -4,11 +4,18 @@ import json
 import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from drapery import Banner, Settings
 from drapery.banner import write_banner
-from drapery.garments import UNUSED_OPTIONS, Garment, find_garment
+from drapery.garments import (
+    UNUSED_OPTIONS,
+    Garment,
+    PlayerSettings,
+    find_garment,
+    player_of,
+)
 from drapery.option import Option
 from drapery.scenes import Clip, SceneEntry, find_scene
 from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, frame_count
@@ -43,7 +50,8 @@ class ExportRequest:
 
     kind: one of KINDS. seconds, fps: for a loop. scale: pixels per texel, for a face.
     garment: the name or the file of a garment, which is drawn in place of the banner. scene: a
-    ready-made scene, which pictures and animations show in place of the banner.
+    ready-made scene, which pictures and animations show in place of the banner. skin: the name or
+    the file of a skin, whose player wears the garment and has the design on its head or shield.
     """
 
     banner: Banner | None
@@ -54,6 +62,7 @@ class ExportRequest:
     scale: int = SCALE.default
     garment: str | None = None
     scene: SceneChoice | None = None
+    skin: str | None = None
 
 
 def scene_of(request: ExportRequest) -> SceneChoice | None:
@@ -71,23 +80,54 @@ def scene_clip(request: ExportRequest, scene: SceneEntry) -> Clip:
 
 def subject_of(request: ExportRequest) -> Banner | Garment | None:
     """What is drawn: the banner, or a garment, with the banner as its design if it shows one."""
-    found = _garment(request)
+    found = drawn_garment(request)
     if found is None:
         return request.banner
     design = _design_on(request, found)
     return found if design is None else found.with_design(design)
 
 
-def _garment(request: ExportRequest) -> Garment | None:
-    """The garment that is drawn; a face, a page and a design are of the banner."""
+def drawn_garment(request: ExportRequest) -> Garment | None:
+    """The garment or player that is drawn; a face, a page and a design are of the banner.
+
+    Raises OptionError for a garment or a skin that cannot be read.
+    """
+    player = _player(request)
+    if player is not None:
+        return player_of(player)
     if request.garment is None or request.kind in ("face", "html", "json"):
         return None
     return find_garment(request.garment)
 
 
-def _name_of(request: ExportRequest, found: Garment) -> str:
+def _player(request: ExportRequest) -> PlayerSettings | None:
+    """The player that is drawn; None without a skin, and for a garment that no player wears."""
+    if request.skin is None or request.kind in ("face", "html", "json"):
+        return None
+    if request.garment is not None:
+        wearer = find_garment(request.garment).wearer
+        if wearer is None or wearer.kind != "player":
+            return None
+    wear = () if request.garment is None else (request.garment,)
+    if request.banner is None:
+        return PlayerSettings(skin=request.skin, wear=wear)
+    text = write_banner(request.banner, "text")
+    if request.banner.kind == "shield":
+        return PlayerSettings(skin=request.skin, wear=wear, shield=text)
+    return PlayerSettings(skin=request.skin, wear=wear, head=text)
+
+
+def _player_words(player: PlayerSettings, called: Mapping[str, str]) -> dict[str, Any]:
+    """The options of a player that differ from their default, with the user's names of files."""
+    words = {name: getattr(player, name) for name in ("skin", "wear", "head", "shield")}
+    words["skin"] = called.get(player.skin, player.skin)
+    words["wear"] = _Listed(map(_garment_name, player.wear))
+    return {name: value for name, value in words.items() if value}
+
+
+def _garment_name(garment: str) -> str:
     """The name of a garment of the package, or that of a file."""
-    return found.name if request.garment == found.name else f"{found.name}.toml"
+    return Path(garment).name
 
 
 def _design_on(request: ExportRequest, found: Garment) -> Banner | None:
@@ -102,7 +142,7 @@ def file_name(request: ExportRequest, stem: str = "banner") -> str:
 def options_for(request: ExportRequest) -> Settings:
     """The options of this kind of file; the others have their default."""
     given = {name: getattr(request.settings, name) for name in _names(request)}
-    found = _garment(request)
+    found = drawn_garment(request)
     return Settings(**given) if found is None else found.settings(**given)
 
 
@@ -115,15 +155,17 @@ def as_command(
     """
     if scene := scene_of(request):
         return _scene_command(request, scene, stem)
-    found = _garment(request)
+    found, player = drawn_garment(request), _player(request)
     banner = request.banner if found is None else _design_on(request, found)
     design = [] if banner is None else [_quoted(write_banner(banner, "text"))]
     out = _quoted(file_name(request, stem))
     if request.kind == "json":
         return " ".join(["drapery show", *design, "--as json", ">", out])
     command = _COMMANDS.get(request.kind, "animate")
-    if found is not None:
-        command = f"garment {_quoted(_name_of(request, found))}"
+    if player is not None:
+        command, design = "player", [*_player_flags(player, called or {})]
+    elif found is not None:
+        command = f"garment {_quoted(_garment_name(str(request.garment)))}"
         design = ["--design", *design] if design else []
     words = [f"drapery {command}", *design, "-o", out]
     words += [_quoted(word) for word in _flags(request, called or {})]
@@ -136,20 +178,34 @@ def as_python(
     """Lines of Python that write the file."""
     if scene := scene_of(request):
         return _scene_python(request, scene, stem)
-    found, out = _garment(request), _text(file_name(request, stem))
+    found, out = drawn_garment(request), _text(file_name(request, stem))
     banner = [] if found is None and request.banner is None else ["banner"]
     named = _named(request, called or {})
     names, lines = _PYTHON.get(request.kind, _loop)(request, banner, named, out)
-    if found is not None:
+    if player := _player(request):
+        given = _player_words(player, called or {}).items()
+        words = ", ".join(f"{name}={_text(value)}" for name, value in given)
+        names = [*names, "drapery.garments.PlayerSettings", "drapery.garments.player_of"]
+        lines = [f"banner = player_of(PlayerSettings({words}))", *lines]
+    elif found is not None:
         design = _design_on(request, found)
         text = "" if design is None else f".with_design({_text(write_banner(design, 'text'))})"
         names = [*names, "drapery.garments.find_garment"]
-        lines = [f"banner = find_garment({_text(_name_of(request, found))}){text}", *lines]
+        lines = [
+            f"banner = find_garment({_text(_garment_name(str(request.garment)))}){text}",
+            *lines,
+        ]
     elif request.banner is not None:
         names = [*names, "drapery.Banner"]
         text = _text(write_banner(request.banner, "text"))
         lines = [f"banner = Banner.parse({text})", *lines]
     return "\n".join([*_imports(names), "", *lines, ""])
+
+
+def _player_flags(player: PlayerSettings, called: Mapping[str, str]) -> Iterator[str]:
+    for name, value in _player_words(player, called).items():
+        for each in value if isinstance(value, list) else (value,):
+            yield from (f"--{name}", _quoted(each))
 
 
 def _scene_command(request: ExportRequest, scene: SceneChoice, stem: str) -> str:
@@ -195,7 +251,7 @@ _OPTIONS = {"glb": MODEL_OPTIONS, "face": FACE_OPTIONS, "html": WEB_OPTIONS, "js
 
 def _names(request: ExportRequest) -> tuple[str, ...]:
     names: tuple[str, ...] = _OPTIONS.get(request.kind, PICTURE_OPTIONS)
-    if _garment(request) is not None:
+    if drawn_garment(request) is not None:
         names = tuple(name for name in names if name not in (*UNUSED_OPTIONS, "texture"))
     return names
 
@@ -204,7 +260,7 @@ def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any
     """This kind's options that differ from their default, or from those of the garment's file;
     packs have the user's names."""
     values = {name: getattr(request.settings, name) for name in _names(request)}
-    found = _garment(request)
+    found = drawn_garment(request)
     default = Settings() if found is None else found.settings()
     changed = {
         name: value

@@ -38,6 +38,7 @@ PURPOSES = {
     "pack": Purpose(256 << 20, 16),
     "library": Purpose(64 << 20, 1),
     "garment": Purpose(1 << 16, 1, frozenset((".toml",))),
+    "skin": Purpose(4 << 20, 1, frozenset((".png",))),
     "picture": Purpose(64 << 20, 2, frozenset((".png", ".jpg", ".jpeg", ".webp"))),
     # A region file with all its chunks is about 16 MiB.
     "design": Purpose(64 << 20, 8, _DESIGN_ENDINGS),

@@ -51,7 +51,8 @@ class ViewportRequest:
     """What the live cloth shows, in addition to the settings of a picture.
 
     on: whether the wind blows. paused: whether time stands still. scene: a ready-made scene, shown
-    in place of the design. garment: the name of a garment, shown in place of the banner.
+    in place of the design. garment: the name of a garment, shown in place of the banner. skin: the
+    name or path of a skin, whose player is shown with the garment and the design.
     beside: packs for a second view of the design, side by side with the first; None shows only one
     view.
     """
@@ -60,7 +61,13 @@ class ViewportRequest:
     paused: bool = False
     scene: str | None = None
     garment: str | None = None
+    skin: str | None = None
     beside: tuple[str | Path, ...] | None = None
+
+    @property
+    def shown(self) -> tuple[str | None, ...]:
+        """What takes the place of the banner, if anything does."""
+        return self.scene, self.garment, self.skin
 
 
 @cache
@@ -122,9 +129,9 @@ class Viewport:
         self._open_beside(after.beside)
         self.request = after
         self._mark_stale()
-        if (after.scene, after.garment) != (before.scene, before.garment):
-            name = Path(after.scene or after.garment or "").stem
-            kind = "scene" if after.scene else "garment"
+        if after.shown != before.shown:
+            name = Path(after.scene or after.garment or after.skin or "").stem
+            kind = "scene" if after.scene else "garment" if after.garment else "player"
             self.note = f"The {kind} {name} is getting ready." if name else ""
             self._count_change()
             self._wake()
@@ -371,8 +378,9 @@ class Viewport:
         wanted: object = None
         if request.scene is not None:
             wanted = scene_choice(request.scene, _design(document), settings)
-        elif request.garment is not None:
-            wanted = ExportRequest(_design(document), settings, garment=request.garment)
+        elif request.garment is not None or request.skin is not None:
+            worn, skin = request.garment, request.skin
+            wanted = ExportRequest(_design(document), settings, garment=worn, skin=skin)
         if wanted == self._played:
             return
         self._player, self._played = None, wanted

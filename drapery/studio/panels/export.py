@@ -140,7 +140,8 @@ def _copies(session: Session, choice: FileChoice) -> Callable[[], None]:
     python = copy_field("as-python", "Python that makes this file", 5)
 
     def show() -> None:
-        names, stem = session.pack_store.names, stem_of(session.sketch.title)
+        names = session.pack_store.names | session.garment_store.names
+        stem = stem_of(session.sketch.title)
         try:
             request = request_of(session, choice)
         except DraperyError as error:

@@ -73,7 +73,7 @@ def request_of(session: Session, choice: FileChoice) -> ExportRequest:
     made = choice.kind, choice.seconds, choice.fps, choice.scale
     shown = session.viewport.request
     scene = None if shown.scene is None else scene_choice(shown.scene, banner, settings)
-    return ExportRequest(banner, settings, *made, shown.garment, scene)
+    return ExportRequest(banner, settings, *made, shown.garment, scene, shown.skin)
 
 
 BY_VIEW = {"": "by the view"}
@@ -204,5 +204,5 @@ def difference(request: ViewportRequest, kind: str) -> str:
     """What the live banner shows but the file will not contain."""
     if kind == "glb" and request.scene is not None:
         return "A 3-D model shows your banner, not the scene."
-    other = request.scene or request.garment
-    return "A web page shows your banner." if kind == "html" and other is not None else ""
+    is_other = any(request.shown)
+    return "A web page shows your banner." if kind == "html" and is_other else ""

@@ -4,7 +4,7 @@ from functools import cache
 
 from nicegui import run, ui
 
-from drapery.garments import find_garment, garment_names
+from drapery.garments import find_garment, garment_names, skin_names
 from drapery.scenes import find_scene, scene_names
 from drapery.settings import OPTIONS
 from drapery.studio.chosen_scene import what_follows
@@ -12,6 +12,8 @@ from drapery.studio.descriptions import view_title
 from drapery.studio.file_field import FileField
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
+from drapery.studio.sketch import banner_of
+from drapery.studio.snippets import ExportRequest, drawn_garment
 from drapery.studio.translation import translated
 from drapery.studio.viewer import ViewerElement
 from drapery.studio.viewport import in_thread
@@ -49,31 +51,41 @@ def build(session: Session) -> None:
                 "Scene",
                 {None: OWN},
                 lambda: viewport.request.scene,
-                lambda name: viewport.update(scene=name, garment=None),
+                lambda name: viewport.update(scene=name, garment=None, skin=None),
             )
             garments = controls.select(
                 "Garment",
                 {None: NONE},
                 lambda: viewport.request.garment,
-                lambda name: wear(session, name),
+                lambda name: wear(session, name, viewport.request.skin),
+            )
+            skins = controls.select(
+                "Skin",
+                _skins(session),
+                lambda: viewport.request.skin,
+                lambda name: wear(session, viewport.request.garment, name),
             )
             controls.line(
                 lambda: what_follows(viewport.request.scene) if viewport.request.scene else ""
             )
-        FileField(
-            session,
-            "garment",
-            "Drop a garment of your own here, or choose it (.toml)",
-            lambda number: take(number),
-            endings=".toml",
-        )
+        with ui.element("div").classes("live-files"):
+            label = "Drop a garment of your own here, or choose it (.toml)"
+            FileField(session, "garment", label, lambda number: take(number), endings=".toml")
+            label = "Drop a skin here to see its player, or choose it (.png)"
+            FileField(session, "skin", label, lambda number: take_skin(number), endings=".png")
     controls.follow()
 
     async def take(number: int) -> None:
         path = await run.io_bound(session.garment_store.adopt, number)
         if path is not None and not session.closed:
             garments.set_options(_choices(session), value=path)
-            wear(session, path)
+            wear(session, path, viewport.request.skin)
+
+    async def take_skin(number: int) -> None:
+        path = await run.io_bound(session.garment_store.adopt_skin, number)
+        if path is not None and not session.closed:
+            skins.set_options(_skins(session), value=path)
+            wear(session, viewport.request.garment, path)
 
     async def list_scenes() -> None:
         # Listing the scenes imports them, so do it after the first picture.
@@ -97,14 +109,27 @@ def _view(session: Session, controls: Controls, name: str) -> None:
     controls.enabled(button, lambda: session.viewport.request.scene is None)
 
 
-def wear(session: Session, name: str | None) -> None:
-    """Show a garment in the wind and view of its file; None shows the banner again."""
-    if name is not None:
-        found = find_garment(name)
+def wear(session: Session, garment: str | None, skin: str | None) -> None:
+    """Show a garment, or the player of a skin, in the wind and view of its file.
+
+    None for both shows the banner again.
+    """
+    banner = banner_of(session.sketch)
+    found = drawn_garment(ExportRequest(banner, session.settings, garment=garment, skin=skin))
+    if found is not None:
         own = found.settings()
         seen = {option: getattr(own, option) for option in SEEN}
         session.adjust(placement="standing", facing=None, **{**seen, **found.picture})
-    session.viewport.update(garment=name, scene=None)
+    session.viewport.update(scene=None, garment=garment, skin=skin)
+
+
+def _skins(session: Session) -> dict[str | None, str]:
+    """The skins of players, by name or path."""
+    store = session.garment_store
+    choices: dict[str | None, str] = {None: translated(NONE)}
+    if store.skin is not None:
+        choices[str(store.skin)] = store.names[str(store.skin)]
+    return choices | {name: translated(name.capitalize()) for name in skin_names()}
 
 
 def _choices(session: Session) -> dict[str | None, str]:
