@@ -14,6 +14,8 @@ from drapery.studio.descriptions import described
 from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.panels import (
     bar,
+    compare,
+    embed,
     export,
     face,
     layers,
@@ -75,6 +77,8 @@ PANELS = (
     PagePanel("loom", loom.build, "Loom", "handyman", "side"),
     PagePanel("packs", packs.build, "Packs", "inventory_2", "side"),
     PagePanel("export", export.build, "Export", "ios_share", "side"),
+    PagePanel("compare", compare.build, "Compare", "compare", "side"),
+    PagePanel("embed", embed.build, "Embed", "share", "side"),
     PagePanel("library", library.build, "Library", "collections_bookmark", "side"),
 )
 
@@ -133,6 +137,7 @@ def build(session: Session, sessions: Sessions) -> None:
     _write_into_address(session)
     root.on("act", lambda event: bar.act(session, str(event.args)), js_handler=_DETAIL)
     root.on("resume", lambda event: _resume(session, sessions, event.args), js_handler=_DETAIL)
+    root.on("recent", lambda event: session.set_recent(event.args), js_handler=_DETAIL)
     root.on(
         "pasted",
         lambda event: session.upload_queue.read_text(str(event.args)),
@@ -159,7 +164,10 @@ def _write_into_address(session: Session) -> None:
     def write() -> None:
         # It has only base64url characters; none of them can end the quoted text.
         link = write_link(session.sketch, session.settings)
-        client.run_javascript(f'studio.writeAddress("{link}")')
+        sketch = session.sketch
+        plain = Sketch(kind=sketch.kind, origin=sketch.origin)
+        name = "" if sketch == plain else str(sketch.origin or session.token)
+        client.run_javascript(f'studio.writeAddress("{link}", "{name}")')
 
     def name_tab() -> None:
         with client:

@@ -5,6 +5,7 @@ Every address holds the token of an open session; no part of an address is a fil
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Literal
 from urllib.parse import quote
 
 from fastapi import FastAPI, HTTPException, Request, Response
@@ -54,9 +55,10 @@ SessionOf = Callable[[str], Session]
 
 def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
     @app.get("/face/{token}.png")
-    def face(token: str) -> Response:
+    def face(token: str, kind: Literal["banner", "shield"] | None = None) -> Response:
         session = session_of(token)
         shown = session.selection.shown_sketch
+        shown = replace(shown, kind=kind or shown.kind)
         return _picture(session, lambda: face_png(banner_of(shown), session.packs()))
 
     @app.get("/steps/{token}/{count}.png")

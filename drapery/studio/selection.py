@@ -13,8 +13,11 @@ from drapery.studio.descriptions import MIDDLE_LUMINANCE, luminance
 from drapery.studio.document import Document
 from drapery.studio.sketch import Sketch
 
+Kind = Literal["banner", "shield"]
 Chosen = int | Literal["field"] | None
 """A stroke's number, the field, or None; with None, a dye applies to the next layer."""
+
+OTHER_KIND: dict[Kind, Kind] = {"banner": "shield", "shield": "banner"}
 
 
 def visible_on(field: str, dye: str) -> str:
@@ -67,6 +70,14 @@ class Selection:
         if self.chosen is None:
             self.swaps = False
         self.notify()
+
+    def switch_kind(self) -> None:
+        """Put the design on a shield, or on a banner again; a shield is not on a wall."""
+        document = self._document
+        kind = OTHER_KIND[document.sketch.kind]
+        if kind == "shield" and document.settings.placement == "wall":
+            document.adjust(placement="standing", facing=None)
+        self._edit(replace(document.sketch, kind=kind))
 
     def press_dye(self, dye: str) -> None:
         """Dye what is chosen; a layer's dye is also that of the next layer."""

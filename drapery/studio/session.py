@@ -4,14 +4,14 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from drapery import Settings
+from drapery import DesignError, Settings
 from drapery.studio.document import Document
 from drapery.studio.exports import Exports, ExportSlots
 from drapery.studio.garment_store import GarmentStore
 from drapery.studio.kept_work import KeptWork, Work
 from drapery.studio.pack_store import PackStore
 from drapery.studio.selection import Selection
-from drapery.studio.share import as_tree
+from drapery.studio.share import SHARED, as_tree, read_link, with_shared
 from drapery.studio.shared_library import SharedLibrary
 from drapery.studio.sketch import Sketch
 from drapery.studio.upload_queue import UploadQueue
@@ -20,6 +20,8 @@ from drapery.studio.viewport import Viewport
 
 MAX_SESSIONS = 64
 """The most open tabs; more than a person needs."""
+MAX_RECENT = 12
+"""The most designs that a browser remembers."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,8 @@ class Session(Document):
 
     library, slots: shared with the other tabs of the studio; if not given, the session makes them.
     entries: the number of each design's entry in the library, by the origin of its sketch.
-    tags: the tags that the user gave a design, by the same.
+    tags: the tags that the user gave a design, by the same. recent: the latest designs of the
+    user's browser with their options, newest first.
     """
 
     def __init__(
@@ -54,6 +57,7 @@ class Session(Document):
         self.library = library or SharedLibrary(None)
         self.entries: dict[int, int] = {}
         self.tags: dict[int, str] = {}
+        self.recent: tuple[tuple[Sketch, Settings], ...] = ()
         self.selection = Selection(self)
         self.uploads = Uploads(self)
         self.upload_queue = UploadQueue(self.uploads)
@@ -68,6 +72,21 @@ class Session(Document):
         packs = self.pack_store.entries
         own = {**self.entries}, {**self.tags}
         return Work(self.history, self.settings, self.survival, packs, *own)
+
+    def set_recent(self, links: object) -> None:
+        """Take the links of the latest designs from the browser; notifies "recent"."""
+        found = []
+        for link in links[:MAX_RECENT] if isinstance(links, list) else ():
+            with suppress(DesignError):  # it may be of another version
+                found.append(read_link(str(link)))
+        self.recent = tuple(found)
+        self.notify("recent")
+
+    def open(self, sketch: Sketch, settings: Settings) -> None:
+        """Begin with another design and its options; this can be undone. Raises OptionError."""
+        chosen = with_shared(self.settings, settings)
+        self.adjust(**{name: getattr(chosen, name) for name in SHARED})
+        self.selection.lay_out(sketch)
 
     def resume(self, work: Work) -> None:
         """Go on from a tab's work; a design in this page's address becomes its last step.

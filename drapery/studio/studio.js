@@ -11,9 +11,32 @@ const studio = (window.studio = {
   writeAddress,
 });
 
+// The latest designs of this browser, so that a closed tab loses none. name: one for each design.
+const RECENT = "drapery-recent";
+const MAX_RECENT = 12;
+
+function recent() {
+  try {
+    return JSON.parse(localStorage.getItem(RECENT)) ?? [];
+  } catch {
+    return [];
+  }
+}
+
+function remember(name, link) {
+  const others = recent().filter((each) => each.name !== name && each.link !== link);
+  try {
+    localStorage.setItem(RECENT, JSON.stringify([{ name, link }, ...others].slice(0, MAX_RECENT)));
+  } catch {
+    // Without storage there are none.
+  }
+}
+
 // The design in the address. Browsers limit the changes per second, so repeat the last one later.
+// name: "" for a design that is not worth remembering.
 let addressTimer;
-function writeAddress(link) {
+function writeAddress(link, name) {
+  if (name) remember(name, link);
   const write = () => history.replaceState({ session: root().dataset.token }, "", `?d=${link}`);
   clearTimeout(addressTimer);
   addressTimer = setTimeout(write, 500);
@@ -79,7 +102,7 @@ async function copy(text, from) {
 // Shortcuts. They work while no field has the focus.
 const KEYS = {
   "ctrl+z": "undo", "ctrl+shift+z": "redo", "ctrl+y": "redo", "ctrl+d": "duplicate",
-  r: "random", b: "kind", m: "mode", h: "hide", delete: "remove", backspace: "remove",
+  n: "new", r: "random", b: "kind", m: "mode", h: "hide", delete: "remove", backspace: "remove",
   "alt+arrowup": "up", "alt+arrowdown": "down", escape: "none",
 };
 
@@ -205,11 +228,11 @@ document.addEventListener("input", (event) => {
 function resume() {
   const earlier = history.state?.session;
   history.replaceState({ session: root().dataset.token }, "");
-  if (!earlier) return;
   const waiting = setInterval(() => {
     if (!studio.ready) return;
     clearInterval(waiting);
-    root().dispatchEvent(new CustomEvent("resume", { detail: earlier }));
+    if (earlier) root().dispatchEvent(new CustomEvent("resume", { detail: earlier }));
+    root().dispatchEvent(new CustomEvent("recent", { detail: recent().map((each) => each.link) }));
   }, 30);
 }
 

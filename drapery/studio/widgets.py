@@ -40,6 +40,20 @@ def translated_text(text: str, tag: str = "span") -> ui.label:
     return text_element(translated(text), tag)
 
 
+def versus_slider(left: str, right: str, title: str) -> None:
+    """Two pictures, one over the other, with a slider between them.
+
+    left, right: their addresses. title: names the right one; the left one is the current design.
+    """
+    with ui.element("div").classes("versus-slider"):
+        with ui.element("div").classes("versus-faces"):
+            for address in (left, right):
+                ui.element("img").props('alt=""').props["src"] = address
+        slider = ui.element("input").props("type=range min=0 max=100 value=50").classes("slider")
+        label = translated("Left: your design now. Right: {title}").format(title=title)
+        slider.props["aria-label"] = label
+
+
 class SegmentedControl:
     """A row of buttons; exactly one of them is pressed.
 

@@ -3,7 +3,7 @@
 import secrets
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, get_args
+from typing import Any
 
 from nicegui import ui
 
@@ -26,11 +26,17 @@ def build(session: Session) -> None:
         undo = button("Undo", session.undo, icon="undo", key="Ctrl+Z")
         redo = button("Redo", session.redo, icon="redo", key="Ctrl+Shift+Z")
     with ui.element("div").classes("bar-group bar-design"):
+        button("New banner", lambda: start_anew(session), icon="add", key="N")
         button("Random design", lambda: randomise(session), icon="casino", key="R")
         button(
             "Remove all layers", lambda: session.edit(clear(session.sketch)), icon="layers_clear"
         )
-    kind = SegmentedControl("Banner or shield", _KINDS, lambda name: set_kind(session, name))
+
+    def choose_kind(name: str) -> None:
+        if name != session.sketch.kind:
+            session.selection.switch_kind()
+
+    kind = SegmentedControl("Banner or shield", _KINDS, choose_kind)
     mode = SegmentedControl("Layers allowed", _MODES, lambda name: set_mode(session, name))
     ui.element("div").classes("gap")
     button("Light or dark", lambda: None, icon="contrast").classes("theme")
@@ -62,19 +68,15 @@ def _title(session: Session) -> None:
     session.listen("sketch", field.refresh)
 
 
+def start_anew(session: Session) -> None:
+    """Begin with a plain banner or shield; Undo brings the design back."""
+    session.selection.lay_out(Sketch(kind=session.sketch.kind))
+
+
 def randomise(session: Session) -> None:
     """Replace the design by a random one of the same kind."""
     sketch = random_sketch(secrets.randbits(32))
     session.selection.lay_out(replace(sketch, kind=session.sketch.kind))
-
-
-def set_kind(session: Session, name: str) -> None:
-    """Put the design on a banner or a shield."""
-    for kind in get_args(Sketch.__annotations__["kind"]):
-        if kind == name:
-            if kind == "shield" and session.settings.placement == "wall":
-                session.adjust(placement="standing", facing=None)
-            session.edit(replace(session.sketch, kind=kind))
 
 
 def set_mode(session: Session, name: str) -> None:
@@ -89,10 +91,9 @@ def act(session: Session, what: str) -> None:
     actions: dict[str, Callable[[], object]] = {
         "undo": session.undo,
         "redo": session.redo,
+        "new": lambda: start_anew(session),
         "random": lambda: randomise(session),
-        "kind": lambda: set_kind(
-            session, "banner" if session.sketch.kind == "shield" else "shield"
-        ),
+        "kind": selection.switch_kind,
         "mode": lambda: set_mode(session, "commands" if session.survival else "survival"),
         "up": lambda: selection.act_on_chosen("move", 1),
         "down": lambda: selection.act_on_chosen("move", -1),

@@ -11,10 +11,9 @@ from drapery import DraperyError
 from drapery.studio.art import thumbnail
 from drapery.studio.components import value_of
 from drapery.studio.file_field import FileField
-from drapery.studio.notices import Tone, errors_shown, show_notice
+from drapery.studio.notices import Tone, show_notice
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
-from drapery.studio.share import SHARED, with_shared
 from drapery.studio.sketch import MAX_TITLE, banner_of
 from drapery.studio.widgets import button, text_element, translated_text
 
@@ -264,10 +263,11 @@ class LibraryPanel:
         if design is None:
             return
         session = self._session
-        chosen = with_shared(session.settings, design.settings)
-        with errors_shown():
-            session.adjust(**{name: getattr(chosen, name) for name in SHARED})
-        session.selection.lay_out(design.sketch)
+        try:
+            session.open(design.sketch, design.settings)
+        except DraperyError as error:
+            self._notice(str(error), "fault")
+            return
         session.entries[session.sketch.origin] = number
         session.tags[session.sketch.origin] = ", ".join(design.tags)
         self._follow()

@@ -11,7 +11,7 @@ from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.pack_store import PackContents, PackEntry, PackStore
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
-from drapery.studio.widgets import button, text_element, translated_text
+from drapery.studio.widgets import button, text_element, translated_text, versus_slider
 
 NO_PACK = "none"
 OWN_ART = "Drapery's own art"
@@ -157,7 +157,9 @@ def _comparison(session: Session) -> None:
     @ui.refreshable
     def pictures() -> None:
         if other != NO_PACK:
-            _slider(session, other, choices()[other], next(version))
+            now, then = (f"/compare/{session.token}/{which}/face.png" for which in ("now", other))
+            mark = next(version)
+            versus_slider(f"{now}?v={mark}", f"{then}?v={mark}", choices()[other])
             with ui.element("div").classes("versus"):
                 _side(session, "now", "Your packs in their order", next(version))
                 _side(session, other, choices()[other], next(version))
@@ -179,18 +181,6 @@ def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
     if other == "own":
         return ()
     return (str(pack_store.path_of(int(other))),) if other.isdigit() else None
-
-
-def _slider(session: Session, other: str, title: str, version: int) -> None:
-    """The design in both stacks of packs, one over the other, with a slider between them."""
-    with ui.element("div").classes("versus-slider"):
-        with ui.element("div").classes("versus-faces"):
-            for which in ("now", other):
-                picture = ui.element("img").props('alt=""')
-                address = f"/compare/{session.token}/{which}/face.png?v={version}"
-                picture.props["src"] = address
-        slider = ui.element("input").props("type=range min=0 max=100 value=50").classes("slider")
-        slider.props["aria-label"] = f"Left of it your packs, right of it {title}"
 
 
 def _side(session: Session, which: str, caption: str, version: int) -> None:

@@ -8,6 +8,7 @@ _KEYS = {
     "Design": (
         ("Ctrl+Z", "undo"),
         ("Ctrl+Shift+Z, Ctrl+Y", "redo"),
+        ("N", "new banner"),
         ("R", "random design"),
         ("B", "banner or shield"),
         ("M", "survival or commands"),

@@ -1,14 +1,19 @@
 """The start page: designs to begin with."""
 
+from functools import partial
 from zlib import crc32
 
 from nicegui import ui
 from nicegui.element import Element
 
+from drapery import Settings
+from drapery.studio.art import face_address
 from drapery.studio.descriptions import described
 from drapery.studio.design_catalogue import EXAMPLES, OwnDesign, groups, own_designs
+from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
-from drapery.studio.sketch import Sketch, sketch_of
+from drapery.studio.sketch import Sketch, banner_of, sketch_of
+from drapery.studio.translation import translated
 from drapery.studio.widgets import button, text_element, translated_text
 
 
@@ -19,6 +24,9 @@ def build(session: Session) -> None:
         button(
             "A new, plain banner", lambda: session.selection.lay_out(Sketch()), text="New banner"
         ).classes("primary")
+        for name, label in (("library", "Open from the library"), ("text", "Open a text or file")):
+            button(label, partial(_show_tab, name), text=label)
+    _recent(session)
     translated_text("Or change one of these; Undo brings your own design back.", "p").classes(
         "hint"
     )
@@ -28,6 +36,40 @@ def build(session: Session) -> None:
             for number, design in enumerate(own_designs()):
                 if design.group == group:
                     _card(session, number, design)
+
+
+def _show_tab(name: str) -> None:
+    ui.run_javascript(f"studio.tab('{name}')")
+
+
+def _recent(session: Session) -> None:
+    """The latest designs of this browser, also of tabs that were closed."""
+    with ui.element("div") as recent:
+        translated_text("Recent", "h3")
+        row = ui.element("div").classes("own-designs recent-designs")
+
+    def show() -> None:
+        row.clear()
+        recent.set_visibility(bool(session.recent))
+        with row, errors_shown():
+            for sketch, settings in session.recent:
+                _recent_card(session, sketch, settings)
+
+    show()
+    session.listen("recent", show)
+
+
+def _recent_card(session: Session, sketch: Sketch, settings: Settings) -> None:
+    def press() -> None:
+        with errors_shown():
+            session.open(sketch, settings)
+
+    choice = ui.element("button").classes("own-design").props("type=button")
+    choice.props["title"] = described(sketch)
+    choice.on("click", press)
+    with choice:
+        face_picture(face_address(banner_of(sketch), session.packs()))
+        text_element(sketch.title or translated("Untitled"))
 
 
 def build_examples(session: Session) -> None:

@@ -1,0 +1,80 @@
+"""Two designs, one over the other, with a slider between them."""
+
+from itertools import count
+
+from nicegui import ui
+
+from drapery.studio.art import face_address
+from drapery.studio.descriptions import described
+from drapery.studio.form_field import FormField
+from drapery.studio.notices import errors_shown
+from drapery.studio.session import Session
+from drapery.studio.sketch import Sketch, banner_of
+from drapery.studio.translation import translated
+from drapery.studio.widgets import button, translated_text, versus_slider
+
+SCALE = 8
+"""Pixels of a texel."""
+MAX_STEPS = 24
+"""The most designs of the history that can be chosen."""
+
+
+def build(session: Session) -> None:
+    """The choice of the other design, among those of the history, and the slider."""
+    kept: Sketch | None = None
+    version = count()
+    translated_text("Compare designs", "h2").classes("heading")
+    translated_text(
+        "Keep the design as it is now, or choose an earlier one. Then edit, or open another design:"
+        " the slider shows both.",
+        "p",
+    ).classes("hint")
+
+    def states() -> dict[str, Sketch]:
+        """The latest designs of the history by their names in the list, and the kept one."""
+        found = {str(place): each for place, each in enumerate(session.history.states)}
+        latest = dict(list(found.items())[-MAX_STEPS:])
+        return latest if kept is None or kept in latest.values() else {"kept": kept, **latest}
+
+    def choices() -> dict[str, str]:
+        nothing = {"": translated("nothing")}
+        return nothing | {name: _title(name, each) for name, each in states().items()}
+
+    def current() -> str:
+        return next((name for name, each in states().items() if each == kept), "")
+
+    def choose(name: object) -> None:
+        nonlocal kept
+        kept = states().get(str(name))
+        show()
+
+    def keep() -> None:
+        nonlocal kept
+        kept = session.sketch
+        show()
+
+    with ui.element("div").classes("line"):
+        button("Keep this design to compare with", keep, icon="push_pin", text="Keep this design")
+    with ui.element("label").classes("option"):
+        translated_text("Compare with")
+        field = FormField("select", current, choose).classes("field")
+    place = ui.element("div")
+
+    def show() -> None:
+        field.set_choices(choices())
+        place.clear()
+        if kept is None:
+            return
+        with place, errors_shown():
+            other = face_address(banner_of(kept), session.packs(), SCALE)
+            now = f"/face/{session.token}.png?kind={session.sketch.kind}&v=c{next(version)}"
+            versus_slider(now, other, described(kept))
+
+    show()
+    session.listen("sketch", show)
+    session.listen("packs", show)
+
+
+def _title(name: str, sketch: Sketch) -> str:
+    words = sketch.title or described(sketch)
+    return f"{int(name) + 1}: {words}" if name.isdigit() else words
