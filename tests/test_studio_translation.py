@@ -1,11 +1,26 @@
 """The page's catalogues are whole, and the browser's first known language is chosen."""
 
+import asyncio
 import re
+import sys
 
 import pytest
+from fastapi import Request
+from nicegui import Client, core
+from nicegui.page import page
 
 from drapery.banner import DYES, PATTERNS
+from drapery.settings import OPTIONS
+from drapery.studio.descriptions import named
+from drapery.studio.page import build as build_page
+from drapery.studio.panels.live import garment_descriptions, scene_summaries
+from drapery.studio.session import Sessions
 from drapery.studio.translation import GAME_LANGUAGES, catalogue, chosen, translated
+
+SCOPE = {
+    **{"type": "http", "method": "GET", "path": "/", "scheme": "http", "query_string": b""},
+    **{"server": ("127.0.0.1", 80), "headers": [(b"host", b"127.0.0.1")]},
+}
 
 
 @pytest.mark.parametrize(
@@ -36,3 +51,36 @@ def test_a_text_without_a_page_or_a_translation_is_english() -> None:
     assert translated("Undo") == "Undo"
     assert catalogue("de")["Undo"] == "Rückgängig"
     assert catalogue("en") == {}
+
+
+def test_every_text_and_choice_of_the_page_is_in_the_catalogues(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Names of methods, grids and forms of text are the same in all languages."""
+    asked: set[str] = set()
+
+    def note(text: str) -> str:
+        asked.add(text)
+        return text
+
+    for name, module in [*sys.modules.items()]:
+        if name.startswith("drapery.studio.") and hasattr(module, "translated"):
+            monkeypatch.setattr(module, "translated", note)
+
+    async def build() -> None:
+        core.loop = asyncio.get_running_loop()
+        with Client(page("/"), request=Request(SCOPE)):
+            session = sessions.open()
+            build_page(session, sessions)
+            for summary in (*scene_summaries().values(), *garment_descriptions().values()):
+                named("", summary)
+            session.selection.press_pattern("creeper")
+
+    sessions = Sessions()
+    try:
+        asyncio.run(build())
+    finally:
+        sessions.close_all()
+    same = {*OPTIONS["solver"].choices, *OPTIONS["samples"].choices}
+    own = {text for text in asked if re.search(r": | × |format \d", text) or text in map(str, same)}
+    assert sorted(asked - own - set(catalogue("de")) - {""}) == []

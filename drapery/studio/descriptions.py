@@ -63,5 +63,19 @@ def described(sketch: Sketch) -> str:
         for stroke in sketch.strokes
         if not stroke.hidden
     ]
-    field = f"{dye_title(sketch.base)} {sketch.kind}"
-    return f"{field} with {', '.join(layers)}" if layers else field
+    field = translated(f"{{dye}} {sketch.kind}").format(dye=dye_title(sketch.base))
+    if not layers:
+        return field
+    return translated("{design} with {layers}").format(design=field, layers=", ".join(layers))
+
+
+def layer_title(number: int, dye: str, pattern: str) -> str:
+    """A layer in words. number: counted from 1 at the bottom."""
+    words = {"dye": dye_title(dye), "pattern": pattern_title(pattern)}
+    return translated("Layer {number}, {dye} {pattern}").format(number=number, **words)
+
+
+def named(name: str, description: str) -> str:
+    """A garment or a scene in a list: its name and what it is, in other languages only that."""
+    text = translated(description)
+    return f"{name}: {description}" if text == description else text

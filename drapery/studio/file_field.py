@@ -8,6 +8,7 @@ from nicegui import ui
 from drapery import DraperyError
 from drapery.studio.notices import show_notice
 from drapery.studio.session import Session
+from drapery.studio.translation import translated
 from drapery.studio.uploads import PURPOSES
 
 
@@ -33,7 +34,7 @@ class FileField(ui.element, component="file_field.js"):
     ) -> None:
         super().__init__()
         self._props["address"] = f"/upload/{session.token}/{purpose}"
-        self._props["label"] = label
+        self._props["label"] = translated(label)
         self._props["accept"] = endings
         self._props["multiple"] = multiple
         self._props["tab"] = tab

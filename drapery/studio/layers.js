@@ -3,13 +3,13 @@ const DRAG_START = 4; // The distance that the pointer must move before a drag s
 
 export default {
   template: `
-    <ol class="rows" aria-label="Layers, topmost first" @keydown="key" @focusin="remember">
+    <ol class="rows" :aria-label="words.layers" @keydown="key" @focusin="remember">
       <li v-for="row in shown" :key="row.number" class="layer" :data-number="row.number"
         :class="{ chosen: row.number === chosen, concealed: row.hidden, dragged: row.number === dragged }"
         @pointerdown="grab($event, row)">
         <span class="grip" aria-hidden="true" title="Drag to move">⠿</span>
         <button type="button" class="row-main" data-part="main" :aria-pressed="row.number === chosen"
-          :aria-label="name(row)" @click="pick(row)">
+          :aria-label="row.name" @click="pick(row)">
           <span class="row-place" aria-hidden="true">{{ row.place + 1 }}</span>
           <span class="cell thumb" :style="cell(row)"></span>
           <span class="row-words" aria-hidden="true">
@@ -19,12 +19,12 @@ export default {
         </button>
         <span class="row-tools">
           <button type="button" class="tool" data-part="hide" :aria-pressed="row.hidden"
-            :aria-label="(row.hidden ? 'Show ' : 'Hide ') + name(row)" :title="row.hidden ? 'Show (H)' : 'Hide (H)'"
+            :aria-label="(row.hidden ? words.show : words.hide) + ' ' + row.name" :title="(row.hidden ? words.show : words.hide) + ' (H)'"
             @click="act('hide', row)"><i class="material-icons" aria-hidden="true">{{ row.hidden ? 'visibility_off' : 'visibility' }}</i></button>
-          <button type="button" class="tool" data-part="duplicate" :aria-label="'Duplicate ' + name(row)"
-            title="Duplicate (Ctrl+D)" @click="act('duplicate', row)"><i class="material-icons" aria-hidden="true">content_copy</i></button>
-          <button type="button" class="tool" data-part="remove" :aria-label="'Remove ' + name(row)"
-            title="Remove (Delete)" @click="act('remove', row)"><i class="material-icons" aria-hidden="true">close</i></button>
+          <button type="button" class="tool" data-part="duplicate" :aria-label="words.duplicate + ' ' + row.name"
+            :title="words.duplicate + ' (Ctrl+D)'" @click="act('duplicate', row)"><i class="material-icons" aria-hidden="true">content_copy</i></button>
+          <button type="button" class="tool" data-part="remove" :aria-label="words.remove + ' ' + row.name"
+            :title="words.remove + ' (Delete)'" @click="act('remove', row)"><i class="material-icons" aria-hidden="true">close</i></button>
         </span>
       </li>
       <li class="layer layer-field" :class="{ chosen: chosen === 'field' }" key="field">
@@ -60,9 +60,6 @@ export default {
     this.drop?.(false);
   },
   methods: {
-    name(row) {
-      return `Layer ${row.place + 1}, ${row.dyeTitle} ${row.title}`;
-    },
     cell(row) {
       const last = Math.max(1, this.count - 1);
       return {

@@ -15,7 +15,7 @@ from drapery.option import Option
 from drapery.studio.form_field import FormField, Kind
 from drapery.studio.snippets import plain
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, translated_text
+from drapery.studio.widgets import button, text_element, translated_text
 
 Get = Callable[[], Any]
 Change = Callable[[Any], object]
@@ -97,10 +97,12 @@ def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:
 
     name: its id on the page.
     """
+    label = translated(label)
     with ui.element("div").classes("copy"):
         with ui.element("div").classes("copy-head"):
-            translated_text(label, "h3")
-            press = button(f"Copy: {label}", lambda: None, icon="content_copy")
+            text_element(label, "h3")
+            copying = translated("Copy: {label}").format(label=label)
+            press = button(copying, lambda: None, icon="content_copy")
             with press:
                 translated_text("Copy").classes("copy-label")
             press.props.update({"data-copy": name})

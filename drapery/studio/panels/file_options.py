@@ -192,7 +192,13 @@ def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups
         fields.choice("Background", GROUNDS, lambda: "transparent" if plain() else "colour", choose)
         with _only(groups, lambda: not plain()):
             fields.colour("Background colour", colour, paint)
-        _pick(session, fields, "Ground", "ground", BY_VIEW | {name: name for name in BLOCKS})
+        _pick(
+            session,
+            fields,
+            "Ground",
+            "ground",
+            BY_VIEW | {name: name.replace("_", " ") for name in BLOCKS},
+        )
         lights = {str(name): str(name) for name in OPTIONS["light"].choices}
         _pick(session, fields, "Light", "light", BY_VIEW | lights)
         fields.tick(

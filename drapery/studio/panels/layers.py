@@ -7,7 +7,7 @@ from nicegui import ui
 from drapery.banner import DYES, LOOM_LAYERS, MAX_LAYERS, PATTERNS
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import LayerList, value_of
-from drapery.studio.descriptions import dye_colour, dye_title, pattern_title
+from drapery.studio.descriptions import dye_colour, dye_title, layer_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import Stroke
@@ -25,7 +25,8 @@ def build(session: Session) -> None:
 
     def show() -> None:
         shown = sum(not stroke.hidden for stroke in session.sketch.strokes)
-        count.set_text(f"{shown} of {LOOM_LAYERS if session.survival else MAX_LAYERS}")
+        most = LOOM_LAYERS if session.survival else MAX_LAYERS
+        count.set_text(translated("{count} of {most}").format(count=shown, most=most))
         too_many = session.survival and shown > LOOM_LAYERS
         count.classes(add="over" if too_many else "", remove="" if too_many else "over")
         lines = [translated(_TOO_MANY)] * too_many + missing_patterns(session)
@@ -54,7 +55,11 @@ _TOO_MANY = f"A loom makes at most {LOOM_LAYERS} layers. This needs a command."
 _WORDS = {
     "field": "Field",
     "empty": "Choose the field's dye, then click a pattern to add it.",
-    "layers": "Layers",
+    "layers": "Layers, topmost first",
+    "hide": "Hide",
+    "show": "Show",
+    "duplicate": "Duplicate",
+    "remove": "Remove",
 }
 """The texts of the list itself."""
 
@@ -90,6 +95,7 @@ def _row(session: Session, names: tuple[str, ...], place: int, stroke: Stroke) -
         "place": place,
         "index": names.index(stroke.pattern) if stroke.pattern in names else 0,
         "title": pattern_title(stroke.pattern),
+        "name": layer_title(place + 1, stroke.dye, stroke.pattern),
         "dyeTitle": dye_title(stroke.dye),
         "colour": dye_colour(DYES[stroke.dye]),
         "sheet": sheet_address(session, stroke.dye),

@@ -8,7 +8,7 @@ from drapery.garments import find_garment, garment_names, skin_names
 from drapery.scenes import find_scene, scene_names
 from drapery.settings import OPTIONS
 from drapery.studio.chosen_scene import what_follows
-from drapery.studio.descriptions import view_title
+from drapery.studio.descriptions import named, view_title
 from drapery.studio.file_field import FileField
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
@@ -35,11 +35,8 @@ def build(session: Session) -> None:
     with ui.element("div").classes("live"):
         ViewerElement(session).classes("live-view")
         with ui.element("div").classes("live-bar"):
-            with (
-                ui.element("div")
-                .classes("live-views")
-                .props('role="group" aria-label="Views of the banner"')
-            ):
+            with ui.element("div").classes("live-views").props('role="group"') as views:
+                views.props["aria-label"] = translated("View")
                 for name in OPTIONS["view"].choices:
                     _view(session, controls, str(name))
             pause = controls.button(
@@ -89,8 +86,9 @@ def build(session: Session) -> None:
 
     async def list_scenes() -> None:
         # Listing the scenes imports them, so do it after the first picture.
-        names, _ = await in_thread(lambda: (_scenes(), _garments()))
+        found, _ = await in_thread(lambda: (scene_summaries(), garment_descriptions()))
         if not session.closed:
+            names = {name: named(name, summary) for name, summary in found.items()}
             scenes.set_options({None: translated(OWN), **names}, value=viewport.request.scene)
             garments.set_options(_choices(session), value=viewport.request.garment)
 
@@ -138,17 +136,16 @@ def _choices(session: Session) -> dict[str | None, str]:
     choices: dict[str | None, str] = {None: translated(NONE)}
     if own.path:
         choices[str(own.path)] = own.title
-    choices.update(_garments())
-    return choices
+    return choices | {name: named(name, each) for name, each in garment_descriptions().items()}
 
 
 @cache
-def _garments() -> dict[str, str]:
+def garment_descriptions() -> dict[str, str]:
     """All garments with their descriptions."""
-    return {name: f"{name}: {find_garment(name).description}" for name in garment_names()}
+    return {name: find_garment(name).description for name in garment_names()}
 
 
 @cache
-def _scenes() -> dict[str, str]:
+def scene_summaries() -> dict[str, str]:
     """All ready-made scenes with their summaries."""
-    return {name: f"{name}: {find_scene(name).summary}" for name in scene_names()}
+    return {name: find_scene(name).summary for name in scene_names()}

@@ -20,6 +20,7 @@ from drapery.studio.icons import icon_address
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
+from drapery.studio.translation import translated
 from drapery.studio.widgets import button, text_element, translated_text
 
 
@@ -75,7 +76,8 @@ def _recipe(banner: Banner, packs: Packs, address: str, version: int) -> str:
         )
         for number, step in enumerate(loom_steps(banner), 1)
     )
-    return f'<h3>Items</h3><ul class="goods">{items}</ul><h3>Steps</h3>' + (
+    headings = [escape(translated(text)) for text in ("Items", "Steps")]
+    return f'<h3>{headings[0]}</h3><ul class="goods">{items}</ul><h3>{headings[1]}</h3>' + (
         f'<ol class="steps">{rows}</ol>'
         if rows
         else '<p class="hint">None: the banner is plain.</p>'

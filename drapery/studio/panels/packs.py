@@ -11,26 +11,28 @@ from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.pack_store import PackContents, PackEntry, PackStore
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
+from drapery.studio.translation import translated
 from drapery.studio.widgets import button, text_element, translated_text, versus_slider
 
 NO_PACK = "none"
 OWN_ART = "Drapery's own art"
 FORMATS = {
-    "": "what each pack says",
-    "75": "1.21.11 (format 75)",
-    "46": "1.21.4 (format 46)",
-    "34": "1.21 (format 34)",
-    "15": "1.20 (format 15)",
-    "8": "1.18 (format 8)",
-    "6": "1.16.2 to 1.16.5 (format 6)",
-    "4": "1.13 and 1.14, with masks (format 4)",
-    "3": "1.11 and 1.12, with masks (format 3)",
-    "1": "1.8, with masks (format 1)",
+    "75": "1.21.11",
+    "46": "1.21.4",
+    "34": "1.21",
+    "15": "1.20",
+    "8": "1.18",
+    "6": "1.16.2 - 1.16.5",
+    "4": "1.13 - 1.14",
+    "3": "1.11 - 1.12",
+    "1": "1.8",
 }
 """Pack formats that the page offers, with the versions of the game that use them.
 
 https://minecraft.wiki/w/Pack_format
 """
+MASKED = frozenset({"4", "3", "1"})
+"""Formats whose sheets are masks."""
 
 
 def build(session: Session) -> None:
@@ -95,11 +97,18 @@ def _format(session: Session) -> None:
         return "" if session.settings.format is None else str(session.settings.format)
 
     fields = Fields()
-    formats = dict(FORMATS)
+    formats = {"": "what each pack says"} | {number: _format_title(number) for number in FORMATS}
     formats.setdefault(current(), f"pack format {current()}")
     with ui.element("div").classes("options"):
         fields.choice("Read packs as", formats, current, choose)
     session.listen("settings", fields.refresh)
+
+
+def _format_title(number: str) -> str:
+    words = (
+        "{game}, with masks (format {number})" if number in MASKED else "{game} (format {number})"
+    )
+    return translated(words).format(game=FORMATS[number], number=number)
 
 
 def _row(session: Session, entry: PackEntry) -> None:

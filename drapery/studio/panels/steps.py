@@ -6,6 +6,7 @@ from nicegui import ui
 
 from drapery.studio.descriptions import described
 from drapery.studio.session import Session
+from drapery.studio.translation import translated
 
 SHOWN = 12
 """The most states on the strip: those around the current one."""
@@ -13,7 +14,8 @@ SHOWN = 12
 
 def build(session: Session) -> None:
     """The strip, once there is more than one state."""
-    strip = ui.element("div").classes("steps-strip").props('role="group" aria-label="History"')
+    strip = ui.element("div").classes("steps-strip").props('role="group"')
+    strip.props["aria-label"] = translated("History")
 
     def show() -> None:
         states, now = session.history.states, len(session.history.past)
@@ -23,7 +25,9 @@ def build(session: Session) -> None:
         first = max(0, min(now - SHOWN // 2, len(states) - SHOWN))
         with strip:
             for place in range(first, min(len(states), first + SHOWN)):
-                words = f"Step {place + 1}: {described(states[place])}"
+                words = translated("Step {number}: {design}").format(
+                    number=place + 1, design=described(states[place])
+                )
                 step = ui.element("button").classes("step").props("type=button")
                 step.props.update({"aria-label": words, "title": words})
                 step.props["aria-current"] = "step" if place == now else "false"

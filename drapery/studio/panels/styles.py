@@ -6,7 +6,8 @@ from nicegui.element import Element
 from drapery.studio.art import style_address
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
-from drapery.studio.widgets import text_element, translated_text
+from drapery.studio.translation import translated
+from drapery.studio.widgets import translated_text
 from drapery.styles import find_style, style_names
 
 
@@ -31,12 +32,13 @@ def build(session: Session) -> None:
             picture.props["src"] = style_address(session, name)
             picture.update()
 
-    with ui.element("div").classes("styles").props('role="group" aria-label="Styles"'):
+    with ui.element("div").classes("styles").props('role="group"') as group:
+        group.props["aria-label"] = translated("Styles")
         for name in style_names():
             with ui.element("button").classes("style").props("type=button") as button:
                 button.props.update({"data-style": name, "title": find_style(name).description})
                 pictures[name] = ui.element("img").props("loading=lazy alt=")
-                text_element(name)
+                translated_text(name.replace("-", " "))
             buttons[name] = button.on("click", lambda name=name: press(name))
     translated_text(
         "The live banner has the shapes and the texture of a style. Its lines, tones and large"
