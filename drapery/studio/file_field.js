@@ -15,17 +15,19 @@ export default {
     address: String, label: String, accept: String, multiple: Boolean, maxBytes: Number,
     // The tab that opens when a file with such an ending is dropped elsewhere on the page.
     tab: String,
+    // A selector: files with such an ending that are dropped there are for this field alone.
+    zone: String,
   },
   data() {
     return { over: false, busy: false, share: 0, sending: "" };
   },
   mounted() {
-    if (!this.tab) return;
+    if (!this.tab && !this.zone) return;
     this.catch = (event) => this.catches(event);
     document.addEventListener("drop", this.catch, true);
   },
   beforeUnmount() {
-    if (this.tab) document.removeEventListener("drop", this.catch, true);
+    if (this.catch) document.removeEventListener("drop", this.catch, true);
   },
   methods: {
     catches(event) {
@@ -33,10 +35,11 @@ export default {
       const endings = this.accept.split(",").filter((each) => each.startsWith("."));
       const wanted = files.filter((file) => endings.some((each) => file.name.toLowerCase().endsWith(each)));
       if (!wanted.length || event.target.closest?.(".file-field")) return;
+      if (this.zone && !event.target.closest?.(this.zone)) return;
       event.preventDefault();
-      event.stopPropagation();
+      event.stopImmediatePropagation();
       document.body.classList.remove("dropping");
-      window.studio?.tab(this.tab);
+      if (this.tab) window.studio?.tab(this.tab);
       this.send(wanted);
     },
     choose(event) {

@@ -18,7 +18,8 @@ class FileField(ui.element, component="file_field.js"):
     purpose: one of PURPOSES. take: a callable that gets the number of each file that has arrived;
     if a file is refused, the user sees the reason. endings: for example `.zip,.jar`; "" accepts
     all. tab: the panel that opens when a file with such an ending is dropped elsewhere on the
-    page; "" opens none.
+    page; "" opens none. zone: a CSS selector of the part of the page on which files with such an
+    ending are for this field alone; "" has none.
     """
 
     def __init__(
@@ -31,6 +32,7 @@ class FileField(ui.element, component="file_field.js"):
         endings: str = "",
         multiple: bool = False,
         tab: str = "",
+        zone: str = "",
     ) -> None:
         super().__init__()
         self._props["address"] = f"/upload/{session.token}/{purpose}"
@@ -38,6 +40,7 @@ class FileField(ui.element, component="file_field.js"):
         self._props["accept"] = endings
         self._props["multiple"] = multiple
         self._props["tab"] = tab
+        self._props["zone"] = zone
         self._props["maxBytes"] = PURPOSES[purpose].max_bytes
 
         async def sent(event: Any) -> None:

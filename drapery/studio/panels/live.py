@@ -17,6 +17,7 @@ from drapery.studio.snippets import ExportRequest, drawn_garment
 from drapery.studio.translation import translated
 from drapery.studio.viewer import ViewerElement
 from drapery.studio.viewport import in_thread
+from drapery.studio.widgets import translated_text
 
 OWN = "your banner"
 """The choice that shows the design instead of a scene."""
@@ -24,6 +25,8 @@ NONE = "none"
 """The choice that shows the banner instead of a garment."""
 SEEN = ("view", "rotation", "wind", "direction", "gusts")
 """The options that begin anew with each garment."""
+ZONE = ".panel-live"
+"""Where the files of garments and skins are dropped."""
 LATER = 1.5
 """The delay between building the page and listing the scenes [s]."""
 
@@ -65,11 +68,12 @@ def build(session: Session) -> None:
             controls.line(
                 lambda: what_follows(viewport.request.scene) if viewport.request.scene else ""
             )
-        with ui.element("div").classes("live-files"):
+        with ui.element("details").classes("advanced live-files"):
+            translated_text("A garment or a skin of your own", "summary")
             label = "Drop a garment of your own here, or choose it (.toml)"
-            FileField(session, "garment", label, lambda number: take(number), endings=".toml")
+            FileField(session, "garment", label, lambda n: take(n), endings=".toml", zone=ZONE)
             label = "Drop a skin here to see its player, or choose it (.png)"
-            FileField(session, "skin", label, lambda number: take_skin(number), endings=".png")
+            FileField(session, "skin", label, lambda n: take_skin(n), endings=".png", zone=ZONE)
     controls.follow()
 
     async def take(number: int) -> None:
