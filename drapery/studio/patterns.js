@@ -36,7 +36,7 @@ export default {
         </button>
       </div>
       <p v-if="!found.length" class="hint">{{ words.nothing }}</p>
-      <p class="sr" role="status">{{ wanted ? found.length + ' patterns' : '' }}</p>
+      <p class="sr" role="status">{{ wanted ? words.count.replace('{count}', found.length) : '' }}</p>
     </div>`,
   props: {
     patterns: Array, sheet: String, label: String, swaps: Boolean, canSwap: Boolean, current: String, words: Object,

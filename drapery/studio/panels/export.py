@@ -13,6 +13,7 @@ from drapery.studio.panels.file_options import FileChoice, build_options, reques
 from drapery.studio.session import Session
 from drapery.studio.share import write_link
 from drapery.studio.snippets import as_command, as_python
+from drapery.studio.translation import translated
 from drapery.studio.widgets import button, text_element, translated_text
 
 TICK = 0.15
@@ -58,8 +59,9 @@ class _ProgressRow:
         self._row.set_visibility(True)
         self._bar.props["value"] = work.done / work.total
         self._bar.update()
-        still = "drawing" if work.total == 1 else "moving the cloth"
-        self._words.set_text(f"{work.done} of {work.total} frames" if work.done else still)
+        still = translated("drawing" if work.total == 1 else "moving the cloth")
+        frames = translated("{done} of {total} frames").format(done=work.done, total=work.total)
+        self._words.set_text(frames if work.done else still)
 
 
 class _ExportForm:
@@ -111,7 +113,7 @@ class _ExportForm:
         if work.state == "failed":
             show_notice(self._session.pack_store.with_names(work.fault), "fault")
         elif work.state == "stopped":
-            show_notice("Stopped; no file was made")
+            show_notice(translated("Stopped; no file was made"))
         else:
             address = f"/export/{self._session.token}/{self._own.number}"
             self._link.props["href"] = address

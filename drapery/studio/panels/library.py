@@ -15,6 +15,7 @@ from drapery.studio.notices import Tone, show_notice
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, banner_of
+from drapery.studio.translation import translated
 from drapery.studio.widgets import button, text_element, translated_text
 
 if TYPE_CHECKING:
@@ -101,8 +102,8 @@ class LibraryPanel:
         translated_text("Find", "h2").classes("heading")
         with ui.element("div").classes("search"):
             field = ui.element("input").classes("field").props("type=search maxlength=200")
-            label = "Title, tag, dye or pattern"
-            field.props.update({"placeholder": label, "aria-label": f"Search: {label}"})
+            label = translated("Title, tag, dye or pattern")
+            field.props.update({"placeholder": label, "aria-label": label})
             field.on(
                 "input",
                 lambda event: self._search_for(words=str(value_of(event))),
@@ -247,9 +248,11 @@ class LibraryPanel:
         if session.sketch.origin == sketch.origin:
             session.edit(replace(session.sketch, title=sketch.title))
         self._show_buttons()
-        self._notice(f"Saved {sketch.title or 'without a title'}")
+        self._notice(_said("Saved {title}", sketch.title))
         if stored[1] is not None:
-            self._offer(f"Changed {_title(stored[1])}", "Keep the old one too", stored[1])
+            self._offer(
+                _said("Changed {title}", stored[1].title), "Keep the old one too", stored[1]
+            )
         await self._refresh()
 
     def _show_buttons(self) -> None:
@@ -272,7 +275,7 @@ class LibraryPanel:
         session.tags[session.sketch.origin] = ", ".join(design.tags)
         self._follow()
         self._undo.set_visibility(False)
-        self._notice(f"Opened {_title(design)}")
+        self._notice(_said("Opened {title}", design.title))
 
     def _edit(self, design: "Design") -> None:
         """A dialog for title and tags."""
@@ -312,7 +315,7 @@ class LibraryPanel:
         entries = self._session.entries
         self._session.entries = {at: entry for at, entry in entries.items() if entry != number}
         self._show_buttons()
-        self._offer(f"Deleted {_title(gone)}", "Put it back", gone)
+        self._offer(_said("Deleted {title}", gone.title), "Put it back", gone)
         await self._refresh()
         # The pressed button no longer exists, so move the keyboard's focus to the undo button.
         self._client.run_javascript("document.querySelector('.undo button')?.focus()")
@@ -350,11 +353,12 @@ def _split(text: str) -> tuple[str, ...]:
     return tuple(part.strip() for part in text.split(",") if part.strip())
 
 
-def _title(design: "Design") -> str:
-    return design.title or "a design without a title"
+def _said(text: str, title: str) -> str:
+    """A text about the design of a title."""
+    return translated(text).format(title=title or translated("a design without a title"))
 
 
 def _counted(count: int, searched: bool) -> str:
     if not count:
-        return "Nothing found" if searched else "No design is saved yet"
-    return "1 design" if count == 1 else f"{count} designs"
+        return translated("Nothing found" if searched else "No design is saved yet")
+    return translated("Designs: {count}").format(count=count)

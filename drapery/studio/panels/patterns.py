@@ -57,6 +57,7 @@ def build(session: Session) -> None:
 
 _WORDS = {
     "find": "Find a pattern",
+    "count": "Patterns: {count}",
     "add": "New layer",
     "change": "Change layer",
     "nothing": "No pattern is called that. Try another word, such as stripe or corner.",

@@ -4,6 +4,8 @@ from html import escape
 
 from nicegui import ui
 
+from drapery.studio.translation import translated
+
 _KEYS = {
     "Design": (
         ("Ctrl+Z", "undo"),
@@ -39,20 +41,24 @@ _KEYS = {
 def build() -> None:
     """A dialog that `?` opens."""
     groups = "".join(
-        f"<section><h3>{group}</h3><dl>{_rows(keys)}</dl></section>"
+        f"<section><h3>{_text(group)}</h3><dl>{_rows(keys)}</dl></section>"
         for group, keys in _KEYS.items()
     )
     dialog = ui.html(
-        f'<h2>Keyboard shortcuts</h2><div class="keys">{groups}</div>'
-        '<button type="button" class="button primary">Close</button>',
+        f'<h2>{_text("Keyboard shortcuts")}</h2><div class="keys">{groups}</div>'
+        f'<button type="button" class="button primary">{_text("Close")}</button>',
         sanitize=False,
         tag="dialog",
     )
-    dialog.props('id="shortcuts" aria-label="Keyboard shortcuts"')
+    dialog.props('id="shortcuts"').props["aria-label"] = translated("Keyboard shortcuts")
+
+
+def _text(english: str) -> str:
+    return escape(translated(english))
 
 
 def _rows(keys: tuple[tuple[str, str], ...]) -> str:
-    return "".join(f"<dt>{_key(key)}</dt><dd>{escape(does)}</dd>" for key, does in keys)
+    return "".join(f"<dt>{_key(key)}</dt><dd>{_text(does)}</dd>" for key, does in keys)
 
 
 def _key(key: str) -> str:

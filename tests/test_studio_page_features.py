@@ -1,0 +1,99 @@
+"""What other editors have, on the real page: commands with names, recent designs, comparison."""
+
+from base64 import b64encode
+from typing import Any
+
+import numpy as np
+import pytest
+from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
+
+from drapery.render import png_bytes
+
+THROW = """
+const data = Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0));
+const transfer = new DataTransfer();
+transfer.items.add(new File([data], "me.png"));
+const drop = new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true });
+document.querySelector(".live-view canvas").dispatchEvent(drop);
+"""
+FILL = """
+const field = [...document.querySelectorAll("#panel-text label")]
+  .find((each) => each.innerText.startsWith(arguments[0])).querySelector("input, select");
+field.value = arguments[1];
+field.dispatchEvent(new Event("change", { bubbles: true }));
+"""
+
+
+@pytest.fixture
+def page(chromium: Any, studio: Studio) -> Any:
+    resize(chromium, WIDE)
+    open_page(chromium, studio)
+    click(chromium, ".live-bar button[aria-label=Pause]")
+    yield chromium
+    assert console_errors(chromium) == []
+
+
+def find(page: Any, selector: str) -> Any:
+    return page.find_element("css selector", selector)
+
+
+def click(page: Any, selector: str) -> None:
+    page.execute_script("arguments[0].click()", find(page, selector))
+
+
+def value(page: Any, name: str) -> str:
+    return str(page.execute_script("return document.getElementById(arguments[0]).value", name))
+
+
+def test_a_give_command_has_player_count_name_and_lore(page: Any) -> None:
+    page.execute_script("studio.tab('text')")
+    told = {"Player": "@a", "Count": "3", "Name of": "Sea Star", "Lore": "one | two"}
+    for label, text in told.items():
+        page.execute_script(FILL, label, text)
+    command = '/give @a minecraft:white_banner[custom_name="Sea Star",lore=["one","two"]] 3'
+    wait_until(lambda: value(page, "written") == command)
+    page.execute_script(FILL, "Form", "give-legacy")
+    wait_until(
+        lambda: value(page, "written").startswith("/give @a minecraft:white_banner{display:")
+    )
+
+
+def test_banner_and_shield_stand_side_by_side(page: Any) -> None:
+    kinds = "return [...document.querySelectorAll('#panel-face img')].map((e) => e.dataset.kind)"
+    assert page.execute_script(kinds) == ["banner", "shield"]
+    click(page, ".face-other")
+    wait_until(lambda: page.execute_script(kinds) == ["shield", "banner"])
+    wait_until(lambda: value(page, "written").startswith("/give @p minecraft:shield"))
+
+
+def test_the_browser_remembers_the_designs_of_closed_tabs(page: Any, studio: Studio) -> None:
+    click(page, "[data-pattern=globe]")
+    wait_until(lambda: "globe" in value(page, "written"))
+    wait_until(lambda: "?d=" in page.current_url)
+    open_page(page, studio)
+    wait_until(lambda: page.find_elements("css selector", ".recent-designs .own-design"))
+    click(page, ".recent-designs .own-design")
+    wait_until(lambda: "globe" in value(page, "written"))
+
+
+def test_two_designs_are_compared_by_a_slider(page: Any) -> None:
+    click(page, "#panel-compare .line button")
+    click(page, "[data-pattern=creeper]")
+    loaded = "return [...document.querySelectorAll('#panel-compare img')].map((e) => e.src)"
+    wait_until(lambda: len(set(page.execute_script(loaded))) == 2)
+    slider = "#panel-compare input[type=range]"
+    assert find(page, slider).get_attribute("aria-label").endswith("Right: White banner")
+
+
+def test_what_other_pages_need_follows_the_design(page: Any) -> None:
+    click(page, "[data-pattern=creeper]")
+    wait_until(lambda: value(page, "embed-link") == "banner.html#white%20creeper:black")
+    assert 'design="white creeper:black"' in value(page, "embed-component")
+    assert "/banner.png?design=white+creeper%3Ablack" in value(page, "embed-address")
+
+
+def test_a_skin_dropped_on_the_live_view_becomes_a_player(page: Any) -> None:
+    skin = png_bytes(np.full((64, 64, 4), 200, np.uint8))
+    page.execute_script(THROW, b64encode(skin).decode())
+    command = "drapery player --skin me.png --head white -o banner.png"
+    wait_until(lambda: value(page, "as-command").startswith(command))
