@@ -10,6 +10,7 @@ from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 from drapery.banner.design import Banner
 from drapery.errors import DesignError
 from drapery.studio import kept_work
+from drapery.studio.app import prune_regularly
 from drapery.studio.kept_work import KeptWork
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import sketch_of
@@ -46,8 +47,11 @@ def test_undo_packs_and_the_librarys_entry_are_there_again(pack: Path, is_gone: 
     assert [entry.title for entry in second.pack_store.entries] == ["blue.zip"]
     assert second.packs().level("creeper") == 1
     assert second.entries[second.sketch.origin] == 7
+    if not is_gone:
+        here, there = second.settings.pack_paths[0], first.settings.pack_paths[0]
+        assert here.samefile(there), "a large pack is not copied while all pages wait"
     first.close()
-    assert second.settings.pack_paths[0].exists(), "the pack is a copy"
+    assert second.settings.pack_paths[0].exists()
     folder = Path(second.settings.pack_paths[0]).parent
     sessions.close_all()
     assert not folder.exists()
@@ -107,5 +111,25 @@ def test_work_is_kept_up_to_a_size(pack: Path, monkeypatch: pytest.MonkeyPatch) 
 def test_a_pack_that_is_gone_is_one_line(tmp_path: Path) -> None:
     session = Session()
     with pytest.raises(DesignError, match=r"blue\.zip: the file is not here any more"):
-        session.uploads.copy(tmp_path / "none", "pack", "blue.zip")
+        session.uploads.adopt(tmp_path / "none", "pack", "blue.zip")
     session.close()
+
+
+def test_old_work_goes_although_no_page_comes(
+    pack: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(kept_work, "KEEP", 0.5)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    sessions = Sessions()
+    session = sessions.open()
+    send_pack(session, pack)
+    sessions.keep(session)
+    assert list(tmp_path.glob("drapery-kept-*/*"))
+
+    async def until_it_is_gone() -> None:
+        pruning = asyncio.create_task(prune_regularly(sessions, 0.05))
+        while list(tmp_path.glob("drapery-kept-*")):
+            await asyncio.sleep(0.05)
+        pruning.cancel()
+
+    asyncio.run(asyncio.wait_for(until_it_is_gone(), 30))

@@ -22,6 +22,7 @@ from drapery.studio.art import (
     style_png,
     thumbnail,
 )
+from drapery.studio.pack_store import PackContents
 from drapery.studio.panels.layers import missing_patterns
 from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
@@ -79,14 +80,30 @@ def test_a_pack_has_the_warnings_of_the_commands_and_the_format_is_chosen(tmp_pa
     files = {META: mcmeta(), f"{BANNER}creeper.png": png(mask)}
     path = zip_pack(tmp_path / "old.zip", files)
     session = Session(Settings(packs=(path,)))
-    (entry,) = session.pack_store.entries
-    assert ["use format 4" in line for line in entry.contents.warnings] == [True]
-    session.pack_store.read_as(4)
+    store, notified = session.pack_store, []
+    session.listen("packs", lambda: notified.append(store.entries[0].contents))
+
+    def warnings(format: int | None) -> tuple[str, ...]:
+        store.read_as(format, store.contents_as(format))
+        return store.entries[0].contents.warnings
+
+    assert ["use format 4" in line for line in warnings(None)] == [True]
+    assert warnings(4) == ()
     assert session.settings.format == 4
-    assert session.pack_store.entries[0].contents.warnings == ()
     with pytest.raises(PackError):
-        session.pack_store.read_as(-3)
+        warnings(-3)
     assert session.settings.format == 4
+    assert [len(contents.warnings) for contents in notified] == [1, 0]
+    session.close()
+
+
+def test_no_pack_is_read_before_the_page_is_there(tmp_path: Path) -> None:
+    """A pack with which the studio was started is read whole in a thread, as one that is sent."""
+    files = {META: mcmeta(), f"{BANNER}creeper.png": png(noise(1, 64))}
+    session = Session(Settings(packs=(zip_pack(tmp_path / "pack.zip", files),)))
+    (entry,) = session.pack_store.entries
+    assert entry.contents == PackContents()
+    assert session.pack_store.contents_as(None) == {entry.number: PackContents("1 pattern")}
     session.close()
 
 

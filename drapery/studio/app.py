@@ -17,6 +17,8 @@ from drapery.studio.session import Sessions, StudioConfig
 
 RECONNECT = 2.0
 """How long a session waits for its tab to come back [s]."""
+PRUNE_INTERVAL = 60.0
+"""How often old kept work is dropped [s]."""
 
 
 def make_app(
@@ -27,7 +29,9 @@ def make_app(
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        pruning = asyncio.create_task(prune_regularly(sessions, PRUNE_INTERVAL))
         yield
+        pruning.cancel()
         sessions.close_all()
 
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None, lifespan=lifespan)
@@ -46,6 +50,13 @@ def make_app(
         show_welcome_message=False,
     )
     return Guard(app, hosts, token)
+
+
+async def prune_regularly(sessions: Sessions, interval: float) -> None:
+    """Drop work that was kept for long enough, every `interval` seconds."""
+    while True:
+        await asyncio.sleep(interval)
+        sessions.prune()
 
 
 def run(

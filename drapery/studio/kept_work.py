@@ -11,6 +11,7 @@ from drapery import Settings
 from drapery.studio.history import History
 from drapery.studio.pack_store import PackEntry
 from drapery.studio.sketch import Sketch
+from drapery.studio.uploads import link_or_copy
 
 KEEP = 600.0
 """How long the work of a closed tab is kept [s]."""
@@ -47,7 +48,9 @@ def _moved(entry: PackEntry, folder: Path | None) -> PackEntry:
     if not entry.upload or folder is None:
         return entry
     # A move would fail on Windows, where the tab has the file open.
-    return replace(entry, path=Path(shutil.copyfile(entry.path, folder / entry.path.name)))
+    path = folder / entry.path.name
+    link_or_copy(entry.path, path)
+    return replace(entry, path=path)
 
 
 class KeptWork:
@@ -61,8 +64,8 @@ class KeptWork:
         return len(self._kept)
 
     def add(self, token: str, work: Work) -> None:
-        """Keep a tab's work; its uploaded packs are copied to a folder of their own, because the
-        tab's folder goes when it closes. Raises OSError.
+        """Keep a tab's work; its uploaded packs get a folder of their own, because the tab's
+        folder goes when it closes. Raises OSError.
         """
         uploads = [entry for entry in work.packs if entry.upload]
         folder = Path(tempfile.mkdtemp(prefix="drapery-kept-")) if uploads else None

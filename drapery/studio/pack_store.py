@@ -1,6 +1,6 @@
 """The packs of a tab: the list, its order, and which packs are on."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -52,8 +52,7 @@ class PackStore:
         self._last = 0
         self.entries: tuple[PackEntry, ...] = ()
         for pack in document.settings.pack_paths:
-            entry = PackEntry(self._next(), str(pack), Path(pack))
-            self.entries += (self._described(entry, document.settings.format),)
+            self.entries += (PackEntry(self._next(), str(pack), Path(pack)),)
 
     @property
     def names(self) -> dict[str, str]:
@@ -85,34 +84,40 @@ class PackStore:
         self._replace((*self.entries, entry))
         return entry
 
-    def read_as(self, format: int | None) -> None:
+    def contents_as(self, format: int | None) -> dict[int, PackContents]:
+        """What each pack has, by its number, if it is read as packs of this format.
+
+        It reads all textures, so call it in a thread.
+        """
+        return {entry.number: _contents_or_fault(entry, format) for entry in self.entries}
+
+    def read_as(self, format: int | None, contents: Mapping[int, PackContents]) -> None:
         """Read the packs as the game of this pack format does; None is each pack's own format.
 
-        Raises OptionError or PackError; then nothing changes.
+        contents: of `contents_as`. Notifies "packs". Raises OptionError or PackError; then nothing
+        changes.
         """
-        before = self.entries
-        self.entries = tuple(self._described(entry, format) for entry in before)
+        before, is_same = self.entries, format == self._document.settings.format
+        self.entries = tuple(
+            replace(entry, contents=contents.get(entry.number, entry.contents)) for entry in before
+        )
         try:
             self._document.adjust(format=format)
         except DraperyError as error:
             self.entries = before
             raise PackError(self.with_names(str(error))) from None
-
-    def _described(self, entry: PackEntry, format: int | None) -> PackEntry:
-        try:
-            return replace(entry, contents=_contents(entry.path, entry.name, format))
-        except DraperyError:
-            return replace(entry, contents=PackContents("cannot be read whole"))
+        if is_same:  # so `adjust` has not notified
+            self._document.notify("packs")
 
     def restore(self, entries: Iterable[PackEntry]) -> None:
-        """Take over the packs of another tab, in place of those here; copies uploaded files.
+        """Take over the packs of another tab, in place of those here, with its uploaded files.
 
         Raises DesignError or PackError.
         """
         restored = []
         for entry in entries:
             if entry.upload:
-                upload = self._uploads.copy(entry.path, "pack", entry.name)
+                upload = self._uploads.adopt(entry.path, "pack", entry.name)
                 entry = replace(entry, path=upload.path, upload=upload.number)
             restored.append(replace(entry, number=self._next()))
         self._replace(tuple(restored))
@@ -167,6 +172,13 @@ class PackStore:
     def _next(self) -> int:
         self._last += 1
         return self._last
+
+
+def _contents_or_fault(entry: PackEntry, format: int | None) -> PackContents:
+    try:
+        return _contents(entry.path, entry.name, format)
+    except DraperyError:
+        return PackContents("cannot be read whole")
 
 
 def _contents(path: Path, name: str, format: int | None) -> PackContents:

@@ -145,6 +145,10 @@ class Sessions:
                 self._kept.add(session.token, session.work)
         session.close()
 
+    def prune(self) -> None:
+        """Drop work that was kept for long enough."""
+        self._kept.prune()
+
     def work(self, token: str) -> Work | None:
         """The work of another page: one that is gone, or one that is still open."""
         session = self._open.get(token)

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from itertools import count
 
-from nicegui import Client, run, ui
+from nicegui import Client, background_tasks, run, ui
 
 from drapery import DraperyError
 from drapery.studio.file_field import FileField
@@ -16,6 +16,9 @@ from drapery.studio.widgets import button, text_element, translated_text, versus
 
 NO_PACK = "none"
 OWN_ART = "Drapery's own art"
+READING = "Reading all its patterns …"
+LATER = 1.5
+"""The delay between building the page and reading what its packs have [s]."""
 FORMATS = {
     "75": "1.21.11",
     "46": "1.21.4",
@@ -40,7 +43,7 @@ def build(session: Session) -> None:
     pack_store = session.pack_store
 
     async def take(number: int) -> None:
-        reading.set_text("Reading all its patterns …")
+        reading.set_text(READING)
         try:
             contents = await run.io_bound(pack_store.check, number) or PackContents()
             entry = pack_store.adopt(number, contents)
@@ -58,7 +61,7 @@ def build(session: Session) -> None:
     FileField(session, "pack", label, take, endings=endings, multiple=True, tab="packs")
     reading = text_element("", "p").classes("hint").props("role=status")
     _list(session)
-    _format(session)
+    _format(session, reading)
     translated_text("Side by side", "h2").classes("heading")
     _comparison(session)
 
@@ -87,14 +90,32 @@ def _name(title: str, name: str, summary: str, warnings: tuple[str, ...] = ()) -
             text_element(line, "p").classes("warning")
 
 
-def _format(session: Session) -> None:
+def _format(session: Session, reading: ui.label) -> None:
     """The choice of the game's version as which packs are read."""
+    client, pack_store = ui.context.client, session.pack_store
+    wanted: list[int | None] = []
+    read_count = 0  # how many of them are read, or replaced by a later one
+
+    async def read(format: int | None) -> None:
+        nonlocal read_count
+        wanted.append(format)
+        place = len(wanted)
+        reading.set_text(READING)
+        contents = await run.io_bound(pack_store.contents_as, format)
+        if contents is None or session.closed or place < len(wanted):
+            return
+        read_count = place
+        with client, errors_shown():
+            pack_store.read_as(format, contents)
+        reading.set_text("")
+        fields.refresh()
 
     def choose(text: str) -> None:
-        session.pack_store.read_as(int(text) if text else None)
+        background_tasks.create(read(int(text) if text else None))
 
     def current() -> str:
-        return "" if session.settings.format is None else str(session.settings.format)
+        format = wanted[-1] if len(wanted) > read_count else session.settings.format
+        return "" if format is None else str(format)
 
     fields = Fields()
     formats = {"": "what each pack says"} | {number: _format_title(number) for number in FORMATS}
@@ -102,6 +123,8 @@ def _format(session: Session) -> None:
     with ui.element("div").classes("options"):
         fields.choice("Read packs as", formats, current, choose)
     session.listen("settings", fields.refresh)
+    if pack_store.entries:  # those with which the studio was started
+        ui.timer(LATER, lambda: read(session.settings.format), once=True)
 
 
 def _format_title(number: str) -> str:
