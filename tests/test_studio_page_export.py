@@ -127,9 +127,13 @@ def test_a_picture_is_the_commands_to_the_byte(
     code, _, err = drapery("render", words[1], "-o", tmp_path / "x.png", *options)
     assert code == 0, err
     assert (tmp_path / "x.png").read_bytes() == picture
-    assert wait_until(lambda: page.find("#panel-export a.export-link").text).startswith(
-        "lime-ghost"
-    )
+    link = page.find("#panel-export a.export-link")
+    assert wait_until(lambda: link.text).startswith("lime-ghost")
+    page.run("document.querySelector('.live-bar button[aria-label=Pause]').click()")
+    wait_until(lambda: "--time" in page.text("#as-command"))
+    assert link.is_displayed(), "a pause makes no file stale"
+    page.fill("export", "Width", "161")
+    wait_until(lambda: not link.is_displayed())
 
 
 def test_what_the_live_banner_has_alone_is_said() -> None:

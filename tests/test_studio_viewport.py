@@ -12,7 +12,7 @@ from drapery.garments import find_garment
 from drapery.packs import open_packs
 from drapery.scenes import Clip
 from drapery.studio.panels.live import wear
-from drapery.studio.player import Player, garment_show
+from drapery.studio.player import Player, _ClosedError, garment_show
 from drapery.studio.session import Session
 from drapery.studio.sketch import Sketch
 
@@ -86,6 +86,19 @@ def test_the_loop_of_a_garment_follows_its_first_picture() -> None:
     places = [each.panes[0].scene.models[-1].mesh.positions for each in loop]
     assert first.cut != loop[0].cut == loop[1].cut
     assert not np.array_equal(places[0], places[1]) and places[0] is places[2]
+
+
+def test_a_loop_that_nobody_will_see_is_given_up(session: Session) -> None:
+    viewport, players = session.viewport, []
+    wear(session, "flag")
+    for base in ("white", "red", "blue"):
+        session.edit(Sketch(base))
+        viewport._turn(0)
+        players.append(viewport._player)
+    assert viewport.shown() is not None and not viewport.fault
+    session.close()
+    for player in players:
+        assert isinstance(player._prepared.exception(60), _ClosedError)
 
 
 def test_no_version_is_counted_twice(session: Session) -> None:

@@ -5,10 +5,11 @@ that walks at the speed of its walk, so its cloth moves as on one that walks thr
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice, product
+from typing import TypeVar
 
 import numpy as np
 
@@ -55,6 +56,8 @@ from drapery.style.ground import ground_of
 from drapery.style.rig import moved_rig
 from drapery.style.scenery import pole, pole_frame
 
+T = TypeVar("T")
+
 WORN_STEP = STEP / 2
 """The longest time step of cloth on a wearer, whose legs move fast [s]."""
 MIDDLE = np.array([0.5, 0.0, 0.5])
@@ -93,14 +96,20 @@ def garment_moments(
 
 
 def garment_loop(
-    garment: Garment, packs: Packs, settings: Settings, count: int, fps: float
+    garment: Garment,
+    packs: Packs,
+    settings: Settings,
+    count: int,
+    fps: float,
+    on_moment: Callable[[], object] | None = None,
 ) -> Iterator[Scene]:
     """`count` scenes of a seamless loop of a garment in a wind that repeats after it.
 
+    on_moment: called after each simulated moment; it may raise to end the simulation.
     Raises OptionError or PackError.
     """
     period = count / fps
-    dressed = Dressed(garment, packs, settings, period)
+    dressed = Dressed(garment, packs, settings, period, on_moment)
     steps = math.ceil(1 / (fps * dressed.step) - 1e-9)
     before = min(count, math.ceil(FADE * fps))
     first = math.ceil(SETTLING / period) * count - before
@@ -114,13 +123,15 @@ def garment_loop(
 class Dressed:
     """A garment with its wearer, poles and blocks, ready to be simulated and drawn.
 
-    period: of a loop [s]; None for a still picture. Its methods raise OptionError and PackError.
+    period: of a loop [s]; None for a still picture. on_moment: called after each simulated moment;
+    what it raises ends the simulation. Its methods raise OptionError and PackError.
     """
 
     garment: Garment
     packs: Packs
     settings: Settings
     period: float | None = None
+    on_moment: Callable[[], object] | None = None
 
     def check(self) -> None:
         """Raise OptionError or PackError if something cannot be drawn: an edge, file or block."""
@@ -222,7 +233,7 @@ class Dressed:
             pins=None if self.wearer is None else sewn.pin_path(self.wearer.poses),
             collisions=self._collisions(sewn),
         )
-        moments = islice(states, at.first, at.first + at.count)
+        moments = self._moments_of(states, at)
         return np.stack([state.positions[0] for state in moments])
 
     def _record_together(self, numbers: Sequence[int], at: Moments) -> list[Array]:
@@ -253,8 +264,15 @@ class Dressed:
             lambda time: poses(time)["body"],
             at.every,
         )
-        moments = islice(motion, at.first, at.first + at.count)
+        moments = self._moments_of(motion, at)
         return [np.stack(moment) for moment in zip(*moments, strict=True)]
+
+    def _moments_of(self, motion: Iterator[T], at: Moments) -> Iterator[T]:
+        for number, moment in enumerate(islice(motion, at.first + at.count)):
+            if self.on_moment is not None:
+                self.on_moment()
+            if number >= at.first:
+                yield moment
 
     @property
     def _solver(self) -> Solver:

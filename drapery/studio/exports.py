@@ -147,7 +147,9 @@ def _model(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     packs = open_packs(settings.packs, format=settings.format)
     settings = replace(settings, ground="none")
     if isinstance(subject, Garment):
-        scenes = garment_loop(subject, packs, settings, total, request.fps)
+        scenes = garment_loop(
+            subject, packs, settings, total, request.fps, lambda: on_progress(0, total)
+        )
     else:
         scenes = loop(subject, packs, settings, total, request.fps)
     save_model(_counted(scenes, total, on_progress), path, fps=request.fps)

@@ -31,14 +31,15 @@ MAX_SIDE = 960
 
 @dataclass(frozen=True)
 class Show:
-    """What is played. clip: its length and frame rate. play: the pictures of a clip.
+    """What is played. clip: its length and frame rate.
 
+    play: the pictures of a clip; what it calls while it simulates may raise to end it.
     first: a picture that is shown until the first one of the clip is ready, if that takes long.
     """
 
     name: str
     clip: Clip
-    play: Callable[[Clip], Iterator[Picture]]
+    play: Callable[[Clip, Callable[[], object]], Iterator[Picture]]
     first: Callable[[Clip], Picture] | None = None
 
 
@@ -46,14 +47,15 @@ def scene_show(scene: SceneChoice) -> Show:
     """A scene of the catalogue. Raises OptionError for an unknown name."""
     entry = find_scene(scene.name)
     parameters = entry.parameters(REDUCED.get(scene.name, {}) | dict(scene.words))
-    return Show(scene.name, entry.clip, lambda clip: entry.play(parameters, clip))
+    return Show(scene.name, entry.clip, lambda clip, _: entry.play(parameters, clip))
 
 
 def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:
     """A garment: first at rest, then its seamless loop."""
 
-    def play(clip: Clip) -> Iterator[Picture]:
-        return garment_loop(garment, packs, _sized(clip), clip.count, clip.fps)
+    def play(clip: Clip, on_moment: Callable[[], object]) -> Iterator[Picture]:
+        settings = _sized(clip)
+        return garment_loop(garment, packs, settings, clip.count, clip.fps, on_moment)
 
     def first(clip: Clip) -> Picture:
         dressed = Dressed(garment, packs, _sized(clip))
@@ -63,6 +65,10 @@ def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:
         return replace(settings, size=clip.size, pixel=1)
 
     return Show(garment.name, Clip(), play, first)
+
+
+class _ClosedError(Exception):
+    """The player is closed, so nobody waits for the rest of the loop."""
 
 
 class Player:
@@ -79,6 +85,7 @@ class Player:
         self._free = MAX_CACHED
         self._counted: set[int] = set()
         self._starts = 0
+        self._closed = threading.Event()
         self._upcoming: Iterator[ViewerState] = iter(())
         self.now: ViewerState | None = None
 
@@ -111,9 +118,18 @@ class Player:
     def _prepare(self) -> None:
         assert self._prepared is not None
         try:
-            self._prepared.set_result([*map(shown_picture, self.show.play(self._clip))])
+            pictures = self.show.play(self._clip, self._check_open)
+            self._prepared.set_result([*map(shown_picture, pictures)])
         except Exception as error:  # `step` raises it
             self._prepared.set_exception(error)
+
+    def _check_open(self) -> None:
+        if self._closed.is_set():
+            raise _ClosedError
+
+    def close(self) -> None:
+        """End the thread that simulates the loop, if it still runs."""
+        self._closed.set()
 
     def begin_anew(self) -> None:
         """Go to the first moment, with the scene's own camera."""
@@ -129,7 +145,7 @@ class Player:
         """Simulate all moments; caches them unless they exceed the cache's limit."""
         self._cache, self._free = ([], MAX_CACHED) if self._cache is not None else (None, 0)
         self._counted = set()
-        for picture in self.show.play(self._clip):
+        for picture in self.show.play(self._clip, self._check_open):
             shown = shown_picture(picture)
             self._add_to_cache(shown, picture)
             yield shown

@@ -86,8 +86,8 @@ class Viewport:
 
     request: what it shows. version: grows with every visible change. fault: why the last change
     failed, or "". note: a line about work that takes long, or "". size: width and height of the
-    viewer [pixels]. viewers: the number of connected viewers, including hidden ones. closed:
-    whether its tab is closed.
+    viewer [pixels]. viewers: the number of connected viewers, including hidden ones. paused_at: the
+    `time` that the last pause has set, or None. closed: whether its tab is closed.
     """
 
     def __init__(self, document: Document, packs: PackStore) -> None:
@@ -97,6 +97,7 @@ class Viewport:
         self.note = ""
         self.size = (640, 480)
         self.viewers = 0
+        self.paused_at: float | None = None
         self.closed = False
         self._document = document
         self._pack_store = packs
@@ -183,7 +184,8 @@ class Viewport:
         self._stop()
         self._count_change()
         self._wake()
-        self._live = self._player = None
+        self._leave_player()
+        self._live = None
         self._listeners.clear()
 
     @property
@@ -295,7 +297,8 @@ class Viewport:
             return
         if 0 < live.time <= LONGEST:
             # Round down: the picture must not make one more step.
-            self._document.adjust(time=math.floor(live.time * 1e6) / 1e6)
+            self.paused_at = math.floor(live.time * 1e6) / 1e6
+            self._document.adjust(time=self.paused_at)
 
     def _wake(self) -> None:
         """Wake all tasks that wait for a change."""
@@ -383,7 +386,8 @@ class Viewport:
             wanted = ExportRequest(_design(document), settings, garment=worn, skin=skin)
         if wanted == self._played:
             return
-        self._player, self._played = None, wanted
+        self._leave_player()
+        self._played = wanted
         if isinstance(wanted, ExportRequest):
             garment = subject_of(wanted)
             assert isinstance(garment, Garment)
@@ -392,6 +396,11 @@ class Viewport:
             self._player = Player(scene_show(wanted), self.size)
         if self._player is not None:
             self._player.step()
+
+    def _leave_player(self) -> None:
+        if self._player is not None:
+            self._player.close()
+        self._player = None
 
     def _renew(self) -> None:
         """Apply the design, the settings and the request. Raises DraperyError."""

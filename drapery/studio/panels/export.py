@@ -1,6 +1,7 @@
 """Output: picture, animation and model files, the share link, code to copy."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from nicegui import ui
 
@@ -12,7 +13,7 @@ from drapery.studio.panels.fields import copy_field
 from drapery.studio.panels.file_options import FileChoice, build_options, request_of
 from drapery.studio.session import Session
 from drapery.studio.share import write_link
-from drapery.studio.snippets import as_command, as_python
+from drapery.studio.snippets import as_command, as_python, file_name
 from drapery.studio.translation import translated
 from drapery.studio.widgets import button, text_element, translated_text
 
@@ -78,10 +79,9 @@ class _ExportForm:
         self._warnings = ui.element("div").props("role=status")
         self._progress = _ProgressRow(self._stop)
         self._timer = ui.timer(TICK, self._follow, active=False)
-        # The finished file shows an earlier state, so its link goes with the next change.
         for event in _CHANGES:
-            session.listen(event, self._hide)
-        choice.changed.append(self._hide)
+            session.listen(event, self._hide_stale)
+        choice.changed.append(self._hide_stale)
 
     def _start(self) -> None:
         with errors_shown():
@@ -94,6 +94,24 @@ class _ExportForm:
     def _hide(self) -> None:
         self._link.set_visibility(False)
         self._warnings.clear()
+
+    def _hide_stale(self) -> None:
+        """Hide the link to a file that shows an earlier state."""
+        work = self._own.current
+        if work is None or not self._is_current(work):
+            self._hide()
+
+    def _is_current(self, work: Export) -> bool:
+        """Whether the same file would be made now. A pause alone makes no file stale."""
+        try:
+            request = request_of(self._session, self._choice)
+        except DraperyError:
+            return False
+        if request.settings.time == self._session.viewport.paused_at:
+            settings = replace(request.settings, time=work.request.settings.time)
+            request = replace(request, settings=settings)
+        name = file_name(request, stem_of(self._session.sketch.title))
+        return (request, name) == (work.request, work.name)
 
     def _stop(self) -> None:
         if self._own.current is not None:
