@@ -1,43 +1,16 @@
 """Tabs that are opened and closed leave nothing behind: no session, thread, file or memory."""
 
 import os
-import re
 import time
 import urllib.error
 import urllib.request
-import uuid
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 from studio_browser import Studio, wait_until
-
-websockets = pytest.importorskip("websockets.sync.client")
+from studio_tabs import open_tab
 
 CYCLES = int(os.environ.get("DRAPERY_STUDIO_CYCLES", "6"))
-
-
-@contextmanager
-def tab(studio: Studio) -> Iterator[str]:
-    """A page with its socket and its live cloth, as a browser opens them; gives its token."""
-    page = urllib.request.urlopen(studio.address, timeout=10).read().decode()
-    token = re.search(r"data-token[^A-Za-z0-9_-]+([A-Za-z0-9_-]{32})", page)
-    client = re.search(r"'client_id': '([0-9a-f-]+)'", page)
-    assert token and client
-    words = {"client_id": client[1], "tab_id": uuid.uuid4(), "document_id": uuid.uuid4()}
-    words |= {"EIO": 4, "transport": "websocket", "implicit_handshake": "true"}
-    words |= {"next_message_id": 0}
-    address = studio.address.replace("http", "ws")
-    line = "&".join(f"{key}={value}" for key, value in words.items())
-    with websockets.connect(f"{address}_nicegui_ws/socket.io/?{line}") as socket:
-        assert socket.recv(5).startswith("0")
-        socket.send("40")
-        assert socket.recv(5).startswith("40")
-        with websockets.connect(f"{address}live/{token[1]}") as live:
-            live.send('{"shape": [300, 400]}')
-            assert live.recv(10) and live.recv(10)
-            yield token[1]
 
 
 def status(studio: Studio, token: str) -> int:
@@ -64,7 +37,7 @@ def memory(studio: Studio) -> float:
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs Linux's /proc to count")
 def test_tabs_leave_nothing(studio: Studio) -> None:
     def cycle() -> str:
-        with tab(studio) as token:
+        with open_tab(studio.address) as (token, _):
             assert status(studio, token) == 200
         return token
 
@@ -91,7 +64,7 @@ def test_tabs_leave_nothing(studio: Studio) -> None:
 
 def test_a_stopped_studio_leaves_no_files(tmp_path: Path) -> None:
     studio = Studio(tmp_path)
-    with tab(studio) as token:
+    with open_tab(studio.address) as (token, _):
         body = b"white creeper:lime"
         urllib.request.urlopen(f"{studio.address}designs/{token}?name=x.txt", body, timeout=10)
         assert list(tmp_path.glob("drapery-studio-*"))

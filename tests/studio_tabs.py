@@ -1,0 +1,34 @@
+"""Tabs of a studio without a browser: a page with its socket and its live cloth."""
+
+import re
+import urllib.request
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+
+websockets = pytest.importorskip("websockets.sync.client")
+
+
+@contextmanager
+def open_tab(address: str) -> Iterator[tuple[str, Any]]:
+    """A tab of the studio at this address: its token, and the socket of its live cloth."""
+    page = urllib.request.urlopen(address, timeout=30).read().decode()
+    token = re.search(r"data-token[^A-Za-z0-9_-]+([A-Za-z0-9_-]{32})", page)
+    client = re.search(r"'client_id': '([0-9a-f-]+)'", page)
+    assert token and client
+    words = {"client_id": client[1], "tab_id": uuid.uuid4(), "document_id": uuid.uuid4()}
+    words |= {"EIO": 4, "transport": "websocket", "implicit_handshake": "true"}
+    words |= {"next_message_id": 0}
+    sockets = address.replace("http", "ws")
+    line = "&".join(f"{key}={value}" for key, value in words.items())
+    with websockets.connect(f"{sockets}_nicegui_ws/socket.io/?{line}") as socket:
+        assert socket.recv(5).startswith("0")
+        socket.send("40")
+        assert socket.recv(5).startswith("40")
+        with websockets.connect(f"{sockets}live/{token[1]}") as live:
+            live.send('{"shape": [300, 400]}')
+            assert live.recv(10) and live.recv(10)
+            yield token[1], live
