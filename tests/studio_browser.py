@@ -112,7 +112,7 @@ def open_browser(folder: Path) -> Any:
     downloads = {"download.default_directory": str(folder / "downloads")}
     options.add_experimental_option("prefs", downloads)
     driver = Chrome(options=options, service=ChromeService(str(DRIVER)))
-    driver.set_script_timeout(10)
+    driver.set_script_timeout(30)
     resize(driver, WIDE)
     return driver
 

@@ -164,8 +164,8 @@ def test_all_goes_by_keyboard(page: Any) -> None:
     wait_until(lambda: page.find_elements(By.CSS_SELECTOR, ".layer[data-number='1'].chosen"))
     press(page, Keys.ALT, Keys.ARROW_UP)
     is_now(page, "white border:black creeper:lime flower:red")
-    focused = page.switch_to.active_element.get_attribute("aria-label")
-    assert focused == "Layer 2, Lime Creeper Charge", "a layer that moves keeps the focus"
+    focused = page.switch_to.active_element.accessible_name
+    assert focused == "2 Creeper Charge Lime", "a layer that moves keeps the focus"
     press(page, Keys.CONTROL, "d")
     is_now(page, "white border:black creeper:lime creeper:lime flower:red")
     press(page, Keys.DELETE)

@@ -8,6 +8,7 @@ from urllib.parse import urlencode
 
 import uvicorn
 from fastapi import FastAPI
+from nicegui import app as nicegui_app
 from nicegui import ui
 
 from drapery import OutputError
@@ -49,6 +50,8 @@ def make_app(
         reconnect_timeout=RECONNECT,
         show_welcome_message=False,
     )
+    # A bar across the page for each file that is sent; the field of the file has one with a name.
+    nicegui_app.config.quasar_config["loadingBar"]["skipHijack"] = True
     return Guard(app, hosts, token)
 
 

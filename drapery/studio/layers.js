@@ -9,10 +9,10 @@ export default {
         @pointerdown="grab($event, row)">
         <span class="grip" aria-hidden="true" title="Drag to move">⠿</span>
         <button type="button" class="row-main" data-part="main" :aria-pressed="row.number === chosen"
-          :aria-label="row.name" @click="pick(row)">
-          <span class="row-place" aria-hidden="true">{{ row.place + 1 }}</span>
+          @click="pick(row)">
+          <span class="row-place">{{ row.place + 1 }}</span>
           <span class="cell thumb" :style="cell(row)"></span>
-          <span class="row-words" aria-hidden="true">
+          <span class="row-words">
             <span class="row-title">{{ row.title }}</span>
             <span class="row-dye"><i class="dot" :style="{ backgroundColor: row.colour }"></i>{{ row.dyeTitle }}</span>
           </span>
@@ -30,10 +30,10 @@ export default {
       <li class="layer layer-field" :class="{ chosen: chosen === 'field' }" key="field">
         <span class="grip" aria-hidden="true"></span>
         <button type="button" class="row-main" data-part="main" :aria-pressed="chosen === 'field'"
-          :aria-label="words.field + ', ' + field.dyeTitle" @click="$emit('choose', 'field')">
+          @click="$emit('choose', 'field')">
           <span class="row-place" aria-hidden="true"></span>
           <span class="thumb" :style="{ backgroundColor: field.colour }"></span>
-          <span class="row-words" aria-hidden="true"><span class="row-title">{{ words.field }}</span>
+          <span class="row-words"><span class="row-title">{{ words.field }}</span>
             <span class="row-dye"><i class="dot" :style="{ backgroundColor: field.colour }"></i>{{ field.dyeTitle }}</span></span>
         </button>
       </li>

@@ -128,7 +128,7 @@ def build(session: Session, sessions: Sessions) -> None:
         with ui.element("header").classes("bar"):
             bar.build(session)
         for place in ("left", "viewport", "under"):
-            with ui.element("main" if place == "viewport" else "div").classes(place):
+            with ui.element("div").classes(place):
                 _panels(session, place)
         _tabs()
         with ui.element("div").classes("side"):

@@ -146,8 +146,7 @@ class Controls:
         button = ui.button("" if icon else label, icon=icon, on_click=press)
         button.props(f'flat dense no-caps aria-label="{label}"')
         if icon:
-            with button:
-                ui.tooltip(label)
+            button.props.update({"title": label})
         return button
 
     def pressed(self, button: ui.button, get: Callable[[], bool]) -> None:

@@ -60,7 +60,7 @@ def build(session: Session) -> None:
             lambda dye: change(border=dye or None),
         )
     row = ui.element("div").classes("letters").props('role="group" aria-label="Letters"')
-    copy = button("Copy the commands", lambda: None, icon="content_copy")
+    copy = button("Copy commands", lambda: None, icon="content_copy")
     copy.props('data-copy="letters-text"')
     with copy:
         translated_text("Copy commands").classes("copy-label")
