@@ -119,16 +119,16 @@ def paste(page: Any, text: str) -> None:
     page.execute_script(script, text)
 
 
-def drop(page: Any, path: Path) -> None:
-    """Drop a file on the middle of the page."""
+def drop(page: Any, path: Path, on: str = ".viewport") -> None:
+    """Drop a file on a part of the page."""
     script = """
       const bytes = Uint8Array.from(atob(arguments[1]), (c) => c.charCodeAt(0));
       const data = new DataTransfer();
       data.items.add(new File([bytes], arguments[0]));
       const options = { dataTransfer: data, bubbles: true, cancelable: true };
-      document.querySelector(".viewport").dispatchEvent(new DragEvent("drop", options));
+      document.querySelector(arguments[2]).dispatchEvent(new DragEvent("drop", options));
     """
-    page.execute_script(script, path.name, b64encode(path.read_bytes()).decode())
+    page.execute_script(script, path.name, b64encode(path.read_bytes()).decode(), on)
 
 
 def loaded(page: Any, selector: str) -> bool:
@@ -218,6 +218,22 @@ def test_a_pattern_of_a_pack(page: Any, tmp_path: Path) -> None:
     click(page, "button[aria-label='Remove: acme.zip']")
     line = "acme:anvil is in none of the packs"
     wait_until(lambda: line in text(page, "#panel-layers .warning"))
+
+
+def test_a_cape_on_a_skin(page: Any, tmp_path: Path) -> None:
+    (tmp_path / "me.png").write_bytes(png(noise(5)))
+    drop(page, tmp_path / "me.png", ".live-view canvas")
+    wait_until(lambda: "me.png" in value(page, "as-command"))
+    path = "//label[contains(@class, 'q-select')][.//div[text()='Garment']]"
+    garments = page.find_element("xpath", path)
+
+    def choose() -> bool:
+        garments.click()
+        press(page, "cape", Keys.ENTER)
+        return "cape" in value(page, "as-command")
+
+    wait_until(choose)
+    wait_until(lambda: "getting ready" not in text(page, ".live-view"))
 
 
 def test_all_banners_of_a_schematic(page: Any, tmp_path: Path) -> None:
