@@ -3,7 +3,7 @@
 import json
 import re
 import runpy
-from importlib import metadata
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -14,6 +14,7 @@ from drapery.cli import app
 from drapery.settings import NAMED_OPTIONS
 
 ROOT = Path(__file__).parent.parent
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 PAGES = sorted(
     path.relative_to(ROOT).as_posix() for path in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
 )
@@ -61,12 +62,10 @@ def test_every_picture_of_the_docs_has_its_command() -> None:
     assert drawn == {path.stem for path in ROOT.glob("drapery/garments/files/*.toml")}
 
 
-def test_the_citation_has_the_version_of_the_package() -> None:
-    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
-    assert cited["version"] == metadata.version("drapery")
-    assert cited["cff-version"] == "1.2.0" and cited["title"] and cited["authors"]
-    licence = metadata.metadata("drapery")["License-Expression"]
-    assert " AND ".join(cited["license"]) == licence
+def test_every_extra_is_explained() -> None:
+    page = (ROOT / "docs/reference/extras.md").read_text("utf-8")
+    explained = re.findall(r"(?m)^\| `([\w-]+)` \|", page)
+    assert sorted(explained) == sorted(PROJECT["optional-dependencies"])
 
 
 def test_the_forms_of_issues_can_be_filled_in() -> None:
