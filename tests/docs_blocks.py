@@ -1,8 +1,8 @@
 """The code blocks of the docs, and how a test types them as a reader does.
 
-A comment before a block says what is special: `<!-- exit 1 -->` is the exit code of its last
-command, and with `<!-- not run: REASON -->` only the options of its commands are checked. A block
-with `title="NAME"` is saved under this name.
+Every command must end with exit code 0, as under `set -e`. A comment before a block says what is
+special: `<!-- exit 1 -->` is the exit code of its last command, and with `<!-- not run: REASON -->`
+only the options of its commands are checked. A block with `title="NAME"` is saved under this name.
 """
 
 import os
@@ -115,18 +115,21 @@ class Reader:
             if block.is_run:
                 exec(code, self.names)
         elif block.language in SHELL:
-            for line, said in commands(block.text):
-                if not block.is_run:
-                    check_command(line)
-                    continue
-                code, printed = self.run(line)
-                if said:
-                    # Pages write paths with slashes.
-                    assert prints(said, printed.replace(os.sep, "/")), (
-                        f"{where}: {line}\nprints\n{printed}"
-                    )
-            if block.is_run and not block.text.startswith("$ "):
-                assert code == block.exit_code, f"{where}: {line}\n{printed}"
+            *first, last = commands(block.text)
+            for command in first:
+                self.type_command(where, block, *command, code=0)
+            self.type_command(where, block, *last, code=block.exit_code)
+
+    def type_command(self, where: str, block: Block, line: str, said: str, code: int) -> None:
+        """Run or check a command that is to end with a code and to print what a page says."""
+        if not block.is_run:
+            check_command(line)
+            return
+        found, printed = self.run(line)
+        assert found == code, f"{where}: {line}\nends with {found}, not {code}:\n{printed}"
+        # Pages write paths with slashes.
+        if said and not prints(said, printed.replace(os.sep, "/")):
+            raise AssertionError(f"{where}: {line}\nprints\n{printed}")
 
     def run(self, line: str) -> tuple[int, str]:
         """The exit code of a command and what it prints."""
