@@ -6,7 +6,7 @@ import pytest
 from drapery.cloth import Collisions, State, grid, rotation_about, sew
 from drapery.cloth.collisions import contact_stage
 from drapery.garments import SewnCloth, dressed_player, find_garment, make_wearer, tailor
-from drapery.garments.layering import outermost, put_outside
+from drapery.garments.layering import outermost, put_outside, sampled
 from drapery.packs import open_packs
 from drapery.scenes import Dressed
 from drapery.scenes.layered import common_bones, meet_each_other
@@ -68,6 +68,24 @@ def test_the_outer_garment_begins_outside(inner: str, outer: str) -> None:
     assert max(np.abs(a.start - b.start).max() for a, b in zip(cloths, placed, strict=True)) < (
         4 * TEXEL
     )
+
+
+@pytest.mark.parametrize(
+    ("inner", "outer"),
+    [("skirt", "cape"), ("poncho", "coat"), ("hood", "cape"), ("poncho", "elytra")],
+)
+def test_garments_over_each_other_begin_behind_a_shield(inner: str, outer: str) -> None:
+    player = dressed_player(make_wearer(shield="white"), wear=(inner, outer))
+    dressed = Dressed(player, open_packs(()), SETTINGS)
+    assert dressed.wearer is not None
+    ((plate, _),) = dressed.wearer.held_boxes()
+    for sewn in dressed.cloths:
+        away = np.abs(sampled(sewn.start, sewn.cloth.triangles) - plate.centre)
+        clear = (away - np.asarray(plate.size) / 2).max(axis=1).min()
+        assert clear > sewn.distance / 2
+    pairs = [(a, b) for a in dressed.cloths for b in dressed.cloths if a.order < b.order]
+    for a, b in pairs:
+        assert crossings(a.start, a.cloth.triangles, b.start, b.cloth.triangles) == 0
 
 
 def test_only_cloth_on_the_body_meets_other_garments() -> None:

@@ -70,21 +70,47 @@ def _outside(cloth: SewnCloth, below: Sequence[SewnCloth]) -> SewnCloth:
     return replace(cloth, start=start, cloth=_widened(cloth.cloth, cloth.start, start))
 
 
-def put_behind(cloth: SewnCloth, low: Array, high: Array) -> SewnCloth:
-    """A cloth that begins on the wearer's side of an upright plate, such as a shield.
+def put_behind(cloths: Sequence[SewnCloth], low: Array, high: Array) -> tuple[SewnCloth, ...]:
+    """Cloths that begin on the wearer's side of an upright plate, such as a shield.
 
+    The outermost is next to the plate; each inner one stays as far inside it as `put_outside` asks.
     low, high: corners of the plate [m], each [3]; it is flat along one axis.
     """
+    placed, room, above = list(cloths), np.inf, 0.0
+    for order in sorted({each.order for each in cloths}, reverse=True):
+        same = [number for number, each in enumerate(cloths) if each.order == order]
+        limits, thick = [], 0.0
+        for number in same:
+            cloth = cloths[number]
+            limit = room - CLEAR * (above + cloth.thickness) / 2 if cloth.is_on_body else np.inf
+            placed[number], kept = _behind(cloth, low, high, limit)
+            if placed[number] is not cloth and cloth.is_on_body:
+                limits.append(kept)
+                thick = max(thick, cloth.thickness)
+        if limits:
+            room, above = min(limits), thick
+    return tuple(placed)
+
+
+def _behind(cloth: SewnCloth, low: Array, high: Array, limit: float) -> tuple[SewnCloth, float]:
+    """A cloth up to a limit along the axis of a plate [m], and clear of it; and that limit."""
     axis = int(np.argmin(high - low))
     side = 1.0 if low[axis] + high[axis] > 0 else -1.0
-    gap = CLEAR * cloth.distance / 2
-    limit = min(side * low[axis], side * high[axis]) - gap
+    face = min(side * float(low[axis]), side * float(high[axis]))
+    limit = min(limit, face - CLEAR * cloth.distance / 2)
     around = BESIDE * cloth.texel
-    before = (cloth.start > low - around) & (cloth.start < high + around)
-    before[:, axis] = side * cloth.start[:, axis] > limit
-    start = cloth.start.copy()
-    start[before.all(axis=1), axis] = side * limit
-    return replace(cloth, start=start)
+    start, faces = cloth.start.copy(), cloth.cloth.triangles
+    places = start[faces]
+    # A face that reaches behind the plate is moved with all of its corners.
+    near = (places.max(axis=1) > low - around) & (places.min(axis=1) < high + around)
+    near[:, axis] = (side * places[:, :, axis]).max(axis=1) > limit
+    moved = np.zeros(len(start), bool)
+    moved[faces[near.all(axis=1)]] = True
+    moved &= side * start[:, axis] > limit
+    if not moved.any():
+        return cloth, limit
+    start[moved, axis] = side * limit
+    return replace(cloth, start=start), limit
 
 
 def _widened(cloth: Cloth, old: Array, new: Array) -> Cloth:

@@ -66,6 +66,8 @@ LOW = 0.25
 """Ground is drawn under cloth that begins lower than this [m]."""
 BUST = ("head", "body", "right_arm", "left_arm")
 """The bones of a bust, which end at the waist."""
+BEHIND_ROUNDS = 2
+"""Garments are put outside each other and behind a shield so often in turn."""
 EDGE = 0.2
 """A garment may hang over the edge of its ground by this length [m]."""
 FRICTION = 0.6
@@ -146,10 +148,13 @@ class Dressed:
         sewn = tailor(with_head_banner(self.garment), self.packs)
         if self.wearer is None or who is None or who.kind != "player":
             return sewn
+        sewn = put_outside(sewn)
         for box, _ in self.wearer.held_boxes():
-            low, high = box.centre - np.asarray(box.size) / 2, box.centre + np.asarray(box.size) / 2
-            sewn = tuple(put_behind(e, low, high) if _begins_in(e, box) else e for e in sewn)
-        return put_outside(sewn)
+            half = np.asarray(box.size) / 2
+            if any(_begins_in(each, box) for each in sewn):
+                for _ in range(BEHIND_ROUNDS):
+                    sewn = put_behind(put_outside(sewn), box.centre - half, box.centre + half)
+        return sewn
 
     @cached_property
     def wearer(self) -> Wearer | None:
