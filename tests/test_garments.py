@@ -141,6 +141,14 @@ def test_pins_and_seams_must_fit(fields: dict[str, object], said: str) -> None:
         tailor(flat(**fields), open_packs(()))
 
 
+def test_each_corner_of_a_grid_has_a_name() -> None:
+    (cut,) = cut_pieces(flat())
+    named = [
+        cut.edges[f"{row}-{column}"] for row in ("top", "bottom") for column in ("left", "right")
+    ]
+    assert np.concatenate(named).tolist() == cut.edges["corners"].tolist() == [0, 4, 30, 34]
+
+
 def test_a_mirrored_piece_is_the_mirror_image() -> None:
     corners = ((0.0, 0.0), (0.0, -12.0), (6.0, -9.0))
     left = PolygonPiece(

@@ -134,7 +134,7 @@ def _grid(piece: GridPiece, garment: Garment) -> CutPiece:
     edges = {"top": index[0], "bottom": index[-1], "left": index[:, 0], "right": index[:, -1]}
     for row, side in (("top", 0), ("bottom", -1)):
         for column, end in (("left", 0), ("right", -1)):
-            edges[f"{row}-{column}"] = index[side : side or None][:1, end]
+            edges[f"{row}-{column}"] = index[[side], [end]]
     edges["corners"] = index[[0, 0, -1, -1], [0, -1, 0, -1]]
     size = max(width, hem), height
     made = _whole(piece, cloth, edges, spots, size)
