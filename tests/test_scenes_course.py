@@ -17,7 +17,7 @@ LONG = Clip((64, 64), 100, 20.0)
 
 def swung(pins, **words):
     parameters = corners.CornersParameters(**words)
-    cloth = corners.level_cloth(pins, parameters)
+    cloth = corners.level_cloth(pins, parameters).cloth
     return cloth, list(corners.cloth_states(cloth, parameters, LONG))
 
 

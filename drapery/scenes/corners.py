@@ -1,21 +1,23 @@
 """What three scenes share: a level square of cloth that is pinned at corners and released."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, Drag, Fabric, Gravity, State, grid
-from drapery.cloth.colliders import rotation_about
+from drapery.cloth import Cloth, State
 from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.verlet import SolverVerlet
+from drapery.garments.assembly import SewnCloth, tailor
+from drapery.garments.catalogue import find_garment
+from drapery.garments.model import GarmentPin
 from drapery.mesh import Array
 from drapery.render.scene import Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.moving import motion, placed
+from drapery.scenes.moving import motion
 from drapery.scenes.parameters import (
     MAX_DRAG,
     SceneParameters,
@@ -26,13 +28,17 @@ from drapery.scenes.parameters import (
 from drapery.style.block_world import blocks, plateau
 from drapery.style.extrusion import make_shell
 from drapery.style.scenery import SKY, post
-from drapery.style.tailoring import checked, garment
+from drapery.style.tailoring import checked
 
-SIDE, HEIGHT = 2.0, 2.4
-"""Side of the cloth, and height of its pins [m]."""
+HEIGHT = 2.4
+"""Height of the pins [m]."""
 CORNER_VIEW = View(azimuth=32, elevation=20, fov=28)
-CANVAS = Fabric(stretch=20.0, shear=6.0, flexion=1.0)
-"""Stiffness of structural, shear and flexion springs [N/m]."""
+PINNED: dict[PinName, tuple[str, ...]] = {
+    "corners": ("top-left", "top-right"),
+    "three-corners": ("top-left", "top-right", "bottom-left"),
+    "four-corners": ("corners",),
+}
+"""The edges of the garment at which each scene holds it."""
 DRAG = 0.8
 """Drag of the air [1/s]."""
 
@@ -49,37 +55,44 @@ class CornersParameters(SceneParameters):
 
 def show(corners: PinName, parameters: CornersParameters, clip: Clip) -> Iterator[Scene]:
     """The cloth between posts at its pinned corners."""
-    packs = open_packs(())
-    cloth = level_cloth(corners, parameters)
-    shell = make_shell(cloth.triangles, cloth.uvs)
+    packs, sewn = open_packs(()), level_cloth(corners, parameters)
     wool = checked(packs.texture("block/white_wool"), ("cyan", "white"))
-    pins = cloth.rest_positions[cloth.inv_mass == 0]
+    shell = make_shell(sewn.pieces[0].shell.sheet, sewn.pieces[0].shell.sheet_uvs)
+    drawn = replace(sewn, pieces=(replace(sewn.pieces[0], shell=shell, material=wool),))
+    pins = sewn.start[sewn.cloth.inv_mass == 0]
     posts = tuple(post(pin * np.array([1, 0, 1]), HEIGHT + 0.06, packs) for pin in pins)
     still = (*blocks(plateau(4, 4), packs), *posts)
     camera = frame_points(CORNER_VIEW, _framed_points(), clip.size[0] / clip.size[1], margin=0.03)
-    for state in cloth_states(cloth, parameters, clip):
-        size = SIDE, SIDE
-        sheet = garment(shell, state.positions[0], parameters.thickness, wool, size=size)
-        shadow = contact_shadow((*posts, sheet), 0.0, reach=HEIGHT)
-        yield Scene((*still, shadow, sheet), camera, clip.size, background=SKY, samples=4)
+    for state in cloth_states(sewn.cloth, parameters, clip):
+        sheet = drawn.models(state.positions[0])
+        shadow = contact_shadow((*posts, *sheet), 0.0, reach=HEIGHT)
+        yield Scene((*still, shadow, *sheet), camera, clip.size, background=SKY, samples=4)
 
 
-def level_cloth(pins: PinName, parameters: CornersParameters) -> Cloth:
-    """The cloth lying level in the air; its first row is at the back.
+def level_cloth(pins: PinName, parameters: CornersParameters) -> SewnCloth:
+    """The garment `corners`, held at some of its corners; its first row is at the back.
 
     A cloth that is pinned at that row alone swings, so its first row is over the middle of the
     ground.
     """
-    cloth = grid(*parameters.grid, SIDE, SIDE, pins=pins, fabric=CANVAS)
-    turn = rotation_about((1, 0, 0), -90)
-    back = 0.0 if pins == "corners" else -SIDE / 2
-    return placed(cloth, np.array([0.0, HEIGHT, back]), turn)
+    found = find_garment("corners")
+    piece = found.piece[0]
+    x, y, z = piece.place
+    place = (x, y, 0.0 if pins == "corners" else z)
+    held = tuple(GarmentPin(piece=piece.name, at=corner) for corner in PINNED[pins])
+    own = {
+        "piece": (piece.model_copy(update={"points": parameters.grid, "place": place}),),
+        "pin": held,
+        "fabric": replace(found.fabric, drag=parameters.drag),
+        "thickness": parameters.thickness / found.texel,
+    }
+    (sewn,) = tailor(found.model_copy(update=own), open_packs(()))
+    return sewn
 
 
 def cloth_states(cloth: Cloth, parameters: CornersParameters, clip: Clip) -> Iterator[State]:
     """The cloth at each frame after its release."""
-    forces = (Gravity(), Drag(parameters.drag))
-    return motion(cloth, clip, solver=SolverVerlet(limit=parameters.limit), forces=forces)
+    return motion(cloth, clip, solver=SolverVerlet(limit=parameters.limit))
 
 
 def _framed_points() -> Array:
