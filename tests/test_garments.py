@@ -14,6 +14,7 @@ from drapery.errors import OptionError
 from drapery.garments import (
     ClothTexture,
     Garment,
+    GarmentMesh,
     GarmentPin,
     GarmentSeam,
     GarmentWearer,
@@ -23,9 +24,11 @@ from drapery.garments import (
     StripPiece,
     find_garment,
     garment_names,
+    meshes,
     tailor,
 )
 from drapery.garments.loading import MAX_BYTES
+from drapery.garments.meshes import read_stiff_mesh
 from drapery.garments.shapes import cut_pieces
 from drapery.garments.textures import texture_of
 from drapery.mesh import face_normals, vertex_normals
@@ -79,7 +82,7 @@ def test_a_file_of_the_package_is_short_and_complete(name: str) -> None:
     assert garment.name == name and garment.description and garment.picture
     assert f"`{name}`" in PAGE
     for sewn in tailor(garment, open_packs(())):
-        assert (sewn.cloth.inv_mass == 0).any() == (name != "drape")  # which nothing holds
+        assert (sewn.cloth.inv_mass == 0).any() == (name not in ("drape", "freefall"))
 
 
 @pytest.mark.parametrize(
@@ -107,6 +110,7 @@ def test_a_file_of_the_package_is_short_and_complete(name: str) -> None:
         ("[wearer]", "picture = { wind = 99 }\n[wearer]", 3, "wind 99 is out of range; use 0"),
         ("[wearer]", "picture = { grid = '5x9' }\n[wearer]", 3, "'grid' is not an option"),
         ("description", "name", 1, "name is taken from the file's path; leave it out"),
+        ("[wearer]", "mesh = [{ file = 'a.txt' }]\n[wearer]", 3, "file 'a.txt' is not a 3-D file"),
     ],
 )
 def test_a_fault_names_the_line_and_the_remedy(
@@ -339,6 +343,61 @@ def test_the_blocks_of_the_page_work(tmp_path: Path, monkeypatch: pytest.MonkeyP
         if kind == "python":
             exec(code, {})
     assert (tmp_path / "towel.png").exists() and (tmp_path / "flag.glb").exists()
+
+
+TETRAHEDRON = """\
+v -1 0 -1
+v 1 0 -1
+v 0 0 1
+v 0 1 0
+f 1 2 3
+f 1 4 2
+f 2 4 3
+f 3 4 1
+"""
+
+
+def test_a_3d_file_stops_cloth_and_is_drawn(tmp_path: Path) -> None:
+    (tmp_path / "hill.obj").write_text("mtllib /etc/passwd\n" + TETRAHEDRON)
+    over = GridPiece(
+        name="over", size=(24, 24), points=(9, 9), place=(0, 20, -12), turn=(-90, 0, 0)
+    )
+    hill = GarmentMesh(file=Path("hill.obj"), place=(0, 2, 0))
+    garment = flat(piece=over, mesh=(hill,), folder=tmp_path)
+    assert garment.paths == (tmp_path / "hill.obj",)
+    dressed = Dressed(garment, open_packs(()), garment.settings())
+    (model,) = dressed.fixed
+    assert model.mesh.positions.max(axis=0).tolist() == [1, 1 + 2 / 16, 1]
+    (sheet,) = dressed.sheets([0.6])
+    assert abs(sheet[0, 40, 1] - 1.125) < 0.1  # the middle lies on the top
+    assert sheet[0, :, 1].min() < 0.9  # its sides hang lower
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("none.obj", None, "cannot be read: No such file"),
+        ("text.stl", "solid no", "text.stl"),
+        ("empty.obj", "v 0 0 0", "empty.obj"),
+        ("bad.glb", "glTF", "bad.glb cannot be read"),
+    ],
+)
+def test_a_3d_file_that_cannot_be_used_is_named(
+    name: str, content: str | None, said: str, tmp_path: Path
+) -> None:
+    if content is not None:
+        (tmp_path / name).write_text(content)
+    with pytest.raises(OptionError, match=f"mesh .*{said}"):
+        read_stiff_mesh(GarmentMesh(file=Path(name)), tmp_path, 1 / 16)
+
+
+def test_the_size_of_a_3d_file_is_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "hill.obj").write_text(TETRAHEDRON)
+    for name, said in (("MAX_FACES", "over 3 triangles"), ("MAX_FILE", "over 3 bytes")):
+        with monkeypatch.context() as patch:
+            patch.setattr(meshes, name, 3)
+            with pytest.raises(OptionError, match=said):
+                read_stiff_mesh(GarmentMesh(file=Path("hill.obj")), tmp_path, 1 / 16)
 
 
 def command(*words: object) -> None:

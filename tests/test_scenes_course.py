@@ -10,7 +10,6 @@ from drapery.errors import OptionError
 from drapery.scenes import corners, freefall, sail
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.wind_script import parse_script, read_script
-from drapery.style.insect import beetle
 
 LONG = Clip((64, 64), 100, 20.0)
 
@@ -133,15 +132,10 @@ def test_a_script_is_read_from_a_file(tmp_path) -> None:
 
 @pytest.mark.parametrize("on", ["beetle", "fox"])
 def test_falling_cloth_drapes_and_never_goes_through(on) -> None:
-    parameters = freefall.FreefallParameters(grid=(14, 14))
-    at = freefall.BEETLE_AT if on == "beetle" else freefall.FOX_AT
-    cloth = freefall.sheet(parameters, at)
-    met = (
-        freefall.insect_colliders(parameters, beetle(at))
-        if on == "beetle"
-        else freefall.fox_colliders(parameters)
-    )
-    states = list(freefall.cloth_states(parameters, cloth, met, Clip((64, 64), 60, 20.0)))
+    dressed = freefall.falling(freefall.FreefallParameters(grid=(14, 14)))
+    sewn = dressed.cloths[("beetle", "fox").index(on)]
+    cloth, met = sewn.cloth, dressed.colliders(sewn)
+    states = list(freefall.cloth_states(dressed, sewn, Clip((64, 64), 60, 20.0)))
     for state in states[8::6]:
         assert clearance(cloth, state, met) > 0  # half the thickness may go in; the middle not
     last = states[-1]

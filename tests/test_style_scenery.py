@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from assets.drawing.creatures import FILES, creatures
+from assets.drawing.fox import fox
 from drapery.banner.packs import open_packs
-from drapery.cloth.colliders import mesh_collider
+from drapery.garments import GarmentMesh
+from drapery.garments.meshes import read_stiff_mesh
 from drapery.style.block_world import blocks, plateau
-from drapery.style.creature import cells_of, fox
 from drapery.style.figure import PARTS, figure_material, figure_mesh
-from drapery.style.insect import beetle
 from drapery.style.scenery import path_ground, pole, post, sea, shadow
 from drapery.style.tailoring import checked, dyed
 
@@ -78,21 +79,26 @@ def test_every_texel_of_a_figure_is_painted() -> None:
         assert sheet[int(v), int(u), 3] == 255
 
 
-def test_the_beetle_is_made_of_closed_bodies() -> None:
-    insect = beetle(np.array([1.0, 0, 2]))
-    surface = mesh_collider(insect.vertices, insect.triangles)
-    assert (
-        surface.solid.all() and len(surface.solid) == 1 + 2 + 6 + 2 + 2
-    )  # the halves of a leg meet in its knee
-    assert 0 <= insect.vertices[:, 1].min() < 0.05
-    for model in insect.models:
+@pytest.mark.parametrize(("name", "bodies"), [("beetle", 1 + 2 + 6 + 2 + 2), ("fox", 1)])
+def test_the_file_of_a_creature_is_as_drawn_and_made_of_closed_bodies(name, bodies) -> None:
+    drawn = np.concatenate([model.mesh.positions for model in creatures()[name]])
+    found = read_stiff_mesh(GarmentMesh(file=f"{name}.glb"), FILES, 1 / 16)
+    points = np.concatenate([model.mesh.positions for model in found.models])
+    apart = np.abs(np.unique(drawn, axis=0)[:, None] - np.unique(points, axis=0)).max(axis=2)
+    assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-6, (
+        "run python -m assets.drawing.creatures"
+    )
+    # The halves of a leg meet in its knee.
+    assert found.surface.solid.all() and len(found.surface.solid) == bodies
+    assert 0 <= points[:, 1].min() < 0.05
+    for model in found.models:
         corners = model.mesh.positions[model.mesh.triangles]
         turned = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         assert (np.sum(turned * model.mesh.normals[model.mesh.triangles[:, 0]], axis=1) > 0).all()
 
 
 def test_the_fox_holds_together() -> None:
-    cells = {tuple(cell) for cell in cells_of(fox()).tolist()}
+    cells = set(fox())
     found, edge = set(), [next(iter(cells))]
     while edge:
         cell = edge.pop()

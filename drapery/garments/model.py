@@ -40,6 +40,9 @@ MAX_LENGTH = 1024
 """The longest length and the farthest place [texels]."""
 MAX_PIECES = 64
 """The most pieces, pins, seams, poles and blocks of a garment, each."""
+MAX_MESHES = 8
+"""The most 3-D files of a garment."""
+MESH_ENDINGS = (".glb", ".obj", ".ply", ".stl")
 MAX_PARTICLES = 65
 """The most particles along one side of a piece."""
 UNUSED_OPTIONS = (
@@ -118,6 +121,13 @@ def _as_options(given: Any) -> dict[str, Any]:
     if strange := unknown_names(given, usable):
         raise OptionError(strange[0])
     return {name: NAMED_OPTIONS[name].parse(value) for name, value in given.items()}
+
+
+def _as_mesh_file(file: Path) -> Path:
+    if file.suffix.lower() not in MESH_ENDINGS:
+        known = ", ".join(MESH_ENDINGS)
+        raise OptionError(f"file {shown(file.name)} is not a 3-D file; use one of: {known}")
+    return file
 
 
 class GarmentTable(BaseModel):
@@ -353,6 +363,17 @@ class GarmentBlock(GarmentTable):
     kind: Annotated[str, Field(pattern=r"^[a-z0-9_/.-]{1,64}$")] = "stone"
 
 
+class GarmentMesh(GarmentTable):
+    """A stiff body of a 3-D file, which stops cloth. file: .glb, .obj, .ply or .stl, relative to
+    the garment's file. place: where its origin is [texels]. turn: angles about x, then y, then z
+    through it [degrees]. scale: the length of the file's unit [texels]; 16 for files in metres."""
+
+    file: Annotated[Path, AfterValidator(_said(_as_mesh_file))]
+    place: Point = (0.0, 0.0, 0.0)
+    turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
+    scale: Extent = 16.0
+
+
 class GarmentWearer(GarmentTable):
     """Who wears it. kind: player or horse.
 
@@ -414,7 +435,7 @@ class Garment(GarmentTable):
     name: shown in lists; the name of its file. description: one line about it.
     fabric: the name of a preset, or a table of the fields of `Fabric`. thickness: [texels].
     collisions: what its cloth does not pass through: `none`, `world` (wearer, poles, blocks,
-    ground), or `all` (itself too). resolution: texels to a block.
+    meshes, ground), or `all` (itself too). resolution: texels to a block.
     folder: where relative paths of its textures start.
     picture: options of its pictures by name, unless the picture gives them; see `Settings`.
     over: garments that its wearer wears over it; only their cloth counts.
@@ -437,6 +458,7 @@ class Garment(GarmentTable):
     seam: Annotated[tuple[GarmentSeam, ...], Field(max_length=MAX_PIECES)] = ()
     pole: Annotated[tuple[GarmentPole, ...], Field(max_length=MAX_PIECES)] = ()
     block: Annotated[tuple[GarmentBlock, ...], Field(max_length=MAX_PIECES)] = ()
+    mesh: Annotated[tuple[GarmentMesh, ...], Field(max_length=MAX_MESHES)] = ()
     over: tuple["Garment", ...] = ()
 
     @model_validator(mode="after")
@@ -513,9 +535,10 @@ class Garment(GarmentTable):
 
     @property
     def paths(self) -> tuple[Path, ...]:
-        """The files that it reads when it is drawn: textures, a skin and a pose."""
+        """The files that it reads when it is drawn: textures, 3-D files, a skin and a pose."""
         textures = [each.texture or self.texture for each in self.piece]
         names: list[str | Path] = [each.file for each in textures if each.file is not None]
+        names += [each.file for each in self.mesh]
         if self.wearer is not None:
             names += [self.wearer.skin] if self.wearer.skin.lower().endswith(".png") else []
             names += read_blend(self.wearer.motion, self.folder).files
@@ -561,5 +584,6 @@ TABLES: dict[str, type[BaseModel]] = {
     "seam": GarmentSeam,
     "pole": GarmentPole,
     "block": GarmentBlock,
+    "mesh": GarmentMesh,
 }
 """The tables of a file by name, those of pieces by their shape."""

@@ -29,6 +29,7 @@ from drapery.cloth import (
 from drapery.cloth.solvers.registry import solver
 from drapery.garments.assembly import SewnCloth, tailor
 from drapery.garments.layering import put_behind, put_outside, sampled
+from drapery.garments.meshes import StiffMesh, read_stiff_mesh
 from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
@@ -162,13 +163,20 @@ class Dressed:
         return wearer_of(self.garment, self.packs, self.period)
 
     @cached_property
+    def meshes(self) -> tuple[StiffMesh, ...]:
+        """Its 3-D files."""
+        where, texel = self.garment.folder, self.garment.texel
+        return tuple(read_stiff_mesh(each, where, texel) for each in self.garment.mesh)
+
+    @cached_property
     def fixed(self) -> tuple[Model, ...]:
-        """Its poles and blocks, which do not move."""
+        """Its poles, blocks and 3-D files, which do not move."""
         texel = self.garment.texel
         poles = (
             pole(*_ends(each, texel), self.packs, each.half * texel) for each in self.garment.pole
         )
-        return (*(_shifted(m, -MIDDLE) for m in blocks(self.cells, self.packs)), *poles)
+        stiff = (model for each in self.meshes for model in each.models)
+        return (*(_shifted(m, -MIDDLE) for m in blocks(self.cells, self.packs)), *poles, *stiff)
 
     @cached_property
     def cells(self) -> dict[Cell, str]:
@@ -195,6 +203,7 @@ class Dressed:
             middle = np.array(block.cell) + size / 2 - MIDDLE
             found.append(Collider(Box(middle, size), friction=friction))
         found += [Collider(_pole_box(each, texel), friction=friction) for each in self.garment.pole]
+        found += [Collider(each.surface, friction=friction) for each in self.meshes]
         if self.wearer is not None:
             found += self.wearer.colliders(sewn.solid)
             # Cloth that begins in a shield passes through it.
@@ -371,7 +380,8 @@ class Dressed:
         low_cloth = [sewn.start[sewn.start[:, 1] < LOW] for sewn in self.cloths]
         points = np.concatenate([np.zeros((1, 3)), *low_cloth, np.reshape(ends, (-1, 3))])
         cells = [(np.array(cell) - MIDDLE + [0.5, 0, 0.5])[None] for cell in self.cells]
-        points = np.concatenate([points, *cells])
+        stiff = [model.mesh.positions for each in self.meshes for model in each.models]
+        points = np.concatenate([points, *cells, *stiff])
         if self.wearer is not None:
             figure = [model.mesh.positions for model in self.wearer.models(0.0)]
             points = np.concatenate([points, *figure])

@@ -1,29 +1,25 @@
 """Cloths fall on a beetle and on a fox of cubes, and drape over them."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, Drag, Fabric, Gravity, State, grid
-from drapery.cloth.colliders import (
-    Collider,
-    Plane,
-    Pose,
-    Voxels,
-    mesh_collider,
-    rotation_about,
-)
+from drapery.cloth import State
 from drapery.cloth.collisions import Collisions
 from drapery.cloth.solvers.verlet import SolverVerlet
+from drapery.garments.assembly import SewnCloth
+from drapery.garments.catalogue import find_garment
+from drapery.garments.model import GridPiece
 from drapery.mesh import Array
-from drapery.render.scene import Model, Scene
+from drapery.render.scene import Scene, Texels
 from drapery.render.shadow import contact_shadow
-from drapery.render.vectors import dots
 from drapery.render.views import View, frame_points
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.moving import motion, placed
+from drapery.scenes.dressing import Dressed
+from drapery.scenes.moving import motion
 from drapery.scenes.parameters import (
     MAX_DRAG,
     SceneParameters,
@@ -32,18 +28,15 @@ from drapery.scenes.parameters import (
     thickness_in_metres,
 )
 from drapery.style.block_world import blocks, plateau
-from drapery.style.creature import CUBE, cells_of, fox
 from drapery.style.extrusion import make_shell
-from drapery.style.insect import Beetle, beetle
-from drapery.style.scenery import SKY, moved
-from drapery.style.tailoring import checked, garment
+from drapery.style.scenery import SKY
+from drapery.style.tailoring import checked
 
 ABOVE = View(azimuth=22, elevation=20, fov=28)
 HEIGHT = 1.9
 """From where the cloths fall [m]."""
-BEETLE_AT, FOX_AT = np.array([-1.0, 0.0, 0.4]), np.array([1.05, 0.0, 0.5])
-GROUND = Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])), friction=0.6)
-SOFT = Fabric(stretch=8.0, shear=2.0, flexion=0.15)
+DYES = (("lime", "white"), ("light_blue", "white"))
+"""Of the squares of each cloth."""
 
 
 @dataclass(frozen=True)
@@ -59,70 +52,56 @@ class FreefallParameters(SceneParameters):
 
 def play(parameters: FreefallParameters, clip: Clip) -> Iterator[Scene]:
     """From the moment when both cloths are released."""
-    packs = open_packs(())
-    insect, cubes = beetle(BEETLE_AT), blocks(fox(), packs)
-    still = (*blocks(plateau(4, 3), packs), *insect.models, *_small(cubes))
-    shadow = contact_shadow(still[-len(insect.models) - len(cubes) :], 0.0)
+    packs, dressed = open_packs(()), falling(parameters)
+    still = (*blocks(plateau(4, 3), packs), *dressed.fixed, contact_shadow(dressed.fixed, 0.0))
     wool = packs.texture("block/white_wool")
-    materials = [checked(wool, dyes) for dyes in (("lime", "white"), ("light_blue", "white"))]
-    cloths = (sheet(parameters, BEETLE_AT), sheet(parameters, FOX_AT))
-    colliders = (insect_colliders(parameters, insect), fox_colliders(parameters))
-    shell = make_shell(cloths[0].triangles, cloths[0].uvs)
-    size = parameters.side, parameters.side
+    drawn = [_chequered(*pair, wool) for pair in zip(dressed.cloths, DYES, strict=True)]
     camera = frame_points(ABOVE, _framed_points(), clip.size[0] / clip.size[1], margin=0.03)
-    motions = [
-        cloth_states(parameters, *pair, clip) for pair in zip(cloths, colliders, strict=True)
-    ]
+    motions = [cloth_states(dressed, sewn, clip) for sewn in dressed.cloths]
     for states in zip(*motions, strict=True):
-        fallen = tuple(
-            garment(shell, state.positions[0], parameters.thickness, material, size=size)
-            for state, material in zip(states, materials, strict=True)
+        fallen = (
+            model
+            for sewn, state in zip(drawn, states, strict=True)
+            for model in sewn.models(state.positions[0])
         )
-        yield Scene((*still, shadow, *fallen), camera, clip.size, background=SKY, samples=4)
+        yield Scene((*still, *fallen), camera, clip.size, background=SKY, samples=4)
 
 
-def sheet(parameters: FreefallParameters, at: Array) -> Cloth:
-    """A level cloth over a place on the ground, turned a little."""
-    cloth = grid(*parameters.grid, parameters.side, parameters.side, pins="none", fabric=SOFT)
-    flat = placed(cloth, np.array([0, parameters.side / 2, 0]))
-    about_y, about_x = rotation_about((0, 1, 0), 12), rotation_about((1, 0, 0), -90)
-    turn = dots(about_y[:, None], about_x.T)  # the product of the matrices
-    return placed(flat, at + np.array([0.0, HEIGHT, 0.0]), turn)
+def _chequered(sewn: SewnCloth, dyes: tuple[str, str], wool: Texels) -> SewnCloth:
+    """A cloth of squares of two dyes."""
+    (piece,) = sewn.pieces
+    shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs)
+    drawn = replace(piece, shell=shell, material=checked(wool, dyes))
+    return replace(sewn, pieces=(drawn,))
 
 
-def cloth_states(
-    parameters: FreefallParameters, cloth: Cloth, colliders: tuple[Collider, ...], clip: Clip
-) -> Iterator[State]:
+def falling(parameters: FreefallParameters) -> Dressed:
+    """The garment `freefall` with other cloths."""
+    found = find_garment("freefall")
+    pieces = (each for each in found.piece if isinstance(each, GridPiece))
+    own = {
+        "piece": tuple(_sized(each, parameters, found.texel) for each in pieces),
+        "fabric": replace(found.fabric, drag=parameters.drag, friction=parameters.friction),
+        "thickness": parameters.thickness / found.texel,
+    }
+    return Dressed(found.model_copy(update=own), open_packs(()), found.settings())
+
+
+def _sized(piece: GridPiece, parameters: FreefallParameters, texel: float) -> GridPiece:
+    """A level cloth with other numbers of particles and another side, about the same middle."""
+    side = parameters.side / texel
+    further, turn = (side - piece.size[1]) / 2, math.radians(piece.turn[1])
+    x, y, z = piece.place
+    place = (x - further * math.sin(turn), y, z - further * math.cos(turn))
+    return piece.model_copy(
+        update={"points": parameters.grid, "size": (side, side), "place": place}
+    )
+
+
+def cloth_states(dressed: Dressed, sewn: SewnCloth, clip: Clip) -> Iterator[State]:
     """One cloth at each frame."""
-    return motion(
-        cloth,
-        clip,
-        solver=SolverVerlet(),
-        forces=(Gravity(), Drag(parameters.drag)),
-        collisions=Collisions(colliders, parameters.thickness),
-    )
-
-
-def insect_colliders(parameters: FreefallParameters, insect: Beetle) -> tuple[Collider, ...]:
-    """The beetle and the ground."""
-    surface = mesh_collider(insect.vertices, insect.triangles)
-    return Collider(surface, friction=parameters.friction), GROUND
-
-
-def fox_colliders(parameters: FreefallParameters) -> tuple[Collider, ...]:
-    """The fox and the ground."""
-    place = Pose(FOX_AT - np.array([CUBE / 2, 0, 0]))
-    cubes = Voxels(cells_of(fox()), CUBE)
-    return Collider(cubes, lambda time: place, friction=parameters.friction), GROUND
-
-
-def _small(cubes: tuple[Model, ...]) -> tuple[Model, ...]:
-    """Blocks made as small as the cubes of the fox, and put where it stands."""
-    small = tuple(
-        replace(model, mesh=replace(model.mesh, positions=model.mesh.positions * CUBE))
-        for model in cubes
-    )
-    return moved(small, FOX_AT - np.array([CUBE / 2, 0, 0]))
+    met = Collisions(dressed.colliders(sewn), sewn.distance)
+    return motion(sewn.cloth, clip, solver=SolverVerlet(), collisions=met)
 
 
 def _framed_points() -> Array:

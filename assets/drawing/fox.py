@@ -2,9 +2,6 @@
 
 from itertools import product
 
-import numpy as np
-from numpy.typing import NDArray
-
 from drapery.style.block_world import Cell
 
 CUBE = 0.17
@@ -26,8 +23,3 @@ def fox() -> dict[Cell, str]:
     cells.update({(0, 4, -5): "orange", (0, 5, -5): "orange", (0, 5, -6): "orange"})
     cells.update({(0, 6, -6): "white", (0, 6, -7): "white"})
     return cells
-
-
-def cells_of(creature: dict[Cell, str]) -> NDArray[np.int64]:
-    """The cells of a creature as an array, shape [M, 3]."""
-    return np.array(sorted(creature), np.int64)

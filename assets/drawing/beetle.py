@@ -1,7 +1,5 @@
 """A beetle with a round body and thin legs, for cloth to fall on."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from drapery.mesh import Array, Mesh, Triangles, vertex_normals
@@ -12,17 +10,8 @@ RED, SPOT, BLACK, WHITE = (196, 48, 38), (40, 32, 36), (52, 46, 54), (236, 232, 
 RINGS, SEGMENTS = 10, 16
 
 
-@dataclass(frozen=True, eq=False)
-class Beetle:
-    """Its surface as models to draw, and as one closed mesh for collisions [m]."""
-
-    models: tuple[Model, ...]
-    vertices: Array
-    triangles: Triangles
-
-
-def beetle(at: Array) -> Beetle:
-    """A beetle on level ground that looks along +z. at: its place [m], shape [3]."""
+def beetle() -> tuple[Model, ...]:
+    """A beetle on level ground over the origin that looks along +z [m]."""
     shell = _ball((0.0, 0.56, -0.1), (0.56, 0.4, 0.72))
     dark = [
         _ball((0.0, 0.5, 0.62), (0.36, 0.27, 0.26)),
@@ -32,14 +21,7 @@ def beetle(at: Array) -> Beetle:
     ]
     eyes = [_ball((side * 0.15, 0.53, 1.05), (0.07, 0.07, 0.06)) for side in (-1, 1)]
     parts = [(shell, _spotted()), (join(dark), _plain(BLACK)), (join(eyes), _plain(WHITE))]
-    models = tuple(Model(_at(mesh, at), (material,)) for mesh, material in parts)
-    whole = join([model.mesh for model in models])
-    # Whole micrometres, so that sines that round differently do not change the cloth's motion.
-    return Beetle(models, np.round(whole.positions, 6), whole.triangles)
-
-
-def _at(mesh: Mesh, place: Array) -> Mesh:
-    return Mesh(mesh.positions + place, mesh.normals, mesh.triangles, mesh.uvs)
+    return tuple(Model(mesh, (material,)) for mesh, material in parts)
 
 
 def _ball(centre: tuple[float, float, float], radii: tuple[float, float, float]) -> Mesh:
