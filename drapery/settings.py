@@ -68,6 +68,7 @@ class Options(TypedDict, total=False):
     rotation: int
     facing: Facing | None
     view: str | View
+    turntable: bool
     size: tuple[int, int]
     grid: tuple[int, int]
     solver: SolverName | Solver
@@ -191,6 +192,12 @@ class Settings:
         "Where the camera stands",
         choices=get_args(ViewName),
         takes=_has("azimuth", "elevation", "fov"),
+        audience="anyone",
+    )
+    turntable: bool = _option(
+        False,
+        bool,
+        "Let the camera go once around the subject in the time of an animation",
         audience="anyone",
     )
     size: tuple[int, int] = _option(
@@ -408,6 +415,8 @@ class Settings:
             raise OptionError(f"ground {self.ground} is not for an item in its slot; leave it out")
 
     def _check_turn(self) -> None:
+        if self.turntable and self.placement == "item":
+            raise OptionError("turntable is not for an item in its slot; leave it out")
         if self.facing is not None and self.placement != "wall":
             raise OptionError(
                 f"facing {self.facing} applies only to banners on a wall; use rotation"

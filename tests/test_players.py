@@ -214,6 +214,22 @@ def test_a_loop_of_a_motion_has_no_seam() -> None:
     assert steps[-1] <= 1.2 * max(steps[:-1])
 
 
+def test_a_turntable_shows_a_player_from_all_sides() -> None:
+    player = dressed_player(make_wearer(motion="stand", shown="head"))
+    options = {"size": (24, 24), "view": "front", "light": "flat", "seconds": 1, "fps": 4}
+    ahead, right, behind, left = animate(player, turntable=True, **options).frames  # type: ignore[arg-type]
+    back = draw(player, size=(24, 24), view="back", light="flat").pixels
+    drawn = [frame.pixels for frame in (ahead, right, behind, left)]
+    assert len({pixels.tobytes() for pixels in drawn}) == 4
+    face, nape = (pixels[8:16, 8:16, :3].mean() for pixels in (drawn[0], drawn[2]))
+    assert abs(nape - back[8:16, 8:16, :3].mean()) < 6 < face - nape
+
+
+def test_a_turntable_is_not_for_items() -> None:
+    with pytest.raises(OptionError, match="turntable is not for an item in its slot; leave it out"):
+        Settings(turntable=True, placement="item")
+
+
 def test_a_sheet_of_players_has_a_row_for_each_skin_and_view() -> None:
     sheet = players_sheet(Settings(size=(24, 24)), ("dancer",), ("stand", "sit"), wear=())
     assert sheet.down == ("dancer front", "dancer hero", "dancer back") and len(sheet.cells) == 6

@@ -313,7 +313,7 @@ class Dressed:
     def scenes(self, sheets: Sequence[Array], times: Sequence[float]) -> Iterator[Scene]:
         """A scene of each moment. sheets: of each cloth at all moments [m], each [F, N, 3].
 
-        One camera frames all of them.
+        One camera frames all of them; a turntable goes once around them.
         """
         stager = Stager(Body(ground=self._ground()), self.settings, ())
         moments = [
@@ -325,9 +325,10 @@ class Dressed:
         points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])
         if framed:
             points = np.concatenate([model.mesh.positions for model in framed])
-        camera = stager.camera([points], self.settings.size[0] / self.settings.size[1])
+        aspect = self.settings.size[0] / self.settings.size[1]
+        cameras = stager.cameras([points], aspect, len(moments))
         floor = floor_under(meshes)
-        for models in moments:
+        for models, camera in zip(moments, cameras, strict=True):
             shadow = stager.contact(models, floor) if self.settings.shadow else None
             yield stager.scene(models, camera, shadow)
 

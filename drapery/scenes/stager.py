@@ -213,6 +213,13 @@ class Stager:
             return self.body.camera
         return frame_view(self.settings.view, self.framed(points), aspect)
 
+    def cameras(self, points: Sequence[Array], aspect: float, count: int) -> list[Camera]:
+        """The camera of each of `count` moments: the same one, or once around points [m]."""
+        if self.settings.turntable and self.body.camera is None:
+            view = find_view(self.settings.view)
+            return turntable(view, self.framed(points), aspect, count)
+        return [self.camera(points, aspect)] * count
+
     def framed(self, points: Sequence[Array]) -> Array:
         """Points of the body [m] with those of the block below and of the shadow, shape [N, 3].
 
@@ -364,7 +371,7 @@ def _scenes(
     settings, body, meshes = stager.settings, stager.body, [*chain(*moments)]
     points = np.concatenate([mesh.positions for mesh in meshes])
     aspect, floor = settings.size[0] / settings.size[1], floor_under(meshes)
-    cameras = [stager.camera([points], aspect)] * len(moments)
+    cameras = stager.cameras([points], aspect, len(moments))
     moves = any(settings.pose == "cloth" or panel.sway for panel in body.panels)
     if len(moments) > 1 and not moves and body.camera is None:
         view = find_view(settings.view)
