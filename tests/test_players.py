@@ -188,6 +188,18 @@ def test_a_cape_stays_outside_a_player_that_moves(motion: str) -> None:
     check_garment(cape.model_copy(update={"wearer": who}), 0.4)
 
 
+@pytest.mark.parametrize(("motion", "speed"), [("stand", 0.0), ("glide", 8.0)])
+def test_wings_bend_and_do_not_fold(motion: str, speed: float) -> None:
+    player = dressed_player(make_wearer(motion=motion, speed=speed), elytra=True)
+    dressed = Dressed(player, open_packs(()), player.settings())
+    columns, rows = find_garment("elytra").piece[0].points  # type: ignore[union-attr]
+    for sheet in dressed.sheets([0.5, 0.9, 1.2, 1.6]):
+        down = np.diff(sheet.reshape(4, rows, columns, 3), axis=1)
+        along = down / np.linalg.norm(down, axis=-1, keepdims=True)
+        cosines = np.einsum("trci,tsci->trsc", along, along)
+        assert np.degrees(np.arccos(cosines.min())) < 75
+
+
 def test_the_head_looks_and_the_rest_stays() -> None:
     ahead, aside = (
         Dressed(dressed_player(make_wearer(look=look)), open_packs(()), Settings()).wearer
