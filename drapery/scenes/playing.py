@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.contact import lanes_contact
-from drapery.cloth.live import aim, live_call
+from drapery.cloth.live import live_call
 from drapery.cloth.live import play as play_cloth  # what is called `play` here is a scene
+from drapery.cloth.live_wind import aim
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.soft.live_picture import draw_live, make_live_picture

@@ -1,0 +1,194 @@
+"""The wind of a played cloth: `aim` turns it to another velocity, and its gusts continue."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from drapery.cloth import kernels
+from drapery.cloth.cloth import Cloth
+from drapery.cloth.ripples import (
+    RippleTables,
+    resting_frame,
+    ripple_place,
+    ripple_rate,
+    ripple_strength,
+    ripple_tables,
+    vortex_place,
+    vortex_rate,
+    vortex_strength,
+    vortex_turns,
+)
+from drapery.cloth.wind import Wind
+from drapery.jit import entry_point, kernel
+from drapery.mesh import Array
+
+__all__ = ["LiveWind", "aim", "make_live_wind"]
+
+LATE = 100.0
+"""A turned wind has at least this time [s], so that its swell keeps its frequency within 2 %."""
+
+rate_of, place_of = kernel(ripple_rate), kernel(ripple_place)
+strength_of = kernel(ripple_strength)
+vortex_rate_of, vortex_place_of = kernel(vortex_rate), kernel(vortex_place)
+vortex_strength_of = kernel(vortex_strength)
+
+
+class LiveWind(NamedTuple):
+    """What `aim` needs to turn a wind.
+
+    velocity: the free mean wind that the host wants [m/s], [3]. lee: factors of it at the cloth,
+    [3]. swell: frequency of the swell [1/s], [1]. strengths: over the mean speed that of gusts, of
+    ripples and of vortices, then the size of the gusts [m], [4]. ripples: none without them.
+    vortices: the phase of the vortices, [1], or none. rest, normal, down: see `resting_frame`.
+    """
+
+    velocity: Array
+    lee: Array
+    swell: Array
+    strengths: Array
+    ripples: RippleTables
+    vortices: Array
+    rest: Array
+    normal: Array
+    down: Array
+
+
+def make_live_wind(cloth: Cloth, wind: Wind, lee: tuple[float, float, float]) -> LiveWind:
+    """A wind before it is multiplied by lee, ready to be turned by `aim`."""
+    ripples = ripple_tables(wind)
+    return LiveWind(
+        np.array(wind.velocity, float),
+        np.array(lee, float),
+        np.array([1.0 / wind.sine_period]),
+        np.array([wind.gusts, wind.ripples, wind.vortices, wind.gust_size], float),
+        ripples if wind.ripples else RippleTables(*(part[:0] for part in ripples)),
+        vortex_turns(wind) if wind.vortices else np.zeros(0),
+        *resting_frame(cloth),
+    )
+
+
+@entry_point
+def aim(live: Any, wind: Any, gusts: Any) -> Any:
+    """Turn the winds of a batch to wind.velocity: what `lower_forces` writes for it.
+
+    Gusts, swell and waves continue where they are: the time of the wind is shifted. Returns 0.
+    """
+    x = wind.lee[0] * wind.velocity[0]
+    y = wind.lee[1] * wind.velocity[1]
+    z = wind.lee[2] * wind.velocity[2]
+    speed = np.sqrt(x * x + y * y + z * z)
+    numbers, frequency = gusts.numbers[0], speed / wind.strengths[3]
+    now = later = 0.0
+    if live.clock[0] > 0:
+        time = live.clock[0] * live.dt[0]
+        now = time + gusts.phases[0, 0]
+        later = same_gust(now, numbers, frequency)
+        numbers[11] = swell_frequency(now * numbers[11], later, wind.swell[0])
+        for lane in range(gusts.phases.shape[1]):
+            gusts.phases[0, lane] = later - time
+    turn_axes(numbers, x, y, z, speed)
+    numbers[9], numbers[12], numbers[14] = speed, wind.strengths[0] * speed, frequency
+    turn_waves(wind, gusts, x, y, z, speed, now, later)
+    return 0
+
+
+@kernel
+def same_gust(now: Any, numbers: Any, frequency: Any) -> Any:
+    """A time [s] at which gusts of a frequency are where those of another one are now.
+
+    It is late enough for `swell_frequency`: the gusts repeat.
+    """
+    if not (numbers[14] > 0 and frequency > 0):
+        return now
+    later = now * numbers[14] / frequency
+    repeated = numbers[15] / frequency
+    if later < LATE:
+        later += np.ceil((LATE - later) / repeated) * repeated
+    return later
+
+
+@kernel
+def swell_frequency(turns: Any, later: Any, frequency: Any) -> Any:
+    """The frequency nearest to one [1/s] with which a swell has these turns at a time [s]."""
+    turns -= np.floor(turns)
+    return (turns + np.floor(later * frequency - turns + 0.5)) / later if later > 0 else frequency
+
+
+@kernel
+def turn_axes(numbers: Any, x: Any, y: Any, z: Any, speed: Any) -> None:
+    """Orthonormal rows: along a wind, level across it, and the third; see `wind`."""
+    ex, ey, ez = (x / speed, y / speed, z / speed) if speed > 0 else (1.0, 0.0, 0.0)
+    length = np.sqrt(ez * ez + ex * ex)
+    ax, az = (ez / length, -ex / length) if length > 1e-9 else (1.0, 0.0)
+    if speed == 0:
+        ax, az = 0.0, 1.0
+    numbers[0], numbers[1], numbers[2] = ex, ey, ez
+    numbers[3], numbers[4], numbers[5] = ax, 0.0, az
+    numbers[6] = ey * az
+    numbers[7] = ez * ax - ex * az
+    numbers[8] = 0.0 - ey * ax
+    if speed == 0:
+        numbers[7] = 1.0
+
+
+@kernel
+def turn_waves(
+    wind: Any, gusts: Any, x: Any, y: Any, z: Any, speed: Any, now: Any, later: Any
+) -> None:
+    """The rates of the waves, and their parts at each particle; see `ripples`.
+
+    A wave has the same phase at the time `later` [s] as the old one now.
+    """
+    nx, ny, nz = wind.normal[0], wind.normal[1], wind.normal[2]
+    head_on = x * nx + y * ny + z * nz
+    ax = x - head_on * nx + abs(head_on) * wind.down[0]
+    ay = y - head_on * ny + abs(head_on) * wind.down[1]
+    az = z - head_on * nz + abs(head_on) * wind.down[2]
+    length = np.sqrt(ax * ax + ay * ay + az * az)
+    if length > 1e-9:
+        ax, ay, az = ax / length, ay / length, az / length
+    else:
+        ax, ay, az = wind.down[0], wind.down[1], wind.down[2]
+    bx, by, bz = ny * az - nz * ay, nz * ax - nx * az, nx * ay - ny * ax
+    low, high = np.inf, -np.inf
+    for i in range(wind.rest.shape[0]):
+        across = wind.rest[i, 0] * bx + wind.rest[i, 1] * by + wind.rest[i, 2] * bz
+        low, high = min(low, across), max(high, across)
+    count = wind.ripples.turns.size
+    for k in range(count):
+        table = wind.ripples
+        rate = rate_of(speed, table.carried[k], table.forward[k], table.lengths[k])
+        put_rate(gusts, k, rate, now, later)
+    if wind.vortices.size > 0:
+        rate = vortex_rate_of(speed, high - low) if high > low else 0.0
+        put_rate(gusts, count, rate, now, later)
+    for i in range(wind.rest.shape[0]):
+        along = wind.rest[i, 0] * ax + wind.rest[i, 1] * ay + wind.rest[i, 2] * az
+        across = wind.rest[i, 0] * bx + wind.rest[i, 1] * by + wind.rest[i, 2] * bz
+        for k in range(count):
+            table = wind.ripples
+            strength = strength_of(table.roots[k], wind.strengths[1], speed, table.norm[0])
+            place = place_of(table.forward[k], table.sideways[k], along, across, table.lengths[k])
+            put_wave(gusts, k, i, strength, place)
+        if wind.vortices.size > 0:
+            strength = place = 0.0
+            if speed > 0 and high > low:
+                strength = vortex_strength_of(wind.strengths[2], speed, across, low, high)
+                place = vortex_place_of(along, gusts.rates[0, count], speed)
+            put_wave(gusts, count, i, strength, place)
+
+
+@kernel
+def put_rate(gusts: Any, k: Any, rate: Any, now: Any, later: Any) -> None:
+    """The rate of wave k, and the turns with which its phase continues."""
+    turns = gusts.turns[0, k] + now * gusts.rates[0, k] - later * rate
+    gusts.turns[0, k] = turns - np.floor(turns)
+    gusts.rates[0, k] = rate
+
+
+@kernel
+def put_wave(gusts: Any, k: Any, i: Any, strength: Any, place: Any) -> None:
+    """The parts of wave k at particle i."""
+    F = gusts.sines.dtype.type
+    gusts.sines[0, k, i] = F(strength * kernels.sine_of_turns(0.25 - place))
+    gusts.cosines[0, k, i] = F(strength * kernels.sine_of_turns(-place))
