@@ -74,9 +74,9 @@ PULLS: list[Action] = [
 def whole_module() -> bytes:
     """The module with the kernels of all methods; it is built if it is not yet."""
     path = module_places()[-1]
-    if not path.is_file() or not {f"play_{name}" for name in METHODS if name != "picture"} <= set(
-        module_info(path.read_bytes())["kernels"]
-    ):
+    if not path.is_file() or not {
+        f"play_{name}" for name in METHODS if name not in ("picture", "player")
+    } <= set(module_info(path.read_bytes())["kernels"]):
         build_module(path)
     return path.read_bytes()
 

@@ -97,12 +97,12 @@ def test_a_turned_wind_has_the_bits_of_python_and_its_gusts_do_not_jump() -> Non
     player.step(200)
     player.write("wind", -3.0, 1.0, 8.0)
     player.run("aim")
-    live, wind, gusts = panel.calls["aim"].arguments
-    panel.calls["aim"].function(live, wind, gusts)
+    live, wind, gusts, loads = panel.calls["aim"].arguments
+    panel.calls["aim"].function(live, wind, gusts, loads)
     before = phases_at(200 / 60, gusts)
     live.clock[0] = 200
     wind.velocity[:] = -3.0, 1.0, 8.0
-    panel.calls["aim"].function(live, wind, gusts)
+    panel.calls["aim"].function(live, wind, gusts, loads)
     assert np.abs((phases_at(200 / 60, gusts) - before + 0.5) % 1 - 0.5).max() < 1e-9
     assert gusts.numbers[0, 11] == pytest.approx(1 / 3.1, rel=0.02)
     image = player.image()

@@ -18,7 +18,7 @@ from drapery.web.wasm.build import build_module
 from drapery.web.wasm.module import module_places
 from drapery.web.wasm.plan import split_plan
 
-QUICK = ("desbrun", "picture")
+QUICK = ("desbrun", "picture", "player")
 """The methods of the module that the tests build: the compilation of each takes 15 s."""
 
 

@@ -7,7 +7,7 @@ arrays, so that it only writes numbers.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +17,7 @@ from drapery.cloth.contact.lanes_contact import contact_work
 from drapery.cloth.forces import Drag, Force, Gravity, lower_forces
 from drapery.cloth.live_pull import pull
 from drapery.cloth.live_wind import LiveWind, make_live_wind
+from drapery.cloth.pins import PinPath
 from drapery.cloth.ripples import PADDING
 from drapery.cloth.solvers import desbrun, xpbd
 from drapery.cloth.solvers.driver import Batch, batch_of
@@ -26,7 +27,7 @@ from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel, uses_numba
 from drapery.mesh import Array
 
-__all__ = ["LiveCall", "LiveControls", "live_call", "play"]
+__all__ = ["LiveCall", "LiveControls", "LiveMotion", "live_call", "play"]
 
 PLAYERS = {
     desbrun.DesbrunPlan: desbrun._advance,
@@ -39,27 +40,51 @@ BY_LANES = desbrun.DesbrunPlan, xpbd.XPBDPlan
 """Plans of cloths that are stepped side by side in lanes."""
 
 
+@dataclass(frozen=True, eq=False)
+class LiveMotion:
+    """How the body that holds a played cloth moves, and repeats its motion.
+
+    pins: the path of the pins; None for pins that do not move. first, period: steps before the
+    motion repeats, and steps after which it does; pins and boxes follow it.
+    airflow: added to the free wind, of a body that moves through the air [m/s].
+    carried: part of the wind's velocity that pulls the cloth along as an acceleration [1/s].
+    """
+
+    pins: PinPath | None = None
+    first: int = 0
+    period: int = 1
+    airflow: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    carried: float = 0.0
+
+
+STILL = LiveMotion()
+"""A body that does not move."""
+
+
 class LiveControls(NamedTuple):
     """What moves with a played cloth, and what its host writes.
 
     clock: [2]: steps since the start, and steps to make in a call of `play`.
+    cycle: [2]: steps before the motion of pins and boxes repeats, and steps after which it does.
+    row: of the present step in tables of that motion, [1].
     dt: one step [s], [1].
     grab: [2]: the particle that the host wants to pull, or -1; the one that is pulled, or -1.
     target: where it is pulled to [m], [3]. offsets: of all particles from it [m], [N, 3].
     around: the particles that are pulled, 1 or 0, [N].
-    rest, hung: all particles at rest and at the start [m], [N, 3]. pins: the pinned ones, [P].
+    rest: all particles at rest [m], [N, 3]. pins: the pinned ones, [P].
     push: accelerations by the pull [m/s²], [3N, L].
     positions, velocities: of the first cloth [m], [m/s], [N, 3]: what the host reads.
     """
 
     clock: NDArray[np.int64]
+    cycle: NDArray[np.int64]
+    row: NDArray[np.int64]
     dt: Array
     grab: NDArray[np.int64]
     target: Array
     offsets: Array
     around: NDArray[np.int64]
     rest: Array
-    hung: Array
     pins: NDArray[np.int64]
     push: Array
     positions: Array
@@ -82,12 +107,14 @@ def live_call(
     free: Wind,
     lee: tuple[float, float, float] = (1.0, 1.0, 1.0),
     lanes: int | None = None,
+    motion: LiveMotion = STILL,
 ) -> LiveCall:
     """One cloth at the start of its motion, ready to be played.
 
     forces: gravity, drag and one wind, whose period is ignored. free: this wind before it is
-    multiplied by lee, the factors of a wind at the cloth. lanes: that the arrays have room for; by
-    default a register of this processor.
+    multiplied by lee, the factors of a wind at the cloth, and before `motion` changes it. lanes:
+    that the arrays have room for; by default a register of this processor. motion: of the body
+    that holds the cloth. The host calls `aim` before the first step.
     Raises OptionError for solvers, contacts and forces that cannot be played.
     """
     state, solver_state = moving.state, moving.solver_state
@@ -105,10 +132,11 @@ def live_call(
     wind = replace(winds[0], period=None)
     others = [force for force in forces if not isinstance(force, Wind)]
     loads = lower_forces([*others, wind], moving.cloth, 1)
-    made = batch_of(moving.cloth, state, solver_state, loads, 1, None, 1, moving.boxes)
-    blown = make_live_wind(moving.cloth, free, lee)
+    steps = motion.first + motion.period
+    made = batch_of(moving.cloth, state, solver_state, loads, steps, motion.pins, 1, moving.boxes)
+    blown = make_live_wind(moving.cloth, free, lee, motion.airflow, loads.gravity, motion.carried)
     batch = _narrowed(made, lanes or made.x.shape[1], blown)
-    return LiveCall(_controls(moving, batch), blown, plan, batch, solver_state.substeps)
+    return LiveCall(_controls(moving, batch, motion), blown, plan, batch, solver_state.substeps)
 
 
 def _narrowed(batch: Batch, lanes: int, wind: LiveWind) -> Batch:
@@ -145,18 +173,19 @@ def _zeros(scratch: Any) -> Any:
     return type(scratch)(*parts)
 
 
-def _controls(moving: MovingCloth, batch: Batch) -> LiveControls:
+def _controls(moving: MovingCloth, batch: Batch, motion: LiveMotion) -> LiveControls:
     cloth, positions = moving.cloth, np.array(moving.state.positions[0], order="C")
     count = len(positions)
     return LiveControls(
         clock=np.zeros(2, np.int64),
+        cycle=np.array([motion.first, motion.period]),
+        row=np.zeros(1, np.int64),
         dt=np.array([moving.dt]),
         grab=np.array([-1, -1]),
         target=np.zeros(3),
         offsets=np.zeros((count, 3)),
         around=np.zeros(count, np.int64),
         rest=np.array(cloth.rest_positions, float),
-        hung=positions.astype(float),
         pins=np.flatnonzero(cloth.inv_mass == 0),
         push=np.zeros_like(batch.x),
         positions=positions,
@@ -176,6 +205,9 @@ def play(live: Any, plan: Any, batch: Any, substeps: Any) -> Any:
     """Make live.clock[1] time steps of one cloth; returns 1 if it has blown up, otherwise 0."""
     for _ in range(live.clock[1]):
         rows = pull(live, batch)
+        row, often = live.row[0], substeps if batch.often else 1
+        # Boxes that do not move have only one pose.
+        begin = min(row * often, batch.poses.shape[0] - 1)
         # The time as a call of the solver for all steps since the start would have it.
         batch.numbers[2] = live.clock[0] * substeps * batch.numbers[0]
         here = Batch(
@@ -185,12 +217,12 @@ def play(live: Any, plan: Any, batch: Any, substeps: Any) -> Any:
             batch.new_v,
             batch.gusts,
             batch.numbers,
-            batch.targets,
+            batch.targets[row * substeps : (row + 1) * substeps],
             live.push[:rows],
             batch.width,
             batch.residuals,
             batch.contact,
-            batch.poses,
+            batch.poses[begin : begin + often + 1],
             batch.resolve,
             batch.work,
             batch.often,
@@ -202,6 +234,9 @@ def play(live: Any, plan: Any, batch: Any, substeps: Any) -> Any:
                 batch.x[row, lane] = batch.new_x[row, lane]
                 batch.v[row, lane] = batch.new_v[row, lane]
         live.clock[0] += 1
+        live.row[0] += 1
+        if live.row[0] == live.cycle[0] + live.cycle[1]:
+            live.row[0] = live.cycle[0]
     return read_out(live, batch)
 
 

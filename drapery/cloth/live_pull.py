@@ -31,7 +31,7 @@ def pull(live: Any, batch: Any) -> Any:
         return 0
     if live.grab[1] != live.grab[0]:
         grab_around(live, batch)
-    x, y, z = reachable(live)
+    x, y, z = reachable(live, batch)
     dt = live.dt[0]
     for i in range(live.around.size):
         px = x + live.offsets[i, 0] - batch.x[3 * i, 0]
@@ -65,7 +65,7 @@ def grab_around(live: Any, batch: Any) -> None:
 
 
 @kernel
-def reachable(live: Any) -> Any:
+def reachable(live: Any, batch: Any) -> Any:
     """The target, or a point near it that is in reach of all pins.
 
     A pin can be no further away than the length of the flat cloth between pin and particle.
@@ -81,13 +81,20 @@ def reachable(live: Any) -> Any:
             dy = live.rest[pin, 1] - live.rest[held, 1]
             dz = live.rest[pin, 2] - live.rest[held, 2]
             longest = MAX_STRETCH * np.sqrt(dx * dx + dy * dy + dz * dz)
-            px, py, pz = x - live.hung[pin, 0], y - live.hung[pin, 1], z - live.hung[pin, 2]
+            ax, ay, az = place_of(batch, pin)
+            px, py, pz = x - ax, y - ay, z - az
             distance = np.sqrt(px * px + py * py + pz * pz)
             if distance - longest > excess:
                 worst, excess, part = pin, distance - longest, longest / distance
         if worst < 0:
             break
-        x = live.hung[worst, 0] + (x - live.hung[worst, 0]) * part
-        y = live.hung[worst, 1] + (y - live.hung[worst, 1]) * part
-        z = live.hung[worst, 2] + (z - live.hung[worst, 2]) * part
+        ax, ay, az = place_of(batch, worst)
+        x, y, z = ax + (x - ax) * part, ay + (y - ay) * part, az + (z - az) * part
     return x, y, z
+
+
+@kernel
+def place_of(batch: Any, i: Any) -> Any:
+    """Where a particle of the first cloth is [m]."""
+    F = np.float64
+    return F(batch.x[3 * i, 0]), F(batch.x[3 * i + 1, 0]), F(batch.x[3 * i + 2, 0])

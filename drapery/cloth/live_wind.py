@@ -37,13 +37,17 @@ class LiveWind(NamedTuple):
     """What `aim` needs to turn a wind.
 
     velocity: the free mean wind that the host wants [m/s], [3]. lee: factors of it at the cloth,
-    [3]. swell: frequency of the swell [1/s], [1]. strengths: over the mean speed that of gusts, of
-    ripples and of vortices, then the size of the gusts [m], [4]. ripples: none without them.
-    vortices: the phase of the vortices, [1], or none. rest, normal, down: see `resting_frame`.
+    [3]. airflow: added to it at the cloth [m/s], [3]. pull: gravity without wind [m/s²], then the
+    part of the wind's velocity that acts beside it [1/s], [4]. swell: frequency of the swell
+    [1/s], [1]. strengths: over the mean speed that of gusts, of ripples and of vortices, then the
+    size of the gusts [m], [4]. ripples: none without them. vortices: the phase of the vortices,
+    [1], or none. rest, normal, down: see `resting_frame`.
     """
 
     velocity: Array
     lee: Array
+    airflow: Array
+    pull: Array
     swell: Array
     strengths: Array
     ripples: RippleTables
@@ -53,12 +57,21 @@ class LiveWind(NamedTuple):
     down: Array
 
 
-def make_live_wind(cloth: Cloth, wind: Wind, lee: tuple[float, float, float]) -> LiveWind:
-    """A wind before it is multiplied by lee, ready to be turned by `aim`."""
+def make_live_wind(
+    cloth: Cloth,
+    wind: Wind,
+    lee: tuple[float, float, float],
+    airflow: tuple[float, float, float],
+    gravity: Array,
+    carried: float,
+) -> LiveWind:
+    """A wind before it is multiplied by lee, ready to be turned by `aim`; see `LiveWind`."""
     ripples = ripple_tables(wind)
     return LiveWind(
         np.array(wind.velocity, float),
         np.array(lee, float),
+        np.array(airflow, float),
+        np.array([*gravity, carried], float),
         np.array([1.0 / wind.sine_period]),
         np.array([wind.gusts, wind.ripples, wind.vortices, wind.gust_size], float),
         ripples if wind.ripples else RippleTables(*(part[:0] for part in ripples)),
@@ -68,14 +81,19 @@ def make_live_wind(cloth: Cloth, wind: Wind, lee: tuple[float, float, float]) ->
 
 
 @entry_point
-def aim(live: Any, wind: Any, gusts: Any) -> Any:
+def aim(live: Any, wind: Any, gusts: Any, loads: Any) -> Any:
     """Turn the winds of a batch to wind.velocity: what `lower_forces` writes for it.
+
+    loads: the numbers of the batch, whose gravity changes where a wind carries the cloth.
 
     Gusts, swell and waves continue where they are: the time of the wind is shifted. Returns 0.
     """
-    x = wind.lee[0] * wind.velocity[0]
-    y = wind.lee[1] * wind.velocity[1]
-    z = wind.lee[2] * wind.velocity[2]
+    x = wind.lee[0] * wind.velocity[0] + wind.airflow[0]
+    y = wind.lee[1] * wind.velocity[1] + wind.airflow[1]
+    z = wind.lee[2] * wind.velocity[2] + wind.airflow[2]
+    loads[3] = wind.pull[0] + wind.pull[3] * x
+    loads[4] = wind.pull[1] + wind.pull[3] * y
+    loads[5] = wind.pull[2] + wind.pull[3] * z
     speed = np.sqrt(x * x + y * y + z * z)
     numbers, frequency = gusts.numbers[0], speed / wind.strengths[3]
     now = later = 0.0

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from drapery.scenes.drawing import scene_frames
     from drapery.scenes.dressing import Dressed, garment_loop, garment_moments, garment_still
     from drapery.scenes.exploded import exploded_view
+    from drapery.scenes.garment_playing import PlayedGarment, live_garment, played_garment
     from drapery.scenes.parameters import SceneParameters
     from drapery.scenes.picture_grid import Picture, PictureGrid
     from drapery.scenes.playing import LiveKernel, LivePanel, live_panels
@@ -50,6 +51,7 @@ __all__ = [
     "LivePanel",
     "Picture",
     "PictureGrid",
+    "PlayedGarment",
     "SceneEntry",
     "SceneParameters",
     "Stager",
@@ -63,8 +65,10 @@ __all__ = [
     "garment_loop",
     "garment_moments",
     "garment_still",
+    "live_garment",
     "live_panels",
     "loop",
+    "played_garment",
     "scene_frames",
     "scene_names",
     "still",
@@ -77,6 +81,7 @@ __getattr__, __dir__ = lazy_names(
         "scenes.drawing": ("scene_frames",),
         "scenes.dressing": ("Dressed", "garment_loop", "garment_moments", "garment_still"),
         "scenes.exploded": ("exploded_view",),
+        "scenes.garment_playing": ("PlayedGarment", "live_garment", "played_garment"),
         "scenes.parameters": ("SceneParameters",),
         "scenes.picture_grid": ("Picture", "PictureGrid"),
         "scenes.playing": ("LiveKernel", "LivePanel", "live_panels"),

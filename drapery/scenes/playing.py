@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.contact import lanes_contact
-from drapery.cloth.live import live_call
+from drapery.cloth.live import LiveCall, live_call
 from drapery.cloth.live import play as play_cloth  # what is called `play` here is a scene
 from drapery.cloth.live_wind import aim
 from drapery.errors import OptionError
@@ -32,7 +32,7 @@ from drapery.scenes.stager import (
 from drapery.settings import Settings
 from drapery.style.block import turn_centre, turn_matrix
 from drapery.style.body import Body, Panel
-from drapery.style.live_shell import cover, make_live_shell
+from drapery.style.live_shell import LiveShell, cover, make_live_shell
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class LivePanel:
 
     header: what a host wants to know, for JSON. calls: by what they do: `aim` turns the wind,
     `play` makes time steps, `cover` writes the vertices of the thick cloth; see `live_panels` for
-    `draw`.
+    `draw`, and `live_garment` for `pose`.
     arrays: parts of the arguments that the host reads and writes, by name.
     functions: what kernels call by an address, and an example of its arguments; fields of named
     tuples that hold such an address have the name of the function.
@@ -120,31 +120,34 @@ def _live_panel(stager: Stager, panel: Panel, lanes: int | None) -> LivePanel:
     sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
     lee = (1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0)
     call = live_call(cloth_at_rest(spec), forces_of(settings, wind), wind, lee, lanes)
-    live, blown, plan, batch, substeps = call
-    turned = (turn_matrix(settings.turned), turn_centre()) if settings.turned else _NOT_TURNED
     shell = make_live_shell(
         grid_shell(settings.grid, panel.uv_mapping),
         panel.origin,
         settings.thickness * panel.texel,
         stager.light,
-        *turned,
+        *turning_of(settings),
     )
     columns, rows = settings.grid
+    size = list(map(float, panel.size))
+    return make_live_panel(call, shell, {"columns": columns, "rows": rows, "size": size})
+
+
+def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any]) -> LivePanel:
+    """The panel of a cloth and its shell. header: what hosts also want to know."""
+    live, blown, plan, batch, substeps = call
     method = type(plan).__name__.removesuffix("Plan").lower()
     return LivePanel(
         {
-            "columns": columns,
-            "rows": rows,
-            "step": STEP,
-            "size": list(map(float, panel.size)),
-            "origin": list(map(float, panel.origin)),
+            **header,
+            "step": float(live.dt[0]),
+            "origin": shell.place.tolist(),
             "pins": live.pins.tolist(),
             "wind": blown.velocity.tolist(),
             "vertices": len(shell.light),
             "method": method,
         },
         {
-            "aim": LiveKernel("aim", aim, (live, blown, batch.gusts)),
+            "aim": LiveKernel("aim", aim, (live, blown, batch.gusts, batch.numbers)),
             "play": LiveKernel(f"play_{method}", play_cloth, (live, plan, batch, substeps)),
             "cover": LiveKernel("cover", cover, (live.positions, shell)),
         },
@@ -158,4 +161,8 @@ def _live_panel(stager: Stager, panel: Panel, lanes: int | None) -> LivePanel:
     )
 
 
-_NOT_TURNED: tuple[Array, Array] = np.eye(3), np.zeros(3)
+def turning_of(settings: Settings) -> tuple[Array, Array]:
+    """The rotation of a body and the point about which it turns [m]."""
+    if settings.turned:
+        return turn_matrix(settings.turned), turn_centre()
+    return np.eye(3), np.zeros(3)

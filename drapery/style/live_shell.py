@@ -5,13 +5,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.jit import entry_point
+from drapery.jit import entry_point, kernel
 from drapery.mesh import Array, Triangles
 from drapery.render.light import Light
 from drapery.style.crowds import cover_sheets, faces_around, least_lengths
 from drapery.style.extrusion import THINNEST, Shell
 
-__all__ = ["LiveShell", "cover", "make_live_shell"]
+__all__ = ["LiveShell", "cover", "make_live_shell", "show"]
 
 
 class LiveShell(NamedTuple):
@@ -92,19 +92,31 @@ def cover(positions: Any, shell: Any) -> Any:
         shell.units,
     )
     for v in range(shell.vertices.shape[0]):
-        x = shell.points[0, v, 0] - shell.middle[0]
-        y = shell.points[0, v, 1] - shell.middle[1]
-        z = shell.points[0, v, 2] - shell.middle[2]
-        for axis in range(3):
-            a, b, c = shell.turn[axis, 0], shell.turn[axis, 1], shell.turn[axis, 2]
-            shell.vertices[v, axis] = a * x + b * y + c * z + shell.middle[axis]
-            u, w = shell.units[0, v, 0], shell.units[0, v, 2]
-            shell.normals[v, axis] = a * u + b * shell.units[0, v, 1] + c * w
-        level = shell.levels[0]
-        for light in range(shell.lights.shape[0]):
-            facing = 0.0
-            for axis in range(3):
-                facing += shell.normals[v, axis] * shell.lights[light, axis]
-            level += shell.levels[1] * max(facing, 0.0)
-        shell.light[v] = min(level, 1.0)
+        show(shell, v, vector_at(shell.points[0], v), vector_at(shell.units[0], v))
     return 0
+
+
+@kernel
+def vector_at(rows: Any, number: Any) -> Any:
+    """A row of [V, 3]."""
+    return rows[number, 0], rows[number, 1], rows[number, 2]
+
+
+@kernel
+def show(shown: Any, v: Any, point: Any, unit: Any) -> None:
+    """Write vertex v of what is shown: turned with the body, and its light.
+
+    point: [m]; unit: its normal, both before the body is turned. shown: a `LiveShell` or the like.
+    """
+    x, y, z = point[0] - shown.middle[0], point[1] - shown.middle[1], point[2] - shown.middle[2]
+    for axis in range(3):
+        a, b, c = shown.turn[axis, 0], shown.turn[axis, 1], shown.turn[axis, 2]
+        shown.vertices[v, axis] = a * x + b * y + c * z + shown.middle[axis]
+        shown.normals[v, axis] = a * unit[0] + b * unit[1] + c * unit[2]
+    level = shown.levels[0]
+    for light in range(shown.lights.shape[0]):
+        facing = 0.0
+        for axis in range(3):
+            facing += shown.normals[v, axis] * shown.lights[light, axis]
+        level += shown.levels[1] * max(facing, 0.0)
+    shown.light[v] = min(level, 1.0)

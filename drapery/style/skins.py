@@ -21,8 +21,9 @@ from drapery.style.rig import make_rig
 from drapery.style.skin_layer import layer_meshes
 
 Arms = Literal["classic", "slim"]
-Overlay = Literal["flat", "voxels", "none"]
-"""How the second layer is drawn: as one surface, its texels as small boxes, or not at all."""
+Overlay = Literal["flat", "voxels", "none", "whole"]
+"""How the second layer is drawn: as one surface, its texels as small boxes, or not at all; or as
+whole boxes, also where this skin shows nothing, for a skin that is replaced later."""
 
 SIDE = 64
 """Width and height of a skin [texels]."""
@@ -90,7 +91,8 @@ class Skin:
                 continue
             left, top, grown = OVERLAYS[name]
             over = replace(part.box, offset=(left, top), grown=grown)
-            layer = layer_meshes(over, self.texels[..., 3] > 127, self.overlay == "voxels")
+            visible = (self.texels[..., 3] > 127) | (self.overlay == "whole")
+            layer = layer_meshes(over, visible, self.overlay == "voxels")
             found += [(name, upright(mesh, TEXEL, (0, 0, 0))) for mesh in layer]
         return tuple(found)
 

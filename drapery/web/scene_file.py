@@ -6,6 +6,8 @@ its first `moment`, and
 aspect: width / height of the picture that the camera frames. sheets: the names of the flag's
 sheets of texels in the order of its layers ("" is the bare cloth), None where no design is shown.
 turned: the angle of rotation or facing [degrees], see `Settings.turned`.
+figure: the vertices of a wearer, whom the first plan poses. textures: those of a player, by name:
+a vertex of each material that shows one, and which part it shows of one 64 texels wide.
 plan0, plan1, …: the plan of each panel of cloth, see `drapery.web.wasm`; `grip` has the vertices of
 each panel in the same order.
 """
@@ -14,20 +16,30 @@ import gzip
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drapery.banner import PATTERN_NAMES, Banner
 from drapery.errors import OptionError
+from drapery.garments import Garment
 from drapery.mesh import Array, Mesh
 from drapery.packs import Packs
 from drapery.render import Material, TextureLayer
-from drapery.scenes import Stager, cloth_at_rest, cloth_spec, floor_under
+from drapery.scenes import (
+    Stager,
+    cloth_at_rest,
+    cloth_spec,
+    floor_under,
+    played_garment,
+)
 from drapery.settings import Settings
 from drapery.style import Body, MaterialAt, body_of
+from drapery.styles import Style
 from drapery.web.messages import MessageEncoder, pack, unpack
 from drapery.web.panes import Pane, ViewerState
-from drapery.web.wasm.plan import plans_of
+from drapery.web.wasm.plan import plans_of, plans_of_garment
 
 SWINGS = np.array(((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7)))
 """How far a light wind moves cloth from its rest position: to both sides, to the front [m]."""
@@ -46,26 +58,60 @@ def scene_bytes(
     """
     body = body_of(design, packs, settings)
     stager = Stager(body, settings)
-    _check(stager)
+    _check(stager.settings, stager.style, bool(stager.cloths))
     shown, sheets = _with_sheets(body, packs, patterns) if design else (body, None)
-    state = _state(stager, shown)
-    aspect = stager.settings.size[0] / stager.settings.size[1]
-    encoder = MessageEncoder(shape=stager.settings.size, flat=False)
+    settings = stager.settings
+    scene = _first_message(_state(stager, shown), settings)
+    scene[0].update(sheets=sheets, turned=settings.turned)
+    return _packed(scene, plans_of(body, settings))
+
+
+def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> bytes:
+    """The file of a garment on its wearer, in the wind of the settings. Errors: `scene_bytes`."""
+    garment.check_settings(settings)
+    stager = Stager(Body(), settings, ())
+    _check(stager.settings, stager.style, True)
+    played = played_garment(garment, packs, settings)
+    first, cloths = played.first_scene(), len(played.cloths)
+    last, figures = len(first.models) - cloths, len(played.figures())
+    grip = frozenset(range(last, len(first.models)))
+    pane = Pane(first, lambda aspect: first.camera)
+    scene = _first_message(ViewerState((pane,), grip=grip, live=True), stager.settings)
+    header = scene[0]
+    header.update(sheets=None, turned=stager.settings.turned)
+    if figures:
+        runs = header["runs"][last - figures : last]
+        header["figure"] = [runs[0][0], sum(count for _, count in runs)]
+        header["textures"] = {
+            "skin": {"vertices": [runs[0][0]], "area": played.texture_areas()[0]},
+            "cape": {"vertices": [g[0] for g in header["grip"]], "area": played.texture_areas()[1]},
+        }
+    return _packed(scene, plans_of_garment(played))
+
+
+def _first_message(
+    state: ViewerState, settings: Settings
+) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """The scene and its first moment as one header and arrays."""
+    encoder = MessageEncoder(shape=settings.size, flat=False)
     scene, moment = map(unpack, encoder.messages(state))
-    plans = [np.frombuffer(plan, np.uint8) for plan in plans_of(body, stager.settings)]
-    extra = {"aspect": aspect, "sheets": sheets, "turned": stager.settings.turned}
-    header = {**moment[0], **scene[0], **extra}
-    arrays = {**scene[1], **moment[1], **{f"plan{n}": plan for n, plan in enumerate(plans)}}
+    aspect = settings.size[0] / settings.size[1]
+    return {**moment[0], **scene[0], "aspect": aspect}, {**scene[1], **moment[1]}
+
+
+def _packed(scene: tuple[dict[str, Any], dict[str, NDArray[Any]]], plans: Sequence[bytes]) -> bytes:
+    header, arrays = scene
+    for number, plan in enumerate(plans):
+        arrays[f"plan{number}"] = np.frombuffer(plan, np.uint8)
     if max(header["atlas"]) > MAX_SIDE:
         width, height = header["atlas"]
         raise OptionError(f"the textures fill {width} x {height} texels; use smaller packs")
     return gzip.compress(pack(header, arrays), mtime=0)
 
 
-def _check(stager: Stager) -> None:
+def _check(settings: Settings, style: Style, moves: bool) -> None:
     """Raise OptionError for what a page cannot show."""
-    settings, style = stager.settings, stager.style
-    if not stager.cloths:
+    if not moves:
         remedy = "use kind banner, cape or elytra, pose cloth, placement standing or wall"
         raise OptionError(f"a page shows cloth that moves; {remedy}")
     if settings.pbr:

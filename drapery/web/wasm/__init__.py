@@ -33,6 +33,11 @@ or written for another version of the module.
 | `picture()` | `{ data, width, height }`, RGBA: see below |
 | `free()` | gives the memory back; the cloth cannot be used any more |
 
+The plan of the first cloth on a player also has the player: `array("figure")` and
+`array("figureLight")` are its vertices [m] and their light, after `vertices`, `normals` or `light`
+has been read. Tables of one period of its motion hold where its boxes, its bones and the pins of
+the cloth are; a cloth with such tables begins the period again as often as it ends.
+
 A plan that is written with `picture=True` also draws: by the same rasteriser as in Python, with the
 camera of the settings' own still. After `reset()` and `step(Math.round(60 * time))` its pixels are
 those of `drapery render` with the same settings. Cast shadows need Python.
@@ -57,5 +62,6 @@ valid. The order of a kernel's arguments in the image is that of numba's data mo
 it is written by hand.
 
 From Python: `drapery.web.wasm.plan.plans_of(body, settings)` gives the plans of a body's panels,
+`plans_of_garment(played)` those of a garment's cloths,
 and `drapery.web.wasm.module.read_module()` the module.
 """

@@ -2,7 +2,7 @@
 
 It needs the extra `web-build`. The module is written into the package, from where wheels take it;
 `--cache` writes it beside the kernels that numba has compiled, `--only METHOD` compiles the kernels
-of one method: xpbd, xpbdsheet, desbrun, desbrunsheet, or picture.
+of one method: xpbd, xpbdsheet, desbrun, desbrunsheet, picture, or player.
 """
 
 import argparse
@@ -24,8 +24,10 @@ METHODS = {
     "desbrunsheet": {"solver": "desbrun", "grid": (16, 31)},
     "desbrun": {"solver": "desbrun", "grid": (5, 9)},
     "picture": {"solver": "desbrun", "grid": (5, 9), "view": "front"},
+    "player": {"solver": "desbrun"},
 }
-"""The methods that step a cloth, each with settings that use it; and what draws a picture."""
+"""The methods that step a cloth, each with settings that use it; what draws a picture; and what
+poses a player, with a cape that is stepped as a banner is."""
 
 
 def build_module(path: Path, methods: Sequence[str] = tuple(METHODS)) -> None:

@@ -78,7 +78,7 @@ export class Cloth {
 
   // The thick cloth, which is made where it is wanted: a page may make several steps a frame.
   cover() {
-    if (!this.covered) this.call("cover");
+    if (!this.covered) ["cover", "pose"].filter((name) => this.info.calls[name]).forEach((name) => this.call(name));
     this.covered = true;
   }
 

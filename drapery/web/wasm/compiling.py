@@ -13,8 +13,9 @@ jit.OUTER = jit.INNER
 vars(jit_cache)["cache_on_disk"] = lambda dispatcher: dispatcher
 
 from drapery import Banner, Settings  # noqa: E402
+from drapery.garments import find_garment  # noqa: E402
 from drapery.packs import open_packs  # noqa: E402
-from drapery.scenes import live_panels  # noqa: E402
+from drapery.scenes import live_garment, live_panels, played_garment  # noqa: E402
 from drapery.style import body_of  # noqa: E402
 from drapery.web.wasm.build import METHODS  # noqa: E402
 from drapery.web.wasm.compiler import ExportedKernel, compile_module  # noqa: E402
@@ -30,8 +31,13 @@ def main(path: Path, methods: list[str]) -> None:
     for method in methods:
         options: Any = METHODS[method]
         settings = Settings(**options, light="game", time=0)
-        body = body_of(Banner.parse("white"), open_packs(()), settings)
-        panel = live_panels(body, settings, LANES, picture=method == "picture")[0]
+        if method == "player":
+            panel = live_garment(
+                played_garment(find_garment("cape"), open_packs(()), settings), LANES
+            )[0]
+        else:
+            body = body_of(Banner.parse("white"), open_packs(()), settings)
+            panel = live_panels(body, settings, LANES, picture=method == "picture")[0]
         for call in panel.calls.values():
             kernels[call.name] = ExportedKernel(call.name, call.function, types_of(call.arguments))
             hashes[call.name] = types_hash(call.arguments)

@@ -4,7 +4,7 @@ import hashlib
 import json
 from typing import Any
 
-from drapery.scenes import LivePanel, live_panels
+from drapery.scenes import LivePanel, PlayedGarment, live_garment, live_panels
 from drapery.settings import Settings
 from drapery.style import Body
 from drapery.web.wasm.image import Image, WasmBuildError, types_of
@@ -24,6 +24,12 @@ def plans_of(body: Body, settings: Settings, *, picture: bool = False) -> list[b
     return [
         write_plan(panel, info) for panel in live_panels(body, settings, LANES, picture=picture)
     ]
+
+
+def plans_of_garment(played: PlayedGarment) -> list[bytes]:
+    """The plans of a garment's cloths, as `plans_of`."""
+    info = module_info(read_module())
+    return [write_plan(panel, info) for panel in live_garment(played, LANES)]
 
 
 def write_plan(panel: LivePanel, info: dict[str, Any]) -> bytes:

@@ -1,0 +1,189 @@
+"""A garment on its wearer that plays on without Python: see `playing`.
+
+The motion of the wearer repeats after whole time steps, so tables of one period hold the places of
+pins, boxes and bones. The cloth is of single precision, as that of a banner.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+
+import numpy as np
+
+from drapery.banner.packs import Packs
+from drapery.cloth import Gravity, MovingCloth, PinPath, State, Wind
+from drapery.cloth.live import LiveMotion, live_call
+from drapery.errors import OptionError
+from drapery.garments.assembly import SewnCloth
+from drapery.garments.blends import read_blend
+from drapery.garments.model import Garment, GarmentWearer
+from drapery.garments.motions import find_motion
+from drapery.garments.players import WING
+from drapery.mesh import Array
+from drapery.render.scene import RiggedModel, Scene
+from drapery.scenes.dressing import MIDDLE, WORN_STEP, Dressed
+from drapery.scenes.layered import meet_each_other
+from drapery.scenes.player_motion import RAMP, STRIDE, Poses
+from drapery.scenes.playing import LiveKernel, LivePanel, make_live_panel, turning_of
+from drapery.scenes.stager import Stager, wind_of
+from drapery.scenes.wearers import Wearer
+from drapery.settings import Settings
+from drapery.style.body import Body
+from drapery.style.live_figure import make_live_figure, pose_figure
+from drapery.style.live_shell import make_live_shell
+from drapery.style.skins import SIDE
+
+TICKS = 5040
+"""Poses are computed at so many moments of a time step, which most numbers of substeps divide."""
+BLENDED = 4.0
+"""The period of a blend of several motions [s]."""
+SWINGS = np.array(((0.0, 0.0, 0.0), (0.2, 0.0, -0.2), (-0.2, 0.2, -0.7)))
+"""How far cloth moves from its start in the picture that the camera frames [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlayedGarment(Dressed):
+    """A garment whose wearer repeats its motion after `period`; see `played_garment`."""
+
+    @property
+    def cycle(self) -> tuple[int, int]:
+        """Time steps before the motion repeats, and after which it does."""
+        who = self.garment.wearer
+        if who is None or self.period is None:
+            return 0, 1
+        ramp = who.motion != "walk" or (who.head is not None and any(who.look))
+        return math.ceil(RAMP / self.step) if ramp else 0, round(self.period / self.step)
+
+    @cached_property
+    def wearer(self) -> Wearer | None:
+        """Who wears it, in poses that repeat."""
+        found = super().wearer
+        return found and replace(found, poses=_repeated(found.poses, self.step, *self.cycle))
+
+    def begun(self, sewn: SewnCloth) -> MovingCloth:
+        """A cloth before its first step, in single precision."""
+        start = np.asarray(sewn.start[None], np.float32)
+        state = State(start, np.zeros_like(start))
+        met = self._collisions(sewn)
+        return MovingCloth.begin(sewn.cloth, self._solver, self.step, start=state, collisions=met)
+
+    def pins(self, sewn: SewnCloth) -> PinPath | None:
+        """The path of the pins of a cloth."""
+        return None if self.wearer is None else sewn.pin_path(self.wearer.poses)
+
+    def first_scene(self) -> Scene:
+        """The scene at the start, with a camera that frames cloth in a light wind."""
+        sheets = [sewn.start + SWINGS[:, None] for sewn in self.cloths]
+        return next(self.scenes(sheets, [0.0] * len(SWINGS)))
+
+    def texture_areas(self) -> tuple[list[int], list[int]]:
+        """Which part of a skin its wearer shows, and which part of a cape's texture its first cloth
+        does, for textures 64 texels wide: left, top, width, height [texels]."""
+        height, width = self.cloths[0].pieces[0].material.layers[0].texels.shape[:2]
+        # Wings of wool show all of it.
+        left, top, *extent = map(int, WING["front"])
+        is_sheet = width % SIDE == 0
+        cape = [0, 0, SIDE, SIDE * height // width] if is_sheet else [left, top, *extent]
+        return [0, 0, SIDE, SIDE], cape
+
+    def figures(self) -> list[RiggedModel]:
+        """The models of the wearer, which come directly before those of the cloths."""
+        models = self.wearer.models(0.0, self._bones) if self.wearer else ()
+        return [model for model in models if isinstance(model, RiggedModel)]
+
+
+def played_garment(garment: Garment, packs: Packs, settings: Settings) -> PlayedGarment:
+    """A garment to be played. Raises OptionError or PackError for what cannot be."""
+    who = garment.wearer
+    steps = None if who is None else max(1, round(_period_of(who, garment) / WORN_STEP))
+    period = None if steps is None else steps * WORN_STEP
+    played = PlayedGarment(garment, packs, settings, period)
+    if not played.cloths:
+        raise OptionError(f"garment {garment.name} has no cloth; give a player a cape or elytra")
+    if played.wearer and garment.collisions != "none" and meet_each_other(played.cloths):
+        raise OptionError(
+            "garments that meet each other cannot be played without Python; use only one of them"
+        )
+    for sewn in played.cloths:
+        if len(sewn.pieces) > 1 or len(sewn.pieces[0].particles) != len(sewn.start):
+            raise OptionError(
+                f"garment {garment.name} has sewn pieces, which cannot be played without Python;"
+                " use a cape, elytra or another garment without seams"
+            )
+    return played
+
+
+def live_garment(played: PlayedGarment, lanes: int | None = None) -> list[LivePanel]:
+    """The cloths of a garment, to be played in the wind of its settings.
+
+    The first one also has the wearer, if there is one: the call `pose` writes the arrays `figure`
+    and `figureLight`. lanes: see `live_panels`. Raises OptionError.
+    """
+    stager = Stager(Body(), played.settings, ())
+    panels = [_panel(played, stager, sewn, lanes) for sewn in played.cloths]
+    return (
+        panels if played.wearer is None else [_with_figure(panels[0], played, stager), *panels[1:]]
+    )
+
+
+def _panel(played: PlayedGarment, stager: Stager, sewn: SewnCloth, lanes: int | None) -> LivePanel:
+    moving = played.begun(sewn)
+    settings, who = played.settings, played.garment.wearer
+    speed = 0.0 if who is None or isinstance(settings.wind, Wind) else who.speed
+    motion = LiveMotion(played.pins(sewn), *played.cycle, (0.0, 0.0, -speed), sewn.cloth.drag)
+    wind = played.wind(None)
+    free = replace(wind, velocity=wind_of(settings).velocity)
+    forces = Gravity(), wind, *settings.forces
+    call = live_call(moving, forces, free, lanes=lanes, motion=motion)
+    shell = make_live_shell(
+        sewn.pieces[0].shell, MIDDLE, sewn.thickness, stager.light, *turning_of(stager.settings)
+    )
+    panel = make_live_panel(call, shell, {})
+    return replace(panel, arrays={**panel.arrays, "row": call.live.row})
+
+
+def _with_figure(panel: LivePanel, played: PlayedGarment, stager: Stager) -> LivePanel:
+    """The panel with a call that poses the wearer."""
+    wearer = played.wearer
+    assert wearer is not None
+    bones = [*wearer.parts]
+    poses = [wearer.poses(row * played.step) for row in range(sum(played.cycle))]
+    table = np.array([[_flat(each, bone) for bone in bones] for each in poses])
+    rigs = [model.rig for model in played.figures()]
+    light, turned = stager.light, turning_of(stager.settings)
+    figure = make_live_figure(rigs, bones, table, MIDDLE, light, *turned)
+    call = LiveKernel("pose", pose_figure, (panel.arrays["row"], figure))
+    arrays = {"figure": figure.vertices, "figureLight": figure.light}
+    return replace(panel, calls={**panel.calls, "pose": call}, arrays={**panel.arrays, **arrays})
+
+
+def _flat(poses: Poses, bone: str) -> Array:
+    place, rotation = poses[bone]
+    return np.concatenate([place, rotation.ravel()])
+
+
+def _period_of(who: GarmentWearer, garment: Garment) -> float:
+    """After which time the motion of a wearer repeats [s]."""
+    if who.motion == "walk":
+        return STRIDE
+    parts = read_blend(who.motion, garment.folder).parts
+    if len(parts) > 1 or parts[0][0] == "walk":
+        return BLENDED
+    return find_motion(parts[0][0], garment.folder).period
+
+
+def _repeated(
+    poses: Callable[[float], Poses], step: float, first: int, period: int
+) -> Callable[[float], Poses]:
+    """Poses that repeat after `period` steps from step number `first` on, at whole ticks."""
+
+    @cache
+    def at(tick: int) -> Poses:
+        return poses(tick * step / TICKS)
+
+    def repeated(time: float) -> Poses:
+        tick, start = round(time / step * TICKS), first * TICKS
+        return at(tick if tick < start else start + (tick - start) % (period * TICKS))
+
+    return repeated
