@@ -2,7 +2,9 @@
 
 `python -m benchmarks.photos --count 200` draws random designs of one to six layers as cloth, in
 perspective, in the light of the game or the studio and a wind of 0 to 4 m/s, saves them as JPEG
-files, and looks for the designs: with the corners given, and with corners that are found.
+files, and looks for the designs: with the corners given, and with corners that are found. Each
+result is printed as it comes, with the design if it was not the first; `--first` and `--count`
+choose some of the photos.
 A design is right if the mean difference of its plain face is below 2.5 of 255 levels.
 """
 
@@ -22,12 +24,16 @@ from drapery.banner import DYE_NAMES, PATTERN_NAMES
 from drapery.match import match_photo
 from drapery.packs import open_packs
 from drapery.pictures import draw_face, draw_scenes
-from drapery.render import Camera
+from drapery.render import Camera, Scene
 from drapery.render.camera import clip_matrix
 from drapery.scenes import still
 
 SIZE = 480
 RIGHT = 2.5
+CALM = 2.0
+"""Winds below this are also counted by themselves [m/s]."""
+WAYS = ("given", "found")
+"""How the corners of the flag are known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,23 +65,32 @@ def photo_case(seed: int) -> PhotoCase:
         samples=4,
     )
     packs = open_packs(())
-    scene = replace(still(banner, packs, settings), camera=_camera(pick))
+    scene = replace(still(banner, packs, settings), camera=random_camera(pick))
     (frame,) = draw_scenes([scene], packs, settings)
     file = io.BytesIO()
     Image.fromarray(frame.pixels[..., :3]).save(file, "JPEG", quality=pick.randint(60, 92))
+    picture = np.asarray(Image.open(file).convert("RGB"))
+    return PhotoCase(picture, banner, flag_corners(scene), settings.wind)
+
+
+def flag_corners(scene: Scene) -> tuple[tuple[float, float], ...]:
+    """The corners of a scene's flag in its picture [px]."""
     mesh = scene.models[1].mesh
     points = [
         _place(mesh.uvs * 64, mesh.positions, mesh.normals, u, v)
         for u, v in ((1, 1), (21, 1), (21, 41), (1, 41))
     ]
-    clip = np.concatenate([np.array(points), np.ones((4, 1))], axis=1)
-    clip = np.einsum("ij,kj->ki", clip_matrix(scene.camera, (SIZE, SIZE)), clip)
-    corners = [((x / w + 1) / 2 * SIZE, (1 - y / w) / 2 * SIZE) for x, y, _, w in clip.tolist()]
-    picture = np.asarray(Image.open(file).convert("RGB"))
-    return PhotoCase(picture, banner, tuple(corners), settings.wind)
+    return tuple((x, y) for x, y in pixels_of(scene.camera, np.array(points)).tolist())
 
 
-def _camera(pick: random.Random) -> Camera:
+def pixels_of(camera: Camera, points: NDArray[np.generic]) -> NDArray[np.float64]:
+    """Where points [n, 3] are seen in a picture, to the right and down [px], [n, 2]."""
+    clip = np.concatenate([points, np.ones((len(points), 1))], axis=1)
+    x, y, _, w = np.einsum("ij,kj->ik", clip_matrix(camera, (SIZE, SIZE)), clip)
+    return np.stack([(x / w + 1) / 2 * SIZE, (1 - y / w) / 2 * SIZE], axis=1)
+
+
+def random_camera(pick: random.Random) -> Camera:
     """Up to 35 degrees to the side, 15 below to 25 above, 2.6 to 3.6 m away."""
     yaw, pitch = math.radians(pick.uniform(-35, 35)), math.radians(pick.uniform(-15, 25))
     away, (x, y, z) = pick.uniform(2.6, 3.6), (0.5, 0.95, 0.55)
@@ -107,31 +122,58 @@ def is_right(found: Banner, truth: Banner) -> bool:
     return float(np.abs(faces[0] - faces[1])[..., :3].mean()) < RIGHT
 
 
+@dataclass(frozen=True)
+class PhotoResult:
+    """At which place the right design was found, from 0, or None; and the processor time [s]."""
+
+    wind: float
+    place: int | None
+    seconds: float
+
+
+def search_photo(case: PhotoCase, *, by_hand: bool) -> PhotoResult:
+    """Look for the design of a photo, with the corners given `by_hand` or found."""
+    start = time.process_time()
+    try:
+        found = match_photo(case.picture, case.corners if by_hand else None)
+    except DraperyError:
+        found = []
+    seconds = time.process_time() - start
+    right = [is_right(one.banner, case.banner) for one in found]
+    return PhotoResult(case.wind, right.index(True) if any(right) else None, seconds)
+
+
+def summary(results: list[PhotoResult]) -> str:
+    """The shares of right designs."""
+    three = sum(one.place is not None for one in results)
+    first = sum(one.place == 0 for one in results)
+    calm = [one for one in results if one.wind < CALM]
+    return (
+        f"{three} of {len(results)} within the best three ({three / len(results):.1%}), {first}"
+        f" first; {sum(one.place is not None for one in calm)} of {len(calm)} below {CALM:g} m/s;"
+        f" {sum(one.seconds for one in results) / len(results):.1f} s each"
+    )
+
+
 def main() -> None:
-    """Print the shares of right designs."""
+    """Print each result as it comes, then the shares of right designs."""
     parser = argparse.ArgumentParser()
+    parser.add_argument("--first", type=int, default=0, help="seed of the first photo")
     parser.add_argument("--count", type=int, default=200)
-    parser.add_argument("--misses", action="store_true", help="name the designs that were missed")
+    parser.add_argument("--corners", choices=("given", "found"), nargs="+", default=WAYS)
     chosen = parser.parse_args()
-    for by_hand in (True, False):
-        first = three = calm = calm_right = 0
-        start = time.process_time()
-        for seed in range(chosen.count):
-            case = photo_case(seed)
-            try:
-                found = match_photo(case.picture, case.corners if by_hand else None)
-            except DraperyError:
-                found = []
-            right = [is_right(one.banner, case.banner) for one in found]
-            first, three = first + any(right[:1]), three + any(right)
-            calm, calm_right = calm + (case.wind < 2), calm_right + (case.wind < 2 and any(right))
-            if chosen.misses and not any(right):
-                print(seed, f"{case.wind:.1f} m/s", case.banner)
-        spent = (time.process_time() - start) / max(chosen.count, 1)
-        print(
-            f"corners {'given' if by_hand else 'found'}: {three} of {chosen.count} within the best"
-            f" three, {first} first; {calm_right} of {calm} below 2 m/s; {spent:.1f} s each"
-        )
+    results: dict[str, list[PhotoResult]] = {way: [] for way in chosen.corners}
+    for seed in range(chosen.first, chosen.first + chosen.count):
+        case = photo_case(seed)
+        for way, done in results.items():
+            one = search_photo(case, by_hand=way == "given")
+            done.append(one)
+            place = "missed" if one.place is None else f"place {one.place + 1}"
+            if one.place != 0:
+                place += f", {case.banner}"
+            print(f"{seed} {way}: {one.wind:.1f} m/s, {one.seconds:.1f} s, {place}", flush=True)
+    for way, done in results.items():
+        print(f"corners {way}: {summary(done)}")
 
 
 if __name__ == "__main__":
