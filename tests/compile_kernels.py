@@ -1,6 +1,6 @@
-"""Compile the kernels that most tests use: `python tests/compile_kernels.py single` or `double`.
+"""Compile the kernels that most tests use: `python tests/compile_kernels.py single|double|web`.
 
-The two parts have no kernel in common, so they can run at once; `.ci/run` does so before the tests.
+The parts have no kernel in common, so they can run at once; `.ci/run` does so before the tests.
 Otherwise each worker of pytest compiles what it needs, and many kernels are compiled twice.
 """
 
@@ -66,7 +66,14 @@ def double() -> None:
     MovingCloth.begin(grid(4, 5, 1.0, 1.0), solver("xpbd"), collisions=met).advance((Gravity(),))
 
 
-PARTS: dict[str, Callable[[], None]] = {"single": single, "double": double}
+def web() -> None:
+    """The module for pages, for which the workers would wait one after the other."""
+    from wasm_player import built_module
+
+    built_module()
+
+
+PARTS: dict[str, Callable[[], None]] = {"single": single, "double": double, "web": web}
 
 if __name__ == "__main__":
     PARTS[sys.argv[1]]()
