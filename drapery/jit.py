@@ -4,16 +4,19 @@ numba is imported, which takes a third of a second, when the first kernel has to
 read from the cache. Kernels that were compiled ahead of time run without it; see `drapery.aot`.
 """
 
+import os
 import sys
 import threading
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import cached_property, update_wrapper
+from functools import cache, cached_property, update_wrapper
 from importlib import import_module
 from typing import Any, TypeVar, cast
 
 from drapery.aot.arguments import pack
 from drapery.aot.library import CompiledKernel, kernels_of
+from drapery.kernel_sources import SIMD
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -116,9 +119,34 @@ def entry_point(function: Function) -> Function:
     return cast(Function, EntryPoint(function))
 
 
-def numba_name(module: str, name: str) -> Any:
-    """A name, for kernels, of a module that imports numba."""
-    return NumbaName(lambda: getattr(import_module(module), name))
+def numba_name(module: str, name: str, plain: str | None = None) -> Any:
+    """A name, for kernels, of a module that imports numba.
+
+    plain: the module to use instead where `module` does not fit the version of numba.
+    """
+
+    def make() -> Any:
+        used = module if plain is None or fits_numba(module) else plain
+        return getattr(import_module(used), name)
+
+    return NumbaName(make)
+
+
+@cache
+def fits_numba(module: str) -> bool:
+    """Whether numba has what a module is made with, and SIMD does not turn it off; else warns."""
+    if os.environ.get(SIMD) == "0":
+        return False
+    try:
+        import_module(module)
+    except (ImportError, AttributeError, TypeError) as fault:
+        warnings.warn(
+            f"kernels are slow, because {module} does not fit this numba ({fault});"
+            " install the versions of numba and llvmlite that drapery declares",
+            stacklevel=2,
+        )
+        return False
+    return True
 
 
 def uses_numba(module: str) -> None:

@@ -23,12 +23,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
 
+import llvmlite
 import numba
 from numba import config
 from numba.core import caching
 from numba.misc.appdirs import AppDirs
 
-from drapery.kernel_sources import source_files, source_hash
+from drapery.kernel_sources import SIMD, source_files, source_hash
 
 REMEDY = "set NUMBA_CACHE_DIR to a folder that can be written"
 MAX_SOURCES = 24
@@ -113,11 +114,13 @@ def _warn_once(message: str) -> None:
 def folder_for(source: str) -> Path:
     """The folder for kernels of sources with this hash; it is made, and the oldest one deleted.
 
+    The versions and the variable that say what numba makes of the sources are part of its name.
     Raises OSError.
     """
     folder = kernel_cache_status().folder
     assert folder is not None
-    own = folder / hashlib.sha256(f"{source} {numba.__version__}".encode()).hexdigest()[:16]
+    key = f"{source} {numba.__version__} {llvmlite.__version__} {os.environ.get(SIMD)}"
+    own = folder / hashlib.sha256(key.encode()).hexdigest()[:16]
     if not own.is_dir():
         own.mkdir(exist_ok=True)
         _delete_oldest(folder)

@@ -7,6 +7,9 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
+SIMD = "DRAPERY_SIMD"
+"""The variable of the environment that makes kernels use no registers of lanes if it is 0."""
+
 
 def source_files(function: Callable[..., object]) -> list[Path]:
     """The sources that a kernel may call: those of its top-level package, else only its file."""

@@ -1,4 +1,4 @@
-"""Registers of lanes calculate what numpy does, to the bit."""
+"""Registers of lanes, and what stands in for them, calculate what numpy does, to the bit."""
 
 import llvmlite.ir
 import numba.core.caching
@@ -13,21 +13,33 @@ import numpy as np
 import pytest
 from numba import njit
 
-from drapery.cloth import simd
+from drapery import jit
+from drapery.cloth import simd, simd_plain
+from drapery.kernel_sources import SIMD
 
 SETTINGS = {"error_model": "numpy"}
 
 
-@njit(**SETTINGS)
-def calculated(x, part):
-    """Of two rows, in a third: all that a register can."""
-    y = simd.empty_lanes(3, x.shape[1], x)
-    y[:2] = x
-    for lane in range(0, y.shape[1], simd.lane_count(y)):
-        a, b = simd.load(y, 0, lane), simd.load(y, 1, lane)
-        d = simd.sqrt(a * a + b * b) / simd.maximum(a, b) - part * b
-        simd.store(y, 2, lane, simd.flush_denormals(d + simd.fill(part) * -a, part))
-    return y
+def calculation(module):
+    """A function that does of two rows, in a third, all that a register of a module can."""
+    count, load, store = module.lane_count, module.load, module.store
+    fill, sqrt, flush = module.fill, module.sqrt, module.flush_denormals
+    maximum, minimum = module.maximum, module.minimum
+
+    @njit(**SETTINGS)
+    def calculated(x, part):
+        y = simd.empty_lanes(3, x.shape[1], x)
+        y[:2] = x
+        for lane in range(0, y.shape[1], count(y)):
+            a, b = load(y, 0, lane), load(y, 1, lane)
+            d = sqrt(a * a + b * b) / maximum(a, b) - part * minimum(b, a)
+            store(y, 2, lane, flush(d + fill(part) * -a, part))
+        return y
+
+    return calculated
+
+
+calculated = {"registers": calculation(simd), "plain": calculation(simd_plain)}
 
 
 @njit(**SETTINGS)
@@ -35,13 +47,14 @@ def first_byte(like):
     return simd.empty_lanes(5, 48, like).ctypes.data
 
 
+@pytest.mark.parametrize("kind", calculated)
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_each_lane_is_what_numpy_makes_of_it(dtype):
+def test_each_lane_is_what_numpy_makes_of_it(dtype, kind):
     a, b = np.random.default_rng(3).uniform(-2, 2, (2, 48)).astype(dtype)
     part = dtype(0.3)
-    expected = (np.sqrt(a * a + b * b) / np.maximum(a, b) - part * b) + part * -a
+    expected = (np.sqrt(a * a + b * b) / np.maximum(a, b) - part * np.minimum(b, a)) + part * -a
     expected[np.abs(expected) < part] = 0
-    found = calculated(np.stack([a, b]), part)
+    found = calculated[kind](np.stack([a, b]), part)
     np.testing.assert_array_equal(found, np.stack([a, b, expected]))
 
 
@@ -53,6 +66,32 @@ def test_empty_lanes_begin_with_a_cache_line(dtype):
 @pytest.mark.parametrize("count, lanes", [(0, 0), (1, 16), (16, 16), (17, 32)])
 def test_lanes_are_filled_up_to_whole_registers(count, lanes):
     assert simd.padded_count(count, np.float32) == lanes
+
+
+def test_the_plain_module_has_the_names_of_the_other():
+    names = {name for name, value in vars(simd).items() if isinstance(value, jit.NumbaName)}
+    assert len(names) == 8
+    assert all(isinstance(getattr(simd_plain, name), jit.Kernel) for name in names)
+
+
+@pytest.fixture
+def plain_name(monkeypatch):
+    """A name of a module that does not fit, or of `simd_plain`."""
+    jit.fits_numba.cache_clear()
+    monkeypatch.setattr(jit, "_declarations", [])
+    yield lambda module: jit.numba_name(module, "fill", "drapery.cloth.simd_plain")._make()
+    jit.fits_numba.cache_clear()
+
+
+def test_where_numba_lacks_something_the_plain_module_is_used(plain_name):
+    with pytest.warns(UserWarning, match="kernels are slow, because drapery.missing does not fit"):
+        assert plain_name("drapery.missing") is simd_plain.fill
+    assert plain_name("drapery.cloth.simd_instructions") is not simd_plain.fill
+
+
+def test_a_variable_chooses_the_plain_module(plain_name, monkeypatch):
+    monkeypatch.setenv(SIMD, "0")
+    assert plain_name("drapery.cloth.simd_instructions") is simd_plain.fill
 
 
 INTERNALS = {

@@ -37,7 +37,7 @@ ALLOWED: dict[str, set[str]] = {
     "jit_cache": {"kernel_sources"},
     "jit_calls": set(),
     "lazy": set(),
-    "jit": {"aot", "jit_cache", "jit_calls"},
+    "jit": {"aot", "jit_cache", "jit_calls", "kernel_sources"},
     "mesh": {"errors"},
     "option": {"errors"},
     "settings": {"errors", "option"},

@@ -3,7 +3,8 @@
 The compiler vectorises a loop over lanes of several rows only behind checks that no rows overlap,
 and gives up where there are many rows. So kernels are written with registers: `load` 64 bytes of a
 row, calculate, `store`. Operators act on each number by itself, in strict IEEE arithmetic. A
-processor with narrower registers uses several.
+processor with narrower registers uses several. `simd_plain` stands in for registers where numba
+cannot make them.
 """
 
 from typing import Any
@@ -16,14 +17,15 @@ BYTES = REGISTER
 """Size of a register and of a cache line."""
 
 _INSTRUCTIONS = "drapery.cloth.simd_instructions"
-fill = numba_name(_INSTRUCTIONS, "fill")
-flush_denormals = numba_name(_INSTRUCTIONS, "flush_denormals")
-lane_count = numba_name(_INSTRUCTIONS, "lane_count")
-load = numba_name(_INSTRUCTIONS, "load")
-maximum = numba_name(_INSTRUCTIONS, "maximum")
-minimum = numba_name(_INSTRUCTIONS, "minimum")
-sqrt = numba_name(_INSTRUCTIONS, "sqrt")
-store = numba_name(_INSTRUCTIONS, "store")
+_PLAIN = "drapery.cloth.simd_plain"
+fill = numba_name(_INSTRUCTIONS, "fill", _PLAIN)
+flush_denormals = numba_name(_INSTRUCTIONS, "flush_denormals", _PLAIN)
+lane_count = numba_name(_INSTRUCTIONS, "lane_count", _PLAIN)
+load = numba_name(_INSTRUCTIONS, "load", _PLAIN)
+maximum = numba_name(_INSTRUCTIONS, "maximum", _PLAIN)
+minimum = numba_name(_INSTRUCTIONS, "minimum", _PLAIN)
+sqrt = numba_name(_INSTRUCTIONS, "sqrt", _PLAIN)
+store = numba_name(_INSTRUCTIONS, "store", _PLAIN)
 
 
 def lanes_per_register(dtype: Any) -> int:
