@@ -44,7 +44,7 @@ if TYPE_CHECKING:
         save_frame,
     )
     from drapery.render.encode.output import check_writable, make_folder, replacing
-    from drapery.render.encode.png import png_bytes
+    from drapery.render.encode.png import apng_bytes, png_bytes
     from drapery.render.export import MODEL_ENDINGS, check_model_target, save_model
     from drapery.render.flatten import composite_layers
     from drapery.render.frame import Animation, Frame, Pixels
@@ -84,6 +84,7 @@ __all__ = [
     "TextureLayer",
     "Topology",
     "View",
+    "apng_bytes",
     "at_particles",
     "backend",
     "backend_names",
@@ -160,7 +161,7 @@ __getattr__, __dir__ = lazy_names(
             "save_frame",
         ),
         "render.encode.output": ("check_writable", "make_folder", "replacing"),
-        "render.encode.png": ("png_bytes",),
+        "render.encode.png": ("apng_bytes", "png_bytes"),
         "render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
         "render.flatten": ("composite_layers",),
         "render.frame": ("Animation", "Frame", "Pixels"),

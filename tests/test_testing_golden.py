@@ -10,9 +10,17 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
 from drapery.comparison.metrics import measure
 from drapery.errors import OptionError
-from drapery.render.frame import Frame
+from drapery.render.frame import Animation, Frame
 from drapery.testing.explain import explain_change, layer_notes
-from drapery.testing.golden import GoldenError, Tolerance, agrees, as_frame, decode, encode
+from drapery.testing.golden import (
+    GoldenError,
+    Tolerance,
+    agrees,
+    as_frame,
+    decode,
+    encode,
+    stacked,
+)
 
 
 def noise(seed: int, height: int = 12, width: int = 9) -> Frame:
@@ -26,6 +34,35 @@ def test_a_golden_holds_the_picture_and_the_layers_exactly() -> None:
     assert np.array_equal(back.pixels, frame.pixels)
     assert kept == notes
     assert encode(frame, notes) == encode(frame, notes)
+
+
+def loop(count: int = 3, fps: float = 12.5) -> Animation:
+    return Animation(tuple(noise(seed) for seed in range(count)), fps)
+
+
+def test_a_golden_holds_a_loop_and_the_layers_exactly() -> None:
+    still = Animation((noise(1), noise(1), noise(2), noise(1)), 30)
+    for picture in (loop(), still):
+        back, kept = decode(encode(picture, [{"name": "base, red", "face": "x"}]))
+        assert isinstance(back, Animation) and back.fps == pytest.approx(picture.fps)
+        assert np.array_equal(stacked(back), stacked(picture))
+        assert kept == [{"name": "base, red", "face": "x"}]
+        assert agrees(back, picture, Tolerance()) and decode(encode(picture))[1] is None
+
+
+def test_a_changed_loop_is_explained() -> None:
+    other = Animation((noise(0), noise(7), noise(2)), 12.5)
+    assert not agrees(loop(), other, Tolerance(pixels=107))
+    assert agrees(loop(), other, Tolerance(pixels=108))
+    assert explain_change(loop(), other).endswith("in 1 of 3 frames")
+    for changed, size in (
+        (loop(2), "9x12, 2 frames at 12.5/s"),
+        (loop(3, 10), "9x12, 3 frames at 10/s"),
+        (noise(0), "9x12"),
+    ):
+        assert not agrees(loop(), changed, Tolerance(255))
+        said = explain_change(loop(), changed)
+        assert said == f"the size changed from 9x12, 3 frames at 12.5/s to {size}"
 
 
 @given(st.integers(0, 255), st.integers(0, 255), st.integers(0, 4))

@@ -32,6 +32,28 @@ def test_one(golden, number, name):
     pytester.runpytest_inprocess().assert_outcomes(passed=6)
 
 
+def test_a_loop_is_a_golden_too(pytester: pytest.Pytester) -> None:
+    test = pytester.makepyfile(
+        HEAD
+        + """
+from drapery import Animation, Frame
+
+def test_one(golden):
+    loop = Animation(tuple(Frame(grey(level)) for level in (10, 20, 30)), 5)
+    golden(loop, "a")
+    golden(loop, "b", hashed=True)
+"""
+    )
+    pytester.runpytest_inprocess("--drapery-update").assert_outcomes(passed=1)
+    pytester.runpytest_inprocess().assert_outcomes(passed=1)
+    code = Path(test).read_text(encoding="utf-8")
+    Path(test).write_text(code.replace("20", "21"), encoding="utf-8")
+    result = pytester.runpytest_inprocess()
+    result.stdout.fnmatch_lines(["golden 'a': 16 pixels differ, max 1, in 1 of 3 frames; see *"])
+    page = (pytester.path / "drapery-report/index.html").read_text(encoding="utf-8")
+    assert page.count('data-frames="3"') == 3
+
+
 def test_names_that_differ_by_case_alone_are_refused(pytester: pytest.Pytester) -> None:
     """A file system that ignores case would keep one file for both."""
     pytester.makepyfile(

@@ -4,17 +4,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery import Banner, draw
+from drapery import Banner, animate, draw
 from drapery.banner import read_design
 from drapery.errors import DraperyError
 from drapery.packs import open_packs
-from drapery.render import Frame, make_folder, replacing
-from drapery.settings import Settings
+from drapery.render import make_folder, replacing
+from drapery.settings import LOOP_OPTIONS, Settings
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
 from drapery.testing.failures import GoldenUpdate, keep_failure
 from drapery.testing.golden import (
     GoldenError,
+    Picture,
     Tolerance,
     agrees,
     decode,
@@ -38,9 +39,9 @@ def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[CaseRes
     Raises a DraperyError that names the case if it cannot be drawn.
     """
     for case in cases.case:
-        frame, notes = _draw(case)
+        picture, notes = _draw(case)
         path = _golden_path(cases, case, folder)
-        yield CaseResult(case.name, _fault(case, path, frame, notes, report))
+        yield CaseResult(case.name, _fault(case, path, picture, notes, report))
 
 
 def update_cases(cases: CaseFile, folder: Path) -> Iterator[CaseResult]:
@@ -49,9 +50,9 @@ def update_cases(cases: CaseFile, folder: Path) -> Iterator[CaseResult]:
     Raises OutputError, or a DraperyError that names the case if it cannot be drawn.
     """
     for case in cases.case:
-        frame, notes = _draw(case)
+        picture, notes = _draw(case)
         path = _golden_path(cases, case, folder)
-        new = fingerprint(frame) if case.hashed else encode(frame, notes)
+        new = fingerprint(picture) if case.hashed else encode(picture, notes)
         changed = not path.exists() or path.read_bytes() != new
         if changed:
             make_folder(path.parent)
@@ -67,13 +68,20 @@ def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
     return sorted(path for path in found if path not in used)
 
 
-def _draw(case: Case) -> tuple[Frame, list[LayerNote] | None]:
+def _draw(case: Case) -> tuple[Picture, list[LayerNote] | None]:
     try:
         banner = None if case.design is None else read_design(case.design)
-        frame = draw(banner, case.settings)
-        return frame, _notes(banner, case.settings)
+        return _picture(case, banner), _notes(banner, case.settings)
     except DraperyError as error:
         raise type(error)(f"case {case.name!r}: {error}") from None
+
+
+def _picture(case: Case, banner: Banner | None) -> Picture:
+    if case.seconds is None and case.fps is None:
+        return draw(banner, case.settings)
+    seconds = LOOP_OPTIONS["seconds"].default if case.seconds is None else case.seconds
+    fps = LOOP_OPTIONS["fps"].default if case.fps is None else case.fps
+    return animate(banner, case.settings, seconds=seconds, fps=fps)
 
 
 def _notes(banner: Banner | None, settings: Settings) -> list[LayerNote] | None:
@@ -89,27 +97,27 @@ def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:
 
 
 def _fault(
-    case: Case, path: Path, frame: Frame, notes: list[LayerNote] | None, report: Path
+    case: Case, path: Path, picture: Picture, notes: list[LayerNote] | None, report: Path
 ) -> str | None:
-    new = GoldenUpdate(path, fingerprint(frame) if case.hashed else encode(frame, notes))
+    new = GoldenUpdate(path, fingerprint(picture) if case.hashed else encode(picture, notes))
     if not path.exists():
-        keep_failure(report, "case", case.name, None, frame, "there is no golden yet", new)
+        keep_failure(report, "case", case.name, None, picture, "there is no golden yet", new)
         return f"no golden at {path}; write it with `drapery golden update`"
     data = path.read_bytes()
     if case.hashed:
-        if data == fingerprint(frame):
+        if data == fingerprint(picture):
             return None
-        line = f"the hash changed to {fingerprint(frame).decode().strip()}"
-        keep_failure(report, "case", case.name, None, frame, line, new)
+        line = f"the hash changed to {fingerprint(picture).decode().strip()}"
+        keep_failure(report, "case", case.name, None, picture, line, new)
         return line
     try:
         expected, before = decode(data)
     except GoldenError as error:
         line = f"{path}: {error}; restore it, or replace it with `drapery golden update`"
-        keep_failure(report, "case", case.name, None, frame, line, new)
+        keep_failure(report, "case", case.name, None, picture, line, new)
         return line
-    if agrees(expected, frame, Tolerance(case.tolerance, case.pixels)):
+    if agrees(expected, picture, Tolerance(case.tolerance, case.pixels)):
         return None
-    line = explain_change(expected, frame, before, notes)
-    keep_failure(report, "case", case.name, expected, frame, line, new)
+    line = explain_change(expected, picture, before, notes)
+    keep_failure(report, "case", case.name, expected, picture, line, new)
     return line

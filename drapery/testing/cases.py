@@ -13,7 +13,8 @@
 
 Paths are relative to the file. A case's keys are the options of `drapery render`, beside `name`,
 `design`, `tolerance`, `pixels` and `hashed`; `defaults` gives them to every case. A cape or elytra
-has a `texture` in place of a design.
+has a `texture` in place of a design. With `seconds` or `fps` the picture is a loop, as of
+`drapery animate`.
 """
 
 import tomllib
@@ -24,18 +25,21 @@ from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 
 from drapery.errors import OptionError
 from drapery.options import NAMES, check_options, one_line, unknown_names
-from drapery.settings import Settings
+from drapery.settings import LOOP_OPTIONS, Settings
 from drapery.yaml_text import load_yaml
 
 MAX_FILE = 4 << 20
 MAX_CASES = 100_000
 DEFAULTS = Settings(size=(256, 256))
-OWN = ("name", "design", "tolerance", "pixels", "hashed")
+OWN = ("name", "design", "tolerance", "pixels", "hashed", *LOOP_OPTIONS)
 """Keys of a case beside the options of its picture."""
 
 
 class Case(BaseModel):
-    """One picture: its design and options, and how much it may differ from its golden."""
+    """One picture: its design and options, and how much it may differ from its golden.
+
+    seconds, fps: length [s] and frames/s of a loop; with None for both, the picture is a still.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -44,6 +48,8 @@ class Case(BaseModel):
     tolerance: int = Field(default=0, ge=0, le=255)
     pixels: int = Field(default=0, ge=0)
     hashed: bool = False
+    seconds: float | None = None
+    fps: float | None = None
     settings: InstanceOf[Settings] = DEFAULTS
 
 
@@ -84,6 +90,11 @@ def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
     settings = check_options({"size": DEFAULTS.size} | options, path.parent)
     if isinstance(settings, list):
         faults += settings
+    for name in (name for name in LOOP_OPTIONS if name in own):
+        try:
+            own[name] = LOOP_OPTIONS[name].parse(own[name])
+        except OptionError as error:
+            faults.append(one_line(str(error)))
     if faults:
         name = words.get("name", number)
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""

@@ -12,11 +12,12 @@ from syrupy.location import PyTestLocation
 
 from drapery import Banner
 from drapery.errors import OutputError
-from drapery.render import Frame, Scene
+from drapery.render import Animation, Scene
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
 from drapery.testing.failures import GoldenUpdate, keep_failure
 from drapery.testing.golden import (
     GoldenError,
+    Picture,
     Tolerance,
     agrees,
     as_frame,
@@ -54,8 +55,8 @@ class HashGolden(_GoldenFile):
     file_extension = "sha256"
 
     def serialize(self, data: Any, **_: Any) -> bytes:
-        frame, _layers = data
-        return fingerprint(frame)
+        drawn, _layers = data
+        return fingerprint(drawn)
 
 
 class PictureGolden(_GoldenFile):
@@ -89,19 +90,19 @@ def check_golden(
     report: Path,
 ) -> str | None:
     """Compare with the golden, or write it in an update; the fault in one line, or None."""
-    frame = _drawn(picture, backend)
+    drawn = _drawn(picture, backend)
     notes = _notes(design)
     extension = HashGolden if hashed else _picture_golden(Tolerance(*tolerance))
     snapshot = _snapshot(request, extension, bool(request.config.getoption("--drapery-update")))
     label = _label(name, snapshot.num_executions, backend)
     location = snapshot.extension.get_location(test_location=snapshot.test_location, index=label)
     _check_case(request.config, label, Path(location))
-    if snapshot(name=label) == (frame, notes):
+    if snapshot(name=label) == (drawn, notes):
         return None
     result = list(snapshot.executions.values())[-1]
-    content = fingerprint(frame) if hashed else encode(frame, notes)
+    content = fingerprint(drawn) if hashed else encode(drawn, notes)
     update = GoldenUpdate(Path(result.snapshot_location or location), content)
-    return _fault(request.node.nodeid, label, result, frame, notes, report, update)
+    return _fault(request.node.nodeid, label, result, drawn, notes, report, update)
 
 
 _NAMES: pytest.StashKey[dict[Path, dict[str, str]]] = pytest.StashKey()
@@ -154,7 +155,9 @@ def _picture_golden(tolerance: Tolerance) -> type[PictureGolden]:
     return _PICTURE_GOLDENS[tolerance]
 
 
-def _drawn(picture: Any, backend: str) -> Frame:
+def _drawn(picture: Any, backend: str) -> Picture:
+    if isinstance(picture, Animation):
+        return picture
     if isinstance(picture, Scene):
         from drapery.render import backend as backend_by_name
 
@@ -180,7 +183,7 @@ def _fault(
     test: str,
     label: str,
     result: Any,
-    frame: Frame,
+    drawn: Picture,
     notes: list[LayerNote] | None,
     report: Path,
     update: GoldenUpdate,
@@ -190,9 +193,9 @@ def _fault(
         reason = getattr(result.exception, "strerror", None) or str(result.exception)
         return f"golden {label!r}: {path}: {reason}; make the file readable and writable"
 
-    def failed(line: str, expected: Frame | None = None) -> str:
+    def failed(line: str, expected: Picture | None = None) -> str:
         try:
-            picture = keep_failure(report, test, label, expected, frame, line, update)
+            picture = keep_failure(report, test, label, expected, drawn, line, update)
         except OutputError as error:
             return f"golden {label!r}: {line}; {error}"
         return f"golden {label!r}: {line}; see {picture}; accept it with --drapery-update"
@@ -201,9 +204,9 @@ def _fault(
         return failed(f"no golden at {path}")
     if path.endswith(".sha256"):
         was = result.recalled_data.decode("ascii", "replace").strip()
-        return failed(f"the hash changed from {was} to {fingerprint(frame).decode().strip()}")
+        return failed(f"the hash changed from {was} to {fingerprint(drawn).decode().strip()}")
     try:
         expected, before = decode(result.recalled_data)
     except GoldenError as error:
         return failed(f"{path}: {error}; restore the file")
-    return failed(explain_change(expected, frame, before, notes), expected)
+    return failed(explain_change(expected, drawn, before, notes), expected)

@@ -11,7 +11,8 @@ from drapery import Banner
 from drapery.banner import FLAG_REGIONS, flag_layers
 from drapery.comparison import measure
 from drapery.packs import Packs
-from drapery.render import Frame, Pixels, png_bytes
+from drapery.render import Pixels, png_bytes
+from drapery.testing.golden import Picture, same_size, size_of, stacked
 
 MAX_SHIFT = 4
 """How far a layer's picture may have moved to be recognised [texels]."""
@@ -32,16 +33,21 @@ def layer_notes(banner: Banner, packs: Packs) -> list[LayerNote]:
 
 
 def explain_change(
-    expected: Frame,
-    actual: Frame,
+    expected: Picture,
+    actual: Picture,
     before: list[LayerNote] | None = None,
     after: list[LayerNote] | None = None,
 ) -> str:
     """One line: how much changed and, if layer notes are given, which layer and how."""
-    if expected.pixels.shape != actual.pixels.shape:
-        return f"the size changed from {_size(expected)} to {_size(actual)}"
-    difference = measure(expected.pixels, actual.pixels)
-    figures = f"{difference.changed} pixels differ, max {difference.max_error}"
+    if not same_size(expected, actual):
+        return f"the size changed from {size_of(expected)} to {size_of(actual)}"
+    frames = [
+        measure(old, new) for old, new in zip(stacked(expected), stacked(actual), strict=True)
+    ]
+    changed = sum(each.changed for each in frames)
+    figures = f"{changed} pixels differ, max {max(each.max_error for each in frames)}"
+    if len(frames) > 1:
+        figures += f", in {sum(not each.same for each in frames)} of {len(frames)} frames"
     changes = list(_layer_changes(before, after)) if before and after else []
     return "; ".join([*changes[:3], figures])
 
@@ -83,10 +89,6 @@ def _moved(old: Pixels, new: Pixels, down: int, right: int) -> bool:
     inside[max(0, down) : height + min(0, down), max(0, right) : width + min(0, right)] = True
     overlap_same = bool(np.array_equal(moved[inside], (new[..., 3] > 0)[inside]))
     return overlap_same and not np.array_equal(shape, new[..., 3] > 0)
-
-
-def _size(frame: Frame) -> str:
-    return f"{frame.pixels.shape[1]}x{frame.pixels.shape[0]}"
 
 
 def _pack(face: Pixels) -> str:

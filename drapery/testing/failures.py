@@ -1,15 +1,18 @@
 """The report of failed checks: a page that compares pictures, and what accepts them as goldens.
 
+A loop is on the page as a sheet of its frames, from which the page draws the same frame of the
+expected and of the actual loop at a time; a browser would not keep two APNG files in step.
+
 Workers of pytest-xdist write at the same time: every failure has separate files, and the main
 process makes the page from them at the end.
 """
 
 import hashlib
-import io
 import json
+import math
 import re
 import shlex
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -18,7 +21,8 @@ import numpy as np
 
 from drapery.comparison import data_of, difference_panel, side_by_side, write_text
 from drapery.errors import OutputError
-from drapery.render import Frame, Pixels, make_folder, png_bytes, replacing
+from drapery.render import Animation, Frame, Pixels, make_folder, png_bytes, replacing
+from drapery.testing.golden import Picture, decode, frames_of, same_size
 
 _FACTS = ".failure.json"
 _CONTENT = ".golden"
@@ -51,6 +55,16 @@ class FailedPicture:
 
 
 @dataclass(frozen=True)
+class _ShownPicture:
+    """A picture on the page. data: its address; a loop is a sheet of its frames in columns."""
+
+    data: str
+    frames: int
+    columns: int
+    fps: float
+
+
+@dataclass(frozen=True)
 class GoldenUpdate:
     """A golden as it would be if the picture were accepted: its path, and the file's content."""
 
@@ -62,8 +76,8 @@ def keep_failure(
     folder: Path,
     test: str,
     label: str,
-    expected: Frame | None,
-    actual: Frame,
+    expected: Picture | None,
+    actual: Picture,
     line: str,
     update: GoldenUpdate | None = None,
 ) -> Path:
@@ -73,13 +87,19 @@ def keep_failure(
     """
     make_folder(folder)
     stem = _stem(test, label)
-    pictures = {"actual": actual}
+    pictures: dict[str, Picture] = {"actual": actual}
     if expected is not None:
         pictures["expected"] = expected
-        if expected.pixels.shape == actual.pixels.shape:
-            pictures["difference"] = side_by_side(expected.pixels, actual.pixels)
-    for kind, frame in pictures.items():
-        frame.save(folder / f"{stem}.{kind}.png")
+        if same_size(expected, actual):
+            pictures["difference"] = _joined(
+                (
+                    side_by_side(old.pixels, new.pixels)
+                    for old, new in zip(frames_of(expected), frames_of(actual), strict=True)
+                ),
+                actual,
+            )
+    for kind, picture in pictures.items():
+        picture.save(folder / f"{stem}.{kind}.png")
     facts = {"name": f"{test} [{label}]", "line": line, "golden": ""}
     if update is not None:
         facts["golden"] = _relative(update.path)
@@ -201,6 +221,16 @@ def _page_of(failures: list[FailedPicture], folder: Path) -> str:
     here = files("drapery.testing")
     texts = {name: (here / f"report.{name}").read_text("utf-8") for name in ("html", "css", "js")}
     plural = "s" if len(failures) > 1 else ""
+    entries = [
+        {
+            "id": each.id,
+            "name": each.name,
+            "line": each.line,
+            "pictures": (pictures := _shown(each)),
+            "frames": max((shown.frames for shown in pictures.values()), default=1),
+        }
+        for each in failures
+    ]
     return (
         Environment(autoescape=True)
         .from_string(texts["html"])
@@ -209,29 +239,47 @@ def _page_of(failures: list[FailedPicture], folder: Path) -> str:
             folder=shlex.quote(_relative(folder) or folder.name),
             style=texts["css"],
             script=texts["js"],
-            entries=[
-                {"id": each.id, "name": each.name, "line": each.line, "pictures": _shown(each)}
-                for each in failures
-            ],
+            entries=entries,
         )
     )
 
 
-def _shown(failure: FailedPicture) -> dict[str, str]:
-    """The pictures of a failure as data addresses, by their kinds."""
+def _shown(failure: FailedPicture) -> dict[str, _ShownPicture]:
+    """The pictures of a failure by their kinds."""
     made = {kind: failure.picture(kind) for kind in ("expected", "actual")}
-    found = {kind: png for kind, png in made.items() if png is not None}
-    if len(found) == 2:
-        expected, actual = map(_decoded, found.values())
-        if expected.shape == actual.shape:
-            found["difference"] = png_bytes(difference_panel(expected, actual))
-    return {kind: data_of(png, "png") for kind, png in found.items()}
+    found = {kind: decode(png)[0] for kind, png in made.items() if png is not None}
+    if len(found) == 2 and same_size(*found.values()):
+        pairs = zip(*map(frames_of, found.values()), strict=True)
+        panels = (Frame(difference_panel(old.pixels, new.pixels)) for old, new in pairs)
+        found["difference"] = _joined(panels, found["actual"])
+    return {kind: _on_page(picture) for kind, picture in found.items()}
 
 
-def _decoded(png: bytes) -> Pixels:
-    from PIL import Image
+def _joined(frames: Iterable[Frame], like: Picture) -> Picture:
+    """Frames as a picture of the same kind as another one."""
+    if isinstance(like, Animation):
+        return Animation(tuple(frames), like.fps)
+    (frame,) = frames
+    return frame
 
-    return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"))
+
+def _on_page(picture: Picture) -> _ShownPicture:
+    frames = frames_of(picture)
+    columns = math.ceil(math.sqrt(len(frames)))
+    sheet = frames[0].pixels if len(frames) == 1 else _sheet(frames, columns)
+    fps = picture.fps if isinstance(picture, Animation) else 1.0
+    return _ShownPicture(data_of(png_bytes(sheet), "png"), len(frames), columns, fps)
+
+
+def _sheet(frames: tuple[Frame, ...], columns: int) -> Pixels:
+    """All frames in one picture, in rows."""
+    height, width, channels = frames[0].pixels.shape
+    rows = -(-len(frames) // columns)
+    sheet = np.zeros((rows * height, columns * width, channels), np.uint8)
+    for number, frame in enumerate(frames):
+        top, left = number // columns * height, number % columns * width
+        sheet[top : top + height, left : left + width] = frame.pixels
+    return sheet
 
 
 def _relative(path: Path) -> str:

@@ -1,20 +1,31 @@
-"""Golden files, and whether a picture agrees with one."""
+"""Golden files, and whether a picture or a loop agrees with one."""
 
 import hashlib
 import io
 import json
+import math
+import struct
+import zlib
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from PIL import Image, PngImagePlugin
+from numpy.typing import NDArray
+from PIL import Image, ImageSequence, PngImagePlugin
 
 from drapery.comparison import errors
 from drapery.errors import DraperyError, OptionError
-from drapery.render import Frame
+from drapery.render import Animation, Frame, apng_bytes
 
 LAYERS_KEY = "drapery:layers"
 MAX_SIDE = 16384
+MAX_PIXELS = MAX_SIDE**2
+"""The most pixels in all frames of a loop."""
+_AFTER_HEADER = 33
+"""Where the second chunk of a PNG begins [bytes]."""
+
+Picture = Frame | Animation
+"""What a golden holds: a still or a loop."""
 
 
 class GoldenError(DraperyError):
@@ -26,7 +37,7 @@ class Tolerance:
     """How far a picture may differ from its golden; by default not at all.
 
     channel: channel errors up to this value, 0..255, do not count.
-    pixels: the number of pixels that may have larger errors, 0 or more.
+    pixels: the number of pixels of each frame that may have larger errors, 0 or more.
     Raises OptionError for numbers out of range.
     """
 
@@ -64,35 +75,59 @@ def as_frame(picture: Any) -> Frame:
     return Frame(np.asarray(Image.fromarray(pixels, mode).convert("RGBA")))
 
 
-def encode(frame: Frame, layers: list[dict[str, str]] | None = None) -> bytes:
-    """The bytes of a golden file: a PNG, with the design's layers as a note if given."""
+def encode(picture: Picture, layers: list[dict[str, str]] | None = None) -> bytes:
+    """The bytes of a golden file: a PNG, or an APNG for a loop.
+
+    layers: of the design, as a note in the file.
+    """
+    text = None if layers is None else json.dumps(layers)
+    if isinstance(picture, Animation):
+        data = apng_bytes(picture.frames, picture.fps)
+        return data if text is None else _with_note(data, text)
     note = PngImagePlugin.PngInfo()
-    if layers is not None:
-        note.add_text(LAYERS_KEY, json.dumps(layers), zip=True)
+    if text is not None:
+        note.add_text(LAYERS_KEY, text, zip=True)
     buffer = io.BytesIO()
-    Image.fromarray(frame.pixels).save(buffer, "PNG", pnginfo=note)
+    Image.fromarray(picture.pixels).save(buffer, "PNG", pnginfo=note)
     return buffer.getvalue()
 
 
-def decode(data: bytes) -> tuple[Frame, list[dict[str, str]] | None]:
+def decode(data: bytes) -> tuple[Picture, list[dict[str, str]] | None]:
     """The picture and the layers in a golden file. Raises GoldenError."""
     try:
         with Image.open(io.BytesIO(data), formats=("PNG",)) as image:
-            if max(image.size) > MAX_SIDE:
-                raise GoldenError(f"the golden is {image.size[0]}x{image.size[1]} pixels")
+            assert isinstance(image, PngImagePlugin.PngImageFile)
+            count = image.n_frames
+            if max(image.size) > MAX_SIDE or count * image.width * image.height > MAX_PIXELS:
+                raise GoldenError(
+                    f"the golden is {image.width}x{image.height} pixels, {count} times"
+                )
             if image.mode != "RGBA":
                 raise GoldenError(f"the golden's mode is {image.mode}, not RGBA")
-            frame = Frame(np.asarray(image))
-            note = (
-                image.text.get(LAYERS_KEY)
-                if isinstance(image, PngImagePlugin.PngImageFile)
-                else None
-            )
+            if count > 1:
+                note = image.info.get(LAYERS_KEY)  # `text` would decode all frames once more
+                picture: Picture = _loop(image)
+            else:
+                picture = Frame(np.asarray(image))
+                note = image.text.get(LAYERS_KEY)
     except GoldenError:
         raise
     except Exception as error:  # Pillow raises errors of many types for a broken file
         raise GoldenError(f"the golden is not a readable PNG ({error})") from error
-    return frame, _layers(note) if note else None
+    return picture, _layers(note) if note else None
+
+
+def _loop(image: PngImagePlugin.PngImageFile) -> Animation:
+    milliseconds = float(image.info["duration"])
+    frames = tuple(Frame(np.array(each)) for each in ImageSequence.Iterator(image))
+    return Animation(frames, round(1000 / milliseconds, 4))
+
+
+def _with_note(png: bytes, text: str) -> bytes:
+    """A PNG with a compressed text after its header ("PNG Specification", section 11.3.3.3)."""
+    chunk = b"zTXt" + LAYERS_KEY.encode() + bytes(2) + zlib.compress(text.encode("latin-1"))
+    whole = struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk))
+    return png[:_AFTER_HEADER] + whole + png[_AFTER_HEADER:]
 
 
 def _layers(note: str) -> list[dict[str, str]] | None:
@@ -108,16 +143,43 @@ def _layers(note: str) -> list[dict[str, str]] | None:
     return layers if whole else None
 
 
-def fingerprint(frame: Frame) -> bytes:
+def fingerprint(picture: Picture) -> bytes:
     """The golden of the hash mode: one line with size and SHA-256 of the pixels."""
-    height, width = frame.pixels.shape[:2]
-    digest = hashlib.sha256(frame.pixels.tobytes()).hexdigest()
-    return f"{width}x{height} sha256:{digest}\n".encode()
+    digest = hashlib.sha256(stacked(picture).tobytes()).hexdigest()
+    return f"{size_of(picture)} sha256:{digest}\n".encode()
 
 
-def agrees(expected: Frame, actual: Frame, tolerance: Tolerance) -> bool:
+def agrees(expected: Picture, actual: Picture, tolerance: Tolerance) -> bool:
     """Whether a picture is within the tolerance of its golden."""
-    if expected.pixels.shape != actual.pixels.shape:
+    if not same_size(expected, actual):
         return False
-    worst = errors(expected.pixels, actual.pixels)
-    return int(np.count_nonzero(worst > tolerance.channel)) <= tolerance.pixels
+    wrong = errors(stacked(expected), stacked(actual)) > tolerance.channel
+    return int(np.count_nonzero(wrong, axis=(1, 2)).max()) <= tolerance.pixels
+
+
+def frames_of(picture: Picture) -> tuple[Frame, ...]:
+    """The frames of a loop, or a still as the only one."""
+    return picture.frames if isinstance(picture, Animation) else (picture,)
+
+
+def stacked(picture: Picture) -> NDArray[np.uint8]:
+    """The pixels of all frames, shape [frames, H, W, 4]."""
+    return np.stack([frame.pixels for frame in frames_of(picture)])
+
+
+def same_size(a: Picture, b: Picture) -> bool:
+    """Whether two pictures have the same size, and loops the same frames a second too."""
+    if stacked(a).shape != stacked(b).shape:
+        return False
+    # A file holds the time of a frame as a fraction of small numbers.
+    rates = [each.fps for each in (a, b) if isinstance(each, Animation) and len(each) > 1]
+    return len(rates) < 2 or math.isclose(*rates, rel_tol=1e-3)
+
+
+def size_of(picture: Picture) -> str:
+    """The size of a picture in words, and for a loop its length and rate."""
+    height, width = frames_of(picture)[0].pixels.shape[:2]
+    size = f"{width}x{height}"
+    if not isinstance(picture, Animation) or len(picture) == 1:
+        return size
+    return f"{size}, {len(picture)} frames at {picture.fps:g}/s"

@@ -69,10 +69,12 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
 def golden(request: pytest.FixtureRequest) -> Golden:
     """Compare a picture with its golden file: `golden(picture, name="creeper")`.
 
-    picture: a Frame, a Pillow image, a uint8 array, or a scene to be drawn by `backend`.
+    picture: a Frame, an Animation, a Pillow image, a uint8 array, or a scene to be drawn by
+        `backend`.
     name: the golden's name within the test; by default its number.
     tolerance, pixels: channel errors up to `tolerance` (0..255) do not count, and `pixels` pixels
-        may have larger errors; both are 0 by default, which is right for the soft backend.
+        of each frame may have larger errors; both are 0 by default, which is right for the soft
+        backend.
     hashed: store only size and SHA-256 instead of the picture.
     backend: each backend other than soft has separate goldens.
     banner, packs: the design that was drawn; a failure then names the layer that changed.

@@ -30,6 +30,16 @@ def png_bytes(pixels: Pixels, level: int = STILL_LEVEL) -> bytes:
     return file.getvalue()
 
 
+def apng_bytes(frames: Iterable[HasPixels], fps: float) -> bytes:
+    """An APNG file that loops forever, lossless; the same frames give the same bytes.
+
+    frames: at least one, of one size. fps: frames/s, above 0.
+    """
+    file = BytesIO()
+    write_apng(file, frames, fps)
+    return file.getvalue()
+
+
 def write_apng(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
     """An animation that loops forever.
 
