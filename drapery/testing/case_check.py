@@ -9,7 +9,7 @@ from drapery.banner import read_design
 from drapery.errors import DraperyError
 from drapery.packs import open_packs
 from drapery.render import make_folder, replacing
-from drapery.settings import LOOP_OPTIONS, Settings
+from drapery.settings import LOOP_OPTIONS
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.explain import LayerNote, explain_change, layer_notes
 from drapery.testing.failures import GoldenUpdate, keep_failure
@@ -39,9 +39,8 @@ def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[CaseRes
     Raises a DraperyError that names the case if it cannot be drawn.
     """
     for case in cases.case:
-        picture, notes = _draw(case)
-        path = _golden_path(cases, case, folder)
-        yield CaseResult(case.name, _fault(case, path, picture, notes, report))
+        drawn = _draw(case)
+        yield CaseResult(case.name, _fault(drawn, _golden_path(cases, case, folder), report))
 
 
 def update_cases(cases: CaseFile, folder: Path) -> Iterator[CaseResult]:
@@ -50,9 +49,8 @@ def update_cases(cases: CaseFile, folder: Path) -> Iterator[CaseResult]:
     Raises OutputError, or a DraperyError that names the case if it cannot be drawn.
     """
     for case in cases.case:
-        picture, notes = _draw(case)
         path = _golden_path(cases, case, folder)
-        new = fingerprint(picture) if case.hashed else encode(picture, notes)
+        new = _draw(case).golden()
         changed = not path.exists() or path.read_bytes() != new
         if changed:
             make_folder(path.parent)
@@ -68,10 +66,32 @@ def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
     return sorted(path for path in found if path not in used)
 
 
-def _draw(case: Case) -> tuple[Picture, list[LayerNote] | None]:
+@dataclass(frozen=True)
+class _DrawnCase:
+    """A case, its banner and its picture. Notes and files are made only where they are needed."""
+
+    case: Case
+    banner: Banner | None
+    picture: Picture
+
+    def notes(self) -> list[LayerNote] | None:
+        """The layers of the banner."""
+        if self.banner is None:
+            return None
+        settings = self.case.settings
+        return layer_notes(self.banner, open_packs(settings.packs, format=settings.format))
+
+    def golden(self) -> bytes:
+        """The content of the golden file."""
+        if self.case.hashed:
+            return fingerprint(self.picture)
+        return encode(self.picture, self.notes())
+
+
+def _draw(case: Case) -> _DrawnCase:
     try:
         banner = None if case.design is None else read_design(case.design)
-        return _picture(case, banner), _notes(banner, case.settings)
+        return _DrawnCase(case, banner, _picture(case, banner))
     except DraperyError as error:
         raise type(error)(f"case {case.name!r}: {error}") from None
 
@@ -84,40 +104,31 @@ def _picture(case: Case, banner: Banner | None) -> Picture:
     return animate(banner, case.settings, seconds=seconds, fps=fps)
 
 
-def _notes(banner: Banner | None, settings: Settings) -> list[LayerNote] | None:
-    if banner is None:
-        return None
-    return layer_notes(banner, open_packs(settings.packs, format=settings.format))
-
-
 def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:
     backend = "" if case.settings.backend in ("auto", "soft") else f"-{case.settings.backend}"
     ending = "sha256" if case.hashed else "png"
     return folder / cases.goldens / f"{case.name}{backend}.{ending}"
 
 
-def _fault(
-    case: Case, path: Path, picture: Picture, notes: list[LayerNote] | None, report: Path
-) -> str | None:
-    new = GoldenUpdate(path, fingerprint(picture) if case.hashed else encode(picture, notes))
+def _fault(drawn: _DrawnCase, path: Path, report: Path) -> str | None:
+    case, picture = drawn.case, drawn.picture
+
+    def keep(line: str, expected: Picture | None = None) -> str:
+        update = GoldenUpdate(path, drawn.golden())
+        keep_failure(report, "case", case.name, expected, picture, line, update)
+        return line
+
     if not path.exists():
-        keep_failure(report, "case", case.name, None, picture, "there is no golden yet", new)
+        keep("there is no golden yet")
         return f"no golden at {path}; write it with `drapery golden update`"
     data = path.read_bytes()
     if case.hashed:
-        if data == fingerprint(picture):
-            return None
-        line = f"the hash changed to {fingerprint(picture).decode().strip()}"
-        keep_failure(report, "case", case.name, None, picture, line, new)
-        return line
+        found = fingerprint(picture)
+        return None if data == found else keep(f"the hash changed to {found.decode().strip()}")
     try:
         expected, before = decode(data)
     except GoldenError as error:
-        line = f"{path}: {error}; restore it, or replace it with `drapery golden update`"
-        keep_failure(report, "case", case.name, None, picture, line, new)
-        return line
+        return keep(f"{path}: {error}; restore it, or replace it with `drapery golden update`")
     if agrees(expected, picture, Tolerance(case.tolerance, case.pixels)):
         return None
-    line = explain_change(expected, picture, before, notes)
-    keep_failure(report, "case", case.name, expected, picture, line, new)
-    return line
+    return keep(explain_change(expected, picture, before, drawn.notes()), expected)
