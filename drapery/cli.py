@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from copy import copy
 from io import TextIOWrapper
 from types import FrameType
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 from typer.exceptions import TyperException
@@ -42,7 +42,6 @@ from drapery.commands.notices import adopt_warnings, say
 from drapery.errors import DraperyError
 
 app = typer.Typer(
-    help="Minecraft banners as pictures of real cloth.",
     add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -73,6 +72,26 @@ for name, command in {
 app.add_typer(golden.app, name="golden")
 app.add_typer(sheet.app, name="sheet")
 app.add_typer(style.app, name="style")
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        from drapery import __version__
+
+        print(f"drapery {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _without_command(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version and end."
+        ),
+    ] = False,
+) -> None:
+    """Minecraft banners as pictures of real cloth."""
 
 
 class _Stopped(KeyboardInterrupt):

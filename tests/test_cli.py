@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 import zipfile
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,10 @@ def test_render_writes_what_draw_draws(drapery: Run, tmp_path: Path) -> None:
     assert (code, [line for line in err.splitlines() if "kernels" not in line]) == (0, [])
     frame = draw(Banner.parse(GIVE), size=(120, 160), view="iso")
     assert np.array_equal(np.asarray(Image.open(target)), frame.pixels)
+
+
+def test_the_version_is_that_of_the_installed_package(drapery: Run) -> None:
+    assert drapery("--version") == (0, f"drapery {metadata.version('drapery')}\n", "")
 
 
 def test_animate_writes_what_animate_draws(drapery: Run, tmp_path: Path) -> None:
