@@ -111,7 +111,7 @@ def _view(session: Session, controls: Controls, name: str) -> None:
     controls.enabled(button, lambda: session.viewport.request.scene is None)
 
 
-def wear(session: Session, garment: str | None, skin: str | None) -> None:
+def wear(session: Session, garment: str | None, skin: str | None = None) -> None:
     """Show a garment, or the player of a skin, in the wind and view of its file.
 
     None for both shows the banner again.
