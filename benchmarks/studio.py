@@ -352,12 +352,12 @@ def session(minutes: float, seed: int) -> int:
             while time.monotonic() < end:
                 visitor.act()
         finally:
+            count, faults = sum(visitor.counts.values()), len(visitor.faults)
+            print(f"{count} actions in {minutes:g} minutes, seed {seed}: {faults} faults")
+            print(", ".join(f"{name} {number}" for name, number in sorted(visitor.counts.items())))
             driver.quit()
             studio.stop()
-    count = sum(visitor.counts.values())
-    print(f"{count} actions in {minutes:g} minutes, seed {seed}: {len(visitor.faults)} faults")
-    print(", ".join(f"{name} {number}" for name, number in sorted(visitor.counts.items())))
-    return len(visitor.faults)
+    return faults
 
 
 def processor_time(process: int | str) -> float:

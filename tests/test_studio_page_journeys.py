@@ -224,15 +224,11 @@ def test_a_cape_on_a_skin(page: Any, tmp_path: Path) -> None:
     (tmp_path / "me.png").write_bytes(png(noise(5)))
     drop(page, tmp_path / "me.png", ".live-view canvas")
     wait_until(lambda: "me.png" in value(page, "as-command"))
-    path = "//label[contains(@class, 'q-select')][.//div[text()='Garment']]"
-    garments = page.find_element("xpath", path)
-
-    def choose() -> bool:
-        garments.click()
-        press(page, "cape", Keys.ENTER)
-        return "cape" in value(page, "as-command")
-
-    wait_until(choose)
+    page.find_element("xpath", "//label[.//div[text()='Garment']]").click()
+    path = "//*[contains(@class, 'q-menu')]//*[starts-with(text(), 'cape:')]"
+    wait_until(lambda: page.find_elements("xpath", path))[0].click()
+    wait_until(lambda: "cape" in value(page, "as-command"))
+    assert "me.png" in value(page, "as-command")
     wait_until(lambda: "getting ready" not in text(page, ".live-view"))
 
 
@@ -363,4 +359,5 @@ def test_with_the_keyboard_alone(page: Any) -> None:
         press(page, Keys.ARROW_RIGHT)
     walk_to(page, "#panel-export button[aria-label='Export the file']")
     press(page, Keys.ENTER)
+    wait_until(find(page, "#panel-export .export-link").is_displayed)
     walk_to(page, "#panel-export .export-link")
