@@ -233,8 +233,13 @@ def _set(visitor: Visitor) -> str:
 def _choose_show(visitor: Visitor) -> str:
     """A scene or a garment in the viewer, or the banner again."""
     fields = visitor.find(".live-bar .q-select")
+    if not fields:
+        return ""
     visitor.random.choice(fields).click()
-    options = wait_until(lambda: visitor.find(".q-menu .q-item"), 5)
+    time.sleep(1)  # until the menu is open
+    options = visitor.find(".q-menu .q-item")
+    if not options:
+        return ""
     chosen = visitor.random.choice([options[0], *options])
     words = chosen.text
     chosen.click()

@@ -241,6 +241,7 @@ def test_all_banners_of_a_schematic(page: Any, tmp_path: Path) -> None:
     drop(page, path)
     wait_until(lambda: len(page.find_elements("css selector", "#panel-text .found")) == 3)
     wait_until(lambda: loaded(page, "#panel-text .found img"))
+    assert text(page, "#panel-text .found") == "hall.schem block 0,1,0"
     for place, design in enumerate(designs):
         page.find_elements("css selector", "#panel-text .found")[place].click()
         is_now(page, design)

@@ -1,6 +1,7 @@
 """Designs that come from outside: pasted text, and files dropped on the page."""
 
 from collections.abc import AsyncIterator, Callable
+from dataclasses import replace
 from pathlib import Path
 
 from starlette.concurrency import run_in_threadpool
@@ -57,6 +58,7 @@ class UploadQueue:
 
     async def _read_file(self, path: Path, name: str) -> None:
         found, line, notes = await run_in_threadpool(_read, lambda: read_designs(path))
+        found = [replace(each, where=each.where.replace(path.name, name)) for each in found]
         self._finish(name, found, line.replace(str(path), name).replace(path.name, name), notes)
 
     def _finish(
