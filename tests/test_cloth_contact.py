@@ -213,3 +213,23 @@ def test_cloths_that_are_sewn_without_a_seam_lie_on_each_other() -> None:
         assert not crosses(moving.state.positions[0], cloth.triangles)
     lower, upper = moving.state.positions[0].reshape(2, -1, 3)[..., 1]
     assert np.median(upper) > np.median(lower) + 0.012
+
+
+def test_cloths_that_fall_in_a_row_do_not_fall_through_the_one_that_is_stopped() -> None:
+    one = grid(4, 4, 0.3, 0.3, pins="none")
+    cloth, count = sew([one] * 4), 16
+    flat = one.rest_positions[:, [0, 2, 1]] * (1, 1, -1)
+    tilt = 0.1 * flat[:, [0]] * (0, 1, 0)
+    places = np.concatenate([flat + tilt + (0, 0.05 + 0.06 * n, 0) for n in range(4)])[None]
+    falling = np.zeros_like(places) + np.array([0, -4.3, 0])
+    moving = MovingCloth.begin(
+        cloth,
+        SolverXPBD(),
+        start=State(places, falling),
+        collisions=Collisions((GROUND,), 0.02, apart=0.02),
+    )
+    for _ in range(4):
+        moving = moving.advance((Gravity(),))
+        positions = moving.state.positions[0]
+        assert not crosses(positions, cloth.triangles)
+        assert (np.diff(positions[:, 1].reshape(-1, count).mean(axis=1)) > 0).all()

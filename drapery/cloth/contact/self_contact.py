@@ -26,6 +26,9 @@ ROUNDS = 3
 """How often contacts with itself and with boxes take turns in a step."""
 GUARDS = 24
 """The most rounds in which displacements are shortened; then the cloth rests for one step."""
+STOPPED = 0.5
+"""Where particles were stopped, pairs that may come within this many times the thickness are made
+safe."""
 AT_REST = 0.75
 """Parts of one cloth may be as near as this many times their distance at rest."""
 FRICTION = 0.3
@@ -66,7 +69,7 @@ def meet_one(
             meet_boxes(x0, x, boxes, near)
         return
     wanted = x.copy()
-    pairs = find_pairs(x0, x, contact)
+    pairs = find_pairs(x0, x, contact, REACH * contact.thickness, False)
     for _ in range(ROUNDS):
         deepest = 0.0
         for _ in range(PASSES):
@@ -83,6 +86,19 @@ def meet_one(
     if meets_boxes:  # what was near before the pairs were pushed may not be all
         find_boxes(x0, x, boxes, whole_margin(boxes), near)
     make_safe(x0, x, pairs, contact, boxes, near)
+    if farthest(x, wanted) >= 0.5 * REACH * contact.thickness:
+        # Parts that were stopped may be in the way of others, of which no pair is known.
+        pairs = find_pairs(x0, x, contact, STOPPED * contact.thickness, True)
+        make_safe(x0, x, pairs, contact, boxes, near)
+
+
+@kernel
+def farthest(x: Array, y: Array) -> float:
+    """The longest distance [m] between the places of a particle in two arrays, [N, 3]."""
+    longest = 0.0
+    for i in range(len(x)):
+        longest = max(longest, norm(subtract(row(x, i), row(y, i))))
+    return longest
 
 
 @kernel

@@ -43,12 +43,14 @@ class Parts(NamedTuple):
 
 
 class Surroundings(NamedTuple):
-    """All parts of a cloth in a step, and how near two parts matter [m]."""
+    """All parts of a cloth in a step. limit: how near two parts matter [m]. stop: whether a
+    particle may stop anywhere on its way."""
 
     particles: Parts
     edges: Parts
     faces: Parts
     limit: float
+    stop: bool
 
 
 class TouchingPairs(NamedTuple):
@@ -65,15 +67,21 @@ class TouchingPairs(NamedTuple):
 
 
 @kernel
-def find_pairs(x0: Array, x: Array, contact: SelfContact) -> TouchingPairs:
-    """All pairs that may come nearer than the thickness in this step."""
-    triangles, limit = contact.triangles, REACH * contact.thickness
-    bounds = particle_bounds(x0, x, 0.5 * limit)
+def find_pairs(
+    x0: Array, x: Array, contact: SelfContact, limit: float, stop: bool
+) -> TouchingPairs:
+    """All pairs that may come within a limit [m] in this step.
+
+    stop: whether each particle may also stop anywhere on its way, so that others run into it.
+    """
+    triangles = contact.triangles
+    bounds = particle_bounds(x0, x, 0.5 * limit, stop)
     near = Surroundings(
         Parts(bounds, balls_of(x0, x, single(len(x)))),
         Parts(joined_bounds(bounds, contact.edges), balls_of(x0, x, contact.edges)),
         Parts(joined_bounds(bounds, triangles), balls_of(x0, x, triangles)),
         limit,
+        stop,
     )
     faces = near.faces
     cells = cells_of(faces.bounds)
@@ -88,7 +96,7 @@ def find_pairs(x0: Array, x: Array, contact: SelfContact) -> TouchingPairs:
                         t = members[place]
                         if t <= s or cells[t, 0] != a or cells[t, 1] != b or cells[t, 2] != c:
                             continue
-                        if not may_meet(faces, s, faces, t, limit):
+                        if not may_meet(faces, s, faces, t, near):
                             continue
                         if count + 15 > len(pairs.ends):
                             pairs = longer(pairs)
@@ -107,13 +115,13 @@ def key_of(a: int, b: int, c: int, slots: int) -> int:
 
 
 @kernel
-def particle_bounds(x0: Array, x: Array, margin: float) -> Array:
+def particle_bounds(x0: Array, x: Array, margin: float, stop: bool) -> Array:
     """Low and high corner of the motion of each particle with a margin [m], [N, 6].
 
-    The mean motion of the cloth is left out: it brings no parts together.
+    The mean motion of the cloth is left out, as it brings no parts together unless some stop.
     """
     mean = (0.0, 0.0, 0.0)
-    for i in range(len(x)):
+    for i in range(0 if stop else len(x)):
         mean = add_scaled(mean, 1.0 / len(x), moved(x0, x, i))
     bounds = np.empty((len(x), 6))
     for i in range(len(x)):
@@ -196,14 +204,15 @@ def balls_of(x0: Array, x: Array, parts: NDArray[np.int32]) -> Array:
 
 
 @kernel
-def may_meet(one: Parts, i: int, other: Parts, j: int, limit: float) -> bool:
-    """Whether two parts may come within the limit [m]: their bounds overlap, and their balls are
+def may_meet(one: Parts, i: int, other: Parts, j: int, near: Surroundings) -> bool:
+    """Whether two parts may come within the limit: their bounds overlap, and their balls are
     not farther from each other than that and their motion relative to each other."""
     a, b = one.balls, other.balls
     away = square(row(a, i), row(b, j))
-    reach = limit + a[i, 6] + b[j, 6] + a[i, 7] + b[j, 7] + ROUNDING
+    reach = near.limit + a[i, 6] + b[j, 6] + a[i, 7] + b[j, 7] + ROUNDING
     if away > reach * reach:
-        reach += np.sqrt(square((a[i, 3], a[i, 4], a[i, 5]), (b[j, 3], b[j, 4], b[j, 5])))
+        first, second = (a[i, 3], a[i, 4], a[i, 5]), (b[j, 3], b[j, 4], b[j, 5])
+        reach += norm(first) + norm(second) if near.stop else np.sqrt(square(first, second))
         if away > reach * reach:
             return False
     return touch(one.bounds, i, other.bounds, j)
@@ -264,8 +273,8 @@ def add_corners(
         p = triangles[s, corner]
         if owner[p] != s or p in (i, j, k):
             continue
-        if may_meet(near.particles, p, near.faces, t, near.limit):
-            count = add_pair(x0, x, near.limit, pairs, count, p, i, j, k, 0)
+        if may_meet(near.particles, p, near.faces, t, near):
+            count = add_pair(x0, x, near, pairs, count, p, i, j, k, 0)
     return count
 
 
@@ -289,8 +298,8 @@ def add_edges(
         i, j, k, m = edges[e, 0], edges[e, 1], edges[f, 0], edges[f, 1]
         if i in (k, m) or j in (k, m):
             continue
-        if may_meet(near.edges, e, near.edges, f, near.limit):
-            count = add_pair(x0, x, near.limit, pairs, count, i, j, k, m, 1)
+        if may_meet(near.edges, e, near.edges, f, near):
+            count = add_pair(x0, x, near, pairs, count, i, j, k, m, 1)
     return count
 
 
@@ -298,7 +307,7 @@ def add_edges(
 def add_pair(
     x0: Array,
     x: Array,
-    limit: float,
+    near: Surroundings,
     pairs: TouchingPairs,
     count: int,
     i: int,
@@ -307,10 +316,14 @@ def add_pair(
     m: int,
     edges: int,
 ) -> int:
-    """Add a pair if its parts may come within a limit [m]; returns the new count."""
+    """Add a pair if its parts may come within the limit; returns the new count."""
     _weights, offset = nearest(x0, i, j, k, m, edges)
     length = norm(offset)
-    if length > limit + longest_relative(x0, x, i, j, k, m, edges):
+    if near.stop:
+        longest = longest_sum(x0, x, i, j, k, m, edges)
+    else:
+        longest = longest_relative(x0, x, i, j, k, m, edges)
+    if length > near.limit + longest:
         return count
     pairs.ends[count, 0], pairs.ends[count, 1] = i, j
     pairs.ends[count, 2], pairs.ends[count, 3] = k, m
@@ -333,6 +346,14 @@ def longest_relative(x0: Array, x: Array, i: int, j: int, k: int, m: int, edges:
     most = max(square(a, c), square(a, d))
     most = max(most, max(square(b, c), square(b, d)) if edges else square(a, b))
     return float(np.sqrt(most))
+
+
+@kernel
+def longest_sum(x0: Array, x: Array, i: int, j: int, k: int, m: int, edges: int) -> float:
+    """The longest displacement [m] of a particle of one part, and of one of the other, together."""
+    a, b = norm(moved(x0, x, i)), norm(moved(x0, x, j))
+    c, d = norm(moved(x0, x, k)), norm(moved(x0, x, m))
+    return max(a, b) + max(c, d) if edges else a + max(b, max(c, d))
 
 
 @kernel
