@@ -137,3 +137,23 @@ def test_light_shines_through_cloth_from_its_far_side() -> None:
     # The side that the light falls on stays as it is.
     lit = replace(board, materials=thin.materials)
     assert np.array_equal(reds(scene(board)), reds(scene(lit)))
+
+
+@pytest.mark.parametrize("thickness", [0.005, 0.04])
+def test_the_far_side_of_thin_cloth_hides_no_sky_from_its_near_side(thickness: float) -> None:
+    u, v = np.meshgrid(np.linspace(-0.8, 0.8, 33), np.linspace(-0.8, 0.8, 33))
+    points = np.stack([u, 0.05 * np.cos(np.pi * u / 0.4), v], axis=-1).reshape(-1, 3)
+    a = (np.arange(32)[:, None] * 33 + np.arange(32)).reshape(-1)
+    triangles = np.stack([a, a + 33, a + 1, a + 1, a + 33, a + 34], axis=-1).reshape(-1, 3)
+    triangles = triangles.astype(np.int32)
+    normals = vertex_normals(points, triangles)
+    near = Mesh(points, normals, triangles, np.zeros((1089, 2)))
+    far = replace(near, positions=points - (0, thickness, 0), normals=-normals)
+    sky = Light(((0.0, -1.0, 0.0),), 1.0, 0.0, shadows=True)
+    alone, both = (
+        reds(scene(*(Model(side, (WHITE,)) for side in sides), light=sky))[100]
+        for sides in ((near,), (near, far))
+    )
+    # The maps have 60 samples across, so single places differ by a few in 255 in both directions.
+    assert abs(alone.mean() - both.mean()) < 2 and np.abs(alone - both).max() <= 10
+    assert both[21:179].min() > 230
