@@ -18,6 +18,7 @@ from studio_browser import WIDE, resize, wait_until
 
 from drapery import Banner
 from drapery.settings import Settings
+from drapery.web import page
 from drapery.web.page import write_component, write_page
 
 ELEMENT = "document.querySelector('drapery-banner')"
@@ -67,8 +68,15 @@ def site(
     folder = tmp_path_factory.mktemp("site")
     design = Banner.parse("white creeper:lime border:black")
     write_page(folder / "banner.html", design, playable(size=(320, 480)))
-    write_component(folder, playable(size=(320, 480)))
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(page, "POSES", ())
+        write_component(folder, playable(size=(320, 480)))
     (folder / "many.html").write_text(MANY, encoding="utf-8")
+    yield from served(folder)
+
+
+def served(folder: Path) -> Iterator[str]:
+    """The address of a folder."""
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=str(folder)))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_port}"

@@ -37,7 +37,8 @@ def files_of(text: str) -> dict[str, bytes]:
 def test_the_bundle_is_one_module_that_imports_nothing(tmp_path: Path) -> None:
     text = bundled_module()
     assert "import {" not in text and "</script" not in text
-    assert text.endswith("export { DesignError, DraperyBanner, readDesign };\n")
+    names = "DesignError, DraperyBanner, DraperyCape, DraperyElytra, DraperyPlayer, readDesign"
+    assert text.endswith(f"export {{ {names} }};\n")
     (tmp_path / "bundle.mjs").write_text(text, encoding="utf-8")
     run_node("--check", tmp_path / "bundle.mjs")
 
@@ -70,12 +71,16 @@ def test_a_page_has_all_that_it_needs(playable: Playable) -> None:
     assert page.page_text(DESIGN, playable(size=SIZE)) == text
 
 
-def test_a_package_names_its_files(playable: Playable, tmp_path: Path) -> None:
+def test_a_package_names_its_files(
+    playable: Playable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(page, "POSES", ("sneak",))
     page.write_component(tmp_path / "dist", playable())
     found = {path.name for path in (tmp_path / "dist").iterdir()}
     package = json.loads((tmp_path / "dist" / "package.json").read_text())
     named = {package["main"], package["types"], "README.md", "package.json"}
-    assert found == named | {"standing.bin", "wall.bin", "cloth.bin"}
+    players = {f"{worn}-sneak{arms}.bin" for worn in ("cape", "elytra") for arms in ("", "-slim")}
+    assert found == named | {"standing.bin", "wall.bin", "cloth.bin"} | players
 
 
 @pytest.mark.parametrize(

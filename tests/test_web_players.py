@@ -1,6 +1,8 @@
-"""Players with capes and elytra in pages: the bits of Python, their poses and limits."""
+"""Players with capes and elytra in pages: the bits of Python, their poses, textures and limits."""
 
 import gzip
+import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,18 +11,22 @@ import pytest
 pytest.importorskip("ziglang", reason="ziglang is not installed (drapery[web-build])")
 pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery[dev])")
 
+from test_javascript import NODE, run_node
 from wasm_player import WasmPlayer, built_module
 
 from drapery.errors import OptionError
 from drapery.garments import Garment, dressed_player, find_garment, make_wearer
 from drapery.packs import open_packs
 from drapery.scenes import PlayedGarment, live_garment, played_garment
+from drapery.style.skins import read_skin
 from drapery.web.messages import unpack
+from drapery.web.page import page_text
 from drapery.web.scene_file import garment_scene_bytes
 from drapery.web.wasm.module import module_info
 from drapery.web.wasm.plan import LANES, write_plan
 
 MIDDLE = np.array([0.5, 0.0, 0.5])
+TEXTURES = Path(__file__).parent.parent / "drapery" / "web" / "component" / "textures.js"
 
 
 def player(wear: str = "cape", **fields: Any) -> Garment:
@@ -98,3 +104,42 @@ def test_a_scene_of_a_player_names_its_textures() -> None:
     assert start + count == grip[0][0] and len(grip) == 2 and len(arrays["plan1"]) > 1000
     assert header["textures"]["skin"] == {"vertices": [start], "area": [0, 0, 64, 64]}
     assert header["textures"]["cape"]["area"] == [24, 2, 10, 20]
+
+
+def test_a_page_of_a_player_is_one_small_file() -> None:
+    built_module()
+    settings = player().settings(solver="desbrun", size=(96, 128), time=0.0)
+    text = page_text(player(), settings)
+    assert len(text) < 300_000
+    assert '<drapery-player data-cloth kind="player" alt="Player with cape"><img' in text
+
+
+SKINS = """
+import { readFileSync } from "node:fs";
+import { isSlim, wholeSkin } from "SCRIPT";
+const found = JSON.parse(readFileSync(0)).map(([height, data]) => {
+  const whole = wholeSkin({ width: 64, height, data: Uint8ClampedArray.from(data) });
+  const slim = isSlim({ width: 64, height, data: Uint8ClampedArray.from(data) });
+  return [slim ? "slim" : "classic", [...whole.data]];
+});
+console.log(JSON.stringify(found));
+"""
+
+
+@pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
+def test_skins_of_any_layout_are_read_as_in_python(tmp_path: Path) -> None:
+    random = np.random.default_rng(5)
+    old, opaque, slim, new = (
+        random.integers(0, 256, (height, 64, 4), np.uint8) for height in (32, 32, 64, 64)
+    )
+    opaque[..., 3] = 255
+    slim[20:32, 54:56, 3] = 0
+    skins = [old, opaque, slim, new]
+    script = tmp_path / "skins.mjs"
+    script.write_text(SKINS.replace("SCRIPT", TEXTURES.as_uri()), encoding="utf-8")
+    text = json.dumps([[len(skin), skin.ravel().tolist()] for skin in skins])
+    found = json.loads(run_node(script, stdin=text))
+    for skin, (arms, data) in zip(skins, found, strict=True):
+        expected = read_skin(skin)
+        assert arms == expected.arms
+        assert np.array_equal(data, expected.texels.ravel())

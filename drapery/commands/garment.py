@@ -1,5 +1,6 @@
 """`drapery garment`: a garment of a file as a picture, an animation or a 3-D file."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -32,7 +33,10 @@ def run(
     out: Annotated[
         str | None,
         typer.Option(
-            "-o", "--out", metavar="TARGET", help="A picture, animation, folder or 3-D file."
+            "-o",
+            "--out",
+            metavar="TARGET",
+            help="A picture, animation, folder, 3-D file or .html page.",
         ),
     ] = None,
     show_list: Annotated[bool, typer.Option("--list", help="List all garments.")] = False,
@@ -91,7 +95,12 @@ def write_garment(
     from drapery.settings import frame_count
 
     target = out.lower()
-    if target.endswith(MODEL_ENDINGS):
+    if target.endswith((".html", ".htm")):
+        from drapery.web.page import write_page
+
+        with compile_notice():
+            write_page(Path(out), garment, settings)
+    elif target.endswith(MODEL_ENDINGS):
         with compile_notice():
             save_model(garment, out, settings, seconds=seconds, fps=fps)
     elif target.endswith(".png") and not target.endswith(".sheet.png"):

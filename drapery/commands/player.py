@@ -15,7 +15,10 @@ def run(
     out: Annotated[
         str,
         typer.Option(
-            "-o", "--out", metavar="TARGET", help="A picture, animation, folder or 3-D file."
+            "-o",
+            "--out",
+            metavar="TARGET",
+            help="A picture, animation, folder, 3-D file or .html page.",
         ),
     ],
     seconds: o.SecondsOption = 4.0,

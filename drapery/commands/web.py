@@ -19,7 +19,11 @@ def run(
         typer.Option("-o", "--out", metavar="TARGET", help="The page, or the package's folder."),
     ],
     component: Annotated[
-        bool, typer.Option("--component", help="Write the package of <drapery-banner>.")
+        bool,
+        typer.Option(
+            "--component",
+            help="Write the package of <drapery-banner> and other elements.",
+        ),
     ] = False,
     size: o.SizeOption = SIZE,
     **words: Any,

@@ -10,7 +10,8 @@ from pathlib import Path
 
 WEB = Path(__file__).parent
 ENTRY = WEB / "component" / "element.js"
-PUBLIC = ("DesignError", "DraperyBanner", "readDesign")
+ELEMENTS = ("DraperyBanner", "DraperyCape", "DraperyElytra", "DraperyPlayer")
+PUBLIC = ("DesignError", *ELEMENTS, "readDesign")
 """What the module exports."""
 
 _IMPORT = re.compile(r'^import \{[^}]*\} from "([^"]+)";\n', re.MULTILINE)

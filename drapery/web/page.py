@@ -4,51 +4,70 @@ import base64
 import gzip
 import json
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
+from itertools import product
 from pathlib import Path
 
 from drapery import draw
 from drapery.banner import PATTERN_NAMES, Banner, alt_text, write_banner
 from drapery.errors import DraperyError, OptionError
+from drapery.garments import (
+    UNUSED_OPTIONS,
+    Garment,
+    dressed_player,
+    find_garment,
+    make_wearer,
+)
 from drapery.packs import Packs, open_packs
 from drapery.render import make_folder, png_bytes, replacing
 from drapery.settings import Placement, Settings
 from drapery.web.bundle import WEB, bundled_module
-from drapery.web.scene_file import scene_bytes
+from drapery.web.scene_file import garment_scene_bytes, scene_bytes
 from drapery.web.wasm.module import read_module
 
 MODULE = "drapery-banner.js"
 KERNELS = "cloth.bin"
 PLACEMENTS: tuple[Placement, ...] = ("standing", "wall")
 """The kinds of banner that the component shows."""
+POSES = ("walk", "stand", "run", "sneak")
+"""The poses of players that the component shows, with a cape or elytra."""
+SIZE = (320, 480)
+"""Width and height of what the camera of a player frames [pixels]."""
+FROM_BEHIND = 7
+"""How players are turned, in sixteenths of a turn: cloth on their backs is seen."""
 
 
-def page_text(design: Banner | None, settings: Settings) -> str:
+@dataclass(frozen=True)
+class _Shown:
+    """What a page shows: the element and its attributes, and the files that it loads."""
+
+    tag: str
+    attributes: dict[str, str]
+    files: dict[str, bytes]
+
+
+def page_text(design: Banner | Garment | None, settings: Settings) -> str:
     """A page of one file that shows a design as live cloth; it needs no other file or server.
 
-    design: None for a cape or elytra. The page begins with the picture of these settings, and
-    keeps it where a browser cannot play the cloth. A text after `#` in the page's address is shown
-    in place of the design.
+    design: a banner, a garment with its wearer, or None for a cape or elytra. The page begins with
+    the picture of these settings, and keeps it where a browser cannot play the cloth.
+    A text after `#` in the page's address is shown in place of a banner's design.
     Raises OptionError, PackError, or WasmBuildError where the kernels of the cloth are not built.
     """
     from jinja2 import Environment
     from markupsafe import Markup
 
-    packs = open_packs(settings.packs, format=settings.format)
-    kind = settings.placement if design else settings.kind
-    files = {f"{kind}.bin": _scene(design, packs, settings)}
-    files |= {KERNELS: _kernels()}
-    title = alt_text(design) if design else kind.title()
-    attributes: dict[str, str] = {"kind": kind, "alt": title}
-    if design:
-        attributes["design"] = write_banner(design, "text")
+    shown = _garment_shown(design, settings) if isinstance(design, Garment) else None
+    shown = shown or _banner_shown(design, settings)
+    title, files = shown.attributes["alt"], {**shown.files, KERNELS: _kernels()}
     template = (WEB / "page.html").read_text(encoding="utf-8")
     text: str = (
         Environment(autoescape=True)
         .from_string(template)
         .render(
             title=title,
-            attributes=attributes,
+            tag=shown.tag,
+            attributes=shown.attributes,
             width=settings.size[0],
             height=settings.size[1],
             picture=_base64(png_bytes(draw(design, settings).pixels)),
@@ -71,14 +90,32 @@ def _scene(design: Banner | None, packs: Packs, settings: Settings) -> bytes:
         return scene_bytes(design, packs, settings, own)
 
 
-def write_page(path: Path, design: Banner | None, settings: Settings) -> None:
+def _banner_shown(design: Banner | None, settings: Settings) -> _Shown:
+    packs = open_packs(settings.packs, format=settings.format)
+    kind = settings.placement if design else settings.kind
+    attributes = {"kind": kind, "alt": alt_text(design) if design else kind.title()}
+    if design:
+        attributes["design"] = write_banner(design, "text")
+    return _Shown("drapery-banner", attributes, {f"{kind}.bin": _scene(design, packs, settings)})
+
+
+def _garment_shown(garment: Garment, settings: Settings) -> _Shown:
+    packs = open_packs(settings.packs, format=settings.format)
+    names = [each.name.replace("-", " ") for each in garment.over]
+    title = f"{garment.name.title()} with {' and '.join(names)}" if names else garment.description
+    attributes = {"kind": "player", "alt": title or garment.name}
+    scene = garment_scene_bytes(garment, packs, settings)
+    return _Shown("drapery-player", attributes, {"player.bin": scene})
+
+
+def write_page(path: Path, design: Banner | Garment | None, settings: Settings) -> None:
     """Write `page_text` to a file. Raises OutputError, and the errors of `page_text`."""
     with replacing(path) as partial:
         partial.write_text(page_text(design, settings), encoding="utf-8")
 
 
 def write_component(folder: Path, settings: Settings) -> None:
-    """Write the package of `<drapery-banner>`: its module, types, kernels, scenes and README.
+    """Write the package of the elements: their module, types, kernels, scenes and README.
 
     Raises OutputError, and the errors of `scene_bytes`.
     """
@@ -98,11 +135,31 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     for placement in PLACEMENTS:
         placed = replace(settings, placement=placement)
         yield f"{placement}.bin", scene_bytes(Banner(), packs, placed)
+    own = {field.name for field in fields(settings)} - set(UNUSED_OPTIONS)
+    kept = {name: getattr(settings, name) for name in own}
+    for name, garment in _players():
+        options = Settings(**{**kept, **garment.picture, "size": SIZE, "rotation": FROM_BEHIND})
+        yield f"{name}.bin", garment_scene_bytes(garment, packs, options)
     yield KERNELS, _kernels()
     yield MODULE, bundled_module().encode()
     for name in ("README.md", "drapery-banner.d.ts"):
         yield name, (WEB / "component" / name).read_bytes()
     yield "package.json", (json.dumps(_package(), indent=2) + "\n").encode()
+
+
+def _players() -> Iterator[tuple[str, Garment]]:
+    """The players of the package by name: each pose, with wide and with slim arms.
+
+    Their skin can be replaced, so they have all boxes of its second layer.
+    """
+    for elytra, pose, slim in product((False, True), POSES, (False, True)):
+        speed = {"walk": 1.5, "run": 4.0}.get(pose, 0.0)
+        arms = "slim" if slim else "classic"
+        wearer = make_wearer(motion=pose, speed=speed, arms=arms)
+        whole = wearer.model_copy(update={"overlay": "whole"})
+        wear = [find_garment("elytra" if elytra else "cape")]
+        name = f"{wear[0].name}-{pose}{'-slim' if slim else ''}"
+        yield name, dressed_player(whole, wear=wear)
 
 
 def _package() -> dict[str, object]:

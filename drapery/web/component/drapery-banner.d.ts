@@ -30,8 +30,25 @@ export class DraperyBanner extends HTMLElement {
   snapshot(): Promise<Blob>;
 }
 
+/**
+ * `<drapery-player>`: a player with cloth on its back.
+ *
+ * Attributes: `skin` and `cape`, addresses of PNG files; `pose` ("walk", "stand", "run" or
+ * "sneak"); `kind` ("cape" or "elytra"); and `wind`, `direction`, `paused` and `alt` as above.
+ */
+export class DraperyPlayer extends DraperyBanner {}
+
+/** `<drapery-cape skin="skin.png" cape="cape.png" pose="run">`: a player with a cape. */
+export class DraperyCape extends DraperyPlayer {}
+
+/** `<drapery-elytra>`: a player with wings of cloth. */
+export class DraperyElytra extends DraperyPlayer {}
+
 declare global {
   interface HTMLElementTagNameMap {
     "drapery-banner": DraperyBanner;
+    "drapery-player": DraperyPlayer;
+    "drapery-cape": DraperyCape;
+    "drapery-elytra": DraperyElytra;
   }
 }

@@ -3,6 +3,7 @@
 import { readDesign } from "./design.js";
 import { Player } from "./player.js";
 import { wake } from "./shared.js";
+import { isSlim, readTexture, wholeSkin } from "./textures.js";
 
 const TURN = 0.0075; // radians a pixel
 const STEP = Math.PI / 24;
@@ -26,8 +27,11 @@ const KEYS = {
   Home: (element, orbit) => orbit.reset(),
 };
 
+const ATTRIBUTES = ["kind", "wind", "direction", "paused", "alt"];
+
 export class DraperyBanner extends HTMLElement {
-  static observedAttributes = ["design", "kind", "wind", "direction", "paused", "alt"];
+  static observedAttributes = ["design", ...ATTRIBUTES];
+  static sources = ["kind"]; // attributes that need another scene
 
   #attempt = 0;
   #player = null;
@@ -77,8 +81,9 @@ export class DraperyBanner extends HTMLElement {
 
   attributeChangedCallback(name) {
     if (!this.isConnected) return;
-    if (this.#player && name !== "kind") this.#apply(name);
-    else if (name === "design" || name === "kind") this.#start();
+    const isSource = this.constructor.sources.includes(name);
+    if (this.#player && !isSource) this.#apply(name);
+    else if (isSource || name === "design") this.#start();
   }
 
   // A PNG of what is seen now, as a Blob.
@@ -88,11 +93,22 @@ export class DraperyBanner extends HTMLElement {
     return new Promise((done) => this.#canvas.toBlob(done));
   }
 
+  // The name of its scene, and the textures that replace those of the scene.
+  async source() {
+    return [this.getAttribute("kind") ?? "standing", {}];
+  }
+
+  // What it shows, in words.
+  words({ base = "", layers = [] } = {}) {
+    return [`${base} banner`, ...layers.map(({ pattern, dye }) => `${dye} ${pattern}`)].join(", ");
+  }
+
   async #start() {
     const attempt = ++this.#attempt;
     try {
       const design = this.hasAttribute("design") && readDesign(this.getAttribute("design"));
-      const player = await Player.open(this.#canvas, `${this.getAttribute("kind") ?? "standing"}.bin`);
+      const [name, textures] = await this.source();
+      const player = await Player.open(this.#canvas, `${name}.bin`, textures);
       if (attempt !== this.#attempt) return player.end();
       try {
         if (design) player.setDesign(design);
@@ -155,8 +171,7 @@ export class DraperyBanner extends HTMLElement {
   }
 
   #describe() {
-    const { base = "", layers = [] } = this.#player.design ?? {};
-    const words = [`${base} banner`, ...layers.map(({ pattern, dye }) => `${dye} ${pattern}`)].join(", ");
+    const words = this.words(this.#player.design);
     this.#give("aria-label", this.getAttribute("alt") ?? words.replaceAll("_", " ").trim());
   }
 
@@ -205,7 +220,8 @@ export class DraperyBanner extends HTMLElement {
   #follow({ pointerType, offsetX }) {
     if (pointerType !== "mouse") return;
     const side = (2 * offsetX) / this.#canvas.clientWidth - 1;
-    const heading = this.#player.azimuth() + this.#player.header.turned + FOLLOW * side;
+    const ahead = this.#player.heading ?? this.#player.azimuth() + this.#player.header.turned;
+    const heading = ahead + FOLLOW * side;
     try {
       this.#player.setWind(this.#number("wind"), heading);
     } catch (error) {
@@ -214,4 +230,30 @@ export class DraperyBanner extends HTMLElement {
   }
 }
 
-customElements.define("drapery-banner", DraperyBanner);
+// A player with cloth on its back: skin and cape are addresses of PNG files.
+export class DraperyPlayer extends DraperyBanner {
+  static observedAttributes = ["skin", "cape", "pose", ...ATTRIBUTES];
+  static sources = ["skin", "cape", "pose", "kind"];
+  static kind = "cape";
+
+  async source() {
+    const [skin, cape] = await Promise.all(["skin", "cape"].map((name) => readTexture(name, this.getAttribute(name))));
+    const [kind, pose] = [this.getAttribute("kind") ?? this.constructor.kind, this.getAttribute("pose")];
+    const shape = skin && isSlim(skin) ? "-slim" : "";
+    const textures = { ...(skin && { skin: wholeSkin(skin) }), ...(cape && { cape }) };
+    return [kind === "player" ? kind : `${kind}-${pose ?? "walk"}${shape}`, textures];
+  }
+
+  words() {
+    return `player with ${this.getAttribute("kind") ?? this.constructor.kind}`;
+  }
+}
+
+export class DraperyCape extends DraperyPlayer {}
+
+export class DraperyElytra extends DraperyPlayer {
+  static kind = "elytra";
+}
+
+const ELEMENTS = { banner: DraperyBanner, player: DraperyPlayer, cape: DraperyCape, elytra: DraperyElytra };
+for (const [name, element] of Object.entries(ELEMENTS)) customElements.define(`drapery-${name}`, element);

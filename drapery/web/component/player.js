@@ -8,16 +8,19 @@ import { View } from "../viewer/view.js";
 import { DesignError } from "./design.js";
 import { fileBytes, players, sharedContext, wake } from "./shared.js";
 import { TABLES } from "./tables.js";
+import { retextured } from "./textures.js";
 
-const MOST_STEPS = 4; // in one frame; slower pages show slower motion
-const SETTLED = 180; // time steps before cloth is shown that does not move
+const LONGEST = 1 / 15; // time that passes in one frame [s]; slower pages show slower motion
+const SETTLED = 3; // time before cloth is shown that does not move [s]
 
 export class Player extends View {
   // canvas: its picture goes there. name: of a file that `drapery.web.scene_file` wrote.
-  static async open(canvas, name) {
+  // textures: pixels in place of the scene's own, by name.
+  static async open(canvas, name, textures = {}) {
     sharedContext();
     const [scene, module] = await Promise.all([fileBytes(name), fileBytes("cloth.bin")]);
-    const { header, arrays } = unpack(scene.buffer);
+    const own = unpack(scene.buffer);
+    const [header, arrays] = retextured(own.header, own.arrays, textures);
     const cloths = await Promise.all(header.grip.map((_, number) => Cloth.load(module, arrays[`plan${number}`])));
     return new Player(canvas, header, arrays, cloths);
   }
@@ -84,8 +87,9 @@ export class Player extends View {
   // One frame; whether there will be another one.
   moment(seconds) {
     const moves = Boolean(this.playing || this.grab);
-    this.owed = Math.min(this.owed + (moves ? seconds / this.cloths[0].info.step : 0), MOST_STEPS);
-    const steps = moves || this.moved ? Math.floor(this.owed) : SETTLED;
+    const { step } = this.cloths[0].info;
+    this.owed = Math.min(this.owed + (moves ? seconds / step : 0), Math.round(LONGEST / step));
+    const steps = moves || this.moved ? Math.floor(this.owed) : Math.round(SETTLED / step);
     this.owed %= 1;
     if (steps) this.step(steps);
     if (this.canvas.width && !this.drawing.gl.isContextLost()) this.draw();
@@ -107,9 +111,20 @@ export class Player extends View {
   // Give the vertices of the cloth to the drawing.
   upload() {
     for (const [number, cloth] of this.cloths.entries()) {
-      const moment = { runs: [this.header.grip[number]], tints: this.header.tints };
-      this.drawing.setMoment(moment, { positions: cloth.vertices, light: cloth.light });
+      this.move(this.header.grip[number], cloth.vertices, cloth.light);
     }
+    const { figure } = this.header;
+    if (figure) this.move(figure, this.cloths[0].array("figure"), this.cloths[0].array("figureLight"));
+  }
+
+  move(run, positions, light) {
+    this.drawing.setMoment({ runs: [run], tints: this.header.tints }, { positions, light });
+  }
+
+  // To where the wind of a wearer blows [degrees]; that of a banner blows to the viewer.
+  get heading() {
+    const [x, , z] = this.cloths[0].info.wind;
+    return this.header.figure && (Math.atan2(x, z) * 180) / Math.PI;
   }
 
   draw() {
