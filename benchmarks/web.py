@@ -15,6 +15,7 @@ import tempfile
 import time
 from collections.abc import Sequence
 from hashlib import sha256
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,9 @@ import numpy as np
 
 import drapery.web.wasm
 from drapery import Banner, Settings
+from drapery.garments import dressed_player, make_wearer
 from drapery.packs import open_packs
-from drapery.scenes import LivePanel, Stager, live_panels
+from drapery.scenes import LivePanel, Stager, live_garment, live_panels, played_garment
 from drapery.style import Body, body_of
 from drapery.web.wasm.build import METHODS, build_module
 from drapery.web.wasm.module import module_info, module_places
@@ -111,6 +113,21 @@ def native(settings: Settings, steps: int) -> tuple[str, float]:
     return digest(state.positions[0], state.velocities[0]), spent / steps * 1e6
 
 
+def worn(wear: str, solver: Any) -> tuple[LivePanel, str, float]:
+    """The last cloth on a walking player, its digest after STEPS steps in Python, and microseconds
+    a step there."""
+    garment = dressed_player(make_wearer(motion="walk", speed=1.5), wear=[wear])
+    dressed = played_garment(garment, open_packs(()), garment.settings(solver=solver))
+    sewn = dressed.cloths[-1]
+    moving, forces, pins = dressed.begun(sewn), dressed.forces(sewn, None), dressed.pins(sewn)
+    moving.advance(forces, 1, pins)  # loads the kernels
+    start = time.process_time()
+    state = moving.advance(forces, STEPS, pins).state
+    spent = (time.process_time() - start) / STEPS * 1e6
+    panel = live_garment(dressed, LANES)[-1]
+    return panel, digest(state.positions[0], state.velocities[0]), spent
+
+
 def replayed(panel: LivePanel, actions: list[Action]) -> str:
     """The digest of a cloth that was played by the same kernels in Python."""
     arrays = panel.arrays
@@ -175,6 +192,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
                     f" {there:10.0f} {here:8.0f} {here / there:12.2f}",
                     flush=True,
                 )
+        for solver, wear in product(("desbrun", "xpbd"), ("cape", "elytra")):
+            panel, expected, there = worn(wear, solver)
+            plan = write_plan(panel, info)
+            state, here = played(folder, plan, WIND, 1, timed)
+            equal = equal and state == expected
+            print(
+                f"{wear} on a player, {solver}: plan {len(gzip.compress(plan))} bytes gzipped,"
+                f" {'equal' if state == expected else 'DIFFERS'}, native {there:.0f} us,"
+                f" Node {here:.0f} us, {here / there:.2f}",
+                flush=True,
+            )
         for solver in ("desbrun", "xpbd"):
             options = {"solver": solver, "grid": (11, 21)}
             settings = Settings(**options)
