@@ -57,8 +57,10 @@ def page_text(design: Banner | Garment | None, settings: Settings) -> str:
     from jinja2 import Environment
     from markupsafe import Markup
 
-    shown = _garment_shown(design, settings) if isinstance(design, Garment) else None
-    shown = shown or _banner_shown(design, settings)
+    if isinstance(design, Garment):
+        shown = _garment_shown(design, settings)
+    else:
+        shown = _banner_shown(design, settings)
     title, files = shown.attributes["alt"], {**shown.files, KERNELS: _kernels()}
     template = (WEB / "page.html").read_text(encoding="utf-8")
     text: str = (
