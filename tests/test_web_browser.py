@@ -5,6 +5,7 @@ import io
 import threading
 from collections.abc import Callable, Iterator
 from functools import partial
+from hashlib import sha256
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
@@ -16,12 +17,14 @@ from selenium.webdriver import ActionChains, Keys
 from selenium.webdriver.common.by import By
 from studio_browser import WIDE, resize, wait_until
 
-from drapery import Banner
+from drapery import Banner, draw
+from drapery.banner import DYE_NAMES, PATTERN_NAMES
 from drapery.settings import Settings
 from drapery.web import page
 from drapery.web.page import write_component, write_page
 
 ELEMENT = "document.querySelector('drapery-banner')"
+CANVAS = "shadowRoot.querySelector('canvas')"
 HERE = Path(__file__).parent
 NO_WASM = "default-src 'self' data:; script-src 'self' 'unsafe-inline'; style-src 'unsafe-inline'"
 NO_WEBGL = """
@@ -46,6 +49,12 @@ MANY = """<!doctype html><html lang="en"><title>Many</title>
 <div style="height: 3000px"></div>
 <drapery-banner design="lime" id="below"></drapery-banner></main></html>
 """
+
+
+def batched_layers() -> list[list[str]]:
+    """Every pattern in a dye, two or three and once sixteen of them for each dye of a base."""
+    each = [f"{name}:{DYE_NAMES[n % 16]}" for n, name in enumerate(PATTERN_NAMES)]
+    return [each[-16:], *(each[n::15] for n in range(15))]
 
 
 class Handler(SimpleHTTPRequestHandler):
@@ -98,7 +107,17 @@ def open_site(
         remove = "Page.removeScriptToEvaluateOnNewDocument"
         browser.execute_cdp_cmd(remove, {"identifier": identifier})
     if ready:
-        wait_until(lambda: ask(browser, "getAttribute('role')") == "img")
+        wait_until(lambda: is_live(browser))
+
+
+def is_live(browser: Any, element: str = ELEMENT) -> bool:
+    """Whether an element shows its cloth."""
+    return bool(browser.execute_script(f"return !{element}.{CANVAS}.hidden"))
+
+
+def name_of(browser: Any) -> Any:
+    """The first element's name for people who do not see it."""
+    return ask(browser, f"{CANVAS}.ariaLabel")
 
 
 def ask(browser: Any, what: str) -> Any:
@@ -107,7 +126,7 @@ def ask(browser: Any, what: str) -> Any:
 
 def picture(browser: Any, element: str = ELEMENT) -> np.ndarray:
     """The pixels of an element's canvas, shape [H, W, 4]."""
-    url = browser.execute_script(f"return {element}.shadowRoot.querySelector('canvas').toDataURL()")
+    url = browser.execute_script(f"return {element}.{CANVAS}.toDataURL()")
     return np.asarray(Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2]))))
 
 
@@ -137,7 +156,7 @@ def is_fallback(browser: Any) -> bool:
     return bool(
         browser.execute_script(
             f"return {image}.checkVisibility() && {image}.naturalWidth > 0 &&"
-            f" {ELEMENT}.shadowRoot.querySelector('canvas').hidden && !{ELEMENT}.role"
+            f" {ELEMENT}.{CANVAS}.hidden"
         )
     )
 
@@ -148,7 +167,7 @@ def test_a_page_of_one_file_waves_and_is_named(chromium: Any, site: str) -> None
     lime = (before[..., 1] > before[..., 0].astype(int) + 40) & (before[..., 3] == 255)
     assert 0.01 < lime.mean() < 0.2, "the creeper is there"
     wait_until(lambda: changes(chromium, before))
-    assert ask(chromium, "ariaLabel") == "Banner: Argent, a creeper Lime within a bordure Sable"
+    assert name_of(chromium) == "Banner: Argent, a creeper Lime within a bordure Sable"
     for script in ("page_names.js", "page_contrast.js"):
         assert chromium.execute_script((HERE / script).read_text(encoding="utf-8")) == []
     assert warnings(chromium) == []
@@ -160,7 +179,7 @@ def test_keys_turn_it_and_pause_it(chromium: Any, site: str) -> None:
     still = first_picture(chromium)
     ActionChains(chromium).send_keys(Keys.TAB).perform()
     focused = chromium.execute_script(f"return document.activeElement === {ELEMENT}")
-    outline = chromium.execute_script(f"return getComputedStyle({ELEMENT}).outlineStyle")
+    outline = chromium.execute_script(f"return getComputedStyle({ELEMENT}.{CANVAS}).outlineStyle")
     assert focused and outline == "solid"
     assert not changes(chromium, still)
     ActionChains(chromium).send_keys(Keys.ARROW_RIGHT * 4).perform()
@@ -192,12 +211,12 @@ def test_the_pointer_pulls_the_cloth_and_turns_the_background(chromium: Any, sit
 def test_attributes_change_what_is_shown(chromium: Any, site: str) -> None:
     open_site(chromium, f"{site}/many.html", moves=False)
     red = first_picture(chromium)
-    assert ask(chromium, "ariaLabel") == "red banner"
+    assert name_of(chromium) == "red banner"
     chromium.execute_script(f"{ELEMENT}.setAttribute('design', 'blue skull:white')")
     wait_until(lambda: changes(chromium, red))
     blue = picture(chromium)
     assert blue[..., 2].sum() > blue[..., 0].sum()
-    assert ask(chromium, "ariaLabel") == "blue banner, white skull"
+    assert name_of(chromium) == "blue banner, white skull"
     chromium.execute_script(f"{ELEMENT}.setAttribute('design', 'paisley')")
     chromium.execute_script(f"{ELEMENT}.setAttribute('wind', 'strong')")
     assert not changes(chromium, blue), "what was seen stays"
@@ -208,12 +227,43 @@ def test_attributes_change_what_is_shown(chromium: Any, site: str) -> None:
     wait_until(lambda: changes(chromium, blue))
 
 
+DESIGNS = (
+    *("white", "red creeper:black", "ominous", "white Per Fess Inverted:blue Base:red"),
+    *(f"{dye} {' '.join(layers)}" for dye, layers in zip(DYE_NAMES, batched_layers(), strict=True)),
+)
+PICTURES = """
+const [designs, done] = arguments;
+const element = document.querySelector("drapery-banner");
+(async () => {
+  const found = [];
+  for (const design of designs) {
+    element.setAttribute("design", design);
+    const { data, width, height } = await element.picture();
+    const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", data));
+    found.push([width, height, [...digest]]);
+  }
+  return found;
+})().then(done, (error) => done(String(error)));
+"""
+
+
+def test_a_picture_has_the_bits_of_the_renderer(
+    chromium: Any, site: str, playable: Callable[..., Settings]
+) -> None:
+    open_site(chromium, f"{site}/many.html", moves=False)
+    found = chromium.execute_async_script(PICTURES, DESIGNS)
+    settings = playable(size=(320, 480))
+    drawn = [draw(Banner.parse(design), settings).pixels for design in DESIGNS]
+    assert len(DESIGNS) == 20
+    assert found == [[320, 480, [*sha256(each.tobytes()).digest()]] for each in drawn]
+
+
 def test_all_elements_of_a_page_share_a_context_and_rest_out_of_sight(
     chromium: Any, site: str
 ) -> None:
     open_site(chromium, f"{site}/many.html", script=COUNT)
     below = "document.getElementById('below')"
-    wait_until(lambda: chromium.execute_script(f"return {below}.role") == "img")
+    wait_until(lambda: is_live(chromium, below))
     assert chromium.execute_script("return contexts") == 1
     first, hidden = first_picture(chromium), first_picture(chromium, below)
     wait_until(lambda: changes(chromium, first))
@@ -245,5 +295,5 @@ def test_an_unknown_design_shows_what_the_page_put_there(chromium: Any, site: st
     open_site(chromium, f"{site}/many.html")
     plaid = "document.querySelector('[design=plaid]')"
     assert chromium.execute_script(f"return {plaid}.querySelector('img').checkVisibility()")
-    assert not chromium.execute_script(f"return {plaid}.role")
+    assert not is_live(chromium, plaid)
     assert len([line for line in warnings(chromium) if "unknown dye 'plaid'" in line]) == 1

@@ -62,6 +62,30 @@ def test_a_scene_begins_as_the_cloth_hangs(playable: Playable) -> None:
     assert len(arrays["plan0"]) > 1000
 
 
+def test_a_style_of_materials_keeps_the_design_of_the_page(
+    playable: Playable, tmp_path: Path
+) -> None:
+    (tmp_path / "old.toml").write_text('[[material]]\nstep = "age"\n', encoding="utf-8")
+    settings = playable(size=SIZE, style=str(tmp_path / "old.toml"))
+    header, arrays = unpack(gzip.decompress(scene_bytes(DESIGN, open_packs(()), settings)))
+    flag = arrays["vertexMaterials"][header["grip"][0][0]]
+    assert header["sheets"] is None and arrays["materials"].reshape(-1, 4)[flag, 1] == 1
+    with pytest.raises(OptionError, match="the package shows any design"):
+        page.write_component(tmp_path / "dist", settings)
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [({"view": "hero"}, "cast shadows need Python"), ({"shadow": True}, "translucent materials")],
+)
+def test_a_scene_says_why_it_has_no_picture(
+    playable: Playable, options: dict[str, object], reason: str
+) -> None:
+    text = gzip.decompress(scene_bytes(DESIGN, open_packs(()), playable(size=SIZE, **options), []))
+    header, arrays = unpack(text)
+    assert reason in header["noPicture"] and "still" not in arrays
+
+
 def test_a_page_has_all_that_it_needs(playable: Playable) -> None:
     text = page.page_text(DESIGN, playable(size=SIZE))
     assert len(text) < 300_000

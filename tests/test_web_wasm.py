@@ -62,13 +62,13 @@ def test_600_steps_have_the_bits_of_python(placement: Any) -> None:
 
 
 def test_a_picture_has_the_pixels_of_python() -> None:
-    settings = quick_settings(view="iso", light="game", size=(48, 64), samples=4, time=2.0)
+    settings = quick_settings(view="iso", light="game", size=(48, 64), samples=4, time=1.99)
     design = Banner.parse("white creeper:lime border:black")
     body = body_of(design, open_packs(()), settings)
     built_module()
     (plan,) = plans_of(body, settings, picture=True)
     player = WasmPlayer(built_module(), plan)
-    player.step(120)
+    player.step(player.header["steps"])
     player.run("cover")
     player.run("draw")
     assert player.header["picture"] == [48, 64]

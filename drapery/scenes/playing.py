@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.banner.design import MAX_LAYERS
 from drapery.cloth.contact import lanes_contact
 from drapery.cloth.live import LiveCall, live_call
 from drapery.cloth.live import play as play_cloth  # what is called `play` here is a scene
@@ -33,6 +34,9 @@ from drapery.settings import Settings
 from drapery.style.block import turn_centre, turn_matrix
 from drapery.style.body import Body, Panel
 from drapery.style.live_shell import LiveShell, cover, make_live_shell
+
+SPARE = MAX_LAYERS + 2
+"""Layers of a design: the bare cloth, its base and its patterns."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +76,10 @@ def live_panels(
 
     lanes: of the arrays; by default a register of this processor.
     picture: whether the call `draw` draws the picture of the settings, with the camera that frames
-    the cloth at `settings.time`; only for bodies of one panel, without cast shadows.
+    the cloth at `settings.time`; only for bodies of one panel, without shadows. The header then has
+    `picture`, its width and height; `steps`, after which the cloth is that of the still; and
+    `flag`, the index of the panel's material. The host may replace `materials`, `layers` and
+    `atlas`; the layers end with SPARE rows of zeros.
     Raises OptionError for settings that cannot be played without Python.
     """
     stager = Stager(body, settings, ())
@@ -84,42 +91,53 @@ def live_panels(
             )
     if stager.settings.pose != "cloth":
         raise OptionError(f"pose {stager.settings.pose} has no cloth to play; use pose cloth")
-    panels = [_live_panel(stager, panel, lanes) for panel in body.panels]
     if not picture:
-        return panels
-    if len(panels) != 1 or stager.settings.pixel != 1 or stager.style.has("picture"):
+        return [_live_panel(stager, panel, lanes) for panel in body.panels]
+    if len(body.panels) != 1 or stager.settings.pixel != 1 or stager.style.has("picture"):
         raise OptionError(
             "pictures of several panels, of large pixels and of styles with steps of picture need "
             "Python; leave out the picture"
         )
-    return [_with_picture(panels[0], stager)]
+    return [_with_picture(stager, lanes)]
 
 
-def _with_picture(panel: LivePanel, stager: Stager) -> LivePanel:
-    """The panel with a call that draws its body."""
-    posed = Stager(stager.body, stager.settings)
-    steps = math.ceil(stager.settings.time / STEP)
+def _with_picture(stager: Stager, lanes: int | None) -> LivePanel:
+    """The panel with a call that draws its body, with the time steps of `still`."""
+    time = stager.settings.time
+    steps = math.ceil(time / STEP)
+    step = time / steps if steps else STEP
+    panel = _live_panel(stager, stager.body.panels[0], lanes, step)
+    spec = cloth_spec(stager.body.panels[0], stager.settings, stager.body.solids)
+    posed = Stager(stager.body, stager.settings, [cloth_at_rest(spec, step)])
     if steps:
         posed.advance(steps)
-    scene = scene_at(posed, stager.settings.time)
-    live = make_live_picture(scene, len(scene.models) - 1)
+    scene = scene_at(posed, time)
+    live = make_live_picture(scene, len(scene.models) - 1, SPARE)
     vertices, normals = panel.arrays["vertices"], panel.arrays["normals"]
     draw = LiveKernel("draw", draw_live, (vertices, normals, live))
     return replace(
         panel,
-        header={**panel.header, "picture": list(live.size)},
+        header={
+            **panel.header,
+            "picture": list(live.size),
+            "steps": steps,
+            "flag": int(live.triangle_material[-1]),
+        },
         calls={**panel.calls, "draw": draw},
-        arrays={**panel.arrays, "picture": live.picture},
+        arrays={
+            **panel.arrays,
+            **{name: getattr(live, name) for name in ("picture", "materials", "layers", "atlas")},
+        },
     )
 
 
-def _live_panel(stager: Stager, panel: Panel, lanes: int | None) -> LivePanel:
+def _live_panel(stager: Stager, panel: Panel, lanes: int | None, step: float = STEP) -> LivePanel:
     settings = stager.settings
     spec = cloth_spec(panel, settings, stager.body.solids)
     wind = wind_of(settings)
     sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
     lee = (1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0)
-    call = live_call(cloth_at_rest(spec), forces_of(settings, wind), wind, lee, lanes)
+    call = live_call(cloth_at_rest(spec, step), forces_of(settings, wind), wind, lee, lanes)
     shell = make_live_shell(
         grid_shell(settings.grid, panel.uv_mapping),
         panel.origin,

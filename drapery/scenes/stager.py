@@ -124,11 +124,11 @@ class ClothSpec:
         return Collisions(boxes, self.thickness, apart=self.thickness if self.itself else None)
 
 
-def cloth_at_rest(spec: ClothSpec) -> MovingCloth:
-    """The cloth at time 0, as it hangs before its first step. Raises OptionError."""
+def cloth_at_rest(spec: ClothSpec, step: float = STEP) -> MovingCloth:
+    """The cloth at time 0, as it hangs before its first time step [s]. Raises OptionError."""
     cloth, met = spec.make_cloth(), spec.make_collisions()
     start = spec.hang(cloth)
-    return MovingCloth.begin(cloth, spec.make_solver(), STEP, start=start, collisions=met)
+    return MovingCloth.begin(cloth, spec.make_solver(), step, start=start, collisions=met)
 
 
 def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -> ClothSpec:

@@ -3,7 +3,7 @@
 import base64
 import gzip
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from itertools import product
 from pathlib import Path
@@ -21,6 +21,7 @@ from drapery.garments import (
 from drapery.packs import Packs, open_packs
 from drapery.render import make_folder, png_bytes, replacing
 from drapery.settings import Placement, Settings
+from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module
 from drapery.web.scene_file import garment_scene_bytes, scene_bytes
 from drapery.web.wasm.module import read_module
@@ -54,30 +55,41 @@ def page_text(design: Banner | Garment | None, settings: Settings) -> str:
     A text after `#` in the page's address is shown in place of a banner's design.
     Raises OptionError, PackError, or WasmBuildError where the kernels of the cloth are not built.
     """
-    from jinja2 import Environment
-    from markupsafe import Markup
-
     if isinstance(design, Garment):
         shown = _garment_shown(design, settings)
     else:
         shown = _banner_shown(design, settings)
-    title, files = shown.attributes["alt"], {**shown.files, KERNELS: _kernels()}
-    template = (WEB / "page.html").read_text(encoding="utf-8")
-    text: str = (
-        Environment(autoescape=True)
-        .from_string(template)
-        .render(
-            title=title,
-            tag=shown.tag,
-            attributes=shown.attributes,
-            width=settings.size[0],
-            height=settings.size[1],
-            picture=_base64(png_bytes(draw(design, settings).pixels)),
-            files={name: _base64(data) for name, data in files.items()},
-            module=Markup(bundled_module()),
-        )
+    return render_template(
+        "page.html",
+        title=shown.attributes["alt"],
+        tag=shown.tag,
+        attributes=shown.attributes,
+        width=settings.size[0],
+        height=settings.size[1],
+        picture=picture_of(design, settings),
+        files=shown.files | kernel_file(),
     )
-    return text
+
+
+def render_template(name: str, *, files: Mapping[str, bytes], **values: object) -> str:
+    """A page from a template of this package; it holds the component and these files."""
+    from jinja2 import Environment
+    from markupsafe import Markup
+
+    template = Environment(autoescape=True).from_string((WEB / name).read_text(encoding="utf-8"))
+    texts = {name: _base64(data) for name, data in files.items()}
+    page: str = template.render(files=texts, module=Markup(bundled_module()), **values)
+    return page
+
+
+def picture_of(design: Banner | Garment | None, settings: Settings) -> str:
+    """The picture for browsers that cannot play the cloth, as the address of an image."""
+    return "data:image/png;base64," + _base64(png_bytes(draw(design, settings).pixels))
+
+
+def kernel_file() -> dict[str, bytes]:
+    """The name and content of the compressed WebAssembly module. Raises WasmBuildError."""
+    return {KERNELS: gzip.compress(read_module(), mtime=0)}
 
 
 def _scene(design: Banner | None, packs: Packs, settings: Settings) -> bytes:
@@ -125,6 +137,11 @@ def write_component(folder: Path, settings: Settings) -> None:
         raise OptionError(
             "the package shows banners that are not turned; leave out rotation and facing"
         )
+    if combined_style(settings.style).has("material"):
+        raise OptionError(
+            "the package shows any design, and steps of material need the renderer; use a style"
+            " without them"
+        )
     files = list(_component_files(settings))
     make_folder(folder)
     for name, data in files:
@@ -142,7 +159,7 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     for name, garment in _players():
         options = Settings(**{**kept, **garment.picture, "size": SIZE, "rotation": FROM_BEHIND})
         yield f"{name}.bin", garment_scene_bytes(garment, packs, options)
-    yield KERNELS, _kernels()
+    yield from kernel_file().items()
     yield MODULE, bundled_module().encode()
     for name in ("README.md", "drapery-banner.d.ts"):
         yield name, (WEB / "component" / name).read_bytes()
@@ -180,11 +197,6 @@ def _package() -> dict[str, object]:
         "files": files,
         "sideEffects": True,
     }
-
-
-def _kernels() -> bytes:
-    """The WebAssembly module, compressed. Raises WasmBuildError."""
-    return gzip.compress(read_module(), mtime=0)
 
 
 def _base64(data: bytes) -> str:

@@ -4,12 +4,14 @@ It is one message (see `messages`), compressed with gzip: the fields and arrays 
 its first `moment`, and
 
 aspect: width / height of the picture that the camera frames. sheets: the names of the flag's
-sheets of texels in the order of its layers ("" is the bare cloth), None where no design is shown.
-turned: the angle of rotation or facing [degrees], see `Settings.turned`.
+sheets of texels in the order of its layers ("" is the bare cloth), None where no other design can be
+shown. turned: the angle of rotation or facing [degrees], see `Settings.turned`.
 figure: the vertices of a wearer, whom the first plan poses. textures: those of a player, by name:
 a vertex of each material that shows one, and which part it shows of one 64 texels wide.
 plan0, plan1, …: the plan of each panel of cloth, see `drapery.web.wasm`; `grip` has the vertices of
 each panel in the same order.
+still: a plan that also draws the still of the settings. Its materials, layers and atlas are those
+of the scene, and its atlas is left empty. Without one, noPicture says why.
 """
 
 import gzip
@@ -32,6 +34,7 @@ from drapery.scenes import (
     cloth_at_rest,
     cloth_spec,
     floor_under,
+    live_panels,
     played_garment,
 )
 from drapery.settings import Settings
@@ -39,7 +42,8 @@ from drapery.style import Body, MaterialAt, body_of
 from drapery.styles import Style
 from drapery.web.messages import MessageEncoder, pack, unpack
 from drapery.web.panes import Pane, ViewerState
-from drapery.web.wasm.plan import plans_of, plans_of_garment
+from drapery.web.wasm.module import module_info, read_module
+from drapery.web.wasm.plan import LANES, plans_of, plans_of_garment, write_plan
 
 SWINGS = np.array(((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7)))
 """How far a light wind moves cloth from its rest position: to both sides, to the front [m]."""
@@ -59,10 +63,15 @@ def scene_bytes(
     body = body_of(design, packs, settings)
     stager = Stager(body, settings)
     _check(stager.settings, stager.style, bool(stager.cloths))
-    shown, sheets = _with_sheets(body, packs, patterns) if design else (body, None)
+    styled = stager.style.has("material")  # its steps need all layers of one design
+    shown, sheets = (body, None) if styled or not design else _with_sheets(body, packs, patterns)
     settings = stager.settings
     scene = _first_message(_state(stager, shown), settings)
     scene[0].update(sheets=sheets, turned=settings.turned)
+    try:
+        scene[1]["still"] = _still(shown, settings)
+    except OptionError as error:
+        scene[0]["noPicture"] = f"the picture cannot be drawn in a page: {error}"
     return _packed(scene, plans_of(body, settings))
 
 
@@ -79,6 +88,7 @@ def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> b
     scene = _first_message(ViewerState((pane,), grip=grip, live=True), stager.settings)
     header = scene[0]
     header.update(sheets=None, turned=stager.settings.turned)
+    header["noPicture"] = "pictures of players and garments need Python"
     if figures:
         runs = header["runs"][last - figures : last]
         header["figure"] = [runs[0][0], sum(count for _, count in runs)]
@@ -107,6 +117,15 @@ def _packed(scene: tuple[dict[str, Any], dict[str, NDArray[Any]]], plans: Sequen
         width, height = header["atlas"]
         raise OptionError(f"the textures fill {width} x {height} texels; use smaller packs")
     return gzip.compress(pack(header, arrays), mtime=0)
+
+
+def _still(body: Body, settings: Settings) -> NDArray[np.uint8]:
+    """The plan of a picture, without its atlas. Raises OptionError for what needs Python."""
+    if body.period:
+        raise OptionError("animated textures need Python; use packs without them")
+    (panel,) = live_panels(body, settings, LANES, picture=True)
+    panel.arrays["atlas"][:] = 0
+    return np.frombuffer(write_plan(panel, module_info(read_module())), np.uint8)
 
 
 def _check(settings: Settings, style: Style, moves: bool) -> None:

@@ -10,7 +10,6 @@ from drapery.jit import entry_point
 from drapery.mesh import Array, Triangles
 from drapery.render.camera import clip_matrix
 from drapery.render.drawlist import Float32, make_topology
-from drapery.render.flatten import composite_layers
 from drapery.render.materials import BLEND
 from drapery.render.relief import bake_normal_maps
 from drapery.render.scene import Scene
@@ -35,6 +34,8 @@ class LivePicture(NamedTuple):
 
     first: the first vertex that moves. size: of the picture [pixels], grid: samples along a
     pixel's side. levels: ambient and diffuse light, [2]. tint: of the light, [3].
+    materials, layers, atlas: see `draw_tiles`; the host may replace them. The last rows of layers
+    are spare: zeros that no material uses.
     vertices, flags: scratch for V vertices. picture: 0xAABBGGRR, [height * width].
     """
 
@@ -63,9 +64,10 @@ class LivePicture(NamedTuple):
     picture: NDArray[np.uint32]
 
 
-def make_live_picture(scene: Scene, moving: int) -> LivePicture:
+def make_live_picture(scene: Scene, moving: int, spare: int = 0) -> LivePicture:
     """A picture of a scene in which the model of this number moves.
 
+    spare: rows of `LivePicture.layers` that the host may fill.
     Raises OptionError for cast shadows and for materials that blend.
     """
     scene = bake_normal_maps(scene)
@@ -78,9 +80,8 @@ def make_live_picture(scene: Scene, moving: int) -> LivePicture:
         np.concatenate([_vectors(getattr(model.mesh, name)) for model in scene.models])
         for name in ("positions", "normals")
     )
-    materials, layers, atlas, wide = _kernel_tables(
-        _tables(composite_layers(constant.material_tables))
-    )
+    # The layers of a material stay apart, so that a host can exchange them.
+    materials, layers, atlas, wide = _kernel_tables(_tables(constant.material_tables))
     width, height = scene.size
     return LivePicture(
         int(constant.vertex_start[moving]),
@@ -90,8 +91,8 @@ def make_live_picture(scene: Scene, moving: int) -> LivePicture:
         constant.triangles,
         constant.triangle_material,
         materials,
-        layers,
-        atlas,
+        np.concatenate([layers, np.zeros((spare, layers.shape[1]), np.int32)]),
+        atlas.copy(),
         wide,
         clip_matrix(scene.camera, scene.size),
         scene.light.unit_directions(),

@@ -28,6 +28,8 @@ export class DraperyBanner extends HTMLElement {
   paused: boolean;
   /** A PNG of what is seen now. */
   snapshot(): Promise<Blob>;
+  /** The pixels that `drapery render` draws of the design with the options of the package. */
+  picture(): Promise<ImageData>;
 }
 
 /**

@@ -2,43 +2,46 @@
 
 import { Cloth } from "../wasm/cloth.js";
 import { Drawing } from "../viewer/drawing.js";
-import { add, cross, dot, length, readCamera, scale, subtract, unit } from "../viewer/matrices.js";
+import { add, dot, length, readCamera, scale, subtract, unit } from "../viewer/matrices.js";
 import { unpack } from "../viewer/messages.js";
 import { View } from "../viewer/view.js";
-import { DesignError } from "./design.js";
+import { DesignError, readDesign } from "./design.js";
 import { fileBytes, players, sharedContext, wake } from "./shared.js";
 import { TABLES } from "./tables.js";
 import { retextured } from "./textures.js";
 
+const MODULE = "cloth.bin";
 const LONGEST = 1 / 15; // time that passes in one frame [s]; slower pages show slower motion
 const SETTLED = 3; // time before cloth is shown that does not move [s]
 
 export class Player extends View {
-  // canvas: its picture goes there. name: of a file that `drapery.web.scene_file` wrote.
-  // textures: pixels in place of the scene's own, by name.
-  static async open(canvas, name, textures = {}) {
+  // canvas: its picture goes there. name: of a file that `drapery.web.scene_file` wrote. text: the
+  // design, or null. textures: pixels in place of the scene's own, by name.
+  static async open(canvas, name, text, textures) {
     sharedContext();
-    const [scene, module] = await Promise.all([fileBytes(name), fileBytes("cloth.bin")]);
+    const [scene, module] = await Promise.all([fileBytes(name), fileBytes(MODULE)]);
     const own = unpack(scene.buffer);
     const [header, arrays] = retextured(own.header, own.arrays, textures);
-    const cloths = await Promise.all(header.grip.map((_, number) => Cloth.load(module, arrays[`plan${number}`])));
-    return new Player(canvas, header, arrays, cloths);
+    const player = new Player(canvas, header, arrays);
+    player.setDesign(text);
+    player.cloths = await Promise.all(header.grip.map((_, number) => Cloth.load(module, arrays[`plan${number}`])));
+    player.restore();
+    players.add(player);
+    return player;
   }
 
-  constructor(canvas, header, arrays, cloths) {
+  constructor(canvas, header, arrays) {
     super(canvas);
-    Object.assign(this, { header, arrays, cloths, playing: false, owed: 0, moved: false, grab: null });
+    Object.assign(this, { header, arrays, playing: false, owed: 0, moved: false, grab: null });
     this.cameras = header.cameras.list.map(readCamera);
-    this.restore();
-    players.add(this);
   }
 
   // Draw with a new context.
   restore() {
     this.drawing = new Drawing(sharedContext());
     this.drawing.setScene(this.header, this.arrays);
+    this.drawing.setMaterials(...this.tables);
     this.drawing.setMoment(this.header, this.arrays);
-    if (this.design) this.setDesign(this.design);
     if (this.moved) this.upload();
     wake(this);
   }
@@ -49,38 +52,40 @@ export class Player extends View {
     this.cloths.forEach((cloth) => cloth.free());
   }
 
-  // Throws DesignError for a pattern without a texture here. The flag's layers are those of the
+  // Show a design, if the scene shows any; null is a white banner. Throws DesignError.
+  setDesign(text) {
+    if (text === this.text) return;
+    const design = readDesign(text ?? "white");
+    this.tables = this.header.sheets ? this.tablesOf(design) : [this.arrays.materials, this.arrays.layers];
+    Object.assign(this, { text, design });
+    this.drawing?.setMaterials(...this.tables);
+    wake(this);
+  }
+
+  // The tables of materials and layers with a design on the flag. Its layers are those of the
   // scene, one for each sheet, copied to the end of the table in the order of the design.
-  setDesign(design) {
-    const { sheets, grip } = this.header;
-    if (!sheets) return;
+  tablesOf({ base, layers: patterns }) {
     const { materials, layers, vertexMaterials } = this.arrays;
-    const flag = 4 * vertexMaterials[grip[0][0]];
-    const dyed = [{ pattern: "base", dye: design.base }, ...design.layers];
-    const rows = [{ pattern: "" }, ...dyed].flatMap(({ pattern, dye }) => {
-      const sheet = sheets.indexOf(pattern);
+    const flag = 4 * vertexMaterials[this.header.grip[0][0]];
+    const rows = [{ pattern: "" }, { pattern: "base", dye: base }, ...patterns].flatMap(({ pattern, dye }) => {
+      const sheet = this.header.sheets.indexOf(pattern);
       if (sheet < 0) throw new DesignError(`there is no texture of the pattern '${pattern}' here`);
       const start = 7 * (materials[flag] + sheet);
       return [...layers.subarray(start, start + 4), ...(TABLES.rgb[dye] ?? [255, 255, 255])];
     });
     const changed = materials.slice();
     changed.set([layers.length / 7, rows.length / 7], flag);
-    this.drawing.setMaterials(changed, Int32Array.from([...layers, ...rows]));
-    this.design = design;
-    wake(this);
+    return [changed, Int32Array.from([...layers, ...rows])];
   }
 
   // speed: [m/s]. heading: to which it blows [degrees from +z towards +x]. Undefined: as planned.
   setWind(speed, heading) {
     for (const cloth of this.cloths) {
       const [x, y, z] = cloth.info.wind;
-      if (speed === undefined && heading === undefined) {
-        cloth.setWind(x, y, z);
-        continue;
-      }
       const angle = heading === undefined ? Math.atan2(x, z) : (heading * Math.PI) / 180;
       const rate = speed ?? Math.hypot(x, z);
-      cloth.setWind(rate * Math.sin(angle), 0, rate * Math.cos(angle));
+      if (speed === undefined && heading === undefined) cloth.setWind(x, y, z);
+      else cloth.setWind(rate * Math.sin(angle), 0, rate * Math.cos(angle));
     }
   }
 
@@ -92,7 +97,7 @@ export class Player extends View {
     const steps = moves || this.moved ? Math.floor(this.owed) : Math.round(SETTLED / step);
     this.owed %= 1;
     if (steps) this.step(steps);
-    if (this.canvas.width && !this.drawing.gl.isContextLost()) this.draw();
+    this.draw();
     return moves;
   }
 
@@ -128,14 +133,33 @@ export class Player extends View {
   }
 
   draw() {
-    const { width, height } = this.canvas;
+    const ratio = devicePixelRatio < 1.5 ? 2 * devicePixelRatio : devicePixelRatio; // finer, to smooth edges
+    const sides = [this.canvas.clientWidth, this.canvas.clientHeight];
+    const [width, height] = sides.map((side) => Math.round(side * ratio));
     const { canvas } = this.drawing.gl;
+    if (!width || !height || this.drawing.gl.isContextLost()) return;
     if (canvas.width < width) canvas.width = width;
     if (canvas.height < height) canvas.height = height;
     this.drawPanes(width, height);
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
     const context = this.canvas.getContext("2d");
     context.clearRect(0, 0, width, height);
     context.drawImage(canvas, 0, canvas.height - height, width, height, 0, 0, width, height);
+  }
+
+  // The still that `drapery render` draws of the design with the options of the scene: a cloth of
+  // its own moves for the time of these options.
+  async picture() {
+    const { still, atlas } = this.arrays;
+    if (!still) throw new Error(`drapery: ${this.header.noPicture}`);
+    const [materials, layers] = this.tables;
+    const cloth = await Cloth.load(await fileBytes(MODULE), still);
+    cloth.step(cloth.info.steps);
+    const texels = new Uint32Array(atlas.buffer, atlas.byteOffset, atlas.length / 4);
+    const { data, width, height } = cloth.picture({ materials, layers, atlas: texels });
+    cloth.free();
+    return new ImageData(data, width, height);
   }
 
   // The scene's camera, further away where the canvas is narrower than what the camera frames.
@@ -150,30 +174,35 @@ export class Player extends View {
   grabAt(x, y) {
     this.drop();
     if (!this.hitsCloth(x, y)) return;
-    const { origin, along } = this.rayAt(x, y).ray;
-    const found = this.cloths.flatMap((cloth) => {
-      const places = [...Array(cloth.positions.length / 3).keys()].filter((index) => !cloth.info.pins.includes(index));
-      return places.map((index) => {
-        const place = this.placeOf(cloth, index);
-        return { cloth, index, place, miss: length(cross(subtract(place, origin), unit(along))) };
-      });
-    });
-    this.grab = found.reduce((best, each) => (each.miss < best.miss ? each : best));
+    let nearest = Infinity;
+    for (const cloth of this.cloths) {
+      for (let index = 0; index < cloth.positions.length / 3; index++) {
+        const place = cloth.positions.slice(3 * index, 3 * index + 3);
+        const miss = length(subtract(this.inSight(x, y, cloth, place), place));
+        if (miss >= nearest || cloth.info.pins.includes(index)) continue;
+        nearest = miss;
+        this.grab = { cloth, index, place };
+      }
+    }
   }
 
-  // Pull the grabbed particle to the line of sight; its distance from the camera stays.
+  // Pull the grabbed particle to the line of sight.
   pullTo(x, y) {
-    const { origin, along, facing } = this.rayAt(x, y, 0).ray;
     const { cloth, index, place } = this.grab;
-    const share = dot(subtract(place, origin), facing) / dot(along, facing);
-    cloth.pull(index, ...subtract(this.unturned(add(origin, scale(along, share))), cloth.info.origin));
-    wake(this);
+    cloth.pull(index, ...this.inSight(x, y, cloth, place));
   }
 
-  // Where a particle is: between its vertices on the front and on the back.
-  placeOf(cloth, index) {
-    const vertex = (number) => cloth.vertices.subarray(3 * number, 3 * number + 3);
-    return scale(add(vertex(index), vertex(index + cloth.positions.length / 3)), 0.5);
+  drop() {
+    this.grab?.cloth.release();
+    this.grab = null;
+  }
+
+  // The point of a line of sight that is nearest to a place, both in the frame of a panel.
+  inSight(x, y, { info }, place) {
+    const { origin, along } = this.rayAt(x, y, 0).ray;
+    const [from, to] = [origin, add(origin, along)].map((point) => subtract(this.unturned(point), info.origin));
+    const ahead = unit(subtract(to, from));
+    return add(from, scale(ahead, dot(subtract(place, from), ahead)));
   }
 
   // A point in the frame of the body, which is turned about the middle of its block.
@@ -181,10 +210,5 @@ export class Player extends View {
     const angle = (this.header.turned * Math.PI) / 180;
     const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
     return [cos * (x - 0.5) + sin * (z - 0.5) + 0.5, y, cos * (z - 0.5) - sin * (x - 0.5) + 0.5];
-  }
-
-  drop() {
-    this.grab?.cloth.release();
-    this.grab = null;
   }
 }

@@ -1,7 +1,5 @@
 // Mouse, touch and keys on the viewer: turn the view, zoom, pull the cloth, steer the wind.
 
-const TURN = 0.0075; // radians a pixel
-const STEP = Math.PI / 24;
 const STEERING = {
   KeyW: "w", KeyA: "a", KeyS: "s", KeyD: "d", KeyQ: "q", KeyE: "e",
   ArrowUp: "w", ArrowLeft: "a", ArrowDown: "s", ArrowRight: "d",
@@ -79,7 +77,7 @@ export class InputHandler {
         orbit.shift(dx / 2 / canvas.clientHeight, -dy / 2 / canvas.clientHeight);
       });
     else if (this.shifting) this.change(() => orbit.shift(dx / canvas.clientHeight, -dy / canvas.clientHeight));
-    else if (this.pointers.size === 1) this.change(() => orbit.turn(-TURN * dx, TURN * dy));
+    else if (this.pointers.size === 1) this.change(() => orbit.drag(dx, dy));
   }
 
   up(event) {
@@ -140,15 +138,11 @@ export class InputHandler {
     }
   }
 
-  moveCamera(event) {
-    const { orbit } = this.viewer;
-    const turns = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, STEP], ArrowDown: [0, -STEP] };
-    if (event.shiftKey && turns[event.key]) this.change(() => orbit.turn(...turns[event.key]));
-    else if (event.key === "+" || event.key === "=") this.change(() => orbit.dolly(0.9));
-    else if (event.key === "-") this.change(() => orbit.dolly(1 / 0.9));
-    else if (event.key === "Home") this.change(() => orbit.reset());
-    else return false;
-    return true;
+  moveCamera({ key, shiftKey }) {
+    if (key.startsWith("Arrow") && !shiftKey) return false;
+    const pressed = this.viewer.orbit.press(key);
+    if (pressed) this.viewer.redraw();
+    return pressed;
   }
 
   steer() {

@@ -4,6 +4,18 @@ import { add, axes, cross, dot, length, scale, subtract, unit } from "./matrices
 
 const STEEPEST = (88 * Math.PI) / 180;
 const UPRIGHT = [0, 1, 0];
+const TURN = 0.0075; // radians a pixel
+const STEP = Math.PI / 24;
+const KEYS = {
+  ArrowLeft: (orbit) => orbit.turn(-STEP, 0),
+  ArrowRight: (orbit) => orbit.turn(STEP, 0),
+  ArrowUp: (orbit) => orbit.turn(0, STEP),
+  ArrowDown: (orbit) => orbit.turn(0, -STEP),
+  "+": (orbit) => orbit.dolly(0.9),
+  "=": (orbit) => orbit.dolly(0.9),
+  "-": (orbit) => orbit.dolly(1 / 0.9),
+  Home: (orbit) => orbit.reset(),
+};
 
 export class Orbit {
   constructor() {
@@ -20,6 +32,18 @@ export class Orbit {
   turn(azimuth, elevation) {
     this.azimuth += azimuth;
     this.elevation += elevation;
+  }
+
+  // Turn with a pointer that moves by this many pixels.
+  drag(dx, dy) {
+    this.turn(-TURN * dx, TURN * dy);
+  }
+
+  // Do what a key means: arrows turn, + and - zoom, Home resets. Returns whether it means anything.
+  press(key) {
+    if (!Object.hasOwn(KEYS, key)) return false;
+    KEYS[key](this);
+    return true;
   }
 
   dolly(factor) {

@@ -30,7 +30,7 @@ or written for another version of the module.
 | `pull(index, x, y, z)` | pulls a particle and those near it to a place in the panel's frame |
 | `release()` | ends the pull |
 | `reset()` | back to the start: rest shape, time 0, the plan's own wind |
-| `picture()` | `{ data, width, height }`, RGBA: see below |
+| `picture(tables = {})` | `{ data, width, height }`, RGBA: see below |
 | `free()` | gives the memory back; the cloth cannot be used any more |
 
 The plan of the first cloth on a player also has the player: `array("figure")` and
@@ -39,8 +39,9 @@ has been read. Tables of one period of its motion hold where its boxes, its bone
 the cloth are; a cloth with such tables begins the period again as often as it ends.
 
 A plan that is written with `picture=True` also draws: by the same rasteriser as in Python, with the
-camera of the settings' own still. After `reset()` and `step(Math.round(60 * time))` its pixels are
-those of `drapery render` with the same settings. Cast shadows need Python.
+camera of the settings' own still. After `reset()` and `step(info.steps)` its pixels are those of
+`drapery render` with the same settings. `tables` replaces the plan's `materials`, `layers` and
+`atlas`, for example by those of another design. Shadows need Python.
 
 The arrays are views of the module's memory. Read the properties again after every call of this
 module: memory that grows moves. They hold the start before the first step.

@@ -1,6 +1,8 @@
 // Plays cloth with the kernels of the simulation; the Python package drapery.web.wasm documents it.
 
-const ARRAYS = { float32: Float32Array, float64: Float64Array, int64: BigInt64Array, uint32: Uint32Array };
+const ARRAYS = {
+  float32: Float32Array, float64: Float64Array, int32: Int32Array, int64: BigInt64Array, uint32: Uint32Array,
+};
 const FAULTS = {
   play: "the cloth has blown up; use a weaker wind",
   draw: "the cloth is outside the picture",
@@ -123,9 +125,11 @@ export class Cloth {
     this.array("grab")[0] = -1n;
   }
 
-  // The picture of the plan's settings with the cloth as it is: what ImageData takes.
-  picture() {
+  // The picture of the plan's settings with the cloth as it is: what ImageData takes. tables: values
+  // for the beginnings of `materials`, `layers` and `atlas`, if the plan's own are not to be used.
+  picture(tables = {}) {
     if (!this.info.picture) throw new Error("the plan was written without a picture");
+    for (const [name, values] of Object.entries(tables)) this.array(name).set(values);
     this.cover();
     this.call("draw");
     const [width, height] = this.info.picture;
