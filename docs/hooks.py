@@ -19,6 +19,7 @@ from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 from drapery.web.wasm.module import module_places
 
 ROOT = Path(__file__).resolve().parent.parent
+GALLERY = "live-gallery-page.html"
 AUDIENCES = {"anyone": "yes", "local": "no", "python": "Python only"}
 pages: dict[str, tuple[str, str]] = {}
 """The title and the Markdown of each page, by its path."""
@@ -38,12 +39,17 @@ def on_startup(**_: Any) -> None:
 
 def on_config(config: Any) -> None:
     """Let pages load `<drapery-banner>` if its kernels are built; else they show its picture."""
-    if module_places()[0].is_file():  # that of the cache may have the kernels of tests alone
+    if _has_kernels():
         from mkdocs.config.config_options import ExtraScriptValue
 
         script = ExtraScriptValue("element/drapery-banner.js")
         script.type = "module"
         config["extra_javascript"].append(script)
+
+
+def _has_kernels() -> bool:
+    """Whether the WebAssembly module is built; that of the cache may have only those of tests."""
+    return module_places()[0].is_file()
 
 
 def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
@@ -55,12 +61,14 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
 
 
 def on_post_build(config: Any) -> None:
-    """Write llms.txt, the Markdown of each page beside its HTML, and the element of live cloth."""
+    """Write llms.txt, the Markdown of each page beside its HTML, the element and its gallery."""
     site = Path(config["site_dir"])
     if config["extra_javascript"]:
+        from drapery.web.gallery import write_gallery
         from drapery.web.page import write_component
 
         write_component(site / "element", Settings())
+        write_gallery(site / "reference" / GALLERY, Settings())
     lines = [f"# {config['site_name']}", "", f"> {config['site_description']}", ""]
     for name, (title, text) in pages.items():
         target = site / name
@@ -111,6 +119,15 @@ def _garments() -> str:
     )
 
 
+def _live_gallery() -> str:
+    """The page of `drapery web --gallery`, in a frame."""
+    if not _has_kernels():
+        return (
+            "This site was built without the kernels of the element, so the gallery is missing.\n"
+        )
+    return f'<iframe class="gallery" src="{GALLERY}" title="Gallery of live cloth"></iframe>\n'
+
+
 def commands() -> str:
     """A table of all commands, and a section of each with its options."""
     sections = list(_command("drapery", typer.main.get_command(app)))
@@ -157,4 +174,5 @@ TABLES: dict[str, Callable[[], str]] = {
     "player-options": lambda: _options(PLAYER_OPTIONS),
     "commands": commands,
     "garments": _garments,
+    "live-gallery": _live_gallery,
 }

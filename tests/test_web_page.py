@@ -19,6 +19,7 @@ from drapery.settings import Settings
 from drapery.style import body_of
 from drapery.web import page
 from drapery.web.bundle import ENTRY, bundled_module
+from drapery.web.gallery import ITEMS, gallery_text
 from drapery.web.messages import unpack
 from drapery.web.scene_file import scene_bytes
 
@@ -124,8 +125,20 @@ def test_what_a_page_cannot_show_is_refused(
         scene_bytes(Banner.parse(design), open_packs(()), Settings(**options))  # type: ignore[arg-type]
 
 
+def test_a_gallery_has_a_scene_and_a_command_for_each_item(playable: Playable) -> None:
+    items = [item for item in ITEMS if item.name in ("wall", "cape", "gale")]
+    text = gallery_text(playable(), items)
+    assert set(files_of(text)) == {"wall.bin", "cape.bin", "gale.bin", "cloth.bin"}
+    assert text.count("<drapery-banner ") == 3 and 'kind="gale"' in text and 'wind="12"' in text
+    assert "drapery web --texture cape.png --kind cape -o cape.html" in text
+    with pytest.raises(OptionError, match=r"gallery, cape: pbr needs the renderer"):
+        gallery_text(playable(pbr=True), items[1:2])
+
+
 def test_the_command_refuses_targets_and_designs_that_do_not_fit(drapery: Run) -> None:
     code, _, err = drapery("web", "white", "-o", "banner.png")
     assert code == 2 and "banner.png: a page is an .html file" in err
+    code, _, err = drapery("web", "white", "--gallery", "-o", "gallery.html")
+    assert code == 2 and "the gallery has designs of its own" in err
     code, _, err = drapery("web", "white", "--component", "-o", "dist")
     assert code == 2 and "the package shows any design" in err

@@ -25,12 +25,16 @@ def run(
             help="Write the package of <drapery-banner> and other elements.",
         ),
     ] = False,
+    gallery: Annotated[
+        bool, typer.Option("--gallery", help="Write a page of everything that a page can play.")
+    ] = False,
     size: o.SizeOption = SIZE,
     **words: Any,
 ) -> None:
-    """Write a page with live cloth that needs no server, or the package of its custom element."""
+    """Write a page with live cloth that needs no server, a gallery, or the custom element."""
     from drapery.errors import OptionError
     from drapery.settings import Settings
+    from drapery.web.gallery import write_gallery
     from drapery.web.page import write_component, write_page
 
     settings = Settings(**o.options_of({**words, "size": size}))
@@ -41,5 +45,11 @@ def run(
         return
     if out.suffix.lower() not in (".html", ".htm"):
         raise OptionError(f"{out}: a page is an .html file; name it so, or use --component")
+    if gallery:
+        if words["design"] is not None:
+            raise OptionError("the gallery has designs of its own; leave DESIGN out, or --gallery")
+        with compile_notice():
+            write_gallery(out, settings)
+        return
     with compile_notice():
         write_page(out, o.design_of(words), settings)

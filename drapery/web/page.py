@@ -50,7 +50,7 @@ class _Shown:
 def page_text(design: Banner | Garment | None, settings: Settings) -> str:
     """A page of one file that shows a design as live cloth; it needs no other file or server.
 
-    design: a banner, a garment with its wearer, or None for a cape or elytra. The page begins with
+    design: a banner, a garment with its wearer, or None for a cape. The page begins with
     the picture of these settings, and keeps it where a browser cannot play the cloth.
     A text after `#` in the page's address is shown in place of a banner's design.
     Raises OptionError, PackError, or WasmBuildError where the kernels of the cloth are not built.

@@ -4,8 +4,8 @@ It is one message (see `messages`), compressed with gzip: the fields and arrays 
 its first `moment`, and
 
 aspect: width / height of the picture that the camera frames. sheets: the names of the flag's
-sheets of texels in the order of its layers ("" is the bare cloth), None where no other design can be
-shown. turned: the angle of rotation or facing [degrees], see `Settings.turned`.
+sheets of texels in the order of its layers ("" is the bare cloth), None where no other design can
+be shown. turned: the angle of rotation or facing [degrees], see `Settings.turned`.
 figure: the vertices of a wearer, whom the first plan poses. textures: those of a player, by name:
 a vertex of each material that shows one, and which part it shows of one 64 texels wide.
 plan0, plan1, …: the plan of each panel of cloth, see `drapery.web.wasm`; `grip` has the vertices of
@@ -56,7 +56,7 @@ def scene_bytes(
 ) -> bytes:
     """The file of a body in the wind of the settings.
 
-    design: None for a cape or elytra. patterns: those that designs in the page may have.
+    design: None for a cape. patterns: those that designs in the page may have.
     Raises OptionError for what a page cannot show, PackError for textures that cannot be used, and
     WasmBuildError where the kernels of the cloth are not built.
     """
@@ -131,7 +131,7 @@ def _still(body: Body, settings: Settings) -> NDArray[np.uint8]:
 def _check(settings: Settings, style: Style, moves: bool) -> None:
     """Raise OptionError for what a page cannot show."""
     if not moves:
-        remedy = "use kind banner, cape or elytra, pose cloth, placement standing or wall"
+        remedy = "use kind banner or cape, pose cloth, placement standing or wall"
         raise OptionError(f"a page shows cloth that moves; {remedy}")
     if settings.pbr:
         raise OptionError("pbr needs the renderer; leave it out")
