@@ -19,6 +19,15 @@ export default [
     },
   },
   {
+    files: ["examples/web/*"],
+    languageOptions: {
+      sourceType: "module",
+      globals: globals.browser,
+      parserOptions: { ecmaFeatures: { jsx: true } },
+    },
+    rules: { "no-unused-vars": "off" }, // it does not see what JSX uses
+  },
+  {
     // Scripts that Selenium runs as the body of a function.
     files: ["tests/page_*.js"],
     languageOptions: {
