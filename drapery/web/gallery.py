@@ -71,7 +71,8 @@ def gallery_text(settings: Settings, items: Iterable[GalleryItem] = ITEMS) -> st
     """
     packs = open_packs(settings.packs, format=settings.format)
     texture = _cape_texture() if settings.texture is None else settings.texture
-    shown, files = [], {}
+    shown: list[tuple[GalleryItem, dict[str, str], str]] = []
+    files: dict[str, bytes] = {}
     for item in items:
         design = Banner.parse(item.design) if item.design else None
         own = replace(settings, size=SIZE, **item.options)

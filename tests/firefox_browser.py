@@ -1,0 +1,108 @@
+"""A Firefox, driven by WebDriver BiDi, which it speaks without a driver of its own.
+
+See "WebDriver BiDi", W3C working draft: https://www.w3.org/TR/webdriver-bidi/. It draws on the
+screen of an Xvfb, because a headless Firefox has no WebGL without a graphics card.
+"""
+
+import base64
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import threading
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+FIREFOX = shutil.which("firefox-esr") or shutil.which("firefox")
+XVFB = shutil.which("Xvfb")
+PREFERENCES = {
+    "app.normandy.enabled": False,
+    "app.update.enabled": False,
+    "browser.shell.checkDefaultBrowser": False,
+    "datareporting.policy.dataSubmissionEnabled": False,
+    "network.captive-portal-service.enabled": False,
+    "network.connectivity-service.enabled": False,
+    "services.settings.server": "data:,",
+    "ui.prefersReducedMotion": 0,
+    "webgl.forbid-software": False,
+    "webgl.force-enabled": True,
+}
+
+
+class Firefox:
+    """A Firefox with a profile of its own in a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        from websocket import create_connection
+
+        lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in PREFERENCES.items()]
+        (folder / "user.js").write_text("".join(lines), encoding="utf-8")
+        screen = [str(XVFB), "-displayfd", "1", "-screen", "0", "1280x1024x24"]
+        self.screen = subprocess.Popen(screen, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        assert self.screen.stdout is not None
+        own = os.environ | {"DISPLAY": f":{int(self.screen.stdout.readline())}"}
+        options = ["--no-remote", "--remote-debugging-port", "0", "--profile", str(folder)]
+        command = [str(FIREFOX), *options, "about:blank"]
+        self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=own)
+        address = self._address()
+        threading.Thread(target=self._drain, daemon=True).start()
+        self.socket = create_connection(f"{address}/session", timeout=60, suppress_origin=True)
+        self.count = 0
+        self.send("session.new", capabilities={})
+        self.context = self.send("browsingContext.getTree")["contexts"][0]["context"]
+
+    def _address(self) -> str:
+        assert self.process.stderr is not None
+        for line in self.process.stderr:
+            if found := re.search(r"BiDi listening on (ws://\S+)", line):
+                return found[1]
+        raise AssertionError("Firefox did not start")
+
+    def _drain(self) -> None:
+        assert self.process.stderr is not None
+        for _ in self.process.stderr:
+            pass
+
+    def send(self, method: str, **parameters: Any) -> Any:
+        """The result of a command."""
+        self.count += 1
+        self.socket.send(json.dumps({"id": self.count, "method": method, "params": parameters}))
+        while True:
+            answer = json.loads(self.socket.recv())
+            if answer.get("id") == self.count:
+                assert answer["type"] == "success", answer
+                return answer["result"]
+
+    def open(self, address: str) -> None:
+        """Load a page."""
+        self.send("browsingContext.navigate", context=self.context, url=address, wait="complete")
+
+    def ask(self, expression: str) -> Any:
+        """The value of an expression in the page."""
+        words = {"expression": f"JSON.stringify({expression})", "awaitPromise": False}
+        found = self.send("script.evaluate", target={"context": self.context}, **words)
+        assert found["type"] == "success", found
+        return json.loads(found["result"].get("value", "null"))
+
+    def press(self, *keys: str) -> None:
+        """Press and release keys, one after the other."""
+        actions = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]
+        source = {"type": "key", "id": "keys", "actions": actions}
+        self.send("input.performActions", context=self.context, actions=[source])
+
+    def screenshot(self) -> np.ndarray:
+        """What is seen of the page, shape [H, W, 4]."""
+        data = self.send("browsingContext.captureScreenshot", context=self.context)["data"]
+        return np.asarray(Image.open(io.BytesIO(base64.b64decode(data))).convert("RGBA"))
+
+    def close(self) -> None:
+        """End the browser and its screen."""
+        self.socket.close()
+        for process in (self.process, self.screen):
+            process.terminate()
+            process.wait(20)
