@@ -33,6 +33,11 @@ HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
   return kind === "webgl2" ? null : get.call(this, kind, ...more);
 };
 """
+NO_SIMD = """
+WebAssembly.compile = async () => {
+  throw new WebAssembly.CompileError("Wasm SIMD unsupported");
+};
+"""
 COUNT = """
 window.contexts = 0;
 const get = HTMLCanvasElement.prototype.getContext;
@@ -48,6 +53,14 @@ MANY = """<!doctype html><html lang="en"><title>Many</title>
 <drapery-banner design="plaid"><img alt="A plaid banner" src="data:,"></drapery-banner>
 <div style="height: 3000px"></div>
 <drapery-banner design="lime" id="below"></drapery-banner></main></html>
+"""
+PIXEL = "R0lGODlhAQABAIAAAP///wAAACwAAAAAAQABAAACAkQBADs="
+"""A GIF of one pixel."""
+LOST = f"""<!doctype html><html lang="en"><title>Lost</title>
+<script type="module" src="drapery-banner.js"></script>
+<drapery-banner kind="lost">
+<img alt="A banner" src="data:image/gif;base64,{PIXEL}"></drapery-banner>
+</html>
 """
 
 
@@ -81,6 +94,7 @@ def site(
         patched.setattr(page, "POSES", ())
         write_component(folder, playable(size=(320, 480)))
     (folder / "many.html").write_text(MANY, encoding="utf-8")
+    (folder / "lost.html").write_text(LOST, encoding="utf-8")
     yield from served(folder)
 
 
@@ -280,6 +294,7 @@ def test_all_elements_of_a_page_share_a_context_and_rest_out_of_sight(
         ("?policy", "", "WebAssembly"),
         ("", NO_WEBGL, "WebGL 2 is missing"),
         ("", "delete window.WebAssembly", "this browser has no WebAssembly"),
+        ("", NO_SIMD, "Wasm SIMD unsupported"),
     ],
 )
 def test_where_it_cannot_play_its_picture_is_shown(
@@ -288,6 +303,15 @@ def test_where_it_cannot_play_its_picture_is_shown(
     open_site(chromium, f"{site}/banner.html{query}", ready=False, script=script)
     (line,) = wait_until(lambda: warnings(chromium))
     assert reason in line
+    assert is_fallback(chromium)
+
+
+def test_a_file_that_cannot_be_loaded_shows_what_the_page_put_there(
+    chromium: Any, site: str
+) -> None:
+    open_site(chromium, f"{site}/lost.html", ready=False)
+    (line,) = wait_until(lambda: warnings(chromium))
+    assert line.startswith("lost.bin: the server answers 404")
     assert is_fallback(chromium)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from studio_browser import wait_until
-from test_web_browser import changes, first_picture, open_site, served, warnings
+from test_web_browser import CANVAS, changes, first_picture, is_live, open_site, served, warnings
 
 from drapery.settings import Settings
 from drapery.web import page
@@ -52,14 +52,14 @@ def players(playable: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator
 
 def test_a_cape_and_elytra_move_in_the_textures_of_the_page(chromium: Any, players: str) -> None:
     open_site(chromium, f"{players}/players.html", ready=False)
-    wait_until(lambda: chromium.execute_script(f"return {CAPE}.role && {ELYTRA}.role") == "img")
+    wait_until(lambda: is_live(chromium, CAPE) and is_live(chromium, ELYTRA))
     before = {name: first_picture(chromium, name) for name in (CAPE, ELYTRA)}
     red, green, blue, _ = np.moveaxis(before[CAPE].astype(int), -1, 0)
     assert 0.02 < ((red > 60) & (green < 20) & (blue > 60)).mean() < 0.4, "the cape is violet"
     assert 0.02 < ((red < 20) & (green > 60) & (blue < 20)).mean() < 0.6, "the skin is green"
     for name, picture in before.items():
         wait_until(lambda name=name, picture=picture: changes(chromium, picture, name))
-    assert chromium.execute_script(f"return {CAPE}.ariaLabel") == "player with cape"
+    assert chromium.execute_script(f"return {CAPE}.{CANVAS}.ariaLabel") == "player with cape"
     bad = "document.querySelector('#bad')"
     assert chromium.execute_script(f"return {bad}.querySelector('img').checkVisibility()")
     lines = [line for line in warnings(chromium) if "missing.png" in line]

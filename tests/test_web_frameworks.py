@@ -18,6 +18,7 @@ from test_web_browser import Handler, changes, first_picture, is_live, open_site
 
 from drapery import Banner
 from drapery.settings import Settings
+from drapery.web import page
 from drapery.web.gallery import ITEMS, gallery_text
 from drapery.web.page import write_component, write_page
 
@@ -44,12 +45,14 @@ def examples(
 ) -> Iterator[str]:
     """The address of a folder with the examples, a gallery and a page of one file."""
     folder = tmp_path_factory.mktemp("examples")
-    write_component(folder / "drapery-banner", playable())
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(page, "POSES", ())  # players need other kernels
+        write_component(folder / "drapery-banner", playable())
     shutil.copy(EXAMPLES / "plain.html", folder)
     for source in (EXAMPLES / "react.jsx", EXAMPLES / "vue.js"):
         bundle(source, folder / "drapery-banner")
-        page = BUNDLED.replace("NAME", source.stem)
-        (folder / f"{source.stem}.html").write_text(page, encoding="utf-8")
+        text = BUNDLED.replace("NAME", source.stem)
+        (folder / f"{source.stem}.html").write_text(text, encoding="utf-8")
     (folder / "gallery.html").write_text(gallery_text(playable(), ITEMS[:2]), encoding="utf-8")
     write_page(folder / "banner.html", Banner.parse("white creeper:lime"), playable())
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=str(folder)))
