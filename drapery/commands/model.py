@@ -17,7 +17,7 @@ OutOption = Annotated[
     ),
 ]
 FLAT = (
-    *("size", "layers", "pbr", "background", "samples", "pixel", "backend"),
+    *("size", "layers", "pbr", "background", "samples", "pixel", "backend", "turntable"),
     *("light", "block_light", "sky_light", "daylight", "shadow", "ground"),
 )
 """Options of pictures that a model does not use."""
