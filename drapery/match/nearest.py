@@ -108,6 +108,11 @@ class NearestSearch:
         )
 
     @cached_property
+    def _covered(self) -> NDArray[np.bool_]:
+        """Where each pattern is opaque, [P, N / 3]."""
+        return np.asarray(self.art.alpha[:, ::3] == 255)
+
+    @cached_property
     def _alpha(self) -> Floats:
         return np.asarray(self.art.alpha[:, ::3, None] / 255, np.float32)
 
@@ -151,24 +156,41 @@ class Goal:
             self._errors(added + through * colours, slice(None)).sum(axis=1, dtype=np.int64)
         )
 
-    def choices(self, below: Floats, over: tuple[Floats, Floats] | None = None) -> Totals:
+    def choices(
+        self,
+        below: Floats,
+        over: tuple[Floats, Floats] | None = None,
+        opaque: Totals | None = None,
+    ) -> Totals:
         """The errors of all patterns in all dyes as one layer, the others held, [P, D].
 
         below: what is below the layer, [N / 3, 3]. over: what the layers above add [N / 3, 3], and
-        let through [N / 3, 1].
+        let through [N / 3, 1]. opaque: the `opaque_errors` below `over`, if they are known.
         """
         added, through = over or _nothing()
         before = self._errors(added + through * below, slice(None))
-        total = np.full((1, 1), before.sum(dtype=np.int64))
-        for part in self._parts:
-            # What is below shows through translucent texels.
-            shown = part.clear[:, None] * below[part.texels]
-            seen = through[part.texels, None] * (part.colours + shown[:, None])
-            seen += added[part.texels, None]
-            gained = self._errors(seen, part.texels)
-            gained -= before[part.texels, None]
-            total = total + part.sums(gained)
-        return np.asarray(total)
+        part = self._parts[1]
+        # What is below shows through translucent texels.
+        seen = part.colours + (part.clear[:, None] * below[part.texels])[:, None]
+        seen *= through[part.texels, None]
+        seen += added[part.texels, None]
+        gained = self._errors(seen, part.texels)
+        gained -= before[part.texels, None]
+        total = part.sums(gained)
+        total += self.opaque_errors(over) if opaque is None else opaque
+        total += (~self.search._covered * before).sum(axis=1, dtype=np.int64)[:, None]
+        return total
+
+    def opaque_errors(self, over: tuple[Floats, Floats] | None = None) -> Totals:
+        """The errors of the opaque texels of all patterns in all dyes, [P, D].
+
+        They are the same whatever is below. over: as in `choices`.
+        """
+        added, through = over or _nothing()
+        part = self._parts[0]
+        seen = through[part.texels, None] * part.colours
+        seen += added[part.texels, None]
+        return part.sums(self._errors(seen, part.texels))
 
     def _errors(self, seen: Floats, texels: slice | NDArray[np.intp]) -> Whole:
         """Of colours [n, D, 3] at texels [n], or [..., N / 3, 3] at all of them."""
@@ -212,10 +234,15 @@ class Goal:
         # Only what shows through the layers above differs.
         goal = replace(self, weights=np.where(over[1][:, 0] > 0, self.weights, 0))
         errors = goal.bases(over)
-        stacks: list[Stack] = [(int(base), ()) for base in np.argsort(errors, kind="stable")]
+        order = np.argsort(errors, kind="stable")
+        # Below other layers the best bases are enough.
+        stacks: list[Stack] = [(int(base), ()) for base in (order[:width] if above else order)]
         yield stacks
+        opaque = goal.opaque_errors(over)
         for _ in range(layers):
-            tables = [goal.choices(goal.below(*stack), over).reshape(-1) for stack in stacks]
+            tables = [
+                goal.choices(goal.below(*stack), over, opaque).reshape(-1) for stack in stacks
+            ]
             grown: list[Stack] = []
             seen: set[int] = set()
             every = np.concatenate(tables)
