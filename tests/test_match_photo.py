@@ -11,8 +11,8 @@ from drapery import Banner
 from drapery.errors import OptionError
 from drapery.match import match_photo
 from drapery.match.light import seen_face
-from drapery.match.perspective import BENDS, TEXEL_TERMS, PhotoView, find_corners
-from drapery.match.photo import _aligned
+from drapery.match.perspective import PhotoView, bend_count, find_corners, texel_shifts
+from drapery.match.photo import _WAYS, _aligned
 from drapery.pictures import draw_face
 
 DESIGN = Banner.parse("white creeper:red border:black")
@@ -32,6 +32,11 @@ def photo(banner: Banner, gain: tuple[float, float, float] = (0.8, 0.75, 0.7)) -
     picture = np.where(inside[..., None], face[rows, columns], (90, 200, 90))
     noise = np.random.default_rng(1).normal(0, 2, picture.shape)
     return np.clip(picture + noise, 0, 255).astype(np.uint8)
+
+
+def shifts_of(bend: np.ndarray) -> np.ndarray:
+    """How far a bend moves texels across and down, [2, 40, 20]."""
+    return (bend[:, None, None] * texel_shifts()).sum(axis=0).reshape(2, 40, 20)
 
 
 def test_texels_are_read_through_the_corners() -> None:
@@ -71,7 +76,7 @@ def test_the_outline_says_how_cloth_bends() -> None:
     for row, out in zip(y, 4 * np.sin((y - 20) / 160 * np.pi), strict=True):
         picture[row, 40 : round(120 + out)] = 220
     view = PhotoView(picture, ((40, 20), (120, 20), (120, 180), (40, 180)))
-    across, down = (view.outline_bend()[..., None] * TEXEL_TERMS).sum(axis=1).reshape(2, 40, 20)
+    across, down = shifts_of(view.outline_bend())
     assert abs(across[20, 19] - 1) < 0.3 and abs(across[20, 0]) < 0.3
     assert np.abs(across[2, [0, 19]]).max() < 0.5 and np.abs(down).max() < 0.3
 
@@ -81,10 +86,24 @@ def test_a_photo_is_aligned_with_a_design() -> None:
     moved = np.roll(face, (16, 12), axis=(0, 1))
     view = PhotoView(moved, ((0, 0), (160, 0), (160, 320), (0, 320)))
     wanted = face.reshape(40, 8, 20, 8, 3).mean(axis=(1, 3)).reshape(-1, 3)
-    bend = _aligned(view, np.zeros((2, BENDS)), wanted)
-    across, down = (bend[..., None] * TEXEL_TERMS).sum(axis=1).reshape(2, 40, 20)[:, 5:-5, 4:-4]
+    bend = _aligned(view, np.zeros(bend_count()), wanted)
+    across, down = shifts_of(bend)[:, 5:-5, 4:-4]
     # Within a quarter of a texel nothing changes: the outermost samples do not count.
     assert np.abs(across - 12 / 8).max() < 0.5 and np.abs(down - 16 / 8).max() < 0.5
+
+
+@pytest.mark.parametrize(("steps", "stiffness"), _WAYS)
+def test_bricks_are_aligned_though_they_repeat(
+    steps: tuple[tuple[int, int], ...], stiffness: float
+) -> None:
+    face = draw_face(Banner.parse("yellow bricks:gray"), scale=8).pixels[..., :3]
+    rows = np.arange(320) / 320
+    # The lower edge is 4 texels too high: as far as the bricks are apart.
+    moved = face[np.rint((rows + 0.1 * rows**2) * 320).astype(int).clip(0, 319)]
+    view = PhotoView(moved, ((0, 0), (160, 0), (160, 320), (0, 320)))
+    wanted = face.reshape(40, 8, 20, 8, 3).mean(axis=(1, 3)).reshape(-1, 3)
+    seen = view.face(_aligned(view, np.zeros(bend_count()), wanted, steps, stiffness))
+    assert np.abs(seen - wanted).reshape(40, -1)[:34].mean() < 1
 
 
 def test_the_same_photo_gives_the_same_designs() -> None:

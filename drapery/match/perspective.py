@@ -1,26 +1,29 @@
 """The flag in a photo: its four corners found, and its texels sampled through them.
 
 A square is mapped to four corners as in Heckbert, "Fundamentals of Texture Mapping and Image
-Warping" (1989), section 2.2.3. A polynomial bends the map where cloth is not flat.
+Warping" (1989), section 2.2.3. Where cloth is not flat, the map is bent in the ways in which
+simulated cloth bends: the principal components of many bends (`python -m benchmarks.bends`).
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from importlib.resources import files
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.match.art import HEIGHT, WIDTH
-from drapery.match.smooth import Reals, least_squares, orders, products, row_sums
+from drapery.match.smooth import Reals, least_squares, products, row_sums
 
 Corner = tuple[float, float]
 """Pixels to the right and down from the picture's upper left corner."""
 
-_ORDERS = 4, 3
-BENDS = (_ORDERS[0] + 1) * (_ORDERS[1] + 1)
-"""Numbers of a bend along one axis: the factors of the polynomial's terms."""
+BEND_ORDERS = 6, 5
+"""The highest orders of the polynomials that say how cloth bends, across and down."""
+_CORNER = 1.8
+"""How far the true corner usually is from where it was given or found [texels]."""
 
 MIN_SIDE = 8.0
 """The shortest side of a flag in a photo [pixels]."""
@@ -33,6 +36,8 @@ _APART = 14.0
 """The least distance of a flag's colours from the background's, in 8-bit levels."""
 _OUTLINED = 0.8
 """The least overlap of what is seen with the flag, over their union, for finding its edges."""
+_EDGE = 0.02
+"""The weight of each place of an edge that is seen."""
 _FILLED = 0.85
 """The least part of the quadrilateral that a flag fills."""
 
@@ -79,12 +84,12 @@ class PhotoView:
     def face(self, bend: Reals | None = None) -> Reals:
         """The mean colour of each texel, [HEIGHT * WIDTH, 3].
 
-        bend: how far the texels lie from where the corners put them [texels], [2, BENDS].
+        bend: how far the cloth bends in each of the usual ways, [BENDS]; see `bend_shifts`.
         """
         u, v = _SAMPLE_GRID
         if bend is not None:
-            shift = (bend[:, :, None, None] * _SAMPLE_TERMS).sum(axis=1)
-            u, v = u + shift[0] / WIDTH, v + shift[1] / HEIGHT
+            across, down = (bend[:, None, None, None] * _sample_shifts()).sum(axis=0)
+            u, v = u + across / WIDTH, v + down / HEIGHT
         samples = self.colours(u, v).reshape(HEIGHT, _SAMPLES, WIDTH, _SAMPLES, 3)
         ordered = np.sort(samples.swapaxes(1, 2).reshape(HEIGHT * WIDTH, _SAMPLES**2, 3), axis=1)
         # The outermost values are those of neighbours, where the cloth is not quite aligned.
@@ -112,10 +117,10 @@ class PhotoView:
         """The bend that moves the left, right and lower edge of the flag to where they are seen.
 
         It is 0 where no flag before a background of one colour is seen between the corners.
-        [2, BENDS].
+        [BENDS].
         """
         part = flag_part(self.picture)
-        bend = np.zeros((2, BENDS))
+        bend = np.zeros(bend_count())
         if part is None:
             return bend
         u = np.linspace(-_AROUND, 1 + _AROUND, int(20 * (1 + 2 * _AROUND) * WIDTH))
@@ -133,18 +138,16 @@ class PhotoView:
         left = u[seen[rows].argmax(axis=1)]
         right = u[len(u) - 1 - seen[rows][:, ::-1].argmax(axis=1)] - 1
         low = v[len(v) - 1 - seen[:, columns][::-1].argmax(axis=0)] - 1
-        sides, ends = np.repeat([0.0, 1.0], len(rows)), np.repeat([0.0, 1.0], len(columns))
         # The upper edge hangs on a bar, which is not told from the flag; it is taken as straight.
-        low = np.concatenate([np.zeros(len(columns)), low])
-        for axis, places, apart in (
-            (0, (sides, np.tile(v[rows], 2)), np.concatenate([left, right]) * WIDTH),
-            (1, (np.tile(u[columns], 2), ends), low * HEIGHT),
-        ):
-            weights = np.ones(len(apart))
-            for _ in range(3):
-                terms = products(places[0], places[1], *_ORDERS)
-                bend[axis] = least_squares(terms, apart, weights, 1 / USUAL_BENDS**2)
-                weights = 1 / (1 + (apart - row_sums(terms.T, bend[axis])) ** 2)
+        sides = bend_shifts(np.repeat([0.0, 1.0], len(rows)), np.tile(v[rows], 2))[:, 0]
+        ends = bend_shifts(np.tile(u[columns], 2), np.repeat([0.0, 1.0], len(columns)))[:, 1]
+        shifts = np.concatenate([sides, ends], axis=1)
+        straight = np.zeros(len(columns))
+        apart = np.concatenate([left * WIDTH, right * WIDTH, straight, low * HEIGHT])
+        weights = np.full(len(apart), _EDGE)
+        for _ in range(3):
+            bend = least_squares(shifts, apart, weights, np.ones(len(bend)))
+            weights = _EDGE / (1 + (apart - row_sums(shifts.T, bend)) ** 2)
         return bend
 
 
@@ -157,18 +160,44 @@ def _grid(samples: int, margin: float) -> tuple[Reals, Reals]:
 
 
 _SAMPLE_GRID = _grid(_SAMPLES, 0.15)
-_SAMPLE_TERMS = products(*_SAMPLE_GRID, *_ORDERS)
-TEXEL_TERMS = products(*_grid(1, 0.0), *_ORDERS).reshape(BENDS, -1)
-"""The terms at the middle of each texel, [BENDS, HEIGHT * WIDTH]."""
 
 
-def _usual_bends() -> Reals:
-    first, second = orders(*_ORDERS)
-    return np.asarray(0.8 / (1 + first**2 / 4 + second**2 / 3))
+@cache
+def _bend_modes() -> Reals:
+    """The polynomials of each usual way of bending [texels], [BENDS, 2, terms]."""
+    text = files("drapery.match").joinpath("bends.txt").read_text("utf-8")
+    rows = [line.split() for line in text.splitlines() if not line.startswith("#")]
+    cloth = np.array(rows, np.float64).reshape(len(rows), 2, -1)
+    corners = np.zeros((2, 2, 2, *cloth.shape[1:]))
+    for axis, down, across in np.ndindex(2, 2, 2):
+        corners[axis, down, across, axis, down * (BEND_ORDERS[0] + 1) + across] = _CORNER / 2
+    return np.concatenate([corners.reshape(8, *cloth.shape[1:]), cloth])
 
 
-USUAL_BENDS = _usual_bends()
-"""How large the factors of the terms usually are [texels], [BENDS]."""
+def bend_count() -> int:
+    """BENDS: the number of usual ways in which a flag bends."""
+    return len(_bend_modes())
+
+
+def bend_shifts(u: Reals, v: Reals) -> Reals:
+    """How far each usual way of bending moves places of the unit square [...], in texels.
+
+    [BENDS, 2, ...]: across and down. The first eight move the corners.
+    """
+    terms = products(u, v, *BEND_ORDERS)
+    modes = _bend_modes().reshape(-1, len(terms), *(1 for _ in u.shape))
+    return np.stack([(mode * terms).sum(axis=0) for mode in modes]).reshape(-1, 2, *u.shape)
+
+
+@cache
+def _sample_shifts() -> Reals:
+    return bend_shifts(*_SAMPLE_GRID)
+
+
+@cache
+def texel_shifts() -> Reals:
+    """The `bend_shifts` of the middle of each texel, [BENDS, 2, HEIGHT * WIDTH]."""
+    return bend_shifts(*_grid(1, 0.0)).reshape(bend_count(), 2, -1)
 
 
 def find_corners(picture: NDArray[np.uint8]) -> tuple[Corner, ...]:

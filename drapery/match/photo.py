@@ -17,14 +17,13 @@ from drapery.match.colours import MEASURED, PERCEIVED, UNIT, Metric, distances, 
 from drapery.match.light import SeenFace, seen_face
 from drapery.match.nearest import Goal, NearestSearch
 from drapery.match.perspective import (
-    BENDS,
-    TEXEL_TERMS,
-    USUAL_BENDS,
     Corner,
     PhotoView,
     as_corners,
+    bend_count,
     checked_picture,
     find_corners,
+    texel_shifts,
 )
 from drapery.match.search import MAX_ALTERNATIVES, Match
 from drapery.match.smooth import Reals, least_squares, row_sums
@@ -38,13 +37,25 @@ _METRICS = (MEASURED, PERCEIVED)
 _LAYER = 40.0
 """What a layer costs, as an error [levels, summed over texels]."""
 _BENT = 6.0
-"""What a usual bend of a term costs, likewise."""
+"""What a bend of the usual size costs, likewise."""
 _TINTED = 600.0
 """What light of a colour costs, times the range of its channels, likewise."""
-_STIFF = 4000.0
-"""How much a flag resists being bent by `_aligned`, times the square of a usual bend."""
-_SOFTENED = (8, 8, 4, 2, 1)
-"""How often both faces are softened in each step of `_aligned`: first what is large is aligned."""
+_STIFF, _SOFT = 4000.0, 500.0
+"""How much a flag resists being bent by `_aligned`, times the squares of its bends."""
+_Step = tuple[int, int]
+"""How often both faces are softened in a step of `_aligned`, and how many rows of texels count."""
+_COARSE: tuple[_Step, ...] = tuple((times, HEIGHT) for times in (8, 8, 4, 2, 1))
+"""First what is large is aligned."""
+_DOWNWARDS: tuple[_Step, ...] = (
+    *((2, rows) for rows in range(8, HEIGHT + 1, 4)),
+    (1, HEIGHT),
+    (1, HEIGHT),
+)
+"""From the upper edge, which hangs on a bar, downwards: what repeats is not aligned astray."""
+_Way = tuple[tuple[_Step, ...], float]
+"""The steps of `_aligned`, and its stiffness."""
+_COARSELY: _Way = _COARSE, _STIFF
+_WAYS: tuple[_Way, ...] = (_COARSELY, (_DOWNWARDS, _SOFT))
 _EACH = 2
 """With how many designs of each number of layers the photo is aligned."""
 _STARTS, _TURNS = 3, 6
@@ -129,18 +140,22 @@ class _PhotoSearch:
         self.vary(self.best()[0])
 
     def start(self) -> None:
-        """Find designs in even lights, with the cloth bent as its outline is."""
-        bend = self.view.outline_bend()
-        seen = seen_face(self.view.face(bend))
-        for gain, metric in product(_GAINS, _METRICS):
+        """Find designs in even lights, with the cloth bent as its outline is, and flat."""
+        flat, outline = np.zeros(bend_count()), self.view.outline_bend()
+        starts = list(product((outline,), _GAINS, _METRICS))
+        if outline.any():
+            starts += product((flat,), _GAINS[1:2], _METRICS)
+        for bend, gain, metric in starts:
+            seen = seen_face(self.view.face(bend))
             _, quick = self._goals(seen, np.full((HEIGHT * WIDTH, 3), gain), metric)
             stacks = [grown[0] for grown in quick.grow(self.layers, 2 * _WIDTH)]
             self._put(seen, bend, [*stacks, quick.descend(stacks[-1])])
 
     def refine(self, stack: Stack) -> None:
         """Align the photo with a design, and search for better designs in its light."""
-        seen, bend = self._realign(stack, self.fits[stack])
-        light = seen.light_on(self._paint(stack))
+        self._realign(stack, self.fits[stack], _WAYS)
+        fit = self.fits[stack]
+        seen, bend, light = fit.seen, fit.bend, fit.light
         for metric in _METRICS:
             goal, quick = self._goals(seen, light, metric)
             grown = [stack, *quick.regrown(stack, self.layers, _WIDTH)]
@@ -179,15 +194,12 @@ class _PhotoSearch:
             self._realign(one, fit)
         return sorted(fewer, key=lambda one: self.fits[one].error)[:_THINNED]
 
-    def _realign(self, stack: Stack, fit: _Fit) -> tuple[SeenFace, Reals]:
-        """The texels after the photo has been aligned with a design, and the bend.
-
-        fit: that of this design, or of a similar one.
-        """
-        bend = _aligned(self.view, fit.bend, self._paint(stack) * fit.light)
-        seen = seen_face(self.view.face(bend))
-        self._put(seen, bend, [stack])
-        return seen, bend
+    def _realign(self, stack: Stack, fit: _Fit, ways: tuple[_Way, ...] = (_COARSELY,)) -> None:
+        """Align the photo with a design. fit: that of this design, or of a similar one."""
+        wanted = self._paint(stack) * fit.light
+        for steps, stiffness in ways:
+            bend = _aligned(self.view, fit.bend, wanted, steps, stiffness)
+            self._put(seen_face(self.view.face(bend)), bend, [stack])
 
     @property
     def error(self) -> float:
@@ -245,27 +257,33 @@ class _PhotoSearch:
     def _fit(self, seen: SeenFace, bend: Reals, stack: Stack, light: Reals | None = None) -> _Fit:
         face = self._paint(stack)
         light = seen.light_on(face) if light is None else light
-        bent = float(((bend / USUAL_BENDS) ** 2).sum())
+        bent = float((bend**2).sum())
         tint = light[0] / light[0].mean()
         cost = _LAYER * len(stack[1]) + _BENT * bent + _TINTED * float(tint.max() - tint.min())
         return _Fit(seen, light, bend, seen.error(face, light) + cost)
 
 
-def _aligned(view: PhotoView, bend: Reals, wanted: Reals) -> Reals:
+def _aligned(
+    view: PhotoView,
+    bend: Reals,
+    wanted: Reals,
+    steps: tuple[_Step, ...] = _COARSE,
+    stiffness: float = _STIFF,
+) -> Reals:
     """A bend with which the face looks more like one that is wanted, by Gauss-Newton steps."""
-    terms = TEXEL_TERMS
-    stiffness = _STIFF / np.tile(USUAL_BENDS, 2) ** 2
-    for times in _SOFTENED:
+    shifts = texel_shifts()[..., None]
+    resists = np.full(len(bend), stiffness)
+    for times, count in steps:
         seen, goal = _softened(view.face(bend), times), _softened(wanted, times)
         levels = seen.reshape(HEIGHT, WIDTH, 3)
         slopes = [np.asarray(np.gradient(levels, axis=axis)).reshape(-1, 3) for axis in (1, 0)]
         rest = goal - seen
         weights = 1 / (1 + (np.abs(rest).mean(axis=1) / 25) ** 2)
-        rows = np.concatenate([terms[:, :, None] * slope for slope in slopes])
-        rows = rows.reshape(2 * BENDS, -1)
+        weights[count * WIDTH :] = 0
+        rows = (shifts[:, 0] * slopes[0] + shifts[:, 1] * slopes[1]).reshape(len(bend), -1)
         # The whole bend is fitted, not the step, so that it is the bend that resists.
-        whole = rest.ravel() + row_sums(rows.T, bend.ravel())
-        bend = least_squares(rows, whole, np.repeat(weights, 3), stiffness).reshape(2, BENDS)
+        whole = rest.ravel() + row_sums(rows.T, bend)
+        bend = least_squares(rows, whole, np.repeat(weights, 3), resists)
     return bend
 
 
