@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from PIL import Image
 from pydantic import ValidationError
 
@@ -398,6 +399,26 @@ def test_the_size_of_a_3d_file_is_limited(tmp_path: Path, monkeypatch: pytest.Mo
             patch.setattr(meshes, name, 3)
             with pytest.raises(OptionError, match=said):
                 read_stiff_mesh(GarmentMesh(file=Path("hill.obj")), tmp_path, 1 / 16)
+
+
+def test_a_3d_file_is_judged_before_its_parts_are_copied(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each copy decodes the texture again, so a small file could take gigabytes."""
+    image = Image.new("RGB", (meshes.MAX_TEXTURE + 1, 1))
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=image)
+    part = trimesh.creation.box()
+    part.visual = trimesh.visual.TextureVisuals(np.zeros((8, 2)), material=material)
+    scene = trimesh.Scene({"box": part})
+    for number in range(3):
+        matrix = trimesh.transformations.translation_matrix((number, 0, 0))
+        scene.graph.update(f"node {number}", matrix=matrix, geometry="box")
+    (tmp_path / "boxes.glb").write_bytes(scene.export(file_type="glb"))
+    monkeypatch.setattr(trimesh.Trimesh, "copy", None)
+    for limit, said in ((1000, "a texture over 1024 px"), (2, "over 2 parts")):
+        monkeypatch.setattr(meshes, "MAX_PARTS", limit)
+        with pytest.raises(OptionError, match=said):
+            read_stiff_mesh(GarmentMesh(file=Path("boxes.glb")), tmp_path, 1 / 16)
 
 
 def command(*words: object) -> None:

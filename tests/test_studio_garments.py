@@ -11,7 +11,7 @@ from drapery import Banner
 from drapery.errors import DesignError, OptionError
 from drapery.garments import find_garment
 from drapery.render import png_bytes
-from drapery.studio.garment_store import MAX_PARTICLES
+from drapery.studio.garment_store import MAX_FILES, MAX_PARTICLES
 from drapery.studio.session import Session
 from drapery.studio.snippets import ExportRequest, as_command, as_python, drawn_garment
 
@@ -87,6 +87,14 @@ def test_a_garment_has_a_largest_size(session: Session) -> None:
         session.garment_store.adopt(send(session, big))
     with pytest.raises(DesignError, match=r"is over 65536 bytes; send a smaller one"):
         send(session, "#" * 70_000)
+
+
+def test_a_tab_keeps_so_many_files(session: Session) -> None:
+    for _ in range(MAX_FILES):
+        session.garment_store.adopt(send(session, SHAWL))
+    number = send(session, SHAWL)
+    with pytest.raises(OptionError, match=f"this tab has {MAX_FILES} garments and skins"):
+        session.garment_store.adopt(number)
 
 
 def test_a_skin_that_is_sent_becomes_a_player_with_the_design_on_its_head(

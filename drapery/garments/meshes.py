@@ -19,6 +19,8 @@ MAX_FILE = 8 << 20
 """The largest 3-D file of a garment [bytes]."""
 MAX_FACES = 50_000
 """The most triangles of a 3-D file of a garment."""
+MAX_PARTS = 1000
+"""The most parts of a 3-D file of a garment, as often as the file places them."""
 MAX_TEXTURE = 1024
 """The widest and highest texture of a 3-D file of a garment [px]."""
 
@@ -38,11 +40,7 @@ def read_stiff_mesh(each: GarmentMesh, folder: Path, texel: float) -> StiffMesh:
     Raises OptionError for a file that cannot be read or is too large.
     """
     parts = _parts(folder / each.file)
-    if sum(len(part.faces) for part in parts) > MAX_FACES:
-        raise OptionError(f"mesh {each.file} has over {MAX_FACES} triangles; simplify it")
-    models = tuple(
-        Model(_placed(part, each, texel), (_material(part.visual, each.file),)) for part in parts
-    )
+    models = tuple(Model(_placed(part, each, texel), (_material(part.visual),)) for part in parts)
     counts = np.cumsum([0, *(len(model.mesh.positions) for model in models)])
     points = np.concatenate([model.mesh.positions for model in models])
     faces = [model.mesh.triangles + n for model, n in zip(models, counts, strict=False)]
@@ -67,10 +65,12 @@ def _parts(path: Path) -> list[Any]:
         scene: Any = trimesh.load(
             BytesIO(data), file_type=path.suffix[1:].lower(), force="scene", process=False
         )
-        found = [
-            scene.geometry[name].copy().apply_transform(matrix)
-            for matrix, name in (scene.graph[node] for node in scene.graph.nodes_geometry)
-        ]
+        nodes = [scene.graph[node] for node in scene.graph.nodes_geometry]
+        # A copy decodes the textures, so nothing too large is copied.
+        _check_size([scene.geometry[name] for _, name in nodes], path)
+        found = [scene.geometry[name].copy().apply_transform(matrix) for matrix, name in nodes]
+    except OptionError:
+        raise
     except Exception as fault:  # trimesh's readers raise errors of many types
         raise OptionError(
             f"mesh {path.name} cannot be read ({fault}); use a .glb, .obj, .ply or .stl file"
@@ -92,13 +92,33 @@ def _placed(part: Any, each: GarmentMesh, texel: float) -> Mesh:
     return make_mesh(positions + np.array(each.place) * texel, part.faces, uvs)
 
 
-def _material(visual: Any, file: Path) -> Material:
+def _check_size(parts: list[Any], path: Path) -> None:
+    """Raise OptionError for parts that are too many or too large, as often as they are used."""
+    if len(parts) > MAX_PARTS:
+        raise OptionError(f"mesh {path.name} has over {MAX_PARTS} parts; join them")
+    if sum(len(getattr(part, "faces", ())) for part in parts) > MAX_FACES:
+        raise OptionError(f"mesh {path.name} has over {MAX_FACES} triangles; simplify it")
+    for part in parts:
+        for image in _images(getattr(part.visual, "material", None)):
+            if max(image.size) > MAX_TEXTURE:
+                raise OptionError(
+                    f"mesh {path.name} has a texture over {MAX_TEXTURE} px; make it smaller"
+                )
+
+
+def _images(material: Any) -> list[Any]:
+    """All images of a material, of which the reader has only read the headers."""
+    found = [getattr(material, "image", None)]
+    for name in ("baseColor", "normal", "emissive", "occlusion", "metallicRoughness"):
+        found.append(getattr(material, f"{name}Texture", None))
+    return [image for image in found if hasattr(image, "size")]
+
+
+def _material(visual: Any) -> Material:
     """The texture of a part, or its plain colour."""
     own = getattr(visual, "material", None)
     image = getattr(own, "baseColorTexture", None) or getattr(own, "image", None)
     if image is not None:
-        if max(image.size) > MAX_TEXTURE:
-            raise OptionError(f"mesh {file} has a texture over {MAX_TEXTURE} px; make it smaller")
         factor = getattr(own, "baseColorFactor", None)
         texels: Texels = np.array(image.convert("RGBA"), np.uint8)
         return Material((TextureLayer(texels, _tint(factor)),), "cutout")

@@ -16,6 +16,8 @@ MAX_PARTICLES = 4096
 MAX_SKIN = 1024
 """The widest skin [pixels]."""
 MAX_NAME = 32
+MAX_FILES = 64
+"""The files that a tab keeps; all are kept, because the steps that Undo goes back may name them."""
 
 
 class GarmentStore:
@@ -55,6 +57,9 @@ class GarmentStore:
         self, number: int, purpose: str, ending: str, check: Callable[[Path], object]
     ) -> Path:
         upload = self._uploads.get(number, purpose)
+        if len(self.names) >= MAX_FILES:
+            self._uploads.remove(number)
+            raise OptionError(f"this tab has {MAX_FILES} garments and skins; open a new one")
         stem = re.sub(r"[^a-z0-9_-]+", "-", Path(upload.name).stem.lower())[:MAX_NAME].strip("-")
         folder = self._document.folder / f"{purpose}-{number}-own"
         path = folder / f"{stem or purpose}{ending}"
