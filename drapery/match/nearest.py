@@ -235,8 +235,7 @@ class Goal:
         goal = replace(self, weights=np.where(over[1][:, 0] > 0, self.weights, 0))
         errors = goal.bases(over)
         order = np.argsort(errors, kind="stable")
-        # Below other layers the best bases are enough.
-        stacks: list[Stack] = [(int(base), ()) for base in (order[:width] if above else order)]
+        stacks: list[Stack] = [(int(base), ()) for base in order]
         yield stacks
         opaque = goal.opaque_errors(over)
         for _ in range(layers):
