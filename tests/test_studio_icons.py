@@ -2,6 +2,7 @@
 
 import base64
 import io
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -34,3 +35,15 @@ def test_a_pack_shows_its_own_item() -> None:
     address = icon_address("red_dye", open_packs((pack,)))
     data = base64.b64decode(address.partition(",")[2])
     np.testing.assert_array_equal(np.asarray(Image.open(io.BytesIO(data)).convert("RGBA")), blue)
+
+
+def test_a_damaged_or_large_item_of_a_pack_is_no_fault(tmp_path: Path) -> None:
+    folder = tmp_path / "assets/minecraft/textures/item"
+    folder.mkdir(parents=True)
+    (tmp_path / "pack.mcmeta").write_text('{"pack": {"pack_format": 46, "description": "x"}}')
+    (folder / "stick.png").write_bytes(b"x")
+    Image.new("RGBA", (1024, 1024), "red").save(folder / "paper.png")
+    packs = open_packs((tmp_path,))
+    assert icon_address("stick", packs) == icon_address("stick", open_packs(()))
+    data = base64.b64decode(icon_address("paper", packs).partition(",")[2])
+    assert Image.open(io.BytesIO(data)).size == (64, 64)

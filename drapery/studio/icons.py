@@ -1,12 +1,14 @@
 """Icons of items: the texture of the user's packs, or else one of our own, from `icons.txt`."""
 
 from base64 import b64encode
+from contextlib import suppress
 from functools import cache
 from importlib.resources import files
 
 import numpy as np
 
 from drapery.banner import DYES
+from drapery.errors import PackError
 from drapery.packs import Packs, Texels
 from drapery.render import png_bytes
 
@@ -30,13 +32,19 @@ _SHAPES = {
 """The shapes of items that do not have the name of their own, and their colours."""
 
 
+MAX_SIDE = 64
+"""The widest icon of a pack that is sent to the page [texels]; of a wider one some are left out."""
+
+
 def icon_address(item: str, packs: Packs) -> str:
     """The icon of an item as a `data:` address. item: its id, such as `red_wool`."""
     for folder in ("item", "block"):
         name = f"minecraft:{folder}/{item}"
-        if packs.has_texture(name):
-            texels = packs.texture(name)
-            return _address(texels[: texels.shape[1]])  # the first frame, if it is animated
+        with suppress(PackError):  # a damaged icon must not cost the user the pack
+            if packs.has_texture(name):
+                texels = packs.texture(name)
+                side, step = texels.shape[1], -(-texels.shape[1] // MAX_SIDE)
+                return _address(texels[:side:step, ::step].copy())  # an animation's first frame
     return _own_address(item)
 
 

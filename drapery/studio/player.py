@@ -100,8 +100,8 @@ class Player:
         A show with a first picture shows it until a thread has simulated all moments.
         """
         if self.show.first is not None and self._prepared is None:
+            first = shown_picture(self.show.first(self._clip))  # it may raise PackError
             self._prepared = Future()
-            first = shown_picture(self.show.first(self._clip))
             self.now = replace(first, cut=(self.show.name, "first"))
             threading.Thread(target=self._prepare, name="show", daemon=True).start()
         if self._prepared is not None:

@@ -121,13 +121,13 @@ def _player_words(player: PlayerSettings, called: Mapping[str, str]) -> dict[str
     """The options of a player that differ from their default, with the user's names of files."""
     words = {name: getattr(player, name) for name in ("skin", "wear", "head", "shield")}
     words["skin"] = called.get(player.skin, player.skin)
-    words["wear"] = _Listed(map(_garment_name, player.wear))
+    words["wear"] = _Listed(_garment_name(each, called) for each in player.wear)
     return {name: value for name, value in words.items() if value}
 
 
-def _garment_name(garment: str) -> str:
-    """The name of a garment of the package, or that of a file."""
-    return Path(garment).name
+def _garment_name(garment: str, called: Mapping[str, str]) -> str:
+    """The name of a garment of the package, or that of a file of the user."""
+    return called.get(garment, Path(garment).name)
 
 
 def _design_on(request: ExportRequest, found: Garment) -> Banner | None:
@@ -165,7 +165,7 @@ def as_command(
     if player is not None:
         command, design = "player", [*_player_flags(player, called or {})]
     elif found is not None:
-        command = f"garment {_quoted(_garment_name(str(request.garment)))}"
+        command = f"garment {_quoted(_garment_name(str(request.garment), called or {}))}"
         design = ["--design", *design] if design else []
     words = [f"drapery {command}", *design, "-o", out]
     words += [_quoted(word) for word in _flags(request, called or {})]
@@ -191,10 +191,8 @@ def as_python(
         design = _design_on(request, found)
         text = "" if design is None else f".with_design({_text(write_banner(design, 'text'))})"
         names = [*names, "drapery.garments.find_garment"]
-        lines = [
-            f"banner = find_garment({_text(_garment_name(str(request.garment)))}){text}",
-            *lines,
-        ]
+        name = _garment_name(str(request.garment), called or {})
+        lines = [f"banner = find_garment({_text(name)}){text}", *lines]
     elif request.banner is not None:
         names = [*names, "drapery.Banner"]
         text = _text(write_banner(request.banner, "text"))

@@ -17,7 +17,8 @@ const MAX_RECENT = 12;
 
 function recent() {
   try {
-    return JSON.parse(localStorage.getItem(RECENT)) ?? [];
+    const found = JSON.parse(localStorage.getItem(RECENT));
+    return Array.isArray(found) ? found : [];
   } catch {
     return [];
   }

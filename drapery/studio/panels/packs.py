@@ -124,7 +124,7 @@ def _format(session: Session, reading: ui.label) -> None:
         fields.choice("Read packs as", formats, current, choose)
     session.listen("settings", fields.refresh)
     if pack_store.entries:  # those with which the studio was started
-        ui.timer(LATER, lambda: read(session.settings.format), once=True)
+        ui.timer(LATER, lambda: None if wanted else read(session.settings.format), once=True)
 
 
 def _format_title(number: str) -> str:
