@@ -25,7 +25,8 @@ def test_a_link_shows_its_design_and_a_wrong_one_says_why(
         return chromium.execute_script(f"return {what}")
 
     def label() -> str:
-        return str(asked("document.querySelector('drapery-banner').getAttribute('aria-label')"))
+        canvas = "document.querySelector('drapery-banner').shadowRoot.querySelector('canvas')"
+        return str(asked(f"{canvas}.ariaLabel"))
 
     resize(chromium, WIDE)
     link = page_link(EmbedPlaces(page.as_uri()), Banner.parse("blue globe:white"))

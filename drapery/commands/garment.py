@@ -71,6 +71,7 @@ def run(
 
         garment = garment.with_design(read_design(banner))
     given = {key: words[key] for key in words if is_given(context, key)}
+    check_page_options(context, out)
     settings = garment.settings(**o.options_of(given))
     write_garment(garment, out, settings, seconds, fps)
 
@@ -79,6 +80,17 @@ def is_given(context: typer.Context, name: str) -> bool:
     """Whether an option stands on the command line."""
     source = context.get_parameter_source(name)
     return source is not None and source.name != "DEFAULT"
+
+
+def check_page_options(context: typer.Context, out: str) -> None:
+    """Raise OptionError for an option that a page of live cloth does not use."""
+    from drapery.errors import OptionError
+    from drapery.web import NOT_PLAYED
+
+    if out.lower().endswith((".html", ".htm")):
+        for name in ("seconds", "fps", *NOT_PLAYED):
+            if is_given(context, name):
+                raise OptionError(f"{out}: a page shows live cloth; leave out --{name}")
 
 
 def write_garment(

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.garment import UNUSED, is_given, write_garment
+from drapery.commands.garment import UNUSED, check_page_options, is_given, write_garment
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 
 
@@ -33,5 +33,6 @@ def run(
         for name, option in PLAYER_OPTIONS.items()
     }
     player = player_of(PlayerSettings(**chosen))
+    check_page_options(context, out)
     given = {key: words[key] for key in words if is_given(context, key)}
     write_garment(player, out, player.settings(**o.options_of(given)), seconds, fps)

@@ -26,7 +26,7 @@ def run(
         ),
     ] = False,
     gallery: Annotated[
-        bool, typer.Option("--gallery", help="Write a page of everything that a page can play.")
+        bool, typer.Option("--gallery", help="Write a page of banners and a cape in many options.")
     ] = False,
     size: o.SizeOption = SIZE,
     **words: Any,
@@ -38,6 +38,8 @@ def run(
     from drapery.web.page import write_component, write_page
 
     settings = Settings(**o.options_of({**words, "size": size}))
+    if component and gallery:
+        raise OptionError("--component writes a folder and --gallery a page; use one of them")
     if component:
         if words["design"] is not None:
             raise OptionError("the package shows any design; leave DESIGN out, or --component")

@@ -77,9 +77,8 @@ def live_panels(
     lanes: of the arrays; by default a register of this processor.
     picture: whether the call `draw` draws the picture of the settings, with the camera that frames
     the cloth at `settings.time`; only for bodies of one panel, without shadows. The header then has
-    `picture`, its width and height; `steps`, after which the cloth is that of the still; and
-    `flag`, the index of the panel's material. The host may replace `materials`, `layers` and
-    `atlas`; the layers end with SPARE rows of zeros.
+    `picture`, its width and height; and `steps`, after which the cloth is that of the still. The
+    host may replace `materials`, `layers` and `atlas`; the layers end with SPARE rows of zeros.
     Raises OptionError for settings that cannot be played without Python.
     """
     stager = Stager(body, settings, ())
@@ -121,7 +120,6 @@ def _with_picture(stager: Stager, lanes: int | None) -> LivePanel:
             **panel.header,
             "picture": list(live.size),
             "steps": steps,
-            "flag": int(live.triangle_material[-1]),
         },
         calls={**panel.calls, "draw": draw},
         arrays={

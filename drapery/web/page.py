@@ -64,6 +64,9 @@ def page_text(design: Banner | Garment | None, settings: Settings) -> str:
         title=shown.attributes["alt"],
         tag=shown.tag,
         attributes=shown.attributes,
+        # A style that changes materials needs the layers of the page's own design.
+        is_linked="design" in shown.attributes
+        and not combined_style(settings.style).has("material"),
         width=settings.size[0],
         height=settings.size[1],
         picture=picture_of(design, settings),
@@ -155,9 +158,11 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
         placed = replace(settings, placement=placement)
         yield f"{placement}.bin", scene_bytes(Banner(), packs, placed)
     own = {field.name for field in fields(settings)} - set(UNUSED_OPTIONS)
-    kept = {name: getattr(settings, name) for name in own}
+    kept, standard = {name: getattr(settings, name) for name in own}, Settings()
+    chosen = {name: kept[name] for name in own if kept[name] != getattr(standard, name)}
+    chosen |= {"size": SIZE, "rotation": FROM_BEHIND}
     for name, garment in _players():
-        options = Settings(**{**kept, **garment.picture, "size": SIZE, "rotation": FROM_BEHIND})
+        options = Settings(**{**kept, **garment.picture, **chosen})
         yield f"{name}.bin", garment_scene_bytes(garment, packs, options)
     yield from kernel_file().items()
     yield MODULE, bundled_module().encode()

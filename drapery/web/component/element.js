@@ -123,9 +123,13 @@ export class DraperyBanner extends HTMLElement {
   // Do what the attributes say.
   #apply() {
     this.#try((player) => player.setDesign(this.getAttribute("design")));
-    this.#try((player) => player.setWind(this.#number("wind"), this.#number("direction")));
+    this.#try((player) => this.#blow(player));
     this.#canvas.setAttribute("aria-label", this.getAttribute("alt") ?? this.words(this.#player.design));
     this.#play();
+  }
+
+  #blow(player) {
+    player.setWind(this.#number("wind"), this.#number("direction"));
   }
 
   #try(act) {
@@ -175,7 +179,7 @@ export class DraperyBanner extends HTMLElement {
       else if (event.pointerType === "mouse") this.#follow(event.offsetX, player);
     });
     on("lostpointercapture", (event, player) => player.drop());
-    on("pointerleave", () => this.#apply());
+    on("pointerleave", (event, player) => this.#blow(player));
     on("keydown", (event, player) => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
       if (event.key === " ") this.paused = !this.paused;

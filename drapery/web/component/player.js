@@ -155,11 +155,14 @@ export class Player extends View {
     if (!still) throw new Error(`drapery: ${this.header.noPicture}`);
     const [materials, layers] = this.tables;
     const cloth = await Cloth.load(await fileBytes(MODULE), still);
-    cloth.step(cloth.info.steps);
-    const texels = new Uint32Array(atlas.buffer, atlas.byteOffset, atlas.length / 4);
-    const { data, width, height } = cloth.picture({ materials, layers, atlas: texels });
-    cloth.free();
-    return new ImageData(data, width, height);
+    try {
+      cloth.step(cloth.info.steps);
+      const texels = new Uint32Array(atlas.buffer, atlas.byteOffset, atlas.length / 4);
+      const { data, width, height } = cloth.picture({ materials, layers, atlas: texels });
+      return new ImageData(data, width, height);
+    } finally {
+      cloth.free();
+    }
   }
 
   // The scene's camera, further away where the canvas is narrower than what the camera frames.
