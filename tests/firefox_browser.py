@@ -38,8 +38,6 @@ class Firefox:
     """A Firefox with a profile of its own in a folder."""
 
     def __init__(self, folder: Path) -> None:
-        from websocket import create_connection
-
         lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in PREFERENCES.items()]
         (folder / "user.js").write_text("".join(lines), encoding="utf-8")
         screen = [str(XVFB), "-displayfd", "1", "-screen", "0", "1280x1024x24"]
@@ -49,7 +47,20 @@ class Firefox:
         options = ["--no-remote", "--remote-debugging-port", "0", "--profile", str(folder)]
         command = [str(FIREFOX), *options, "about:blank"]
         self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=own)
+        try:
+            self._connect()
+        except BaseException:
+            self._end()
+            raise
+
+    def _connect(self) -> None:
+        from websocket import create_connection
+
+        # A Firefox that says nothing for a minute is ended, which ends the reading of its lines.
+        late = threading.Timer(60, self.process.kill)
+        late.start()
         address = self._address()
+        late.cancel()
         threading.Thread(target=self._drain, daemon=True).start()
         self.socket = create_connection(f"{address}/session", timeout=60, suppress_origin=True)
         self.count = 0
@@ -103,6 +114,12 @@ class Firefox:
     def close(self) -> None:
         """End the browser and its screen."""
         self.socket.close()
+        self._end()
+
+    def _end(self) -> None:
         for process in (self.process, self.screen):
             process.terminate()
-            process.wait(20)
+            try:
+                process.wait(20)
+            except subprocess.TimeoutExpired:
+                process.kill()

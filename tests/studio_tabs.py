@@ -25,10 +25,10 @@ def open_tab(address: str) -> Iterator[tuple[str, Any]]:
     sockets = address.replace("http", "ws")
     line = "&".join(f"{key}={value}" for key, value in words.items())
     with websockets.connect(f"{sockets}_nicegui_ws/socket.io/?{line}") as socket:
-        assert socket.recv(5).startswith("0")
+        assert socket.recv(60).startswith("0")
         socket.send("40")
-        assert socket.recv(5).startswith("40")
+        assert socket.recv(60).startswith("40")
         with websockets.connect(f"{sockets}live/{token[1]}") as live:
             live.send('{"shape": [300, 400]}')
-            assert live.recv(10) and live.recv(10)
+            assert live.recv(60) and live.recv(60)
             yield token[1], live

@@ -79,10 +79,12 @@ def test_the_browser_remembers_the_designs_of_closed_tabs(page: Any, studio: Stu
 def test_two_designs_are_compared_by_a_slider(page: Any) -> None:
     click(page, "#panel-compare .line button")
     click(page, "[data-pattern=creeper]")
+    wait_until(lambda: "creeper" in value(page, "written"))
     loaded = "return [...document.querySelectorAll('#panel-compare img')].map((e) => e.src)"
     wait_until(lambda: len(set(page.execute_script(loaded))) == 2)
     slider = "#panel-compare input[type=range]"
-    assert find(page, slider).get_attribute("aria-label").endswith("Right: White banner")
+    label = f"return document.querySelector('{slider}')?.ariaLabel ?? ''"
+    wait_until(lambda: page.execute_script(label).endswith("Right: White banner"))
 
 
 def test_what_other_pages_need_follows_the_design(page: Any) -> None:

@@ -68,7 +68,7 @@ def test_every_text_and_choice_of_the_page_is_in_the_catalogues(
             monkeypatch.setattr(module, "translated", note)
 
     async def build() -> None:
-        core.loop = asyncio.get_running_loop()
+        monkeypatch.setattr(core, "loop", asyncio.get_running_loop())
         with Client(page("/"), request=Request(SCOPE)):
             session = sessions.open()
             build_page(session, sessions)

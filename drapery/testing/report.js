@@ -160,4 +160,4 @@ setInterval(() => {
   if (!still.matches) document.body.classList.toggle("before");
 }, PERIOD);
 show("all");
-play(!still.matches);
+play(!still.matches && document.getElementById("play") !== null);
