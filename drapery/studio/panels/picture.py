@@ -75,7 +75,10 @@ def build(session: Session) -> None:
 
 def _states(path: Path, name: str, packs: Packs, is_photo: bool) -> Iterator[MatchProgress]:
     """The states of the search for a picture's designs. Raises OptionError or PackError."""
-    pixels = read_picture(path)
+    try:
+        pixels = read_picture(path)
+    except DraperyError as error:  # it names the file as it is stored here
+        raise type(error)(str(error).replace(path.name, name)) from None
     if is_photo:
         yield MatchProgress(1.0, tuple(match_photo(pixels, packs=packs)))
         return
