@@ -70,9 +70,7 @@ def committed(name):
 
 
 def decoded(content):
-    image = Image.open(io.BytesIO(content))
-    assert image.mode == "RGBA"
-    return np.asarray(image)
+    return np.asarray(Image.open(io.BytesIO(content)).convert("RGBA"))
 
 
 def banner_sheet(pattern):
