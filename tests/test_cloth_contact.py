@@ -5,6 +5,7 @@ from typing import Any, get_args
 
 import numpy as np
 import pytest
+import trimesh
 
 from drapery.cloth import (
     Box,
@@ -23,6 +24,7 @@ from drapery.cloth import (
 )
 from drapery.cloth.colliders import straight
 from drapery.cloth.colliders.check import sample_distances
+from drapery.cloth.collisions import resolver
 from drapery.cloth.contact.box_data import bands_of
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array
@@ -233,3 +235,23 @@ def test_cloths_that_fall_in_a_row_do_not_fall_through_the_one_that_is_stopped()
         positions = moving.state.positions[0]
         assert not crosses(positions, cloth.triangles)
         assert (np.diff(positions[:, 1].reshape(-1, count).mean(axis=1)) > 0).all()
+
+
+def test_cloths_that_are_pressed_together_for_long_stay_apart_by_more_than_rounding() -> None:
+    # A step brought a pair nearer by a fifth of its distance, until rounding could let it cross.
+    cloth = sew([grid(2, 2, 0.4, 0.4, pins="none"), grid(2, 2, 0.06, 0.06, pins="none")])
+    lying = cloth.rest_positions[:, [0, 2, 1]] * (1, 1, -1)
+    lying[:4] -= lying[:4].mean(axis=0)
+    lying[4:] += (0.1, 0.01, 0.1) - lying[4:].mean(axis=0)  # over one of the two faces below
+    places = (lying + np.array([3, 5, 3]))[None].astype(np.float32)
+    state, move = State(places, np.zeros_like(places)), np.zeros_like(places)
+    move[:, :4, 1], move[:, 4:, 1] = 0.1, -0.1
+    press = resolver(cloth, Collisions((GROUND,), 0.02, apart=0.02))
+    for number in range(100):
+        pressed = State(state.positions + move, state.velocities, (number + 1) / 60)
+        state = press(state, pressed)
+    x = state.positions[0].astype(float)
+    faces = x[cloth.triangles[(cloth.triangles < 4).all(axis=1)]]
+    for corner in x[4:]:
+        near = trimesh.triangles.closest_point(faces, np.repeat(corner[None], 2, axis=0))
+        assert np.linalg.norm(near - corner, axis=1).min() > 1e-5

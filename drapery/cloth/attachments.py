@@ -101,7 +101,7 @@ def long_range_attachments(cloth: Cloth, slack: float) -> tuple[NDArray[np.int32
     else:
         pairs = np.stack([nearest_pins(cloth)[free], free], axis=1)
     max_distance = np.empty(len(pairs))
-    for pin in np.unique(pairs[:, 0]):
+    for pin in sorted(set(pairs[:, 0].tolist())):  # np.unique would import numpy.ma
         mine = pairs[:, 0] == pin
         max_distance[mine] = _max_distances(cloth, pin, pairs[mine, 1])
     found = np.isfinite(max_distance)

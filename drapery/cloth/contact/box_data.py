@@ -111,7 +111,8 @@ def box_colliders(
     that the cloth keeps [m].
     """
     pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    edges = np.unique(np.sort(pairs, axis=1), axis=0).astype(np.int32)
+    # `np.unique` without an index would import numpy.ma.
+    edges = np.unique(np.sort(pairs, axis=1), axis=0, return_index=True)[0].astype(np.int32)
     lengths = np.sqrt(np.square(rest[edges[:, 0]] - rest[edges[:, 1]]).sum(axis=1))
     rests, halves = zip(*(_box_of(collider.shape) for collider in colliders), strict=True)
     poses = np.stack([np.append(pose.position, pose.rotation) for pose in rests])

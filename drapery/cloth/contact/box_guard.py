@@ -32,6 +32,9 @@ from drapery.mesh import Array
 
 GUARDS = 16
 """The most rounds in which particles return to their places at the start of the step."""
+SKIN = 2e-5
+"""Parts that end nearer to a box than this [m] return too, since rounding to single precision could
+let them touch it; at most half the distance that the cloth keeps."""
 
 
 @kernel
@@ -52,21 +55,21 @@ def guard_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> f
 @kernel
 def return_some(contact: BoxContact, k: int, frame: Array, near: Candidates) -> bool:
     """Return the particles of edges and faces that are inside the box; whether any was moved."""
-    half, found = row(contact.halves, k), False
+    half, skin, found = row(contact.halves, k), min(SKIN, 0.5 * contact.radius), False
     for n in range(near.counts[k, 0]):
         i = near.particles[k, n]
-        if frame[i, DISTANCE] < 0.0:
+        if frame[i, DISTANCE] < skin:
             found = to_start(half, contact.inv_mass, frame, i) or found
     for n in range(near.counts[k, 1]):
         i, j = contact.edges[near.edges[k, n], 0], contact.edges[near.edges[k, n], 1]
-        kept = edge_radius(contact.inv_mass, 0.0, frame, i, j)
+        kept = edge_radius(contact.inv_mass, skin, frame, i, j)
         _part, depth, _normal = edge_depth(half, kept, frame, i, j)
         if depth > 0.0:
             found = to_start(half, contact.inv_mass, frame, i) or found
             found = to_start(half, contact.inv_mass, frame, j) or found
     for n in range(near.counts[k, 2]):
         face = face_of(contact.triangles, near.faces[k, n])
-        kept = face_radius(half, contact.inv_mass, 0.0, frame, face)
+        kept = face_radius(half, contact.inv_mass, skin, frame, face)
         for number in range(8):
             corner = corner_of(half, number)
             if not near_face(frame, face, kept, corner):

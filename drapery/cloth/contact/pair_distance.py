@@ -31,6 +31,22 @@ def nearest(
 
 
 @kernel
+def gap_along(direction: Vector, x: Array, i: int, j: int, k: int, m: int, edges: int) -> float:
+    """How far the parts of a pair are from each other along a direction of length 1 [m]; never more
+    than their distance, and below 0 where they overlap."""
+    a, b = dot(row(x, i), direction), dot(row(x, j), direction)
+    c, d = dot(row(x, k), direction), dot(row(x, m), direction)
+    return gap_of(a, b, c, d, edges)
+
+
+@kernel
+def gap_of(a: float, b: float, c: float, d: float, edges: int) -> float:
+    """The gap between two edges from a to b and from c to d, or a particle at a and a face from b
+    over c to d, on a line."""
+    return min(a, b) - max(c, d) if edges else a - max(b, max(c, d))
+
+
+@kernel
 def nearest_of_segments(a: Vector, b: Vector, c: Vector, d: Vector) -> tuple[float, float]:
     """The parts of two segments at which they are nearest (Ericson 2005, section 5.1.9)."""
     d1, d2, r = subtract(b, a), subtract(d, c), subtract(a, c)

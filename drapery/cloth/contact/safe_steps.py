@@ -6,18 +6,25 @@ continuous collision detection (Li, Kaufman, Jiang, "Codimensional incremental p
 2021, section 5) finds how far they may move.
 """
 
-from drapery.cloth.colliders.vectors import add_scaled, norm, row, scale, subtract
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, row, scale, subtract
 from drapery.cloth.contact.geometry import put
-from drapery.cloth.contact.pair_distance import distance_of
-from drapery.cloth.contact.touching_pairs import TouchingPairs, longest_relative, moved
+from drapery.cloth.contact.pair_distance import distance_of, gap_along
+from drapery.cloth.contact.touching_pairs import TouchingPairs, moved
 from drapery.jit import kernel
 from drapery.mesh import Array
 
 MARGIN, CLOSE = 0.1, 0.02
 """Pairs that would cross stop at this part of their distance at the start, within CLOSE of it."""
 LEAST = 2e-5
-"""Pairs that would cross stop at this distance beside [m], or at half of that at the start: single
-precision cannot hold less between particles some metres from the origin."""
+"""Pairs stop at this distance [m], and those that are nearer come no nearer: single precision
+cannot hold much less between particles some metres from the origin, so rounding could let them
+cross. It is at most half the thickness."""
+HOLD = 0.8
+"""Pairs stop at this part of the thickness too, or of their distance at the start if that is less:
+else cloths that fall onto each other are pressed together, and all of them meet all others."""
 CAREFUL = 0.9
 """Advances are shorter than they might be by this factor."""
 ADVANCES = 64
@@ -25,25 +32,52 @@ ADVANCES = 64
 
 
 @kernel
-def shorten_unsafe(x0: Array, x: Array, pairs: TouchingPairs, w: Array, stop: bool) -> bool:
-    """Shorten the displacements of pairs that would cross, to 0 if they shall stop; returns whether
-    there was any."""
-    found = False
+def shorten_unsafe(
+    x0: Array,
+    x: Array,
+    pairs: TouchingPairs,
+    w: Array,
+    thickness: float,
+    changed: NDArray[np.int32],
+    turn: int,
+    stop: bool,
+) -> bool:
+    """Shorten the displacements of pairs that would come nearer than they may, to 0 if they shall
+    stop; returns whether there was any.
+
+    thickness: see `least_distance` [m].
+    changed: the last turn in which each particle was moved, [N]; it is set. turn: 0 at first,
+    then 1, 2, ...; only pairs of which a particle was moved since the turn before are tested again.
+    """
+    found, starts = False, pairs.starts
     for n in range(len(pairs.ends)):
         i, j, k, m = pairs.ends[n, 0], pairs.ends[n, 1], pairs.ends[n, 2], pairs.ends[n, 3]
+        if max(max(changed[i], changed[j]), max(changed[k], changed[m])) < turn - 1:
+            continue
+        # Along one direction the gap is a concave function of time, so it is least at an end.
+        gap = gap_along(row(pairs.normals, n), x, i, j, k, m, pairs.edges[n])
+        least = least_distance(starts[n], thickness)
+        if gap > least + CLOSE * starts[n] and starts[n] > 0.0:
+            continue
         if w[i] + w[j] + w[k] + w[m] == 0.0:
             continue  # nothing can keep pins apart
-        if longest_relative(x0, x, i, j, k, m, pairs.edges[n]) < CAREFUL * pairs.starts[n]:
+        if longest_relative(x0, x, i, j, k, m, pairs.edges[n]) <= starts[n] - least:
             continue
-        part = safe_part(x0, x, i, j, k, m, pairs.edges[n], pairs.starts[n])
+        part = safe_part(x0, x, i, j, k, m, pairs.edges[n], starts[n], least)
         if part < 1.0:
             found = True
             part = 0.0 if stop else CAREFUL * part
-            shorten(x0, x, w, i, part)
-            shorten(x0, x, w, j, part)
-            shorten(x0, x, w, k, part)
-            shorten(x0, x, w, m, part)
+            for end in range(4):
+                shorten(x0, x, w, pairs.ends[n, end], part)
+                changed[pairs.ends[n, end]] = turn
     return found
+
+
+@kernel
+def least_distance(start: float, thickness: float) -> float:
+    """The distance at which a pair stops that was `start` apart [m]."""
+    nearest = min(start, LEAST, 0.5 * thickness)
+    return max(MARGIN * start, HOLD * min(start, thickness), nearest)
 
 
 @kernel
@@ -55,10 +89,19 @@ def shorten(x0: Array, x: Array, w: Array, i: int, part: float) -> None:
 
 @kernel
 def safe_part(
-    x0: Array, x: Array, i: int, j: int, k: int, m: int, edges: int, start: float
+    x0: Array,
+    x: Array,
+    i: int,
+    j: int,
+    k: int,
+    m: int,
+    edges: int,
+    start: float,
+    least: float,
 ) -> float:
-    """The part of the step after which a pair is as near as MARGIN times its distance at the start;
-    1 if it never is. Each advance is less than the distance, so it cannot miss a contact."""
+    """The part of the step after which a pair is as near as the least distance; 1 if it never is.
+    Each advance is less than the distance, so it cannot miss a contact. start: distance at the
+    start [m]."""
     a, b, c, d = row(x0, i), row(x0, j), row(x0, k), row(x0, m)
     u, v, p, q = moved(x0, x, i), moved(x0, x, j), moved(x0, x, k), moved(x0, x, m)
     mean = scale(0.25, add_scaled(add_scaled(add_scaled(u, 1.0, v), 1.0, p), 1.0, q))
@@ -67,7 +110,7 @@ def safe_part(
         speed = max(norm(u), norm(v)) + max(norm(p), norm(q))
     else:
         speed = norm(u) + max(norm(v), max(norm(p), norm(q)))
-    part, length, least = 0.0, start, MARGIN * start + min(0.5 * start, LEAST)
+    part, length = 0.0, start
     for _ in range(ADVANCES):
         advance = CAREFUL * (length - least) / speed
         part += advance
@@ -79,3 +122,18 @@ def safe_part(
         if length - least <= CLOSE * start:
             return part - advance
     return part
+
+
+@kernel
+def longest_relative(x0: Array, x: Array, i: int, j: int, k: int, m: int, edges: int) -> float:
+    """The longest displacement [m] of a particle of one part relative to one of the other."""
+    a, b, c, d = moved(x0, x, i), moved(x0, x, j), moved(x0, x, k), moved(x0, x, m)
+    most = max(square(a, c), square(a, d))
+    most = max(most, max(square(b, c), square(b, d)) if edges else square(a, b))
+    return float(np.sqrt(most))
+
+
+@kernel
+def square(a: Vector, b: Vector) -> float:
+    offset = subtract(a, b)
+    return dot(offset, offset)

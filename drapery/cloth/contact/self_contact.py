@@ -6,6 +6,9 @@ At the end the step is made safe (`safe_steps`). So a cloth that does not cross 
 of a step never does.
 """
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drapery.cloth.colliders.vectors import add_scaled, dot, norm, row, scale, subtract
 from drapery.cloth.contact.box_contact import meet_boxes
 from drapery.cloth.contact.box_data import BoxContact, Candidates, empty_candidates
@@ -13,7 +16,7 @@ from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
 from drapery.cloth.contact.box_guard import guard_boxes
 from drapery.cloth.contact.geometry import put
 from drapery.cloth.contact.near_boxes import find_boxes, whole_margin
-from drapery.cloth.contact.pair_distance import nearest
+from drapery.cloth.contact.pair_distance import gap_along, nearest
 from drapery.cloth.contact.safe_steps import shorten_unsafe
 from drapery.cloth.contact.self_contact_data import SelfContact
 from drapery.cloth.contact.touching_pairs import REACH, TouchingPairs, find_pairs, moved
@@ -22,8 +25,12 @@ from drapery.mesh import Array
 
 PASSES = 4
 """The most passes over all pairs in a step."""
+NEAR = 1.25
+"""Passes look at the pairs that are nearer than this many times the thickness before the first."""
 ROUNDS = 3
 """How often contacts with itself and with boxes take turns in a step."""
+TOLERANCE = 0.02
+"""A pass whose deepest contact is shallower than this part of the thickness is the last one."""
 GUARDS = 24
 """The most rounds in which displacements are shortened; then the cloth rests for one step."""
 STOPPED = 0.5
@@ -70,11 +77,11 @@ def meet_one(
         return
     wanted = x.copy()
     pairs = find_pairs(x0, x, contact, REACH * contact.thickness, False)
+    active = np.empty(len(pairs.ends), np.int32)
     for _ in range(ROUNDS):
-        deepest = 0.0
+        count = list_near(x, pairs, NEAR * contact.thickness, active)
         for _ in range(PASSES):
-            deepest = push_pairs(x0, x, pairs, contact)
-            if deepest < 0.02 * contact.thickness:
+            if push_pairs(x0, x, pairs, active[:count], contact) < TOLERANCE * contact.thickness:
                 break
         if not meets_boxes or not meet_boxes(x0, x, boxes, near):
             break
@@ -143,19 +150,34 @@ def is_smooth(x: Array, contact: SelfContact) -> bool:
 
 
 @kernel
-def push_pairs(x0: Array, x: Array, pairs: TouchingPairs, contact: SelfContact) -> float:
-    """Push apart the pairs that are too near, one after another; returns the deepest [m]."""
+def list_near(x: Array, pairs: TouchingPairs, limit: float, active: NDArray[np.int32]) -> int:
+    """List the numbers of the pairs that may be nearer than a limit [m], or have crossed; returns
+    how many there are."""
+    count, ends = 0, pairs.ends
+    for n in range(len(ends)):
+        i, j, k, m = ends[n, 0], ends[n, 1], ends[n, 2], ends[n, 3]
+        active[count] = n
+        count += gap_along(row(pairs.normals, n), x, i, j, k, m, pairs.edges[n]) < limit
+    return count
+
+
+@kernel
+def push_pairs(
+    x0: Array, x: Array, pairs: TouchingPairs, active: NDArray[np.int32], contact: SelfContact
+) -> float:
+    """Push apart the active pairs that are too near, one after another; returns the deepest [m]."""
     w, deepest = contact.inv_mass, 0.0
-    for n in range(len(pairs.ends)):
+    for n in active:
         i, j, k, m = pairs.ends[n, 0], pairs.ends[n, 1], pairs.ends[n, 2], pairs.ends[n, 3]
+        normal, limit = row(pairs.normals, n), contact.thickness
+        if gap_along(normal, x, i, j, k, m, pairs.edges[n]) >= limit:
+            continue
         weights, offset = nearest(x, i, j, k, m, pairs.edges[n])
         length = norm(offset)
-        normal = row(pairs.normals, n)
         # A pair that has crossed in this step goes back to the side of its start.
         crossed = dot(offset, normal) < 0.0
-        if length >= contact.thickness and not crossed:
+        if length >= limit and not crossed:
             continue
-        limit = contact.thickness
         if contact.piece[i] == contact.piece[k]:
             _weights, at_rest = nearest(contact.rest, i, j, k, m, pairs.edges[n])
             limit = min(limit, AT_REST * norm(at_rest))
@@ -194,16 +216,18 @@ def make_safe(
     near: Candidates,
 ) -> None:
     """Shorten displacements until no pair can have crossed and no part of the cloth is in a box."""
-    for number in range(GUARDS):
-        found = shorten_unsafe(x0, x, pairs, contact.inv_mass, number >= GUARDS // 2)
+    w, changed = contact.inv_mass, np.full(len(x), -1, np.int32)
+    for turn in range(GUARDS):
+        stop = turn >= GUARDS // 2
+        found = shorten_unsafe(x0, x, pairs, w, contact.thickness, changed, turn, stop)
         if len(boxes.halves) > 0:
             before = x.copy()
             guard_boxes(x0, x, boxes, near)
             for i in range(len(x)):
-                for axis in range(3):
-                    found = found or before[i, axis] != x[i, axis]
+                if row(x, i) != row(before, i):
+                    found, changed[i] = True, turn
         if not found:
             return
     for i in range(len(x)):
-        if contact.inv_mass[i] > 0.0:
+        if w[i] > 0.0:
             put(x, i, 0, row(x0, i))

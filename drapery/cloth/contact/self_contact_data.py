@@ -1,6 +1,6 @@
 """What contact of a cloth with itself needs, worked out once for each cloth."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +9,10 @@ from drapery.cloth.cloth import Cloth
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
+LEAF = 2
+"""Faces of a leaf of the tree of faces, such as the two of a cell of a grid."""
+CELLS = 1024
+"""Cells of the Z-order curve along each axis."""
 NARROW = 0.5
 """Parts of a cloth may be as near as this many times its shortest edge, however thick it is: else
 the particles around one particle would push it."""
@@ -19,9 +23,11 @@ class SelfContact(NamedTuple):
 
     thickness: least distance [m], see NARROW. rest: places at rest [m], [N, 3].
     inv_mass: [1/kg], [N].
-    piece: number of the connected part of each particle, [N]. triangles: [T, 3]. edges: ends of
-    each edge, [E, 2]. of_face: the three edges of each face, [T, 3]. owner: the face that answers
-    for a particle, [N], and for an edge, [E], so that each pair is found once.
+    piece: number of the connected part of each particle, [N].
+    particles [M], triangles [T, 3], edges: ends of each edge, [E, 2]; all in the order of the
+    leaves, which are LEAF neighbouring faces each. A particle or an edge of several faces belongs
+    to the leaf of one of them. begin: the first particle, face and edge of each leaf and the ends,
+    [L + 1, 3].
     rows, columns: of a grid, or 0.
     """
 
@@ -29,11 +35,10 @@ class SelfContact(NamedTuple):
     rest: Array
     inv_mass: Array
     piece: NDArray[np.int32]
+    particles: NDArray[np.int32]
     triangles: NDArray[np.int32]
     edges: NDArray[np.int32]
-    of_face: NDArray[np.int32]
-    particle_owner: NDArray[np.int32]
-    edge_owner: NDArray[np.int32]
+    begin: NDArray[np.int32]
     rows: int
     columns: int
 
@@ -50,35 +55,65 @@ def make_self_contact(cloth: Cloth, thickness: float) -> SelfContact:
         raise OptionError(
             f"self-collision thickness {thickness} is out of range; use a length above 0 [m]"
         )
-    triangles = np.ascontiguousarray(cloth.triangles, np.int32)
-    count = len(cloth.inv_mass)
+    rest, count = np.ascontiguousarray(cloth.rest_positions, float), len(cloth.inv_mass)
+    triangles = np.asarray(cloth.triangles, np.int32)
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     edges, number = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
-    of_face = number.reshape(3, -1).T.astype(np.int32)
     graph = coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(count, count))
-    piece = connected_components(graph, directed=False)[1]
-    faces = np.arange(len(triangles), dtype=np.int32)
+    piece = connected_components(graph, directed=False)[1].astype(np.int32)
+    lengths = np.sqrt(np.square(rest[edges[:, 0]] - rest[edges[:, 1]]).sum(axis=1))
+    of_face = number.reshape(3, -1).T
+    order = _leaf_order(rest, piece, edges, of_face, lengths)
+    triangles = np.ascontiguousarray(triangles[order])
+    starts = np.append(np.arange(0, len(triangles), LEAF), len(triangles))
+    particles, first_particle = _in_leaves(triangles, count, starts)
+    edge_order, first_edge = _in_leaves(of_face[order], len(edges), starts)
     rows, columns = cloth.grid_shape or (0, 0)
-    ends = cloth.rest_positions[edges]
-    shortest = np.sqrt(np.square(ends[:, 0] - ends[:, 1]).sum(axis=1)).min(initial=np.inf)
     return SelfContact(
-        min(float(thickness), float(NARROW * shortest)),
-        np.ascontiguousarray(cloth.rest_positions, float),
+        min(float(thickness), float(NARROW * lengths.min(initial=np.inf))),
+        rest,
         np.ascontiguousarray(cloth.inv_mass, float),
-        piece.astype(np.int32),
+        piece,
+        particles.astype(np.int32),
         triangles,
-        np.ascontiguousarray(edges, np.int32),
-        np.ascontiguousarray(of_face),
-        _owners(triangles, faces, count),
-        _owners(of_face, faces, len(edges)),
+        np.ascontiguousarray(edges[edge_order], np.int32),
+        np.stack([first_particle, starts, first_edge], axis=1).astype(np.int32),
         rows,
         columns,
     )
 
 
-def _owners(parts: NDArray[np.int32], faces: NDArray[np.int32], count: int) -> NDArray[np.int32]:
-    """The first face of each part, -1 for parts of no face."""
-    owner = np.full(count, len(faces), np.int32)
-    np.minimum.at(owner, parts.ravel(), np.repeat(faces, 3))
-    owner[owner == len(faces)] = -1
-    return owner
+def _leaf_order(
+    rest: Array,
+    piece: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    of_face: NDArray[np.intp],
+    lengths: Array,
+) -> NDArray[np.intp]:
+    """The faces piece by piece, and in each along a Z-order curve through the middles of their
+    longest edges. So the two faces of a cell of a grid, which share that edge, are neighbours.
+
+    of_face: the three edges of each face, [T, 3]. lengths: of the edges [m].
+    """
+    longest = of_face[np.arange(len(of_face)), lengths[of_face].argmax(axis=1)]
+    middles = rest[edges[longest]].mean(axis=1)
+    middles -= middles.min(axis=0, initial=np.inf)
+    cells = (middles / middles.max(initial=1e-9) * (CELLS - 1)).astype(np.int64)
+    code = np.zeros(len(cells), np.int64)
+    for bit in range(CELLS.bit_length() - 1):
+        for axis in range(3):
+            code |= (cells[:, axis] >> bit & 1) << (3 * bit + axis)
+    order: NDArray[np.intp] = np.lexsort((code, piece[edges[longest, 0]]))
+    return order
+
+
+def _in_leaves(
+    parts: NDArray[Any], count: int, starts: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Particles or edges in the order of the first face that has them, and the number of the first
+    one of each leaf. parts: of each face, [T, 3]. starts: the first face of each leaf."""
+    owner = np.full(count, len(parts), np.intp)
+    np.minimum.at(owner, parts.ravel(), np.repeat(np.arange(len(parts)), 3))
+    order = np.argsort(owner, kind="stable")
+    first: NDArray[np.intp] = np.searchsorted(owner[order], starts)
+    return order[: first[-1]], first
