@@ -86,3 +86,14 @@ def test_any_width_and_kind_of_number(name, columns):
     exact = moved(cloth, SOLVERS[name], 12)
     single = moved(cloth, SOLVERS[name], 12, dtype=np.float32)
     np.testing.assert_allclose(single.positions, exact.positions, atol=2e-3)
+
+
+def test_xpbd_plans_cloths_with_the_same_contents_once():
+    first, second = (grid(9, 9, 1.0, 1.0) for _ in range(2))
+    plan = SolverXPBD().init(first, 1 / 60).plan
+    assert SolverXPBD().init(second, 1 / 60).plan is plan
+    second.inv_mass[40] = 0
+    assert SolverXPBD().init(second, 1 / 60).plan is not plan
+    assert SolverXPBD(substeps=2).init(first, 1 / 60).plan is not plan
+    listed = SolverXPBD(compliance=[0.0, None, None])  # type: ignore[arg-type]
+    assert listed.init(first, 1 / 60).plan is plan

@@ -135,7 +135,7 @@ def sheet_of(cloth: Cloth, faces: Faces, controls: NDArray[np.int32]) -> SheetLa
     size = rows * width
     inv_mass = np.zeros((rows, _whole(width)))
     inv_mass[:, :columns] = cloth.inv_mass.reshape(rows, columns)
-    samples = len(np.unique(controls % columns))
+    samples = len(set((controls % columns).tolist()))  # np.unique would import numpy.ma
     across = np.zeros((samples, _whole(width)))
     for corner in range(4):
         sample = faces.controls[:columns, corner] % samples
