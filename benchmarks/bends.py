@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.photos import flag_corners, pixels_of, random_camera
+from benchmarks.photos import flag_corners, front_vertices, pixels_of, random_camera
 from drapery import Banner, Settings
 from drapery.match.perspective import BEND_ORDERS, PhotoView
 from drapery.match.smooth import products
@@ -47,11 +47,8 @@ def shifts_of(scene: Scene, u: Array, v: Array) -> Array:
     from scipy.interpolate import LinearNDInterpolator
 
     mesh = scene.models[1].mesh
-    texels = mesh.uvs * 64
-    middles = texels[mesh.triangles].mean(axis=1)
-    front = ((middles > 1) & (middles < (21, 41))).all(axis=1)
-    used = np.unique(mesh.triangles[front])
-    places = (texels[used] - 1) / (20, 40)
+    used = front_vertices(mesh)
+    places = (mesh.uvs[used] * 64 - 1) / (20, 40)
     points = LinearNDInterpolator(places, mesh.positions[used])(u, v)
     view = PhotoView(np.zeros((1, 1, 3), np.uint8), flag_corners(scene))
     x, y = pixels_of(scene.camera, points).T

@@ -2,14 +2,16 @@
 
 Drape: Cusick's test (J. Textile Inst. 56 and 59, 1965 and 1968; ISO 9073-9). A disc of 30 cm lies
 on a support of 18 cm. The drape coefficient is the shadow of its rim over the area of the flat rim.
-The coefficient grows with the bending length, and the edge falls in 4 to 8 folds, the nodes; their
+The coefficient grows with the bending length, and the edge falls in folds, the nodes; their
 number varies when the same fabric is laid again (Jeong, J. Textile Inst. 89, 1998; Kenkare,
-May-Plumlee, "Mechanics of fabric drape", 2004).
+May-Plumlee, "Mechanics of fabric drape", 2004). See `PUBLISHED` for the figures.
 
 Flapping: a flag without gravity in a steady wind along it. Published flags begin to flap above an
 onset speed. Heavy flags in air flap in a low mode near the resonance of a pivoted wing, so the
-frequency grows with the speed, and lighter flags flap faster (Argentina, Mahadevan, PNAS 102, 2005;
-Shelley, Vandenberghe, Zhang, PRL 94, 2005). The amplitude stays below the flag's length.
+frequency grows with the speed, and lighter flags flap faster (Argentina, Mahadevan, PNAS 102,
+2005). The amplitude stays below the flag's length. A flag is flown in the default pressure of a
+`Wind`, which is proportional to the speed, and in that of a slender wing, which is proportional to
+its square as in a wind tunnel.
 """
 
 import argparse
@@ -47,6 +49,19 @@ AIR = 3.0
 NUDGE = 1e-3
 """Rms of the heights at the start [m]; a disc that is exactly level has no place to fold."""
 
+
+PUBLISHED: dict[str, tuple[int, int]] = {"silk": (20, 40), "cotton": (48, 72), "leather": (47, 70)}
+"""Drape coefficients [%]: woven silk (Matsudaira, Yang, Textile Research J. 73, 2003), plain weaves
+of cotton ("Analysis of a fabric drape profile", Fibres and Textiles 1/2018; Gan, Ly, Steven, J.
+Textile Inst. 82, 1991, measure 68), sheep leather for garments (Memon et al., Materials 14, 2021).
+Read in collections of reference data, not in the papers."""
+NODES = 5, 8
+"""Of 37 fabrics (Fibres and Textiles 1/2018)."""
+STROUHAL = 0.2, 0.4
+"""Frequency · width of the stroke / speed of heavy flags, as of swimming and flying animals
+(Shelley, Vandenberghe, Zhang, PRL 94, 2005; Taylor, Nudds, Thomas, Nature 425, 2003)."""
+AIR_DENSITY = 1.2
+"""[kg/m³]"""
 
 SHOWN = ("silk", "wool", "leather")
 LOOK: dict[str, Any] = {"view": "hero", "size": (250, 310), "samples": 4, "time": 4.0}
@@ -117,11 +132,21 @@ class Flapping:
     frequency: float
 
 
-def flap(fabric: str, speed: float, *, length: float = 1.0, seconds: float = 12.0) -> Flapping:
+def slender_pressure(speed: float) -> float:
+    """The pressure of a `Wind` that gives a flag the force of a slender wing [N s/m³].
+
+    Jones (NACA report 835, 1946): the normal force is ½ ρ U² · (π/2) A · slope per area, where A is
+    the aspect ratio, here ½. speed: U [m/s].
+    """
+    return AIR_DENSITY / 2 * np.pi / 2 / 2 * speed
+
+
+def flap(fabric: str, speed: float, pressure: float, *, seconds: float = 12.0) -> Flapping:
     """A flag held by one edge in a steady wind along it, in the second half of the time.
 
-    speed: [m/s]. length: of the flag, which is half as high [m].
+    It is 1 m long and half as high. speed: [m/s]. pressure: of the `Wind` [N s/m³].
     """
+    length = 1.0
     columns, rows = 21, 11
     cloth = grid(
         columns,
@@ -134,7 +159,7 @@ def flap(fabric: str, speed: float, *, length: float = 1.0, seconds: float = 12.
     start = rest_state(cloth, dtype=np.float64)
     along = (cloth.rest_positions[:, 0] - cloth.rest_positions[0, 0]) / length
     start.positions[0, :, 2] += 0.02 * length * along * along
-    wind = Wind((speed, 0, 0), gusts=0, sine=0)
+    wind = Wind((speed, 0, 0), gusts=0, sine=0, pressure=pressure)
     moving, tip = MovingCloth.begin(cloth, SolverXPBD(), start=start), []
     for _ in range(round(60 * seconds)):
         moving = moving.advance([wind])
@@ -172,14 +197,31 @@ def main() -> None:
         found = [drape(name, rings, seed) for seed in (1, 2, 3)]
         shares = ", ".join(f"{100 * each.coefficient:.0f} %" for each in found)
         nodes = ", ".join(str(each.nodes) for each in found)
-        print(f"  {name:8} bending length {bent:.1f} cm: {shares}; nodes {nodes}")
-    print("flag of 1 x 0.5 m: amplitude over length, frequency [Hz], frequency · length / speed")
+        print(f"  {name:8} bending length {bent:.1f} cm: {shares}; nodes {nodes}{_published(name)}")
+    print(f"nodes of published fabrics: {NODES[0]} to {NODES[1]}")
+    print("flag of 1 x 0.5 m: amplitude over length, frequency [Hz], frequency · length / speed,")
+    print(f"Strouhal number (published: {STROUHAL[0]} to {STROUHAL[1]})")
     for name in ("wool", "cotton", "silk"):
         for speed in (0.25, 0.5, 1.0, 2.0, 4.0, 8.0):
-            found_flap = flap(name, speed)
-            amplitude, rate = found_flap.amplitude, found_flap.frequency
-            numbers = f"{amplitude:.3f}, {rate:.2f}, {rate / speed:.2f}"
-            print(f"  {name:8} {speed:4} m/s: {numbers}")
+            for kind, pressure in (
+                ("default", Wind.pressure),
+                ("slender wing", slender_pressure(speed)),
+            ):
+                print(f"  {name:8} {speed:4} m/s, {kind}: {_flapping(name, speed, pressure)}")
+
+
+def _published(name: str) -> str:
+    if name not in PUBLISHED:
+        return ""
+    low, high = PUBLISHED[name]
+    return f" (published: {low} to {high} %)"
+
+
+def _flapping(name: str, speed: float, pressure: float) -> str:
+    found = flap(name, speed, pressure)
+    amplitude, rate = found.amplitude, found.frequency
+    strouhal = 2 * amplitude * rate / speed
+    return f"{amplitude:.3f}, {rate:.2f}, {rate / speed:.2f}, {strouhal:.2f}"
 
 
 if __name__ == "__main__":

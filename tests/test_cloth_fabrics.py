@@ -6,7 +6,16 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from drapery.cloth import FABRICS, Gravity, Wind, grid, max_stretch, simulate
+from drapery.cloth import (
+    FABRICS,
+    Gravity,
+    SolverXPBD,
+    Wind,
+    grid,
+    max_stretch,
+    rest_state,
+    simulate,
+)
 from drapery.settings import FabricName
 
 
@@ -21,3 +30,29 @@ def test_a_fabric_hangs_and_waves_without_much_stretch(name: str) -> None:
     for state in islice(simulate(cloth, forces=forces, every=60), 1, 4):
         assert np.isfinite(state.positions).all()
         assert max_stretch(state.positions, cloth) < 0.1
+
+
+def flapping_rate(speed: float) -> float:
+    """The frequency of a cotton flag of 1 x 0.5 m in the pressure of a slender wing [Hz]."""
+    columns, rows = 21, 11
+    cloth = grid(
+        columns,
+        rows,
+        1.0,
+        0.5,
+        pins=lambda rest: rest[:, 0] <= rest[:, 0].min() + 1e-9,
+        fabric=FABRICS["cotton"],
+    )
+    start = rest_state(cloth, dtype=np.float64)
+    start.positions[0, :, 2] += 0.02 * (cloth.rest_positions[:, 0] + 0.5) ** 2
+    wind = Wind((speed, 0.0, 0.0), gusts=0, sine=0, pressure=0.15 * np.pi * speed)
+    moments = islice(simulate(cloth, SolverXPBD(), [wind], start=start, every=2), 150, 360)
+    tip = np.array([each.positions[0, rows // 2 * columns + columns - 1, 2] for each in moments])
+    power = np.abs(np.fft.rfft((tip - tip.mean()) * np.hanning(len(tip)), 8 * len(tip)))
+    return (1 + int(power[1:].argmax())) * 30 / (8 * len(tip))
+
+
+def test_a_flag_flaps_at_a_rate_in_proportion_to_the_wind() -> None:
+    """As in wind tunnels, where frequency · length / speed is a constant of about 1 or less."""
+    rates = np.array([flapping_rate(speed) / speed for speed in (1.0, 2.0, 4.0)])
+    assert rates.min() > 0.5 and rates.max() < 1.0

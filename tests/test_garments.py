@@ -10,7 +10,7 @@ from PIL import Image
 from pydantic import ValidationError
 
 from drapery import Banner, draw, iter_frames, save_model
-from drapery.cli import app
+from drapery.cli import command_line
 from drapery.errors import OptionError
 from drapery.garments import (
     ClothTexture,
@@ -422,7 +422,7 @@ def test_a_3d_file_is_judged_before_its_parts_are_copied(
 
 
 def command(*words: object) -> None:
-    app([str(word) for word in words], standalone_mode=False)
+    command_line()([str(word) for word in words], standalone_mode=False)
 
 
 def test_the_command_draws_a_file_as_picture_loop_and_model(tmp_path: Path) -> None:

@@ -9,10 +9,10 @@ import pytest
 import drapery.style
 from drapery import Banner
 from drapery.banner.packs import open_packs
-from drapery.cloth import FABRICS, Cloth, Fabric, SolverXPBD, State, Wind
+from drapery.cloth import FABRICS, Cloth, Fabric, SolverXPBD, State, Wind, grid
 from drapery.mesh import Array
 from drapery.scenes.stager import Stager, loop, still, wind_of
-from drapery.settings import Settings
+from drapery.settings import FabricName, Settings
 from drapery.style.kinds import body_of
 
 NAMED = Settings(time=0.5, grid=(5, 9), solver="xpbd", wind=6.0, direction=40.0, seed=3)
@@ -55,6 +55,48 @@ def test_objects_are_not_taken_from_the_cache() -> None:
     assert not np.array_equal(flag(solver=SolverXPBD(substeps=8)), named)
     assert not np.array_equal(flag(fabric=Fabric(density=0.9)), named)
     assert not np.array_equal(flag(wind=Wind((0.0, 0.0, 9.0))), named)
+
+
+def creases(fabric: FabricName) -> float:
+    """The share of neighbouring cells that meet at over 60 degrees in 8 m/s."""
+    settings = Settings(fabric=fabric, wind=8.0)
+    stager, (columns, rows) = (
+        Stager(body_of(Banner(), open_packs(()), settings), settings),
+        settings.grid,
+    )
+    found = []
+    for _ in range(16):
+        stager.advance(24)
+        places = stager.cloths[0].state.positions[0].reshape(rows, columns, 3)
+        normals = np.cross(places[1:, :-1] - places[:-1, 1:], places[1:, 1:] - places[:-1, :-1])
+        normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
+        across = (normals[:, 1:] * normals[:, :-1]).sum(axis=-1)
+        down = (normals[1:] * normals[:-1]).sum(axis=-1)
+        found.append([(across < 0.5).mean(), (down < 0.5).mean()])
+    return float(np.mean(found))
+
+
+def test_light_fabrics_do_not_crumple_in_strong_wind() -> None:
+    assert max(creases("silk"), creases("cotton")) < 0.03
+
+
+@pytest.mark.parametrize("fabric", ["wool", "canvas", "leather", "felt"])
+@pytest.mark.parametrize("shape", [(5, 9), (16, 31), (33, 65)])
+def test_fabrics_of_stiff_folds_bend_as_they_are(
+    fabric: FabricName, shape: tuple[int, int]
+) -> None:
+    settings = Settings(fabric=fabric, grid=shape, wind=8.0)
+    stager = Stager(body_of(Banner(), open_packs(()), settings), settings)
+    cloth = stager.cloths[0].cloth
+    size = np.ptp(cloth.rest_positions[:, :2], axis=0)
+    expected = grid(*shape, *size, fabric=FABRICS[fabric]).bending
+    assert np.allclose(cloth.bending.stiffness, expected.stiffness, rtol=1e-6)
+
+
+def test_only_fabrics_lighter_than_wool_ripple_less() -> None:
+    names: tuple[FabricName, ...] = ("wool", "felt", "leather", "canvas", "cotton", "silk")
+    found = [wind_of(Settings(fabric=fabric)).ripples / Settings.gusts for fabric in names]
+    assert found == pytest.approx([2.5, 2.5, 2.5, 2.34, 1.7, 1.02], rel=0.02)
 
 
 def test_a_given_wind_loops_without_a_seam() -> None:

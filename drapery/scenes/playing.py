@@ -151,14 +151,17 @@ def _live_panel(stager: Stager, panel: Panel, lanes: int | None, step: float = S
 def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any]) -> LivePanel:
     """The panel of a cloth and its shell. header: what hosts also want to know."""
     live, blown, plan, batch, substeps = call
+    x, _, z = blown.velocity
     method = type(plan).__name__.removesuffix("Plan").lower()
     return LivePanel(
         {
             **header,
             "step": float(live.dt[0]),
             "origin": shell.place.tolist(),
+            "frame": _frame(shell).tolist(),
             "pins": live.pins.tolist(),
             "wind": blown.velocity.tolist(),
+            "heading": math.degrees(math.atan2(x, z)),
             "vertices": len(shell.light),
             "method": method,
         },
@@ -175,6 +178,14 @@ def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any])
         },
         {"resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE)},
     )
+
+
+def _frame(shell: LiveShell) -> Array:
+    """From places in the picture to places in the frame of a panel, shape [3, 4]."""
+    back = shell.turn.T
+    # einsum adds in a fixed order; BLAS may not.
+    turned = np.einsum("ij,j->i", back, shell.middle)
+    return np.column_stack([back, shell.middle - turned - shell.place])
 
 
 def turning_of(settings: Settings) -> tuple[Array, Array]:

@@ -69,6 +69,12 @@ RIPPLES, VORTICES = 2.5, 0.75
 """Ripples and vortices of a picture's wind, over the strength of its gusts."""
 RIPPLE_SIZE = 0.5
 """Middle length of the ripples [m]: of eddies behind a pole or bar 1/12 to 1/8 m thick."""
+AIR = 1.2 * RIPPLE_SIZE / math.pi
+"""Mass of the air that moves with the cloth under such a ripple [kg/m²]: its density over the wave
+number, on each face (Lamb, "Hydrodynamics", § 231)."""
+STRONG_WIND, CELLS = 8.0, 5
+"""A fabric with bending is at least so stiff that a wind of this speed [m/s] drives no folds
+shorter than so many cells of the grid; but none is made stiffer than wool."""
 LEE = 0.4
 """Behind a wall the wind across it keeps this part of its speed. Backflow behind a step reaches
 over 20 % of the free flow: Eaton, Johnston, AIAA J. 19 (1981)."""
@@ -99,11 +105,12 @@ class ClothSpec:
 
     def make_cloth(self) -> Cloth:
         """The cloth at rest, which is flat. Raises OptionError."""
-        fabric = FABRICS[self.fabric] if isinstance(self.fabric, str) else self.fabric
         width, height = self.size
+        fabric = FABRICS[self.fabric] if isinstance(self.fabric, str) else self.fabric or Fabric()
+        fabric = shown_fabric(fabric, height / (self.shape[1] - 1))
         if self.pins == "top" and fold_count(self.shape[0]):
             width *= 1 + self.fullness
-        return grid(*self.shape, width, height, pins=self.pins, fabric=fabric or Fabric())
+        return grid(*self.shape, width, height, pins=self.pins, fabric=fabric)
 
     def hang(self, cloth: Cloth) -> State:
         """The cloth of `make_cloth` before its first step: gathered, if it is wider than `size`."""
@@ -122,6 +129,19 @@ class ClothSpec:
             low, high = (np.clip(corner, -ENDLESS, ENDLESS) for corner in (solid.low, solid.high))
             boxes.append(Collider(Box((low + high) / 2, high - low)))
         return Collisions(boxes, self.thickness, apart=self.thickness if self.itself else None)
+
+
+def shown_fabric(fabric: Fabric, cell: float) -> Fabric:
+    """The fabric, stiff enough that a grid shows its folds. cell: the side of a cell [m].
+
+    Pressure that follows the slope of the cloth drives waves of every length, but the bending
+    rigidity B stops those shorter than 2π (B / (p U))^(1/3), where p is the pressure of a `Wind` at
+    1 m/s and U its speed. Those of a light fabric would be smaller than the cells, and crumple.
+    A fabric without bending stays as it is.
+    """
+    wave = CELLS * cell / (2 * math.pi)
+    least = min(Wind.pressure * STRONG_WIND * wave**3, FABRICS["wool"].bending)
+    return replace(fabric, bending=least) if 0 < fabric.bending < least else fabric
 
 
 def cloth_at_rest(spec: ClothSpec, step: float = STEP) -> MovingCloth:
@@ -425,25 +445,42 @@ def wind_of(settings: Settings, period: float | None = None) -> Wind:
     given = settings.wind
     if isinstance(given, Wind):
         return given if period is None else replace(given, period=period)
-    return breeze(given, settings.direction, settings.gusts, settings.seed, period)
+    return breeze(given, settings.direction, settings.gusts, settings.seed, period, settings.fabric)
 
 
 def breeze(
-    speed: float, direction: float | None, gusts: float, seed: int, period: float | None = None
+    speed: float,
+    direction: float | None,
+    gusts: float,
+    seed: int,
+    period: float | None = None,
+    fabric: str | Fabric = "wool",
 ) -> Wind:
     """The wind that the settings describe by numbers, with ripples as strong as its gusts.
 
-    speed: [m/s]. direction, gusts, seed: see `Settings`. period: it repeats after this time [s].
+    speed: [m/s]. direction, gusts, seed, fabric: see `Settings`. period: it repeats after this
+    time [s].
     """
     return Wind(
         flow(speed, direction),
         gusts=gusts,
         seed=seed,
         period=period,
-        ripples=RIPPLES * gusts,
+        ripples=RIPPLES * gusts * _ripple_share(fabric),
         ripple_size=RIPPLE_SIZE,
         vortices=VORTICES * gusts,
     )
+
+
+def _ripple_share(fabric: str | Fabric) -> float:
+    """The ripples on a fabric over those on wool, 1 for heavier ones.
+
+    A ripple also moves the air beside the cloth, so cloth of a sixth of the mass is accelerated
+    2.5 times as much, not six times.
+    """
+    density = (FABRICS[fabric] if isinstance(fabric, str) else fabric).density
+    moved, wool = (mass / (mass + AIR) for mass in (density, FABRICS["wool"].density))
+    return min(1.0, moved / wool)
 
 
 def forces_of(settings: Settings, wind: Wind) -> tuple[Force, ...]:
@@ -497,6 +534,7 @@ def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, 
             gusts=settings.gusts,
             seed=settings.seed,
             placement=settings.placement,
+            fabric=settings.fabric,
         )
         return _cached(spec, wind, at)
     return _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
