@@ -57,7 +57,8 @@ def place(sizes: NDArray[np.int64]) -> tuple[NDArray[np.int64], tuple[int, int]]
     Sprites usually have few sizes: then there is a grid for each size. Many sizes are placed by
     trimesh's packer, a tree of free rectangles (it takes half a second to import).
     """
-    kinds = np.unique(sizes, axis=0)
+    # `np.unique` without an index would import numpy.ma.
+    kinds = np.unique(sizes, axis=0, return_index=True)[0]
     return _grids(sizes, kinds) if len(kinds) <= FEW_SIZES else _packed(sizes)
 
 

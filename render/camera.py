@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.errors import OptionError
-from drapery.render.vectors import dots
+from drapery.render.vectors import cross, dots
 
 Vector = tuple[float, float, float]
 Matrix = NDArray[np.float64]
@@ -54,9 +54,9 @@ def _axes(camera: Camera) -> Matrix:
     """Unit vectors to the right, to the top and towards the viewer, shape [3, 3]."""
     back = np.subtract(camera.position, camera.target).astype(np.float64)
     back /= np.sqrt(dots(back, back))
-    right = np.cross(camera.up, back)
+    right = cross(np.asarray(camera.up), back)
     right /= np.sqrt(dots(right, right))
-    return np.stack([right, np.cross(back, right), back])
+    return np.stack([right, cross(back, right), back])
 
 
 def projection_matrix(camera: Camera, aspect: float) -> Matrix:

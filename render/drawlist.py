@@ -7,6 +7,7 @@ so thousands of banners need no more calls than one.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.light import Light
-from drapery.render.materials import MaterialTables, make_material_tables
+from drapery.render.materials import BLEND, MaterialTables, make_material_tables
 from drapery.render.scene import Model
 
 Float32 = NDArray[np.float32]
@@ -41,6 +42,34 @@ class Topology:
     triangle_material: NDArray[np.int32]
     vertex_start: NDArray[np.int64]
     material_tables: MaterialTables
+
+    @cached_property
+    def casting(self) -> NDArray[np.bool_]:
+        """Which triangles cast shadows, shape [T]: lit ones that do not blend."""
+        tables = self.material_tables
+        casting: NDArray[np.bool_] = tables.material_lit & (tables.material_alpha != BLEND)
+        return casting[self.triangle_material]
+
+    @cached_property
+    def casters(self) -> Triangles:
+        """The triangles that cast shadows."""
+        return self.triangles[self.casting]
+
+    @cached_property
+    def lit_vertices(self) -> NDArray[np.bool_]:
+        """Which vertices belong to triangles that light falls on, shape [V]."""
+        lit = np.zeros(len(self.uvs), np.bool_)
+        lit[self.triangles[self.material_tables.material_lit[self.triangle_material]]] = True
+        return lit
+
+    @cached_property
+    def transmission(self) -> Float32:
+        """The share of light that shines through the surface at each vertex, 0..1, shape [V]."""
+        through = np.zeros(len(self.uvs), np.float32)
+        shares = self.material_tables.material_transmission[self.triangle_material]
+        some = shares > 0
+        through[self.triangles[some]] = shares[some, None]
+        return through
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,3 +21,10 @@ def unit(vectors: Array) -> Array:
     lengths = np.sqrt(dots(vectors, vectors))[..., None]
     scaled: Array = vectors / np.where(lengths > 0, lengths, 1)
     return scaled
+
+
+def cross(first: Array, second: Array) -> Array:
+    """The vector product of two vectors, shape [3]; `np.cross` takes ten times as long for one."""
+    a, b, c = map(float, first)
+    x, y, z = map(float, second)
+    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])

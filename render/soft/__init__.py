@@ -218,7 +218,7 @@ def _shadowed(
     found = shadow_light(scene.light, scene.size, DrawList(positions, normals, constant))
     if found is None:
         return raster, NO_SHADOWS
-    side, casting = found.side, found.casting
+    side = found.side
     seen = _project_points(positions, constant.uvs, found, workers)
     receivers = _project_points(found.lifted, constant.uvs, found, workers)
     raster.vertices["shade"] = found.bright
@@ -226,7 +226,7 @@ def _shadowed(
     places = [receivers[axis] / np.float32(256) + np.float32(0.5) for axis in ("x", "y")]
     shaded = np.stack([*places, receivers["depth"], found.dark], axis=-1, dtype=np.float32)
     casters = Raster(
-        seen, raster.flags, raster.triangles[casting], raster.triangle_material[casting]
+        seen, raster.flags, constant.casters, constant.triangle_material[constant.casting]
     )
     depths = np.zeros(side * side, np.int32)
     _draw_depths(casters, tables, side, workers, depths)

@@ -18,12 +18,11 @@ from numpy.typing import NDArray
 
 from drapery.mesh import Array, Triangles
 from drapery.render.camera import Camera, Vector
-from drapery.render.drawlist import DrawList, Float32, Topology
+from drapery.render.drawlist import DrawList, Float32
 from drapery.render.light import Light
-from drapery.render.materials import BLEND
 from drapery.render.soft.cast import TAPS, TAPS_MIDDLE
 from drapery.render.soft.occlusion import occlude
-from drapery.render.vectors import unit
+from drapery.render.vectors import cross, unit
 
 SOFTNESS = 0.02
 """Width of the edge of a shadow [m]."""
@@ -65,7 +64,6 @@ class ShadowLight:
     camera: its parallel view of all that is lit. side: samples along a side of its map.
     spread: see `ShadowMap`. lifted: vertices as they look themselves up in the map [m], shape
     [V, 3]. bright, dark: their brightness in the light and in shadow, each [V].
-    casting: the triangles that cast shadows, shape [T], bool.
     """
 
     camera: Camera
@@ -74,7 +72,6 @@ class ShadowLight:
     lifted: Float32
     bright: Float32
     dark: Float32
-    casting: NDArray[np.bool_]
 
 
 NO_SHADOWS = ShadowMap(np.empty(0, np.int32), 0, 0.0)
@@ -84,42 +81,17 @@ NO_RECEIVERS = np.empty((0, 4), np.float32)
 def shadow_light(light: Light, size: tuple[int, int], drawing: DrawList) -> ShadowLight | None:
     """The light on a draw list for a picture of this size [pixels]; None if nothing is lit."""
     constant, positions, normals = drawing.topology, drawing.positions, drawing.normals
-    casting, lit = casts_shadow(constant), lit_vertices(constant)
+    lit = constant.lit_vertices
     if not lit.any():
         return None
     camera = light_camera(light, positions[lit])
     width = float(camera.height or 0.0)
     side = map_side(size, width)
     spread, lift = map_spread(side, width)
-    openness = openness_of(positions, normals, lit, constant.triangles[casting])
+    openness = openness_of(positions, normals, lit, constant.casters)
     lifted = positions + np.float32(lift) * normals
-    shades = split_light(light, normals, openness, transmission_of(constant))
-    return ShadowLight(camera, side, spread, lifted, *shades, casting)
-
-
-def casts_shadow(constant: Topology) -> NDArray[np.bool_]:
-    """Which triangles cast shadows, shape [T]: lit ones that do not blend."""
-    tables = constant.material_tables
-    casting: NDArray[np.bool_] = tables.material_lit & (tables.material_alpha != BLEND)
-    return casting[constant.triangle_material]
-
-
-def lit_vertices(constant: Topology) -> NDArray[np.bool_]:
-    """Which vertices belong to triangles that light falls on, shape [V]."""
-    lit = np.zeros(len(constant.uvs), np.bool_)
-    lit[constant.triangles[constant.material_tables.material_lit[constant.triangle_material]]] = (
-        True
-    )
-    return lit
-
-
-def transmission_of(constant: Topology) -> Float32:
-    """The share of light that shines through the surface at each vertex, 0..1, shape [V]."""
-    through = np.zeros(len(constant.uvs), np.float32)
-    shares = constant.material_tables.material_transmission[constant.triangle_material]
-    some = shares > 0
-    through[constant.triangles[some]] = shares[some, None]
-    return through
+    shades = split_light(light, normals, openness, constant.transmission)
+    return ShadowLight(camera, side, spread, lifted, *shades)
 
 
 def map_side(size: tuple[int, int], width: float) -> int:
@@ -149,8 +121,8 @@ def light_camera(light: Light, positions: Float32) -> Camera:
     """A parallel view of all these points, shape [V, 3], from the light's first direction."""
     towards = light.unit_directions()[0]
     up = np.array([0.0, 1.0, 0.0] if abs(towards[1]) < 0.99 else [0.0, 0.0, 1.0])
-    right = unit(np.cross(up, towards))
-    top = np.cross(towards, right)
+    right = unit(cross(up, towards))
+    top = cross(towards, right)
     spans = []
     for axis in (right, top, towards):
         along = sum(positions[:, k] * np.float32(axis[k]) for k in range(3))
@@ -172,7 +144,7 @@ def split_light(
 ) -> tuple[Float32, Float32]:
     """The brightness of vertices in the light of the first direction and in its shadow, each [V].
 
-    openness: how much of the sky each vertex sees, 0..1, shape [V]. through: see `transmission_of`.
+    openness: how much of the sky each vertex sees, 0..1, shape [V]. through: see `Topology`.
     What hides a translucent surface from the sky lets as much light through. Its far side is taken
     to lie in no shadow.
     """
