@@ -22,6 +22,7 @@ from PIL import Image
 from drapery import Banner, DraperyError, Layer, Settings
 from drapery.banner import DYE_NAMES, PATTERN_NAMES
 from drapery.match import match_photo
+from drapery.mesh import Mesh
 from drapery.packs import open_packs
 from drapery.pictures import draw_face, draw_scenes
 from drapery.render import Camera, Scene
@@ -76,11 +77,19 @@ def photo_case(seed: int) -> PhotoCase:
 def flag_corners(scene: Scene) -> tuple[tuple[float, float], ...]:
     """The corners of a scene's flag in its picture [px]."""
     mesh = scene.models[1].mesh
-    points = [
-        _place(mesh.uvs * 64, mesh.positions, mesh.normals, u, v)
-        for u, v in ((1, 1), (21, 1), (21, 41), (1, 41))
+    texels, front = mesh.uvs * 64, front_vertices(mesh)
+    nearest = [
+        front[np.abs(texels[front] - corner).sum(axis=1).argmin()]
+        for corner in ((1, 1), (21, 1), (21, 41), (1, 41))
     ]
-    return tuple((x, y) for x, y in pixels_of(scene.camera, np.array(points)).tolist())
+    return tuple((x, y) for x, y in pixels_of(scene.camera, mesh.positions[nearest]).tolist())
+
+
+def front_vertices(mesh: Mesh) -> NDArray[np.intp]:
+    """The vertices of the front of a flag; some of its lower side have the same texels."""
+    middles = (mesh.uvs * 64)[mesh.triangles].mean(axis=1)
+    inside = ((middles > 1) & (middles < (21, 41))).all(axis=1)
+    return np.unique(mesh.triangles[inside]).astype(np.intp)
 
 
 def pixels_of(camera: Camera, points: NDArray[np.generic]) -> NDArray[np.float64]:
@@ -101,19 +110,6 @@ def random_camera(pick: random.Random) -> Camera:
     )
     target = (x + pick.uniform(-0.15, 0.15), y + pick.uniform(-0.1, 0.1), z)
     return Camera(position, target, fov=pick.uniform(40, 50))
-
-
-def _place(
-    texels: NDArray[np.generic],
-    positions: NDArray[np.generic],
-    normals: NDArray[np.generic],
-    u: float,
-    v: float,
-) -> NDArray[np.generic]:
-    """Where a texel's corner lies on the front of the flag."""
-    apart = np.abs(texels - (u, v)).sum(axis=1)
-    near = np.flatnonzero(apart < apart.min() + 0.01)
-    return np.asarray(positions[near[normals[near, 2].argmax()]])
 
 
 def is_right(found: Banner, truth: Banner) -> bool:

@@ -7,9 +7,10 @@ import pytest
 from numpy.typing import NDArray
 
 from drapery import Banner, OptionError, draw_face
+from drapery.banner import DYE_NAMES
 from drapery.match import Matcher, match
 from drapery.match.art import read_art
-from drapery.match.colours import MEASURED, PERCEIVED, Metric
+from drapery.match.colours import MEASURED, PERCEIVED, Metric, oklab
 from drapery.match.exact import ExactSearch
 from drapery.match.nearest import NearestSearch
 from drapery.packs import MemoryPack, open_packs
@@ -127,6 +128,17 @@ def test_alternatives_differ_and_come_best_first(matcher: Matcher) -> None:
     assert len({one.banner for one in found}) == 3
     assert [one.error for one in found] == sorted(one.error for one in found)
     assert found == matcher.match(face, layers=2, alternatives=3, effort=1)
+
+
+def test_the_second_design_is_one_next_to_the_best(matcher: Matcher) -> None:
+    face, text = face_of("red stripe_middle:white circle:blue"), "red stripe_middle:white circle:"
+    apart = [
+        np.linalg.norm(oklab(face) - oklab(face_of(text + dye)), axis=-1).mean()
+        for dye in DYE_NAMES
+        if dye != "blue"
+    ]
+    _, second = matcher.match(face, layers=2, alternatives=2, effort=0)
+    assert second.error < min(apart) + 1e-4
 
 
 def test_there_is_an_answer_before_the_search_for_exact_designs(matcher: Matcher) -> None:

@@ -70,15 +70,36 @@ def test_light_is_estimated_from_a_design() -> None:
     assert seen.error(face, seen.light_on(face)) < 0.05 * seen.error(face[::-1], light)
 
 
-def test_the_outline_says_how_cloth_bends() -> None:
+def bulging() -> PhotoView:
+    """A flag of one colour whose right edge is up to a texel further right than its corners."""
     picture = np.full((200, 160, 3), 90, np.uint8)
     y = np.arange(20, 180)
     for row, out in zip(y, 4 * np.sin((y - 20) / 160 * np.pi), strict=True):
         picture[row, 40 : round(120 + out)] = 220
-    view = PhotoView(picture, ((40, 20), (120, 20), (120, 180), (40, 180)))
-    across, down = shifts_of(view.outline_bend())
+    return PhotoView(picture, ((40, 20), (120, 20), (120, 180), (40, 180)))
+
+
+def test_the_outline_says_how_cloth_bends() -> None:
+    view = bulging()
+    bend = view.outline_bend()
+    across, down = shifts_of(bend)
     assert abs(across[20, 19] - 1) < 0.3 and abs(across[20, 0]) < 0.3
     assert np.abs(across[2, [0, 19]]).max() < 0.5 and np.abs(down).max() < 0.3
+    assert view.bend_cost(bend) < view.bend_cost(np.zeros(bend_count())) / 2
+
+
+def test_a_face_that_says_nothing_is_aligned_with_the_outline() -> None:
+    view = bulging()
+    flat = np.zeros(bend_count())
+    across, _ = shifts_of(_aligned(view, flat, view.face(flat)))
+    assert abs(across[20, 19] - 1) < 0.3 and abs(across[20, 0]) < 0.3
+
+
+def test_the_middle_may_be_lower_than_the_outline_says() -> None:
+    view = bulging()
+    across, down = shifts_of(view.outline_bend(2.5))
+    assert np.abs(down[19:21, 9:11] - 2.5).max() < 0.3
+    assert np.abs(down[[0, 39]]).max() < 1 and abs(across[20, 19] - 1) < 0.6
 
 
 def test_a_photo_is_aligned_with_a_design() -> None:
@@ -128,6 +149,8 @@ def test_bad_corners_are_refused(corners: tuple[tuple[float, float], ...], line:
 def test_pictures_without_a_flag_are_refused() -> None:
     with pytest.raises(OptionError, match="no flag was found"):
         match_photo(np.full((90, 90, 3), 80, np.uint8))
+    with pytest.raises(OptionError, match="no flag was found"):
+        match_photo(np.full((180, 90, 3), 80, np.uint8))
     with pytest.raises(OptionError, match="the photo is float64"):
         match_photo(np.zeros((90, 90, 3)))
 

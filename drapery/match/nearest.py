@@ -266,6 +266,16 @@ class Goal:
                 base, below = stacks[0]
                 yield base, (*below, *above)
 
+    def varied(self, stack: Stack, count: int) -> Iterator[Stack]:
+        """Stacks with one of the `count` next best layers in place of each one of a stack."""
+        base, layers = stack
+        for place, layer in enumerate(layers):
+            table = self.choices(self.below(base, layers[:place]), self.over(layers[place + 1 :]))
+            for other in np.argsort(table, axis=None, kind="stable")[: count + 1].tolist():
+                chosen = divmod(other, self.search.art.dyes)
+                if chosen != layer:
+                    yield base, (*layers[:place], chosen, *layers[place + 1 :])
+
     def descend(self, stack: Stack) -> Stack:
         """Replace each layer by the best one, and the base, until nothing is better."""
         base, layers = stack[0], list(stack[1])

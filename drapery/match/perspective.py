@@ -34,10 +34,17 @@ _SAMPLES = 4
 """Samples of a texel along each axis; none lies in its outermost 15 %."""
 _APART = 14.0
 """The least distance of a flag's colours from the background's, in 8-bit levels."""
-_OUTLINED = 0.8
+_OUTLINED = 0.65
 """The least overlap of what is seen with the flag, over their union, for finding its edges."""
-_EDGE = 0.02
+_EVERY = 5
+"""Every fifth place of an edge that is seen counts."""
+_EDGE = 0.1
 """The weight of each place of an edge that is seen."""
+_EDGE_NOISE = 1.0
+"""How far an edge is usually seen from where it is [texels]."""
+_OUTLINE_FITS = 3
+_SURE = 1000.0
+"""The weight of a place that is given."""
 _FILLED = 0.85
 """The least part of the quadrilateral that a flag fills."""
 
@@ -113,16 +120,48 @@ class PhotoView:
     def _pixels(self) -> NDArray[np.uint8]:
         return self.picture.reshape(-1, 3)
 
-    def outline_bend(self) -> Reals:
-        """The bend that moves the left, right and lower edge of the flag to where they are seen.
+    def outline_bend(self, lowered: float = 0.0) -> Reals:
+        """The likeliest bend by the outline alone, [BENDS]: 0 where no outline is seen.
 
-        It is 0 where no flag before a background of one colour is seen between the corners.
-        [BENDS].
+        lowered: how much lower than that the middle of the flag is seen [texels].
+        """
+        bend = np.zeros(bend_count())
+        shifts, apart = self.outline
+        for _ in range(_OUTLINE_FITS):
+            weights = self.outline_weights(bend)
+            bend = least_squares(shifts, apart, weights, np.ones(len(bend)))
+        if lowered:
+            middle = bend_shifts(np.array([0.5]), np.array([0.5]))[:, 1]
+            place = row_sums(middle.T, bend) + lowered
+            shifts, apart = np.append(shifts, middle, axis=1), np.append(apart, place)
+            weights = np.append(self.outline_weights(bend), _SURE)
+            bend = least_squares(shifts, apart, weights, np.ones(len(bend)))
+        return bend
+
+    def outline_weights(self, bend: Reals) -> Reals:
+        """How much each place of the outline counts: less where it is far from a bend's, [m]."""
+        return np.asarray(_EDGE / (1 + (self._outline_rest(bend) / _EDGE_NOISE) ** 2))
+
+    def bend_cost(self, bend: Reals) -> float:
+        """How unlikely a bend is: by its size, and by its distance from the outline."""
+        away = np.log1p((self._outline_rest(bend) / _EDGE_NOISE) ** 2).sum()
+        return float((bend**2).sum() + _EDGE * _EDGE_NOISE**2 * away)
+
+    def _outline_rest(self, bend: Reals) -> Reals:
+        shifts, apart = self.outline
+        return np.asarray(apart - row_sums(shifts.T, bend))
+
+    @cached_property
+    def outline(self) -> tuple[Reals, Reals]:
+        """Places along the flag's edges: their `bend_shifts` across the edge [BENDS, m], and how
+        far from the straight edge each is seen [texels], [m].
+
+        There are none where no flag before a background of one colour is seen between the corners.
         """
         part = flag_part(self.picture)
-        bend = np.zeros(bend_count())
+        nothing = np.zeros((bend_count(), 0)), np.zeros(0)
         if part is None:
-            return bend
+            return nothing
         u = np.linspace(-_AROUND, 1 + _AROUND, int(20 * (1 + 2 * _AROUND) * WIDTH))
         v = np.linspace(-_AROUND, 1 + _AROUND, int(10 * (1 + 2 * _AROUND) * HEIGHT))
         across, down = np.meshgrid(u, v)
@@ -132,23 +171,18 @@ class PhotoView:
         seen = part[line, column]
         inside = (np.abs(across - 0.5) < 0.5) & (np.abs(down - 0.5) < 0.5)
         if (seen & inside).sum() < _OUTLINED * (seen | inside).sum():
-            return bend
-        rows = np.flatnonzero((v > 0.05) & (v < 0.95) & seen.any(axis=1))
-        columns = np.flatnonzero((u > 0.1) & (u < 0.9) & seen.any(axis=0))
+            return nothing
+        rows = np.flatnonzero((v > 0.05) & (v < 0.95) & seen.any(axis=1))[::_EVERY]
+        columns = np.flatnonzero((u > 0.1) & (u < 0.9) & seen.any(axis=0))[::_EVERY]
         left = u[seen[rows].argmax(axis=1)]
         right = u[len(u) - 1 - seen[rows][:, ::-1].argmax(axis=1)] - 1
         low = v[len(v) - 1 - seen[:, columns][::-1].argmax(axis=0)] - 1
         # The upper edge hangs on a bar, which is not told from the flag; it is taken as straight.
         sides = bend_shifts(np.repeat([0.0, 1.0], len(rows)), np.tile(v[rows], 2))[:, 0]
         ends = bend_shifts(np.tile(u[columns], 2), np.repeat([0.0, 1.0], len(columns)))[:, 1]
-        shifts = np.concatenate([sides, ends], axis=1)
         straight = np.zeros(len(columns))
         apart = np.concatenate([left * WIDTH, right * WIDTH, straight, low * HEIGHT])
-        weights = np.full(len(apart), _EDGE)
-        for _ in range(3):
-            bend = least_squares(shifts, apart, weights, np.ones(len(bend)))
-            weights = _EDGE / (1 + (apart - row_sums(shifts.T, bend)) ** 2)
-        return bend
+        return np.concatenate([sides, ends], axis=1), apart
 
 
 def _grid(samples: int, margin: float) -> tuple[Reals, Reals]:
@@ -228,11 +262,13 @@ def flag_part(picture: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
     for channel, level in enumerate(background):  # a copy of all channels takes much memory
         apart |= np.abs(picture[..., channel] - level) > _APART
     parts, count = label(apart)
-    sizes = np.bincount(parts.ravel(), minlength=count + 1)
+    if not count:
+        return None
+    sizes = np.bincount(parts.ravel())
     sizes[0] = 0
     part = binary_fill_holes(parts == sizes.argmax())
     # What is narrower than a sixth of the flag goes: the pole below it.
-    width = int(np.median(part.sum(axis=1)[part.any(axis=1)])) if count else 0
+    width = int(np.median(part.sum(axis=1)[part.any(axis=1)]))
     if width >= MIN_SIDE:
         part = binary_opening(part, np.ones((1, max(width // 6, 1)), bool))
     return part if part.sum() > MIN_SIDE**2 else None

@@ -30,6 +30,8 @@ from drapery.match.smooth import Reals, least_squares, row_sums
 from drapery.option import within
 from drapery.packs import PackLike, open_packs
 
+_LOWERED = (0.0, 2.5, -2.5)
+"""How much lower than its outline tells the middle of the flag may be [texels]."""
 _GAINS = (0.7, 0.78, 0.86)
 """Even lights that the search begins with."""
 _METRICS = (MEASURED, PERCEIVED)
@@ -58,10 +60,18 @@ _COARSELY: _Way = _COARSE, _STIFF
 _WAYS: tuple[_Way, ...] = (_COARSELY, (_DOWNWARDS, _SOFT))
 _EACH = 2
 """With how many designs of each number of layers the photo is aligned."""
-_STARTS, _TURNS = 3, 6
-"""How many designs are refined, and how often at most the best one is."""
-_THINNED = 2
-"""How many designs with a layer less are refined in each turn."""
+_TURNS = 6
+"""How often at most the best design is refined."""
+_WELL = 1500.0
+"""No search from other bends follows when the error is below this."""
+_CLOSE = 1.3
+"""Designs are refined whose errors are less than so many times the best one's."""
+_OTHERS = 6
+"""How many other layers are tried in place of each one of a design."""
+_ALIGNED = 8
+"""With how many of them the photo is aligned."""
+_NEAR = 2
+"""How many of them are refined."""
 _DESCENTS = 2
 """How many designs are improved layer by layer after each search."""
 _WIDTH = 6
@@ -127,29 +137,46 @@ class _PhotoSearch:
 
     def run(self) -> None:
         """Find designs, and better ones until there are none."""
-        self.start()
-        self.align()
-        for stack in self.distinct(_STARTS):
-            self.refine(stack)
+        outline, *others = (self.view.outline_bend(lowered) for lowered in _LOWERED)
+        if outline.any():
+            others.append(np.zeros(bend_count()))
+        searches = [self.started(outline, _GAINS)]
+        if searches[0].error > _WELL:
+            searches += [self.started(bend, _GAINS[1:2]) for bend in others]
+        limit = _CLOSE * min(search.error for search in searches)
+        for search in searches:
+            if search.error < limit:
+                search.refine(search.best()[0])
+            for stack, fit in search.fits.items():
+                self._keep(stack, fit)
+        self.improve()
+
+    def started(self, bend: Reals, gains: Sequence[float]) -> "_PhotoSearch":
+        """Designs found in even lights, with the cloth bent in one way; the best are refined."""
+        found = replace(self, fits={})
+        seen = seen_face(self.view.face(bend))
+        for gain, metric in product(gains, _METRICS):
+            _, quick = self._goals(seen, np.full((HEIGHT * WIDTH, 3), gain), metric)
+            stacks = [grown[0] for grown in quick.grow(self.layers, 2 * _WIDTH)]
+            found._put(seen, bend, [*stacks, quick.descend(stacks[-1])])
+        found.align()
+        for stack in found.distinct(len(gains)):
+            found.refine(stack)
+        return found
+
+    def improve(self) -> None:
+        """Refine the best design and those near it until nothing is better."""
         for _ in range(_TURNS):
             before, best = self.error, self.best()[0]
-            for stack in [*self.thin(best), best]:
+            near = [one for one in self.near(best) if self.fits[one].error < _CLOSE * before]
+            for stack in [*near, best]:
                 self.refine(stack)
             if self.error > before - _LITTLE:
                 break
-        self.vary(self.best()[0])
-
-    def start(self) -> None:
-        """Find designs in even lights, with the cloth bent as its outline is, and flat."""
-        flat, outline = np.zeros(bend_count()), self.view.outline_bend()
-        starts = list(product((outline,), _GAINS, _METRICS))
-        if outline.any():
-            starts += product((flat,), _GAINS[1:2], _METRICS)
-        for bend, gain, metric in starts:
-            seen = seen_face(self.view.face(bend))
-            _, quick = self._goals(seen, np.full((HEIGHT * WIDTH, 3), gain), metric)
-            stacks = [grown[0] for grown in quick.grow(self.layers, 2 * _WIDTH)]
-            self._put(seen, bend, [*stacks, quick.descend(stacks[-1])])
+        best = self.best()[0]
+        fit = self.fits[best]
+        goal, _ = self._goals(fit.seen, fit.light)
+        self._put(fit.seen, fit.bend, goal.varied(best, 1))
 
     def refine(self, stack: Stack) -> None:
         """Align the photo with a design, and search for better designs in its light."""
@@ -163,17 +190,6 @@ class _PhotoSearch:
             best = sorted(near, key=lambda one: near[one])[:_DESCENTS]
             self._put(seen, bend, [goal.reordered(goal.descend(one)) for one in best])
 
-    def vary(self, stack: Stack) -> None:
-        """Try the next best layer in place of each one of a design."""
-        fit = self.fits[stack]
-        goal, _ = self._goals(fit.seen, fit.light, MEASURED)
-        base, layers = stack
-        for place, layer in enumerate(layers):
-            table = goal.choices(goal.below(base, layers[:place]), goal.over(layers[place + 1 :]))
-            table[layer] = np.iinfo(table.dtype).max
-            other = divmod(int(table.argmin()), table.shape[1])
-            self._put(fit.seen, fit.bend, [(base, (*layers[:place], other, *layers[place + 1 :]))])
-
     def best(self) -> list[Stack]:
         """The designs, best first."""
         return sorted(self.fits, key=lambda stack: (self.fits[stack].error, stack))
@@ -186,13 +202,21 @@ class _PhotoSearch:
             if counts[len(stack[1])] <= _EACH:
                 self._realign(stack, self.fits[stack])
 
-    def thin(self, stack: Stack) -> list[Stack]:
-        """The best designs that have one layer less, aligned: it may only hide other faults."""
+    def near(self, stack: Stack) -> list[Stack]:
+        """The best designs that have one layer less or one other layer, aligned.
+
+        A layer may only hide other faults, and two orders of layers may differ little.
+        """
         fit, (base, layers) = self.fits[stack], stack
-        fewer = [(base, (*layers[:n], *layers[n + 1 :])) for n in range(len(layers))]
-        for one in fewer:
+        _, quick = self._goals(fit.seen, fit.light)
+        found = map(quick.reordered, quick.varied(stack, _OTHERS))
+        errors = {quick.error(other): other for other in found}
+        others = [errors[error] for error in sorted(errors)[:_ALIGNED]]
+        others += [(base, (*layers[:n], *layers[n + 1 :])) for n in range(len(layers))]
+        for one in others:
             self._realign(one, fit)
-        return sorted(fewer, key=lambda one: self.fits[one].error)[:_THINNED]
+        known = dict.fromkeys(one for one in others if one != stack)
+        return sorted(known, key=lambda one: self.fits[one].error)[:_NEAR]
 
     def _realign(self, stack: Stack, fit: _Fit, ways: tuple[_Way, ...] = (_COARSELY,)) -> None:
         """Align the photo with a design. fit: that of this design, or of a similar one."""
@@ -257,7 +281,7 @@ class _PhotoSearch:
     def _fit(self, seen: SeenFace, bend: Reals, stack: Stack, light: Reals | None = None) -> _Fit:
         face = self._paint(stack)
         light = seen.light_on(face) if light is None else light
-        bent = float((bend**2).sum())
+        bent = self.view.bend_cost(bend)
         tint = light[0] / light[0].mean()
         cost = _LAYER * len(stack[1]) + _BENT * bent + _TINTED * float(tint.max() - tint.min())
         return _Fit(seen, light, bend, seen.error(face, light) + cost)
@@ -283,7 +307,13 @@ def _aligned(
         rows = (shifts[:, 0] * slopes[0] + shifts[:, 1] * slopes[1]).reshape(len(bend), -1)
         # The whole bend is fitted, not the step, so that it is the bend that resists.
         whole = rest.ravel() + row_sums(rows.T, bend)
-        bend = least_squares(rows, whole, np.repeat(weights, 3), resists)
+        edges, apart = view.outline
+        bend = least_squares(
+            np.concatenate([rows, edges], axis=1),
+            np.concatenate([whole, apart]),
+            np.concatenate([np.repeat(weights, 3), stiffness * view.outline_weights(bend)]),
+            resists,
+        )
     return bend
 
 

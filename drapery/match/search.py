@@ -123,7 +123,7 @@ class Matcher:
             if alternatives == 1:
                 yield MatchProgress(1.0, pool.matches())
                 return
-        steps = layers + 1 + alternatives + effort
+        steps = layers + 2 + alternatives + effort
         for number, _ in enumerate(_improved(goal, pool, layers, alternatives, effort), 1):
             yield MatchProgress(min(number / steps, 1.0), pool.matches())
         yield MatchProgress(1.0, pool.matches())
@@ -220,6 +220,11 @@ def _improved(
         if pool.add(tried) <= 1.01 * goal.error(now) or rng.random() < 0.03:
             now = tried
         yield
+    # What was found on the way to the best one may be much worse than what is next to it.
+    if alternatives > 1:
+        for stack in goal.varied(pool.best()[0], alternatives - 1):
+            pool.add(stack)
+    yield
 
 
 def _kicked(stack: Stack, most: int, art: FaceArt, rng: np.random.Generator) -> Stack:
