@@ -86,7 +86,7 @@ def main() -> int:
     parser.add_argument(
         "--slowest",
         type=float,
-        default=fuzzing.MAX_SECONDS,
+        default=1.0,
         help="processor time that one input may take [s]; other work on the machine adds to it",
     )
     parser.add_argument("--save", type=Path, help="folder for the inputs that failed")

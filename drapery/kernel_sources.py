@@ -2,9 +2,11 @@
 
 import hashlib
 import inspect
+import os
 import sys
 from collections.abc import Callable
 from functools import cache
+from itertools import chain
 from pathlib import Path
 
 SIMD = "DRAPERY_SIMD"
@@ -26,8 +28,11 @@ def package_of(function: Callable[..., object]) -> str:
 
 @cache
 def _sources_of(package: str) -> list[Path]:
-    folders = [Path(folder) for folder in getattr(sys.modules[package], "__path__", [])]
-    found = sorted(path for folder in folders for path in folder.rglob("*.py"))
+    folders = getattr(sys.modules[package], "__path__", [])
+    walks = chain.from_iterable(map(os.walk, folders))  # faster than `Path.rglob`
+    found = sorted(
+        Path(folder, name) for folder, _, names in walks for name in names if name.endswith(".py")
+    )
     shared = [Path(__file__).with_name(name) for name in ("jit.py", "jit_calls.py")]
     return [*found, *shared] if found else []
 

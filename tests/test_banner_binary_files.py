@@ -14,12 +14,13 @@ from hypothesis import strategies as st
 from world_maker import LIME, PLAIN, RED, SHIELD
 
 from drapery.banner.design import Banner
-from drapery.banner.formats import FoundBanner, read_design
+from drapery.banner.formats import FoundBanner
 from drapery.banner.formats.binary import BINARY_FORMS
 from drapery.banner.formats.files import banners_in, find_in_bytes, is_binary
 from drapery.banner.formats.lz4 import unlz4
 from drapery.banner.formats.palettes import bits_for, packed_pieces, unpack, varint_pieces
 from drapery.banner.formats.tree import OMINOUS
+from drapery.banner.plain import read_design
 from drapery.errors import DesignError
 
 STANDING = {

@@ -92,7 +92,7 @@ GOOD = '{pattern:"creeper",color:"lime"}'
     ],
 )
 def test_a_fault_is_named_with_its_place_and_remedy(text: str, parts: list[str]):
-    from drapery.banner.formats import read_design
+    from drapery.banner.plain import read_design
 
     with pytest.raises(DesignError) as caught:
         read_design(text)

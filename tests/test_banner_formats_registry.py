@@ -8,14 +8,17 @@ from pathlib import Path
 import pytest
 
 from drapery.banner.design import Banner
+from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.formats import (
     FoundBanner,
     find_banners,
     parse_banner,
     parse_banners,
-    read_design,
     read_designs,
+    recognise,
 )
+from drapery.banner.patterns import PATTERN_NAMES
+from drapery.banner.plain import plain_design, read_design
 from drapery.errors import DesignError
 
 pytestmark = pytest.mark.usefixtures("untraced_processes")
@@ -148,7 +151,7 @@ def test_names_of_blocks_in_a_palette_are_not_banners():
 def test_shorthand_and_json_load_no_grammar():
     code = (
         "import sys; from drapery.banner.formats import parse_banner;"
-        "parse_banner('white cross:red'); parse_banner('{\"base\": \"red\"}');"
+        "parse_banner('White cross:red'); parse_banner('{\"base\": \"red\"}');"
         "sys.exit(any(m in sys.modules for m in ('lark', 'nbtlib', 'numpy')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
@@ -156,7 +159,7 @@ def test_shorthand_and_json_load_no_grammar():
 
 @pytest.mark.parametrize("module", ["drapery", "drapery.banner", "drapery.banner.design"])
 def test_a_banner_parses_texts_whatever_is_imported_first(module: str):
-    code = f"from {module} import Banner; print(Banner.parse('white cross:red').layers[0].dye)"
+    code = f"from {module} import Banner; print(Banner.parse('White cross:red').layers[0].dye)"
     run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert run.stdout == "red\n"
 
@@ -165,3 +168,43 @@ def test_a_folder_does_not_hide_a_word(tmp_path: Path, monkeypatch: pytest.Monke
     (tmp_path / "red").mkdir()
     monkeypatch.chdir(tmp_path)
     assert read_designs("red")[0].banner == RED
+
+
+def test_a_plain_design_is_what_the_forms_read():
+    """It is read without them, so no form may read it otherwise."""
+    texts = [
+        f"{dye} {p}:{dye} border:black" for p in PATTERN_NAMES for dye in ("red", "light_blue")
+    ]
+    for text in (*DYE_NAMES, *texts, " ".join(["white", *["border:lime"] * 16])):
+        assert plain_design(text) == parse_banner(text), text
+        assert recognise(text).name == "text", text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "white ",
+        "white  border:lime",
+        "White",
+        "minecraft:white border:lime",
+        "white cre:lime",
+        "white border:lime:1",
+        "white border",
+        " ".join(["white", *["border:lime"] * 17]),
+    ],
+)
+def test_any_other_text_is_left_to_the_forms(text: str):
+    assert plain_design(text) is None
+
+
+def test_a_plain_design_is_the_file_of_that_name_if_there_is_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.chdir(tmp_path)
+    assert read_design("red") == RED
+    (tmp_path / "red").write_text("blue")
+    assert read_design("red") == BLUE
+    assert (
+        len(read_design(" ".join(["white", *["square_bottom_left:light_blue"] * 16])).layers) == 16
+    )

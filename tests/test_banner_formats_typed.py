@@ -7,9 +7,10 @@ from conftest import Run
 
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
-from drapery.banner.formats import parse_banner, parse_banners, read_design
+from drapery.banner.formats import parse_banner, parse_banners
 from drapery.banner.formats.languages import Language, _possible, known_languages
 from drapery.banner.patterns import PATTERN_NAMES
+from drapery.banner.plain import read_design
 from drapery.errors import DesignError
 
 RED_CREEPER = Banner.parse("red creeper:white border:black")

@@ -103,7 +103,9 @@ def test_the_command_prints_draws_and_writes_blocks(drapery: Run, tmp_path: Path
     code, out, _ = drapery("letters", "hi", "--as", "give")
     assert code == 0 and len(out.splitlines()) == 2 and out.startswith("/give")
     picture, blocks = tmp_path / "row.png", tmp_path / "row.schem"
-    assert drapery("letters", "HI", "-o", picture, "--scale", 1)[0] == 0 and picture.exists()
+    assert drapery("letters", "HI", "-o", picture, "--scale", 1) == (0, "", "")
+    assert picture.exists()
+    assert drapery("letters", "hi", "-o", picture, "--scale", 1, "--as", "give") == (0, out, "")
     assert drapery("letters", "HI", "-o", blocks)[0] == 0
     assert [found.banner for found in read_designs(str(blocks))] == list(letter_banners("HI"))
 

@@ -11,7 +11,7 @@ from conftest import Run
 from cost import limited_cost
 
 from drapery import settings
-from drapery.cli import app
+from drapery.cli import command_line
 from drapery.cloth import Drag, Fabric, Gravity, SolverXPBD, Wind
 from drapery.errors import OptionError
 from drapery.option import Option, limits, one_of, shown, whole, within
@@ -74,7 +74,7 @@ def test_help_is_a_sentence_with_the_limits(option: Option) -> None:
 
 
 def commands() -> dict[str, Any]:
-    found: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+    found: dict[str, Any] = typer.main.get_command(command_line()).commands  # type: ignore[attr-defined]
     return found
 
 

@@ -15,6 +15,7 @@ used.
 from typing import TYPE_CHECKING
 
 from drapery.banner.design import use_parser
+from drapery.banner.plain import parse_design
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from drapery.banner.formats.found import FoundBanner, find_banners
     from drapery.banner.formats.give_details import GIVE_FORMS, ItemDetails, write_give
     from drapery.banner.formats.languages import game_languages, game_titles
-    from drapery.banner.formats.reading import read_design, read_designs
+    from drapery.banner.formats.reading import read_designs
     from drapery.banner.formats.registry import (
         FORMS,
         binary_forms,
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from drapery.banner.loom import LoomStep, fits_loom, loom_steps, simplify
     from drapery.banner.names import dye_name, pattern_id
     from drapery.banner.patterns import PATTERN_NAMES, PATTERNS, Pattern
+    from drapery.banner.plain import read_design
     from drapery.banner.sprites import (
         FLAG_REGIONS,
         SHIELD_REGIONS,
@@ -117,7 +119,7 @@ __getattr__, __dir__ = lazy_names(
         "banner.formats.give_details": ("GIVE_FORMS", "ItemDetails", "write_give"),
         "banner.formats.languages": ("game_languages", "game_titles"),
         "banner.formats.studio_link": ("hidden_layers", "pack_link", "unpack_link"),
-        "banner.formats.reading": ("read_design", "read_designs"),
+        "banner.formats.reading": ("read_designs",),
         "banner.formats.registry": (
             "FORMS",
             "binary_forms",
@@ -132,6 +134,7 @@ __getattr__, __dir__ = lazy_names(
         "banner.loom": ("LoomStep", "fits_loom", "loom_steps", "simplify"),
         "banner.names": ("dye_name", "pattern_id"),
         "banner.patterns": ("PATTERNS", "PATTERN_NAMES", "Pattern"),
+        "banner.plain": ("read_design",),
         "banner.sprites": (
             "FLAG_REGIONS",
             "SHIELD_REGIONS",
@@ -145,11 +148,4 @@ __getattr__, __dir__ = lazy_names(
 )
 
 
-def _parse(text: str) -> "Banner":
-    # The forms are imported when the first text is read: they take a while.
-    from drapery.banner.formats.registry import parse_banner
-
-    return parse_banner(text)
-
-
-use_parser(_parse)
+use_parser(parse_design)

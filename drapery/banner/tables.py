@@ -12,7 +12,7 @@ from drapery.banner.formats import (
     planet_minecraft,
     urls,
 )
-from drapery.banner.formats.tree import OMINOUS
+from drapery.banner.formats.tree import OLD_BANNERS, OMINOUS, base_of
 from drapery.banner.names import dye_aliases, pattern_aliases
 from drapery.banner.patterns import BY_CODE
 
@@ -22,13 +22,16 @@ _Names = Iterable[tuple[str, str]]
 def reader_tables() -> dict[str, Any]:
     """Names and codes of dyes, patterns and links, as JSON can hold them.
 
-    dyes: the names by number. rgb: of each dye, 8-bit sRGB. dyeNames, patterns: from every name,
-    spelt as ids are, to the id. bukkit: names of the server API that are read only in capitals.
-    ominous: the illagers' banner. sites: how the links of editors are read, see `_site`.
+    dyes: the names by number. rgb: of each dye, 8-bit sRGB. items: from every id of an item or
+    block to the kind of its design and its base dye, which old ids and shields do not name.
+    dyeNames, patterns: from every name, spelt as ids are, to the id. bukkit: names of the server
+    API that are read only in capitals. ominous: the illagers' banner. sites: how the links of
+    editors are read, see `_site`.
     """
     return {
         "dyes": list(DYE_NAMES),
         "rgb": {name: list(dye.rgb) for name, dye in DYES.items()},
+        "items": _items(),
         "dyeNames": dye_aliases(),
         "patterns": pattern_aliases(),
         "bukkit": {"DIAGONAL_RIGHT": "diagonal_up_right"},
@@ -36,6 +39,12 @@ def reader_tables() -> dict[str, Any]:
         "maxLayers": MAX_LAYERS,
         "sites": [_planet_minecraft(), _needcoolshoes(), _minecraft_tools(), _gamergeeks()],
     }
+
+
+def _items() -> dict[str, tuple[str, str | None]]:
+    named = [f"{dye}{kind}_banner" for dye in (*DYE_NAMES, "silver") for kind in ("", "_wall")]
+    banners = [*named, *sorted(OLD_BANNERS)]
+    return {**{name: ("banner", base_of(name)) for name in banners}, "shield": ("shield", None)}
 
 
 def _site(

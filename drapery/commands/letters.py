@@ -27,8 +27,14 @@ def run(
         ),
     ] = None,
     written: Annotated[
-        str, typer.Option("--as", metavar="FORM", help="The form to print: text, give, json, ...")
-    ] = "text",
+        str | None,
+        typer.Option(
+            "--as",
+            metavar="FORM",
+            help="The form to print: text, give, json, ...",
+            show_default="text, or nothing with -o",
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -67,10 +73,9 @@ def run(
         background=background,
         backend=backend,
     )
-    lines = [write_banner(banner, written) for banner in banners]
-    if out is None:
-        print("\n".join(lines))
-    elif not _wrote_blocks(banners, out):
+    if out is None or written is not None:
+        print("\n".join(write_banner(banner, written or "text") for banner in banners))
+    if out is not None and not _wrote_blocks(banners, out):
         if cloth:
             with compile_notice():
                 cloth_row(banners, chosen).save(out)

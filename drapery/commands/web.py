@@ -26,7 +26,8 @@ def run(
         ),
     ] = False,
     gallery: Annotated[
-        bool, typer.Option("--gallery", help="Write a page of banners and a cape in many options.")
+        bool,
+        typer.Option("--gallery", help="Write a page of banners, capes and players."),
     ] = False,
     size: o.SizeOption = SIZE,
     **words: Any,

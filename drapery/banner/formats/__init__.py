@@ -1,7 +1,7 @@
 """The text and file forms of a banner, one module for each form."""
 
 from drapery.banner.formats.found import FoundBanner, find_banners
-from drapery.banner.formats.reading import read_design, read_designs
+from drapery.banner.formats.reading import read_designs
 from drapery.banner.formats.registry import (
     FORMS,
     parse_banner,
@@ -16,7 +16,6 @@ __all__ = [
     "find_banners",
     "parse_banner",
     "parse_banners",
-    "read_design",
     "read_designs",
     "recognise",
     "write_banner",

@@ -7,13 +7,11 @@ import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
-from drapery.banner.design import Banner
 from drapery.banner.formats.form import BinaryForm
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.registry import (
     FORMS,
     binary_forms,
-    choose_banner,
     parse_all,
     parse_banners,
     some_of,
@@ -42,17 +40,6 @@ _SUFFIXES = tuple(
     )
 )
 """Of the files that are read in a folder."""
-
-
-def read_design(
-    source: str | Path, *, form: str | None = None, number: int | None = None
-) -> Banner:
-    """The banner of a text, of a file if a file of that name exists, or of standard input ("-").
-
-    form, number: as in `parse_banner`. Raises DesignError as `parse_banner` does, and for files
-    that cannot be read.
-    """
-    return choose_banner(read_designs(source, form=form), number)
 
 
 def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBanner]:

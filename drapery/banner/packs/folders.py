@@ -3,10 +3,12 @@
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
+from drapery import assets
 from drapery.banner.packs.checks import IGNORED_NAMES, MAX_FILES, ROOTS, listed, reason, within
 from drapery.errors import PackError
 
@@ -36,7 +38,14 @@ class OwnArt:
 
     def _node(self, name: str) -> Traversable | None:
         top, *parts = name.split("/")
-        return files("drapery.assets").joinpath(*parts) if top == "assets" else None
+        return _own_folder().joinpath(*parts) if top == "assets" else None
+
+
+@cache
+def _own_folder() -> Traversable:
+    """A plain path where there is one: `files` imports zipfile and more."""
+    folder = Path(str(assets.__file__)).parent
+    return folder if folder.is_dir() else files("drapery.assets")
 
 
 @dataclass(frozen=True)
