@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from drapery import animate, draw
-from drapery.cli import app
+from drapery.cli import command_line
 from drapery.errors import OptionError
 from drapery.garments import dressed_player, find_garment, make_wearer, motion_names, tailor
 from drapery.garments.motions import MAX_BYTES, KeyPose, Motion, bone_poses, find_motion
@@ -261,7 +261,7 @@ def test_the_table_of_options_knows_all_motions() -> None:
 
 
 def command(*words: object) -> None:
-    app([str(word) for word in words], standalone_mode=False)
+    command_line()([str(word) for word in words], standalone_mode=False)
 
 
 def test_the_command_draws_a_player(tmp_path: Path) -> None:

@@ -91,7 +91,7 @@ def site(
     design = Banner.parse("white creeper:lime border:black")
     write_page(folder / "banner.html", design, playable(size=(320, 480)))
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(page, "POSES", ())
+        patched.setattr(page, "POSES", {})
         write_component(folder, playable(size=(320, 480)))
     (folder / "many.html").write_text(MANY, encoding="utf-8")
     (folder / "lost.html").write_text(LOST, encoding="utf-8")
@@ -222,6 +222,24 @@ def test_the_pointer_pulls_the_cloth_and_turns_the_background(chromium: Any, sit
     wait_until(lambda: changes(chromium, still))
 
 
+FAULTS = (
+    "window.faults = []; addEventListener('drapery-error', (event) => faults.push(event.detail))"
+)
+
+
+def test_a_wrong_value_is_told_once_for_each_time_it_is_set(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/many.html", moves=False)
+    chromium.execute_script(FAULTS)
+    wrong = ("design", "paisley"), ("wind", "strong"), ("direction", "90"), ("alt", "Cloth")
+    for name, value in wrong:
+        chromium.execute_script(f"{ELEMENT}.setAttribute('{name}', '{value}')")
+        chromium.execute_script(f"{ELEMENT}.paused = !{ELEMENT}.paused")
+    ActionChains(chromium).move_to_element(element(chromium)).move_by_offset(20, 0).perform()
+    design, wind = chromium.execute_script("return faults")
+    assert "unknown dye 'paisley'" in design
+    assert wind == 'drapery: wind="strong" is not a number; write wind="4"'
+
+
 def test_attributes_change_what_is_shown(chromium: Any, site: str) -> None:
     open_site(chromium, f"{site}/many.html", moves=False)
     red = first_picture(chromium)
@@ -286,6 +304,29 @@ def test_all_elements_of_a_page_share_a_context_and_rest_out_of_sight(
     wait_until(lambda: changes(chromium, hidden, below))
     chromium.execute_script("document.querySelector('main').replaceChildren()")
     assert [line for line in warnings(chromium) if "plaid" not in line] == []
+
+
+def test_elements_of_all_sizes_have_the_pixels_of_the_screen(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/many.html", moves=False)
+    blue, below = "document.querySelector('[kind=wall]')", "document.getElementById('below')"
+    for element in (blue, below):
+        wait_until(lambda element=element: is_live(chromium, element))
+    whole = first_picture(chromium, blue)
+    assert whole.shape == (336, 224, 4)
+    chromium.execute_script(f"{below}.style.inlineSize = '90px'; {blue}.after({below})")
+    wait_until(lambda: picture(chromium, below).shape == (135, 90, 4))
+    wait_until(lambda: picture(chromium, below)[..., 3].any())
+    drawn = "arguments[0](1)"
+    chromium.execute_async_script(f"{blue}.snapshot().then(() => {drawn})")
+    alone = picture(chromium, blue).astype(float)
+    assert abs(alone - whole).mean() < 0.5, "it looks the same alone and beside others"
+    metrics = {"width": 1280, "height": 900, "deviceScaleFactor": 2, "mobile": False}
+    chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    try:
+        chromium.execute_async_script(f"{blue}.snapshot().then(() => {drawn})")
+        assert picture(chromium, blue).shape == (672, 448, 4)
+    finally:
+        chromium.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
 @pytest.mark.parametrize(

@@ -39,7 +39,7 @@ def players(playable: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator
     folder: Path = tmp_path_factory.mktemp("players")
     settings: Settings = playable(size=(320, 480))
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(page, "POSES", ("walk",))
+        patched.setattr(page, "POSES", {"walk": 1.5})
         page.write_component(folder, settings)
     cape, skin = np.zeros((32, 64, 4), np.uint8), np.full((64, 64, 4), 255, np.uint8)
     cape[:] = 200, 0, 200, 255

@@ -35,6 +35,8 @@ TYPED = (
     "ominous banner",
     "pink acme:anvil/two:red",
     "white Per Fess Inverted:blue Base:red",
+    '{"base": 0, "layers": []}',
+    '{"banner_color": 0}',
 )
 WRITTEN = (
     "give @s white_banner",
@@ -83,6 +85,7 @@ REFUSED = (
     '{"base": "white", "layers": [3]}',
     '{"base": "white", "layers": [{"pattern": "creeper", "color": 2.5}]}',
     '{"layers": []}',
+    '{"layers": [{"pattern": "creeper", "color": "lime"}]}',
     '{"base": "red", "kind": "flag"}',
     '{"id": "minecraft:stone"}',
     '{"base": "red"} red',

@@ -46,7 +46,7 @@ def examples(
     """The address of a folder with the examples, a gallery and a page of one file."""
     folder = tmp_path_factory.mktemp("examples")
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(page, "POSES", ())  # players need other kernels
+        patched.setattr(page, "POSES", {})  # players need other kernels
         write_component(folder / "drapery-banner", playable())
     shutil.copy(EXAMPLES / "plain.html", folder)
     for source in (EXAMPLES / "react.jsx", EXAMPLES / "vue.js"):

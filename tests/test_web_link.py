@@ -8,6 +8,7 @@ from urllib.parse import quote
 from studio_browser import WIDE, resize, wait_until
 
 from drapery import Banner
+from drapery.banner import alt_text
 from drapery.settings import Settings
 from drapery.studio.embeds import EmbedPlaces, page_link
 from drapery.web.page import write_page
@@ -41,6 +42,7 @@ def test_a_link_shows_its_design_and_a_wrong_one_says_why(
     assert asked("!fault.hidden")
     own = "document.querySelector('drapery-banner').getAttribute('design')"
     wait_until(lambda: asked(own) == "white creeper:lime border:black")
+    wait_until(lambda: chromium.title == label() == alt_text(OWN))
     chromium.execute_script("location.hash = ''")
     wait_until(lambda: asked("fault.hidden") and chromium.title == label() != "")
     assert "creeper" in label().lower()

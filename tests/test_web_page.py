@@ -30,7 +30,7 @@ Playable = Callable[..., Settings]
 
 def files_of(text: str) -> dict[str, bytes]:
     """The files in a page, by name."""
-    found = re.findall(r'data-drapery="([\w.]+)">([^<]*)</script>', text)
+    found = re.findall(r'data-drapery="([\w.-]+)">([^<]*)</script>', text)
     return {name: gzip.decompress(base64.b64decode(data)) for name, data in found}
 
 
@@ -99,7 +99,7 @@ def test_a_page_has_all_that_it_needs(playable: Playable) -> None:
 def test_a_package_names_its_files(
     playable: Playable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(page, "POSES", ("sneak",))
+    monkeypatch.setattr(page, "POSES", {"sneak": 0.0})
     page.write_component(tmp_path / "dist", playable())
     found = {path.name for path in (tmp_path / "dist").iterdir()}
     package = json.loads((tmp_path / "dist" / "package.json").read_text())
@@ -126,11 +126,14 @@ def test_what_a_page_cannot_show_is_refused(
 
 
 def test_a_gallery_has_a_scene_and_a_command_for_each_item(playable: Playable) -> None:
-    items = [item for item in ITEMS if item.name in ("wall", "cape", "gale")]
+    items = [item for item in ITEMS if item.name in ("wall", "cape", "gale", "elytra-sneak")]
     text = gallery_text(playable(), items)
-    assert set(files_of(text)) == {"wall.bin", "cape.bin", "gale.bin", "cloth.bin"}
+    names = {"wall.bin", "cape.bin", "gale.bin", "elytra-sneak.bin", "cloth.bin"}
+    assert set(files_of(text)) == names
     assert text.count("<drapery-banner ") == 3 and 'kind="gale"' in text and 'wind="12"' in text
     assert "drapery web --texture cape.png --kind cape -o cape.html" in text
+    assert '<drapery-elytra alt="Elytra on a sneaking player" pose="sneak"><img' in text
+    assert "drapery player --elytra --motion sneak --speed 0 --rotation 7" in text
     with pytest.raises(OptionError, match=r"gallery, cape: pbr needs the renderer"):
         gallery_text(playable(pbr=True), items[1:2])
 

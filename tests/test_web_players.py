@@ -100,9 +100,13 @@ def test_a_scene_of_a_player_names_its_textures() -> None:
     settings = garment.settings(solver="desbrun", size=(96, 128))
     packs = open_packs(())
     header, arrays = unpack(gzip.decompress(garment_scene_bytes(garment, packs, settings)))
-    (start, count), grip = header["figure"], header["grip"]
-    assert start + count == grip[0][0] and len(grip) == 2 and len(arrays["plan1"]) > 1000
-    assert header["textures"]["skin"] == {"vertices": [start], "area": [0, 0, 64, 64]}
+    *wings, (plan, start, count, *names) = header["moving"]
+    assert wings == [[n, *run, "vertices", "light"] for n, run in enumerate(header["grip"])]
+    assert (plan, names) == (0, ["figure", "figureLight"]) and start + count == wings[0][1]
+    assert len(wings) == 2 and len(arrays["plan1"]) > 1000
+    layers = arrays["layers"].reshape(-1, 7)
+    (skin,) = header["textures"]["skin"]["shown"]
+    assert [*layers[skin, 2:4]] == header["textures"]["skin"]["area"][2:] == [64, 64]
     assert header["textures"]["cape"]["area"] == [24, 2, 10, 20]
 
 

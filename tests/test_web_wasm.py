@@ -205,8 +205,14 @@ second.reset();
 second.step(600);
 found.push(digest(second), second.vertices.length, Math.max(...second.light) <= 1);
 second.free();
-const third = await Cloth.load(module, plan);
-found.push(third.place === second.place);
+second.free();
+const [third, fourth] = [await Cloth.load(module, plan), await Cloth.load(module, plan)];
+found.push(third.place === second.place, third.place === fourth.place);
+try {
+  second.step();
+} catch (error) {
+  found.push(error.constructor.name);
+}
 const refused = await Cloth.load(module, plan.subarray(9)).catch((error) => error.message);
 console.log(JSON.stringify([...found, refused]));
 """
@@ -234,5 +240,5 @@ def test_javascript_plays_many_cloths_in_one_memory(tmp_path: Path) -> None:
     assert json.loads(done.stdout) == [
         *(expected, 10, True),
         *(expected, vertices, True),
-        *(True, refused),
+        *(True, False, "TypeError", refused),
     ]

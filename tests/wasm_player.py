@@ -72,19 +72,19 @@ class WasmPlayer:
         self.run("aim")
 
     def run(self, purpose: str) -> None:
-        name, place = self.header["calls"][purpose]
+        name, place, _ = self.header["calls"][purpose]
         status = self._call(name, self.at + place)
         assert status == 0, f"{name} returned {status}"
         assert self._number(place, "<i8") == 0, f"{name} failed"
 
     def read(self, name: str) -> NDArray[Any]:
-        place, kind, count = self.header["fields"][name]
+        place, kind, count, _ = self.header["fields"][name]
         size = count * np.dtype(kind).itemsize
         found = self.memory.read(self.store, self.at + place, self.at + place + size)
         return np.frombuffer(bytes(found), kind)
 
     def write(self, name: str, *values: float) -> None:
-        place, kind, count = self.header["fields"][name]
+        place, kind, count, _ = self.header["fields"][name]
         assert len(values) == count
         self.memory.write(self.store, np.array(values, kind).tobytes(), self.at + place)
 

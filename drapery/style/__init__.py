@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from drapery.style.extrusion import Shell, boundary_edges, extrude, make_shell
     from drapery.style.kinds import Kind, body_of, check_kind
     from drapery.style.layers import flag_material
+    from drapery.style.skins import skin_tables
     from drapery.style.uv_mapping import BoxMapping, SheetMapping, UVMapping, box_mapping
 
 __all__ = [
@@ -50,6 +51,7 @@ __all__ = [
     "extrude",
     "flag_material",
     "make_shell",
+    "skin_tables",
     "turn",
 ]
 
@@ -62,6 +64,7 @@ __getattr__, __dir__ = lazy_names(
         "style.extrusion": ("Shell", "boundary_edges", "extrude", "make_shell"),
         "style.kinds": ("Kind", "body_of", "check_kind"),
         "style.layers": ("flag_material",),
+        "style.skins": ("skin_tables",),
         "style.uv_mapping": ("BoxMapping", "SheetMapping", "UVMapping", "box_mapping"),
     },
 )

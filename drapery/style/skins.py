@@ -7,7 +7,7 @@ A skin is 64 x 64 texels, or a multiple, with a second layer over each part. Unt
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -48,6 +48,21 @@ BASE = ((0, 0, 32, 16), (0, 16, 64, 32), (16, 48, 48, 64))
 HAT = (32, 0, 64, 32)
 EMPTY_OF_SLIM = (54, 20, 56, 32)
 """Texels that skins with slim arms leave transparent."""
+
+
+def skin_tables() -> dict[str, Any]:
+    """What a program needs to draw skins of all layouts, as JSON has it.
+
+    side: width and height of a skin [texels]. base, hat, emptyOfSlim: parts of it: left, top,
+    right, bottom [texels], of the first layer, of the second one over the head, and those that
+    slim arms leave transparent. moved: pairs of parts of old skins, of the right arm and leg and of
+    the left ones, whose columns count from the right.
+    """
+    moved = [
+        ((x, y, x + 4, y + height), (x + step + 4, y + 32, x + step, y + 32 + height))
+        for x, y, step, height in MIRRORED
+    ]
+    return {"side": SIDE, "base": BASE, "hat": HAT, "emptyOfSlim": EMPTY_OF_SLIM, "moved": moved}
 
 
 @dataclass(frozen=True, eq=False)

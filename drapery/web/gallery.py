@@ -10,14 +10,25 @@ from numpy.typing import NDArray
 
 from drapery.banner import Banner
 from drapery.errors import OptionError
+from drapery.garments import Garment
 from drapery.packs import Packs, open_packs
 from drapery.render import replacing
 from drapery.settings import Settings
-from drapery.web.page import kernel_file, picture_of, render_template
-from drapery.web.scene_file import scene_bytes
+from drapery.web.page import (
+    FROM_BEHIND,
+    POSES,
+    kernel_file,
+    picture_of,
+    posed_player,
+    render_template,
+    seen_settings,
+)
+from drapery.web.scene_file import garment_scene_bytes, scene_bytes
 
 SIZE = (200, 300)
 """Width and height of each element [pixels]."""
+WORN = {"cape": "--cape cape.png", "elytra": "--elytra"}
+"""What players of the gallery wear, and the option for it."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +36,8 @@ class GalleryItem:
     """An element of the gallery.
 
     name: of its scene's file. title: what is special. design: shorthand; "" for a cape.
-    options: of the picture. attributes: of the element.
+    options: of the picture. attributes: of the element. worn: a cape or elytra on a player in the
+    pose of the attributes; "" for other items.
     """
 
     name: str
@@ -33,10 +45,25 @@ class GalleryItem:
     design: str = ""
     options: Mapping[str, Any] = field(default_factory=dict)
     attributes: Mapping[str, str] = field(default_factory=dict)
+    worn: str = ""
+
+    @property
+    def garment(self) -> Garment | None:
+        """The player of the item, if it shows one."""
+        return posed_player(self.worn, self.attributes["pose"]) if self.worn else None
+
+    @property
+    def element(self) -> str:
+        """The name of its element."""
+        return f"drapery-{self.worn or 'banner'}"
 
     @property
     def command(self) -> str:
         """The command that writes a page of this scene."""
+        if self.worn:
+            worn, pose = WORN[self.worn], self.attributes["pose"]
+            moves = f"--motion {pose} --speed {POSES[pose]:g} --rotation {FROM_BEHIND}"
+            return f"drapery player {worn} {moves} -o {self.name}.html"
         given = {**self.options, **self.attributes}.items()
         words = [f"--{option} {value}" for option, value in given]
         shown = f"'{self.design}'" if self.design else "--texture cape.png"
@@ -60,8 +87,17 @@ ITEMS = (
     GalleryItem("breeze", "A light breeze", "light_blue rhombus:white", attributes={"wind": "2"}),
     GalleryItem("gale", "A gale", "black bricks:gray skull:white", attributes={"wind": "12"}),
     GalleryItem("iso", "From above", "yellow circle:red", {"view": "iso"}),
+    *(
+        GalleryItem(f"{worn}-{pose}", title, attributes={"pose": pose}, worn=worn)
+        for worn, pose, title in (
+            ("cape", "walk", "A cape on a walking player"),
+            ("cape", "run", "A cape on a running player"),
+            ("elytra", "stand", "Elytra on a standing player"),
+            ("elytra", "sneak", "Elytra on a sneaking player"),
+        )
+    ),
 )
-"""Each kind, placement and view, some fabrics, grounds and winds."""
+"""Each kind, placement and view, some fabrics, grounds and winds, and players in each pose."""
 
 
 def gallery_text(settings: Settings, items: Iterable[GalleryItem] = ITEMS) -> str:
@@ -74,15 +110,18 @@ def gallery_text(settings: Settings, items: Iterable[GalleryItem] = ITEMS) -> st
     shown: list[tuple[GalleryItem, dict[str, str], str]] = []
     files: dict[str, bytes] = {}
     for item in items:
-        design = Banner.parse(item.design) if item.design else None
+        subject = item.garment or (Banner.parse(item.design) if item.design else None)
         own = replace(settings, size=SIZE, **item.options)
-        if design is None:
+        if isinstance(subject, Garment):
+            own = seen_settings(subject, settings, SIZE)
+        elif subject is None:
             own = replace(own, texture=texture)
-        files |= _scene_file(item, design, packs, own)
-        attributes = {"kind": item.name, "alt": item.title, **item.attributes}
+        files |= _scene_file(item, subject, packs, own)
+        attributes = {} if item.worn else {"kind": item.name}
+        attributes |= {"alt": item.title, **item.attributes}
         if item.design:
             attributes["design"] = item.design
-        shown.append((item, attributes, picture_of(design, own)))
+        shown.append((item, attributes, picture_of(subject, own)))
     return render_template("gallery.html", items=shown, size=SIZE, files=files | kernel_file())
 
 
@@ -94,13 +133,17 @@ def _cape_texture() -> NDArray[np.uint8]:
 
 
 def _scene_file(
-    item: GalleryItem, design: Banner | None, packs: Packs, settings: Settings
+    item: GalleryItem, subject: Banner | Garment | None, packs: Packs, settings: Settings
 ) -> dict[str, bytes]:
-    patterns = [layer.pattern for layer in design.layers] if design else []
     try:
-        return {f"{item.name}.bin": scene_bytes(design, packs, settings, patterns)}
+        if isinstance(subject, Garment):
+            scene = garment_scene_bytes(subject, packs, settings)
+        else:
+            patterns = [layer.pattern for layer in subject.layers] if subject else []
+            scene = scene_bytes(subject, packs, settings, patterns)
     except OptionError as error:
         raise OptionError(f"gallery, {item.name}: {error}") from error
+    return {f"{item.name}.bin": scene}
 
 
 def write_gallery(path: Path, settings: Settings) -> None:

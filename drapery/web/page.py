@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from itertools import product
 from pathlib import Path
+from typing import Literal
 
 from drapery import draw
 from drapery.banner import PATTERN_NAMES, Banner, alt_text, write_banner
@@ -30,8 +31,10 @@ MODULE = "drapery-banner.js"
 KERNELS = "cloth.bin"
 PLACEMENTS: tuple[Placement, ...] = ("standing", "wall")
 """The kinds of banner that the component shows."""
-POSES = ("walk", "stand", "run", "sneak")
-"""The poses of players that the component shows, with a cape or elytra."""
+Arms = Literal["classic", "slim"]
+ARMS: tuple[Arms, ...] = ("classic", "slim")
+POSES = {"walk": 1.5, "stand": 0.0, "run": 4.0, "sneak": 0.0}
+"""The poses of players that the component shows, with a cape or elytra; how fast they go [m/s]."""
 SIZE = (320, 480)
 """Width and height of what the camera of a player frames [pixels]."""
 FROM_BEHIND = 7
@@ -157,13 +160,10 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     for placement in PLACEMENTS:
         placed = replace(settings, placement=placement)
         yield f"{placement}.bin", scene_bytes(Banner(), packs, placed)
-    own = {field.name for field in fields(settings)} - set(UNUSED_OPTIONS)
-    kept, standard = {name: getattr(settings, name) for name in own}, Settings()
-    chosen = {name: kept[name] for name in own if kept[name] != getattr(standard, name)}
-    chosen |= {"size": SIZE, "rotation": FROM_BEHIND}
-    for name, garment in _players():
-        options = Settings(**{**kept, **garment.picture, **chosen})
-        yield f"{name}.bin", garment_scene_bytes(garment, packs, options)
+    for worn, pose, arms in product(("cape", "elytra"), POSES, ARMS):
+        garment = posed_player(worn, pose, arms, overlay="whole")  # its skin can be replaced
+        name = f"{worn}-{pose}{'-slim' if arms == 'slim' else ''}"
+        yield f"{name}.bin", garment_scene_bytes(garment, packs, seen_settings(garment, settings))
     yield from kernel_file().items()
     yield MODULE, bundled_module().encode()
     for name in ("README.md", "drapery-banner.d.ts"):
@@ -171,19 +171,21 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     yield "package.json", (json.dumps(_package(), indent=2) + "\n").encode()
 
 
-def _players() -> Iterator[tuple[str, Garment]]:
-    """The players of the package by name: each pose, with wide and with slim arms.
+def posed_player(
+    worn: str, pose: str, arms: Arms = "classic", overlay: Literal["flat", "whole"] = "flat"
+) -> Garment:
+    """A player in one of POSES with a garment on its back."""
+    wearer = make_wearer(motion=pose, speed=POSES[pose], arms=arms)
+    shown = wearer.model_copy(update={"overlay": overlay})
+    return dressed_player(shown, wear=[find_garment(worn)])
 
-    Their skin can be replaced, so they have all boxes of its second layer.
-    """
-    for elytra, pose, slim in product((False, True), POSES, (False, True)):
-        speed = {"walk": 1.5, "run": 4.0}.get(pose, 0.0)
-        arms = "slim" if slim else "classic"
-        wearer = make_wearer(motion=pose, speed=speed, arms=arms)
-        whole = wearer.model_copy(update={"overlay": "whole"})
-        wear = [find_garment("elytra" if elytra else "cape")]
-        name = f"{wear[0].name}-{pose}{'-slim' if slim else ''}"
-        yield name, dressed_player(whole, wear=wear)
+
+def seen_settings(garment: Garment, settings: Settings, size: tuple[int, int] = SIZE) -> Settings:
+    """What a user chose for banners, for a garment that is seen from behind; else its own."""
+    own = {field.name for field in fields(settings)} - set(UNUSED_OPTIONS)
+    given, standard = {name: getattr(settings, name) for name in own}, Settings()
+    chosen = {name: given[name] for name in own if given[name] != getattr(standard, name)}
+    return Settings(**{**given, **garment.picture, **chosen, "size": size, "rotation": FROM_BEHIND})
 
 
 def _package() -> dict[str, object]:

@@ -6,10 +6,12 @@ its first `moment`, and
 aspect: width / height of the picture that the camera frames. sheets: the names of the flag's
 sheets of texels in the order of its layers ("" is the bare cloth), None where no other design can
 be shown. turned: the angle of rotation or facing [degrees], see `Settings.turned`.
-figure: the vertices of a wearer, whom the first plan poses. textures: those of a player, by name:
-a vertex of each material that shows one, and which part it shows of one 64 texels wide.
+textures: those of a player, by name: the layers that show one, and which part they show of one 64
+texels wide.
 plan0, plan1, …: the plan of each panel of cloth, see `drapery.web.wasm`; `grip` has the vertices of
 each panel in the same order.
+moving: the number of a plan, the first of the vertices that it moves and their count, and the names
+of its arrays with their places and their light.
 still: a plan that also draws the still of the settings. Its materials, layers and atlas are those
 of the scene, and its atlas is left empty. Without one, noPicture says why.
 """
@@ -86,15 +88,20 @@ def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> b
     grip = frozenset(range(last, len(first.models)))
     pane = Pane(first, lambda aspect: first.camera)
     scene = _first_message(ViewerState((pane,), grip=grip, live=True), stager.settings)
-    header = scene[0]
+    header, arrays = scene
     header.update(sheets=None, turned=stager.settings.turned)
     header["noPicture"] = "pictures of players and garments need Python"
     if figures:
         runs = header["runs"][last - figures : last]
-        header["figure"] = [runs[0][0], sum(count for _, count in runs)]
+        header["moving"].append(
+            [0, runs[0][0], sum(count for _, count in runs), "figure", "figureLight"]
+        )
+        first_layers = arrays["materials"].reshape(-1, 4)[:, 0]
+        shown = first_layers[arrays["vertexMaterials"]].tolist()
+        skin, cape = played.texture_areas()
         header["textures"] = {
-            "skin": {"vertices": [runs[0][0]], "area": played.texture_areas()[0]},
-            "cape": {"vertices": [g[0] for g in header["grip"]], "area": played.texture_areas()[1]},
+            "skin": {"shown": [shown[runs[0][0]]], "area": skin},
+            "cape": {"shown": [shown[start] for start, _ in header["grip"]], "area": cape},
         }
     return _packed(scene, plans_of_garment(played))
 
@@ -106,7 +113,10 @@ def _first_message(
     encoder = MessageEncoder(shape=settings.size, flat=False)
     scene, moment = map(unpack, encoder.messages(state))
     aspect = settings.size[0] / settings.size[1]
-    return {**moment[0], **scene[0], "aspect": aspect}, {**scene[1], **moment[1]}
+    cloths = enumerate(scene[0]["grip"])
+    moving = [[number, *run, "vertices", "light"] for number, run in cloths]
+    header = {**moment[0], **scene[0], "aspect": aspect, "moving": moving}
+    return header, {**scene[1], **moment[1]}
 
 
 def _packed(scene: tuple[dict[str, Any], dict[str, NDArray[Any]]], plans: Sequence[bytes]) -> bytes:

@@ -9,18 +9,19 @@ const COMMAND = /^\/?(minecraft:)?(give|item|replaceitem|setblock)\s/i;
 const FORMS = [
   [/^(https?:\/\/|[\w-]+(\.[\w-]+)+\/)\S+$/i, fromLink],
   [/^[{[]/, fromTree],
-  [/^\/|[{}[\]"@=]/i, fromCommand],
+  [/^\/|[{}[\]"@=]/, fromCommand],
   [COMMAND, fromCommand],
   [/^/, fromShorthand],
 ];
 const MODES = /^(\d+|destroy|hollow|keep|outline|replace|strict)$/;
-const OLD_BANNERS = ["banner", "standing_banner", "wall_banner"];
+const CUSTOM = /^(?!minecraft:)(?!.{257})(?!(.*[:/])?\.{0,2}([:/]|$))[a-z0-9_.-]+:[a-z0-9_./-]+$/;
 
 // The design of a text: { base, layers: [{ pattern, dye }], kind }, lowest layer first. Throws
 // DesignError.
 export function readDesign(text) {
   const trimmed = text.trim();
-  const design = { kind: "banner", ...FORMS.find(([form]) => form.test(trimmed))[1](trimmed) };
+  const [, read] = FORMS.find(([form]) => form.test(trimmed));
+  const design = { kind: "banner", ...read(trimmed) };
   // A misspelt key would leave its layers out.
   const hasColours = /(?<!base_|banner_)colou?r["']?\s*[:=]/i.test(trimmed);
   if (hasColours && !design.layers.length) fail("the text has layers, but not where a design has them; check its keys");
@@ -37,26 +38,19 @@ const quoted = (value) => `'${String(value && typeof value === "object" ? JSON.s
 // Names
 
 const plain = (name) => name.toLowerCase().replace(/^minecraft:/, "").split(/[-_\s]+/).filter(Boolean).join("_");
-const lookUp = (table, key) => (Object.hasOwn(table, key) ? table[key] : undefined);
 const bare = (id) => id.split("[")[0].trim().toLowerCase().replace(/^minecraft:/, "");
-const isShield = (id) => bare(id) === "shield";
-const isItem = (id) => typeof id === "string" && (isShield(id) || OLD_BANNERS.includes(bare(id)) || baseOf(id) !== undefined);
+const lookUp = (table, key) => (Object.hasOwn(table, key) ? table[key] : undefined);
 
-function baseOf(id) {
-  const [, dye] = /^(.*?)(?:_wall)?_banner$/.exec(bare(id)) ?? [];
-  return dye === "silver" ? "light_gray" : TABLES.dyes.find((each) => each === dye);
-}
+// What an id stands for: "banner" or "shield", and the base dye or null.
+const itemOf = (id) => (typeof id === "string" ? lookUp(TABLES.items, bare(id)) : undefined);
 
 function patternOf(value) {
   const name = value && typeof value === "object" ? pick(value, "asset_id") : value;
   if (typeof name !== "string") fail(`${quoted(value)} is not a pattern; give its id, such as 'creeper'`);
-  const custom = /^(?!minecraft:)[a-z0-9_.-]+:[a-z0-9_./-]+$/.test(name) && name.length <= 256;
-  if (custom && name.split(/[:/]/).every((part) => !["", ".", ".."].includes(part))) return name;
+  if (CUSTOM.test(name)) return name;
   const known = lookUp(TABLES.bukkit, name.trim()) ?? lookUp(TABLES.patterns, plain(name));
   return known ?? fail(`unknown pattern ${quoted(name)}; give an id, such as 'creeper' or 'stripe_top'`);
 }
-
-const isDye = (word) => lookUp(TABLES.dyeNames, plain(word)) !== undefined;
 
 // inverted: whether numbers count from black, as they did up to Java 1.12.
 function dyeOf(value, inverted = false) {
@@ -68,15 +62,13 @@ function dyeOf(value, inverted = false) {
 
 function fromShorthand(text) {
   if (/^ominous(_banner)?$/.test(plain(text))) return TABLES.ominous;
-  const lines = text.split(/[,;\r\n]/).map(wordsOf).filter((words) => words.length);
-  const kind = lines[0]?.[0].toLowerCase() === "shield" && lines[0].shift() ? "shield" : "banner";
-  if (!lines[0]?.length) fail("the base dye is missing; write 'white creeper:lime'");
-  const first = lines[0].shift();
-  const base = baseOf(first) ?? dyeOf(first);
-  if (["banner", "Banner"].includes(lines[0][0])) lines[0].shift();
+  const [words, ...more] = text.split(/[,;\r\n]/).map(wordsOf).filter((each) => each.length);
+  const kind = words?.[0].toLowerCase() === "shield" ? words.shift() && "shield" : "banner";
+  const base = words?.shift() ?? fail("the base dye is missing; write 'white creeper:lime'");
+  if (/^[Bb]anner$/.test(words[0])) words.shift();
   // A layer ends with its `:dye`; the last of a line may begin with its dye instead.
-  const phrases = lines.flatMap((words) => words.join(" ").match(/[^:]*:\S*|[^:]+$/g) ?? []);
-  return { base, kind, layers: phrases.map((phrase) => layerOf(phrase.trim())) };
+  const phrases = [words, ...more].flatMap((each) => each.join(" ").match(/[^:]*:\S*|[^:]+$/g) ?? []);
+  return { base: itemOf(base)?.[1] ?? dyeOf(base), kind, layers: phrases.map((each) => layerOf(each.trim())) };
 }
 
 // The words of a line; `a : b` and `light blue` become one word each.
@@ -86,76 +78,70 @@ function wordsOf(line) {
 }
 
 function layerOf(phrase) {
-  const [dye, ...rest] = phrase.split(" ");
-  const colon = phrase.lastIndexOf(":");
-  if (colon < 0 && !(rest.length && isDye(dye))) fail(`layer ${quoted(phrase)}: write pattern:dye, such as 'creeper:lime'`);
-  const [pattern, colour] = colon < 0 ? [rest.join(" "), dye] : [phrase.slice(0, colon), phrase.slice(colon + 1)];
-  return { pattern: patternOf(pattern), dye: dyeOf(/^\d{1,3}$/.test(colour) ? Number(colour) : colour) };
+  const [, pattern, dye] = /^([^]*):(.*)$/.exec(phrase) ?? [];
+  if (pattern !== undefined) return { pattern: patternOf(pattern), dye: dyeOf(/^\d{1,3}$/.test(dye) ? Number(dye) : dye) };
+  const [first, rest] = phrase.split(/ (.*)/);
+  if (rest && lookUp(TABLES.dyeNames, plain(first))) return { pattern: patternOf(rest), dye: dyeOf(first) };
+  return fail(`layer ${quoted(phrase)}: write pattern:dye, such as 'creeper:lime'`);
 }
 
 // SNBT and JSON: objects, arrays, strings and numbers
 
-const TOKEN = /\s*(?:("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*')|([{}[\],:;=])|([^\s{}[\]"',:;=]+))/gsy;
+const TOKEN = /"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|[{}[\],:;=]|[^\s{}[\]"',:;=]+/gs;
 const NUMBER = /^[+-]?(\d[\d_]*\.?\d*|\.\d+)(e[+-]?\d+)?([us]?[bsil]|[fd])?$/i;
-const ESCAPES = { b: "\b", s: " ", t: "\t", n: "\n", f: "\f", r: "\r" };
+const ESCAPE = /\\(?:x([\da-f]{2})|u([\da-f]{4})|(.))/gis;
+const ESCAPED = { b: "\b", s: " ", t: "\t", n: "\n", f: "\f", r: "\r" };
 
-// Functions that take the next value, or the next entries up to a bracket, off a text.
-function readerOf(text) {
-  const tokens = [...text.matchAll(TOKEN)].map(([, string, mark, word]) => ({ string, mark, word }));
+// The parts of a text, each after its first token: compounds, components in brackets, and words.
+function partsOf(text) {
+  const tokens = text.match(TOKEN) ?? [];
   if (text.replace(TOKEN, "").trim()) fail("a quote is not closed; close it");
   let at = 0;
-  const is = (mark, ahead = 0) => tokens[at + ahead]?.mark === mark;
-  const take = (mark) => is(mark) && ++at > 0;
-  const separate = (close) => is(close) || take(",") || fail(`expected ',' or '${close}' at word ${at + 1}`);
+  const take = (mark) => tokens[at] === mark && ++at > 0;
 
-  function name() {
-    const { string, word } = tokens[at++] ?? {};
-    return string ? unescaped(string.slice(1, -1)) : (word ?? fail(`expected a name or a value at word ${at}`));
+  function part() {
+    if (take("{")) return Object.fromEntries(entries("}"));
+    if (take("[")) return entries("]").map(([, value]) => value);
+    if (!tokens[at] || /^[{}[\],:;=]/.test(tokens[at])) fail(`expected a name or a value at word ${at + 1}`);
+    return meaning(tokens[at++]);
   }
 
-  // `a:1,b=2}`, or the components `a=1,!b]`.
+  // Names and values up to a bracket: `a:1,b:c:d}`, `a:b=1,!c]`, and of lists `1,2]`, `I;1]`, `0:{}]`.
   function entries(close) {
-    const found = new Map();
-    for (; !take(close); separate(close)) {
-      let key = name();
-      let value = null;
-      if (close === "]" && take(":")) key += `:${name()}`;
-      if (take(":")) value = item();
-      else if (take("=") && !is(",") && !is(close)) value = item();
-      if (typeof value === "string" && take("=")) [key, value] = [`${key}:${value}`, item()];
-      found.set(key, value);
-    }
-    return Object.fromEntries(found);
-  }
-
-  // `1,2]`, `I;1,2]` or `0:{},1:{}]`.
-  function list() {
-    if (is(";", 1)) at += 2;
     const found = [];
-    for (; !take("]"); separate("]")) {
-      if (/^\d+$/.test(tokens[at]?.word) && is(":", 1)) at += 2;
-      found.push(item());
+    if (tokens[at + 1] === ";") at += 2;
+    while (!take(close)) {
+      const parts = [part()];
+      let end = 0; // of the parts of the name
+      while (take(":") || take("=")) {
+        if (!end || tokens[at - 1] === "=") end = parts.length;
+        else if (/["'{[]/.test(tokens[at - 2] + tokens[at])) fail(`expected ',' or '${close}' at word ${at}`);
+        parts.push(part());
+      }
+      if (close === "}" && !end) fail(`expected ':' and a value at word ${at + 1}`);
+      found.push([parts.slice(0, end).join(":"), parts.length > end + 1 ? parts.slice(end).join(":") : parts[end]]);
+      if (tokens[at] !== close && !take(",")) fail(`expected ',' or '${close}' at word ${at + 1}`);
     }
     return found;
   }
 
-  function item() {
-    if (take("{")) return entries("}");
-    if (take("[")) return list();
-    const { string } = tokens[at] ?? {};
-    const text = name();
-    if (string) return text;
-    if (is(":") && tokens[at + 1]?.word && take(":")) return `${text}:${name()}`;
-    if (text === "true" || text === "false") return Number(text === "true");
-    return NUMBER.test(text) ? parseFloat(text.replaceAll("_", "")) : text;
+  const parts = [];
+  while (at < tokens.length) {
+    const first = tokens[at];
+    parts.push([first, take("[") ? Object.fromEntries(entries("]")) : part()]);
   }
-
-  return { take, name, entries, item, get ended() { return at >= tokens.length; } };
+  return parts;
 }
 
-function unescaped(text) {
-  return text.replace(/\\(?:x([\da-f]{2})|u([\da-f]{4})|(.))/gis, (_, two, four, other) =>
-    other === undefined ? String.fromCharCode(parseInt(two ?? four, 16)) : (ESCAPES[other] ?? other));
+// The text of a string; a number, of true and false 1 and 0; or another word.
+function meaning(token) {
+  if (/^(true|false)$/.test(token)) return Number(token === "true");
+  if (NUMBER.test(token)) return parseFloat(token.replaceAll("_", ""));
+  return /^["']/.test(token) ? token.slice(1, -1).replace(ESCAPE, unescaped) : token;
+}
+
+function unescaped(_, two, four, other) {
+  return other === undefined ? String.fromCharCode(parseInt(two ?? four, 16)) : (ESCAPED[other] ?? other);
 }
 
 // Items, block entities and our own JSON
@@ -170,70 +156,56 @@ function compound(tree) {
   return isCompound ? tree : fail(`${quoted(tree)} is not a compound; write {…}`);
 }
 
-function layersOf(list, inverted = false) {
-  if (!Array.isArray(list ?? [])) fail(`${quoted(list)} is not a list of layers`);
-  return (list ?? []).map((entry) => ({
-    pattern: patternOf(pick(compound(entry), "pattern", "Pattern")),
-    dye: dyeOf(pick(entry, "color", "Color", "colour"), inverted),
+function layersOf(list = [], inverted = false) {
+  if (!Array.isArray(list)) fail(`${quoted(list)} is not a list of layers`);
+  return list.map(compound).map((layer) => ({
+    pattern: patternOf(pick(layer, "pattern", "Pattern")),
+    dye: dyeOf(pick(layer, "color", "Color", "colour"), inverted),
   }));
 }
 
 function fromTree(text) {
-  const reader = readerOf(text);
-  const tree = compound(reader.item());
-  if (!reader.ended) fail("the text goes on after its end; give one banner");
+  const [[first, tree], more] = partsOf(text);
+  if (first !== "{" || more) fail("the text is not one compound; give one banner as {…}");
   const id = pick(tree, "id", "Name");
-  if (id === undefined && pick(tree, "base", "banner_color", "layers") !== undefined) {
-    const { kind = "banner" } = tree;
-    if (!["banner", "shield"].includes(kind)) fail(`kind ${quoted(kind)}; use 'banner' or 'shield'`);
-    return { base: dyeOf(pick(tree, "banner_color", "base")), layers: layersOf(tree.layers), kind };
-  }
-  if (!isItem(id)) fail(`${quoted(id)} is neither a banner nor a shield; give an id such as 'minecraft:red_banner'`);
-  const components = pick(tree, "components");
-  return components ? fromComponents(id, compound(components)) : fromTag(id, compound(tree.tag ?? {}), tree.Damage);
+  if (id !== undefined || pick(tree, "base", "banner_color", "layers") === undefined)
+    return fromItem(id, pick(tree, "components"), tree.tag, tree.Damage);
+  const { kind = "banner" } = tree;
+  if (!["banner", "shield"].includes(kind)) fail(`kind ${quoted(kind)}; use 'banner' or 'shield'`);
+  const base = pick(tree, "banner_color", "base") ?? fail('the text has no "base"; give its dye, as in {"base": "red", "layers": []}');
+  return { base: dyeOf(base), layers: layersOf(tree.layers), kind };
 }
 
-function fromComponents(id, components) {
-  const layers = layersOf(pick(components, "banner_patterns"));
-  if (isShield(id)) return shield(pick(components, "base_color"), layers);
-  return { base: baseOf(id) ?? fail(`${quoted(id)} does not name the base dye`), layers };
-}
-
-// data: the damage value of versions up to 1.12, where the numbers of dyes are inverted.
-function fromTag(id, tag, data) {
-  const entity = compound(pick(tag, "BlockEntityTag") ?? tag);
-  if (isShield(id)) return shield(entity.Base, layersOf(entity.Patterns, data !== undefined), data !== undefined);
-  const base = baseOf(id);
-  if (!base && entity.Type === 1) return TABLES.ominous;
-  return { base: base ?? dyeOf(entity.Base ?? data ?? 0, true), layers: layersOf(pick(entity, "patterns", "Patterns"), !base) };
-}
-
-function shield(base, layers, inverted = false) {
-  if (base === undefined && !layers.length) fail("a plain shield has no design; give base_color or banner_patterns");
-  return { base: base === undefined ? "white" : dyeOf(base, inverted), layers, kind: "shield" };
+// An item with its components or its tag. data: its damage value, up to Java 1.12.
+function fromItem(id, components, tag = {}, data = undefined) {
+  const [kind, dye] = itemOf(id) ?? fail(`${quoted(id)} is neither a banner nor a shield; give an id such as 'minecraft:red_banner'`);
+  const numbered = kind === "banner" && !dye;
+  if (components && numbered) fail(`${quoted(id)} does not name the base dye; give an id such as 'minecraft:red_banner'`);
+  const outer = compound(components ?? tag);
+  const entity = compound(pick(outer, "BlockEntityTag") ?? outer);
+  if (numbered && entity.Type === 1) return TABLES.ominous;
+  const inverted = numbered || (!dye && data !== undefined);
+  const layers = layersOf(pick(entity, ...(components ? ["banner_patterns"] : ["patterns", "Patterns"])), inverted);
+  const base = pick(entity, "base_color", "Base") ?? (numbered ? (data ?? 0) : undefined);
+  if (!dye && base === undefined && !layers.length) fail("a plain shield has no design; give base_color or banner_patterns");
+  return { base: dye ?? (base === undefined ? "white" : dyeOf(base, inverted)), layers, kind };
 }
 
 // Commands, and the arguments of items and blocks
 
 function fromCommand(text) {
-  const start = [...text.matchAll(/(?<=^|\s)[^\s[{]+/g)].find(([word]) => isItem(word))
-    ?? fail("no banner in the command; it needs an item such as minecraft:white_banner[banner_patterns=[…]]");
+  const [start] = [...text.matchAll(/(?<=^|\s)[^\s[{]+/g)].filter(([word]) => itemOf(word));
+  if (!start) fail("no banner in the command; it needs an item such as minecraft:white_banner[banner_patterns=[…]]");
   if (start.index && !COMMAND.test(text)) fail(`${quoted(text)}: not a command that makes a banner; use /give`);
-  const rest = text.slice(start.index + start[0].length);
-  const reader = readerOf(rest);
-  let components, tag;
-  const words = [];
-  while (!reader.ended && words.at(-1) !== "replace") {
-    if (reader.take("[")) components = reader.entries("]");
-    else if (reader.take("{")) tag = reader.entries("}");
-    else words.push(reader.name());
-  }
+  const [id, rest] = [start[0], text.slice(start.index + start[0].length)];
+  const parts = partsOf(rest);
+  const words = parts.filter(([first]) => !/^[[{]/.test(first)).map(([, word]) => word);
   const strange = words.find((word) => !MODES.test(word));
-  if (strange) fail(`unexpected ${quoted(strange)} after the item; write layers in its brackets`);
-  const old = /^\s+\d/.test(rest);
-  const hasData = OLD_BANNERS.includes(bare(start[0])) || (isShield(start[0]) && old && tag);
-  if (hasData) return fromTag(start[0], tag ?? {}, old ? Number(words[1] ?? 0) : undefined);
-  return tag ? fromTag(start[0], tag) : fromComponents(start[0], components ?? {});
+  if (strange !== undefined) fail(`unexpected ${quoted(strange)} after the item; write layers in its brackets`);
+  const { "[": components, "{": tag } = Object.fromEntries(parts);
+  const [kind, dye] = itemOf(id);
+  const isOld = kind === "banner" && !dye; // its brackets have the state of a block
+  return fromItem(id, tag || isOld ? undefined : components, tag, /^\s+\d/.test(rest) ? Number(words[1] ?? 0) : undefined);
 }
 
 // Links of editors
@@ -244,12 +216,13 @@ function fromLink(link) {
   if (!site) fail(`${quoted(link)}: not a link of a known banner editor; copy the banner's /give command`);
   const code = site.code ? new RegExp(site.code).exec(link)?.[1] : inOrder(link);
   if (!code) fail(`${quoted(link)}: the link holds no design; copy the link from the editor`);
-  const first = new RegExp(`^${site.base}`).exec(code) ?? fail(`${quoted(code)} is not a code of the editor`);
-  const parts = [...code.slice(first[0].length).matchAll(new RegExp(site.layer, "gy"))];
-  if ([first, ...parts].map(([text]) => text).join("") !== code) fail(`${quoted(code)} is not a code of the editor`);
+  const first = new RegExp(`^${site.base}`).exec(code);
+  const parts = first ? [first, ...code.slice(first[0].length).matchAll(new RegExp(site.layer, "gy"))] : [];
+  if (parts.map(([text]) => text).join("") !== code) fail(`${quoted(code)} is not a code of the editor`);
   const named = (table, token) => lookUp(table, token) ?? fail(`${quoted(token)} is not in the codes of the editor`);
-  const layers = parts.map(({ groups }) => ({ pattern: named(site.patterns, groups.pattern), dye: named(site.dyes, groups.dye) }));
-  return { base: named(site.dyes, first.groups.dye), layers, kind: /\/shield\.php/.test(link) ? "shield" : "banner" };
+  const dyes = parts.map(({ groups }) => named(site.dyes, groups.dye));
+  const layers = parts.slice(1).map(({ groups }, number) => ({ pattern: named(site.patterns, groups.pattern), dye: dyes[number + 1] }));
+  return { base: dyes[0], layers, kind: /\/shield\.php/.test(link) ? "shield" : "banner" };
 }
 
 // The parameters `shape_id_2=1&color_id_2=3&color_id_0=4` as `4;1:3;`.

@@ -2,16 +2,10 @@
 
 import { Player } from "./player.js";
 import { wake } from "./shared.js";
+import { TABLES } from "./tables.js";
 import { isSlim, readTexture, wholeSkin } from "./textures.js";
 
 const FOLLOW = 75; // so far the wind turns to each side with the pointer [degrees]
-const STYLE = `
-  :host { display: inline-block; inline-size: 14rem; aspect-ratio: 2 / 3; }
-  :host([hidden]), canvas[hidden], slot[hidden] { display: none; }
-  canvas { inline-size: 100%; block-size: 100%; display: block; touch-action: pan-y pinch-zoom; }
-  canvas:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
-  ::slotted(img) { inline-size: 100%; block-size: 100%; object-fit: contain; }`;
-
 const ATTRIBUTES = ["kind", "wind", "direction", "paused", "alt"];
 
 export class DraperyBanner extends HTMLElement {
@@ -21,6 +15,7 @@ export class DraperyBanner extends HTMLElement {
   #starts = 0;
   #player = null;
   #seen = true;
+  #wind = { wind: undefined, direction: undefined };
   #told = new Set();
   #canvas = document.createElement("canvas");
   #slot = document.createElement("slot");
@@ -31,14 +26,12 @@ export class DraperyBanner extends HTMLElement {
 
   constructor() {
     super();
-    const style = new CSSStyleSheet();
-    style.replaceSync(STYLE);
+    const styles = new CSSStyleSheet();
+    styles.replaceSync(TABLES.styles);
     const root = this.attachShadow({ mode: "open" });
-    root.adoptedStyleSheets = [style];
+    root.adoptedStyleSheets = [styles];
     root.append(this.#canvas, this.#slot);
-    this.#canvas.hidden = true;
-    this.#canvas.tabIndex = 0;
-    this.#canvas.setAttribute("role", "img");
+    Object.assign(this.#canvas, { hidden: true, tabIndex: 0 }).setAttribute("role", "img");
     this.#listen();
   }
 
@@ -66,7 +59,7 @@ export class DraperyBanner extends HTMLElement {
   attributeChangedCallback(name) {
     if (!this.isConnected) return;
     const isSource = this.constructor.sources.includes(name);
-    if (this.#player && !isSource) this.#apply();
+    if (this.#player && !isSource) this.#apply(name);
     else if (isSource || name === "design") this.#start();
   }
 
@@ -116,23 +109,30 @@ export class DraperyBanner extends HTMLElement {
     this.#canvas.hidden = !player;
     this.#slot.hidden = Boolean(player);
     if (!player) return;
-    this.#apply();
+    this.#apply("design", "wind", "direction");
     this.dispatchEvent(new CustomEvent("drapery-ready", { bubbles: true }));
   }
 
-  // Do what the attributes say.
-  #apply() {
-    this.#try((player) => player.setDesign(this.getAttribute("design")));
+  // Do what attributes say. Only those that have changed are read: a wrong value is told once.
+  #apply(...names) {
+    for (const name of names)
+      this.#try((player) => {
+        if (name === "design") player.setDesign(this.getAttribute(name));
+        else if (name in this.#wind) this.#wind[name] = this.#number(name);
+      });
     this.#try((player) => this.#blow(player));
     this.#canvas.setAttribute("aria-label", this.getAttribute("alt") ?? this.words(this.#player.design));
     this.#play();
   }
 
-  #blow(player) {
-    player.setWind(this.#number("wind"), this.#number("direction"));
+  #blow(player, direction = this.#wind.direction) {
+    player.setWind(this.#wind.wind, direction);
   }
 
+  // Act on the live cloth, if there is any, and draw it again.
   #try(act) {
+    if (!this.#player) return;
+    wake(this.#player);
     try {
       act(this.#player);
     } catch (error) {
@@ -151,24 +151,18 @@ export class DraperyBanner extends HTMLElement {
   #number(name) {
     const text = this.getAttribute(name)?.trim();
     const number = text ? Number(text) : undefined;
-    if (Number.isNaN(number)) throw new Error(`${name}="${text}" is not a number`);
+    if (Number.isNaN(number)) throw new Error(`${name}="${text}" is not a number; write ${name}="4"`);
     return number;
   }
 
   #play(seen = this.#seen) {
     this.#seen = seen;
-    if (!this.#player) return;
-    this.#player.playing = seen && !this.paused;
-    wake(this.#player);
+    this.#try((player) => (player.playing = seen && !this.paused));
   }
 
   #listen() {
     const canvas = this.#canvas;
-    const on = (name, act) =>
-      canvas.addEventListener(name, (event) => {
-        if (this.#player) this.#try((player) => act(event, player));
-        if (this.#player) wake(this.#player);
-      });
+    const on = (name, act) => canvas.addEventListener(name, (event) => this.#try((player) => act(event, player)));
     on("pointerdown", (event, player) => {
       canvas.setPointerCapture(event.pointerId);
       player.grabAt(event.offsetX, event.offsetY);
@@ -191,8 +185,8 @@ export class DraperyBanner extends HTMLElement {
   // The wind blows to the viewer, and to the side on which the mouse is.
   #follow(x, player) {
     const side = (2 * x) / this.#canvas.clientWidth - 1;
-    const ahead = player.heading ?? player.azimuth() + player.header.turned;
-    player.setWind(this.#number("wind"), ahead + FOLLOW * side);
+    const ahead = player.header.textures ? player.cloths[0].info.heading : player.azimuth() + player.header.turned;
+    this.#blow(player, ahead + FOLLOW * side);
   }
 }
 

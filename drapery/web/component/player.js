@@ -6,7 +6,7 @@ import { add, dot, length, readCamera, scale, subtract, unit } from "../viewer/m
 import { unpack } from "../viewer/messages.js";
 import { View } from "../viewer/view.js";
 import { DesignError, readDesign } from "./design.js";
-import { fileBytes, players, sharedContext, wake } from "./shared.js";
+import { draw, fileBytes, players, sharedContext, wake } from "./shared.js";
 import { TABLES } from "./tables.js";
 import { retextured } from "./textures.js";
 
@@ -19,9 +19,8 @@ export class Player extends View {
   // design, or null. textures: pixels in place of the scene's own, by name.
   static async open(canvas, name, text, textures) {
     sharedContext();
-    const [scene, module] = await Promise.all([fileBytes(name), fileBytes(MODULE)]);
-    const own = unpack(scene.buffer);
-    const [header, arrays] = retextured(own.header, own.arrays, textures);
+    const [scene, module] = await Promise.all([name, MODULE].map(fileBytes));
+    const { header, arrays } = retextured(unpack(scene.buffer), textures);
     const player = new Player(canvas, header, arrays);
     player.setDesign(text);
     player.cloths = await Promise.all(header.grip.map((_, number) => Cloth.load(module, arrays[`plan${number}`])));
@@ -39,8 +38,8 @@ export class Player extends View {
   // Draw with a new context.
   restore() {
     this.drawing = new Drawing(sharedContext());
-    this.drawing.setScene(this.header, this.arrays);
-    this.drawing.setMaterials(...this.tables);
+    const [materials, layers] = this.tables;
+    this.drawing.setScene(this.header, { ...this.arrays, materials, layers });
     this.drawing.setMoment(this.header, this.arrays);
     if (this.moved) this.upload();
     wake(this);
@@ -81,15 +80,15 @@ export class Player extends View {
   // speed: [m/s]. heading: to which it blows [degrees from +z towards +x]. Undefined: as planned.
   setWind(speed, heading) {
     for (const cloth of this.cloths) {
-      const [x, y, z] = cloth.info.wind;
-      const angle = heading === undefined ? Math.atan2(x, z) : (heading * Math.PI) / 180;
-      const rate = speed ?? Math.hypot(x, z);
-      if (speed === undefined && heading === undefined) cloth.setWind(x, y, z);
-      else cloth.setWind(rate * Math.sin(angle), 0, rate * Math.cos(angle));
+      const { wind, heading: planned } = cloth.info;
+      const angle = ((heading ?? planned) * Math.PI) / 180;
+      const rate = speed ?? Math.hypot(wind[0], wind[2]);
+      const isPlanned = speed === undefined && heading === undefined;
+      cloth.setWind(...(isPlanned ? wind : [rate * Math.sin(angle), 0, rate * Math.cos(angle)]));
     }
   }
 
-  // One frame; whether there will be another one.
+  // Move the cloth for one frame; whether there will be another one.
   moment(seconds) {
     const moves = Boolean(this.playing || this.grab);
     const { step } = this.cloths[0].info;
@@ -97,7 +96,6 @@ export class Player extends View {
     const steps = moves || this.moved ? Math.floor(this.owed) : Math.round(SETTLED / step);
     this.owed %= 1;
     if (steps) this.step(steps);
-    this.draw();
     return moves;
   }
 
@@ -113,39 +111,30 @@ export class Player extends View {
     this.upload();
   }
 
-  // Give the vertices of the cloth to the drawing.
+  // Give the vertices of the cloth, and of a wearer, to the drawing.
   upload() {
-    for (const [number, cloth] of this.cloths.entries()) {
-      this.move(this.header.grip[number], cloth.vertices, cloth.light);
+    for (const [number, start, count, positions, light] of this.header.moving) {
+      const cloth = this.cloths[number];
+      const now = { positions: cloth.array(positions), light: cloth.array(light) };
+      this.drawing.setMoment({ runs: [[start, count]], tints: this.header.tints }, now);
     }
-    const { figure } = this.header;
-    if (figure) this.move(figure, this.cloths[0].array("figure"), this.cloths[0].array("figureLight"));
-  }
-
-  move(run, positions, light) {
-    this.drawing.setMoment({ runs: [run], tints: this.header.tints }, { positions, light });
-  }
-
-  // To where the wind of a wearer blows [degrees]; that of a banner blows to the viewer.
-  get heading() {
-    const [x, , z] = this.cloths[0].info.wind;
-    return this.header.figure && (Math.atan2(x, z) * 180) / Math.PI;
   }
 
   draw() {
-    const ratio = devicePixelRatio < 1.5 ? 2 * devicePixelRatio : devicePixelRatio; // finer, to smooth edges
-    const sides = [this.canvas.clientWidth, this.canvas.clientHeight];
+    draw([this]);
+  }
+
+  // Give the canvas as many pixels as it covers on the screen, at most so many on a side; whether it
+  // covers any.
+  fit(longest) {
+    const { canvas } = this;
+    const sides = [canvas.clientWidth, canvas.clientHeight];
+    const ratio = Math.min(devicePixelRatio, longest / Math.max(...sides));
     const [width, height] = sides.map((side) => Math.round(side * ratio));
-    const { canvas } = this.drawing.gl;
-    if (!width || !height || this.drawing.gl.isContextLost()) return;
-    if (canvas.width < width) canvas.width = width;
-    if (canvas.height < height) canvas.height = height;
-    this.drawPanes(width, height);
-    if (this.canvas.width !== width) this.canvas.width = width;
-    if (this.canvas.height !== height) this.canvas.height = height;
-    const context = this.canvas.getContext("2d");
-    context.clearRect(0, 0, width, height);
-    context.drawImage(canvas, 0, canvas.height - height, width, height, 0, 0, width, height);
+    if (!width || !height) return false;
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
+    return true;
   }
 
   // The still that `drapery render` draws of the design with the options of the scene: a cloth of
@@ -177,16 +166,12 @@ export class Player extends View {
   grabAt(x, y) {
     this.drop();
     if (!this.hitsCloth(x, y)) return;
-    let nearest = Infinity;
-    for (const cloth of this.cloths) {
-      for (let index = 0; index < cloth.positions.length / 3; index++) {
-        const place = cloth.positions.slice(3 * index, 3 * index + 3);
-        const miss = length(subtract(this.inSight(x, y, cloth, place), place));
-        if (miss >= nearest || cloth.info.pins.includes(index)) continue;
-        nearest = miss;
-        this.grab = { cloth, index, place };
-      }
-    }
+    const found = this.cloths.flatMap((cloth) => {
+      const places = Array.from({ length: cloth.positions.length / 3 }, (_, n) => cloth.positions.slice(3 * n, 3 * n + 3));
+      return places.map((place, index) => ({ cloth, index, place, miss: length(subtract(this.inSight(x, y, cloth, place), place)) }));
+    });
+    const loose = found.filter(({ cloth, index }) => !cloth.info.pins.includes(index));
+    this.grab = loose.reduce((best, each) => (each.miss < best.miss ? each : best));
   }
 
   // Pull the grabbed particle to the line of sight.
@@ -203,15 +188,8 @@ export class Player extends View {
   // The point of a line of sight that is nearest to a place, both in the frame of a panel.
   inSight(x, y, { info }, place) {
     const { origin, along } = this.rayAt(x, y, 0).ray;
-    const [from, to] = [origin, add(origin, along)].map((point) => subtract(this.unturned(point), info.origin));
+    const [from, to] = [origin, add(origin, along)].map((point) => info.frame.map((row) => dot(row, point) + row[3]));
     const ahead = unit(subtract(to, from));
     return add(from, scale(ahead, dot(subtract(place, from), ahead)));
-  }
-
-  // A point in the frame of the body, which is turned about the middle of its block.
-  unturned([x, y, z]) {
-    const angle = (this.header.turned * Math.PI) / 180;
-    const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-    return [cos * (x - 0.5) + sin * (z - 0.5) + 0.5, y, cos * (z - 0.5) - sin * (x - 0.5) + 0.5];
   }
 }

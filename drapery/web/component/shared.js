@@ -1,41 +1,61 @@
 // What all elements of a page share: one WebGL context, one clock, and each file only once.
 
+import { Sheet } from "./sheet.js";
+
 export const players = new Set();
 const awake = new Set(); // the players that want the next frame
 const files = new Map();
 let gl = null;
+let sheet = null;
+let frame = 0; // the request of the next frame, or 0
 let before = 0;
 
 // The context that draws for all elements. Throws an Error where there is no WebGL 2.
 export function sharedContext() {
   if (gl) return gl;
   const canvas = document.createElement("canvas");
-  gl = canvas.getContext("webgl2", { alpha: true, antialias: false, premultipliedAlpha: true });
+  gl = canvas.getContext("webgl2", { alpha: true, antialias: false, depth: false });
   if (!gl) throw new Error("WebGL 2 is missing");
+  sheet = new Sheet(gl, rest);
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
-  canvas.addEventListener("webglcontextrestored", () => players.forEach((player) => player.restore()));
+  canvas.addEventListener("webglcontextrestored", () => {
+    sheet = new Sheet(gl, rest);
+    players.forEach((player) => player.restore());
+  });
   return gl;
+}
+
+// Draw players into their canvases.
+export function draw(some) {
+  sheet.draw(some);
 }
 
 // Call `player.moment(seconds)` in the next frame, and in those after it while it returns true.
 export function wake(player) {
-  if (!awake.size) requestAnimationFrame(tick);
+  frame ||= requestAnimationFrame(tick);
   awake.add(player);
+}
+
+// A player that fails gets no more frames until something wakes it; the others go on.
+function rest(player, error) {
+  console.warn(`drapery: ${error.message}`);
+  awake.delete(player);
 }
 
 function tick(now) {
   const seconds = Math.min(0.1, (now - before) / 1000);
   before = now;
-  for (const player of awake) {
-    let goesOn = false;
+  frame = 0;
+  const moved = [...awake];
+  for (const player of moved) {
     try {
-      goesOn = players.has(player) && player.moment(seconds);
+      if (!players.has(player) || !player.moment(seconds)) awake.delete(player);
     } catch (error) {
-      console.warn(`drapery: ${error.message}`); // the other players go on
+      rest(player, error);
     }
-    if (!goesOn) awake.delete(player);
   }
-  if (awake.size) requestAnimationFrame(tick);
+  if (awake.size) frame ||= requestAnimationFrame(tick);
+  draw(moved.filter((player) => players.has(player)));
 }
 
 // The bytes of a script of the page with this name, or of a file beside this module, which are
@@ -54,7 +74,7 @@ async function readFile(name) {
   const answer = inPage
     ? new Response(Uint8Array.from(atob(inPage.textContent.trim()), (each) => each.charCodeAt(0)))
     : await fetch(new URL(name, import.meta.url));
-  if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status}`);
+  if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status}; check kind and pose, and the files beside the module`);
   const plain = answer.body.pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(plain).arrayBuffer());
 }

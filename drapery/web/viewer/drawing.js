@@ -1,65 +1,40 @@
-// Draws a scene as the software renderer does: nearest texels, layers composited in straight
-// alpha, light by vertex in sRGB, blended triangles last and from far to near.
+// Draws a scene as the software renderer does: nearest texels, light by vertex in sRGB, blended
+// triangles last and from far to near.
+
+import { BLEND, composited } from "./texels.js";
 
 const VERTEX = `#version 300 es
 in vec3 position;
 in float light;
 in vec2 uv;
-in int material;
+in ivec4 rect;
+in int lit;
 uniform mat4 clip;
-out vec3 uvLight;
-flat out int materialIndex;
+uniform vec3 tint;
+out vec2 texel;
+out vec3 shade;
+flat out ivec4 inside;
 void main() {
   gl_Position = clip * vec4(position, 1.0);
-  uvLight = vec3(uv, light);
-  materialIndex = material;
+  texel = uv * vec2(rect.zw);
+  shade = lit != 0 ? light * tint : vec3(1.0);
+  inside = rect;
 }`;
 
 const FRAGMENT = `#version 300 es
 precision highp float;
 precision highp int;
-precision highp isampler2D;
-in vec3 uvLight;
-flat in int materialIndex;
-uniform sampler2D atlas;
-uniform isampler2D materials;
-uniform isampler2D layers;
-uniform vec3 tint;
+in vec2 texel;
+in vec3 shade;
+flat in ivec4 inside;
+uniform sampler2D texels;
 out vec4 colour; // premultiplied
-
-const int CUTOUT = 1, BLEND = 2;
-
-ivec4 row(isampler2D table, int place) {
-  return texelFetch(table, ivec2(place & 1023, place >> 10), 0);
-}
-
-vec3 rounded(vec3 rgb) {
-  return floor(rgb * 255.0 + 0.5) / 255.0;
-}
-
-vec4 layer(int number) {
-  ivec4 rect = row(layers, 2 * number);
-  ivec2 inside = clamp(ivec2(floor(uvLight.xy * vec2(rect.zw))), ivec2(0), rect.zw - 1);
-  vec4 texel = texelFetch(atlas, rect.xy + inside, 0);
-  return vec4(floor(texel.rgb * vec3(row(layers, 2 * number + 1).rgb) + 0.5) / 255.0, texel.a);
-}
-
 void main() {
-  ivec4 material = row(materials, materialIndex); // first layer, number of layers, alpha mode, lit
-  vec4 seen = layer(material.x);
-  if (material.z == CUTOUT && seen.a < 0.5) discard;
-  if (material.z != BLEND) seen.a = 1.0;
-  for (int upper = 1; upper < material.y; upper++) {
-    vec4 top = layer(material.x + upper);
-    float share = seen.a * (1.0 - top.a), total = top.a + share;
-    if (total > 0.0) seen = vec4(rounded((top.rgb * top.a + seen.rgb * share) / total), total);
-  }
-  if (material.w != 0) seen.rgb = rounded(seen.rgb * uvLight.z * tint);
-  colour = vec4(seen.rgb * seen.a, seen.a);
+  ivec2 place = clamp(ivec2(floor(texel)), ivec2(0), inside.zw - 1);
+  vec4 seen = texelFetch(texels, inside.xy + place, 0);
+  if (seen.a == 0.0) discard;
+  colour = vec4(seen.rgb * shade * seen.a, seen.a);
 }`;
-
-const BLEND = 2;
-const WIDE = 1024;
 
 const programs = new WeakMap(); // one for each context, for all its drawings
 
@@ -68,11 +43,8 @@ export class Drawing {
     this.gl = gl;
     this.scene = null;
     this.program = programOf(gl);
-    this.at = Object.fromEntries(
-      ["clip", "atlas", "materials", "layers", "tint"].map((name) => [name, gl.getUniformLocation(this.program, name)])
-    );
+    [this.clip, this.tint] = ["clip", "tint"].map((name) => gl.getUniformLocation(this.program, name));
     this.vertexArray = gl.createVertexArray();
-    this.textures = {};
     this.buffers = {};
   }
 
@@ -86,17 +58,21 @@ export class Drawing {
     this.attribute("position", 3, this.scene.positions, gl.DYNAMIC_DRAW);
     this.attribute("light", 1, this.scene.light, gl.DYNAMIC_DRAW);
     this.attribute("uv", 2, arrays.uvs, gl.STATIC_DRAW);
-    this.attribute("material", 1, arrays.vertexMaterials, gl.STATIC_DRAW, true);
     this.indices = this.filled("indices", gl.ELEMENT_ARRAY_BUFFER, allIndices(this.scene.panes), gl.DYNAMIC_DRAW);
-    const [width, height] = header.atlas;
-    this.texture("atlas", gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, width, height, arrays.atlas);
     this.setMaterials(arrays.materials, arrays.layers);
   }
 
   // Replace the materials by others of the same number and alpha.
   setMaterials(materials, layers) {
-    this.table("materials", materials);
-    this.table("layers", widened(layers));
+    const gl = this.gl;
+    const { header, atlas, vertexMaterials } = this.scene;
+    const { texels, size, rects } = composited(atlas, header.atlas[0], materials, layers);
+    this.setTexels(texels, size);
+    gl.bindVertexArray(this.vertexArray);
+    const places = new Int32Array(4 * header.vertices);
+    vertexMaterials.forEach((material, vertex) => places.set(rects[material], 4 * vertex));
+    this.attribute("rect", 4, places, gl.STATIC_DRAW, true);
+    this.attribute("lit", 1, vertexMaterials.map((material) => materials[4 * material + 3]), gl.STATIC_DRAW, true);
   }
 
   // Update the vertices that have moved.
@@ -118,25 +94,16 @@ export class Drawing {
     this.tints = header.tints;
   }
 
-  // Draw each pane into its rectangle of the canvas: [x, y, width, height], origin at lower left.
+  // Draw each pane into its rectangle, [x, y, width, height] with the origin at the lower left, which
+  // `clear` has made empty.
   draw(rects, matrices) {
     const gl = this.gl;
-    gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
-    gl.disable(gl.SCISSOR_TEST);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    if (!this.scene || !this.tints) return;
+    if (!this.tints) return;
     gl.useProgram(this.program);
     gl.bindVertexArray(this.vertexArray);
-    ["atlas", "materials", "layers"].forEach((name, place) => {
-      gl.activeTexture(gl.TEXTURE0 + place);
-      gl.bindTexture(gl.TEXTURE_2D, this.textures[name]);
-      gl.uniform1i(this.at[name], place);
-    });
-    gl.enable(gl.SCISSOR_TEST);
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
-    gl.disable(gl.CULL_FACE);
     this.scene.panes.forEach((pane, number) => {
       if (rects[number]) this.drawPane(pane, rects[number], matrices[number], this.tints[number]);
     });
@@ -144,13 +111,11 @@ export class Drawing {
 
   drawPane(pane, rect, matrix, tint) {
     const gl = this.gl;
-    const [red, green, blue, alpha] = pane.background.map((value) => value / 255);
     gl.viewport(...rect);
     gl.scissor(...rect);
-    gl.clearColor(red * alpha, green * alpha, blue * alpha, alpha);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.uniformMatrix4fv(this.at.clip, false, matrix);
-    gl.uniform3fv(this.at.tint, tint);
+    if (pane.background[3]) clear(gl, rect, pane.background);
+    gl.uniformMatrix4fv(this.clip, false, matrix);
+    gl.uniform3fv(this.tint, tint);
     gl.disable(gl.BLEND);
     gl.depthMask(true);
     gl.drawElements(gl.TRIANGLES, pane.solid.length, gl.UNSIGNED_INT, 4 * pane.start);
@@ -181,32 +146,32 @@ export class Drawing {
     return this.buffers[name];
   }
 
-  table(name, values) {
+  setTexels(values, [width, height]) {
     const gl = this.gl;
-    const rows = Math.max(1, Math.ceil(values.length / 4 / WIDE));
-    const whole = new Int32Array(4 * WIDE * rows);
-    whole.set(values);
-    this.texture(name, gl.RGBA32I, gl.RGBA_INTEGER, gl.INT, WIDE, rows, whole);
-  }
-
-  texture(name, inside, format, type, width, height, values) {
-    const gl = this.gl;
-    this.textures[name] ??= gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, this.textures[name]);
+    this.texture ??= gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, false);
-    gl.texImage2D(gl.TEXTURE_2D, 0, inside, width, height, 0, format, type, values);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, width, height, 0, gl.RGBA, gl.UNSIGNED_BYTE, values);
     for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.NEAREST);
-    for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
   }
 
   // Release the GPU memory immediately.
   free() {
     const gl = this.gl;
     Object.values(this.buffers).forEach((buffer) => gl.deleteBuffer(buffer));
-    Object.values(this.textures).forEach((texture) => gl.deleteTexture(texture));
+    gl.deleteTexture(this.texture);
     gl.deleteVertexArray(this.vertexArray);
   }
+}
+
+// Fill a rectangle with a colour, 0 to 255 in straight alpha, and forget the depths there.
+export function clear(gl, rect, colour = [0, 0, 0, 0]) {
+  const [red, green, blue, alpha] = colour.map((value) => value / 255);
+  gl.enable(gl.SCISSOR_TEST);
+  gl.scissor(...rect);
+  gl.clearColor(red * alpha, green * alpha, blue * alpha, alpha);
+  gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
 }
 
 function programOf(gl) {
@@ -252,13 +217,6 @@ function allIndices(panes) {
     at += pane.solid.length + pane.blend.length;
   }
   return indices;
-}
-
-// Pad layers of seven numbers to rows of eight.
-function widened(layers) {
-  const rows = new Int32Array((layers.length / 7) * 8);
-  for (let layer = 0; 7 * layer < layers.length; layer++) rows.set(layers.subarray(7 * layer, 7 * layer + 7), 8 * layer);
-  return rows;
 }
 
 function sortFarToNear(pane, positions, m) {

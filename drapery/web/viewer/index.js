@@ -1,6 +1,6 @@
 // The live cloth on a canvas: draws what the server streams, with the user's camera.
 
-import { Drawing } from "./drawing.js";
+import { clear, Drawing } from "./drawing.js";
 import { InputHandler } from "./input.js";
 import { readCamera } from "./matrices.js";
 import { Stream } from "./stream.js";
@@ -111,7 +111,9 @@ export class Viewer extends View {
     // The first moment of a scene brings its cameras; it may arrive one frame after the scene.
     if (this.gl.isContextLost() || !this.complete) return;
     const start = performance.now();
-    this.drawPanes(this.canvas.width, this.canvas.height);
+    const { width, height } = this.canvas;
+    clear(this.gl, [0, 0, width, height]);
+    this.drawPanes(width, height);
     if (this.untimed) this.measure(start);
     if (this.wind) this.onState({ wind: this.wind, azimuth: this.azimuth() });
     else this.onState({ wind: null });

@@ -19,10 +19,12 @@ export class View {
     return panes !== undefined && this.cameras.length === panes.length;
   }
 
-  // Draw each pane into its rectangle of a canvas of this size [pixels].
-  drawPanes(width, height) {
+  // Draw each pane into its part of a rectangle of this size [pixels], whose lower left corner is at
+  // [x, y].
+  drawPanes(width, height, [x, y] = [0, 0]) {
     const rects = this.rects(width, height);
-    this.drawing.draw(rects, rects.map(([, , w, h], number) => clipMatrix(this.camera(number, w / h), w / h)));
+    const matrices = rects.map(([, , w, h], number) => clipMatrix(this.camera(number, w / h), w / h));
+    this.drawing.draw(rects.map(([left, low, w, h]) => [x + left, y + low, w, h]), matrices);
   }
 
   // The camera of a pane, changed by the user's moves. aspect: width / height of the pane.

@@ -23,6 +23,7 @@ or written for another version of the module.
 | `step(n = 1)` | makes n time steps; throws an Error if the cloth has blown up |
 | `time` | simulated time [s] |
 | `positions` | Float32Array [N * 3]: the particles in the panel's own frame [m], row by row |
+| `velocities` | Float32Array [N * 3]: their velocities [m/s] |
 | `vertices` | Float32Array [V * 3]: the thick cloth in the frame of the body [m] |
 | `normals` | Float32Array [V * 3]: unit normals |
 | `light` | Float32Array [V]: brightness 0..1 of each vertex, of the plan's light without shadows |
@@ -34,9 +35,9 @@ or written for another version of the module.
 | `free()` | gives the memory back; the cloth cannot be used any more |
 
 The plan of the first cloth on a player also has the player: `array("figure")` and
-`array("figureLight")` are its vertices [m] and their light, after `vertices`, `normals` or `light`
-has been read. Tables of one period of its motion hold where its boxes, its bones and the pins of
-the cloth are; a cloth with such tables begins the period again as often as it ends.
+`array("figureLight")` are its vertices [m] and their light. Tables of one period of its motion hold
+where its boxes, its bones and the pins of the cloth are; a cloth with such tables begins the period
+again as often as it ends.
 
 A plan that is written with `picture=True` also draws: by the same rasteriser as in Python, with the
 camera of the settings' own still. After `reset()` and `step(info.steps)` its pixels are those of
@@ -47,20 +48,22 @@ The arrays are views of the module's memory. Read the properties again after eve
 module: memory that grows moves. They hold the start before the first step.
 
 The header of a plan (`info`), JSON: `columns`, `rows` of the grid; `step` [s]; `size` of the panel
-[m]; `origin` of the panel in the body [m]; `pins`: numbers of pinned particles; `wind`: the plan's
-mean wind [m/s]; `vertices`: V; `method` of stepping. Triangles, texture coordinates and materials
-of the thick cloth do not move: the viewer has them from the scene, in the same order of vertices
-(front sheet, back sheet, four for each edge of the rim).
+[m]; `origin` of the panel in the body [m]; `frame`: 3 rows of 4, from places in the picture to
+those in the panel [m]; `pins`: numbers of pinned particles; `wind`: the plan's mean wind [m/s], and
+`heading`, to where it blows [degrees from +z towards +x]; `vertices`: V; `method` of stepping.
+Triangles, texture coordinates and materials of the thick cloth do not move: the viewer has them
+from the scene, in the same order of vertices (front sheet, back sheet, four for each edge of the
+rim).
 
 A plan as bytes, little-endian: the length of the header (4 bytes), the header, padded with blanks
 to a multiple of 16 bytes, then the memory image. The header also has what the loader needs:
-`calls`: by purpose, the name of the exported kernel and the place of its arguments; `image`: the
-image's length in memory, which is at least that in the file, the rest is 0; `pointers`: places of
-32-bit pointers in the image, whose values count from its start; `functions`: places of the
-addresses of kernels that kernels call, with their names; `fields`: the places, types and lengths of
-the arrays and numbers that the loader uses; `module`: the hash of the sources for which it is
-valid. The order of a kernel's arguments in the image is that of numba's data models; nothing about
-it is written by hand.
+`calls`: by purpose, the name of the exported kernel, the place of its arguments and what it means
+that it fails; `image`: the image's length in memory, which is at least that in the file, the rest
+is 0; `pointers`: places of 32-bit pointers in the image, whose values count from its start;
+`functions`: places of the addresses of kernels that kernels call, with their names; `fields`: the
+places, types and lengths of the arrays and numbers that the loader uses, and the call that writes
+them, if it is not `play`; `module`: the hash of the sources for which it is valid. The order of a
+kernel's arguments in the image is that of numba's data models; nothing about it is written by hand.
 
 From Python: `drapery.web.wasm.plan.plans_of(body, settings)` gives the plans of a body's panels,
 `plans_of_garment(played)` those of a garment's cloths,

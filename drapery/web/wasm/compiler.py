@@ -75,14 +75,10 @@ def compile_module(kernels: list[ExportedKernel], info: Mapping[str, Any], folde
 
 
 def _optimize(code: Any, machine: Any) -> None:
-    """Optimise the code, take out the counting of references to arrays that are used anyway, which
-    takes most of the time, and optimise what is left."""
+    """Optimise the code for speed."""
     options = _llvm.create_pipeline_tuning_options(speed_level=3)
-    for _ in range(2):
-        builder = _llvm.create_pass_builder(machine, options)
-        passes = builder.getModulePassManager()
-        passes.add_refprune_pass()
-        passes.run(code, builder)
+    builder = _llvm.create_pass_builder(machine, options)
+    builder.getModulePassManager().run(code, builder)
 
 
 def _zig(folder: Path, *arguments: str) -> None:
@@ -97,7 +93,11 @@ def _zig(folder: Path, *arguments: str) -> None:
 
 
 def _typed_code(kernel: ExportedKernel) -> Any:
-    """A kernel and all it calls, for wasm32, with its function of one argument."""
+    """A kernel and all it calls, for wasm32, with its function of one argument.
+
+    References to arrays are not counted, which would keep loops from being optimised: the next call
+    uses the memory of all arrays again. See `runtime.c`.
+    """
     function = kernel.function
     function.compile(kernel.types)
     name = function.overloads[kernel.types].fndesc.llvm_func_name
@@ -105,6 +105,8 @@ def _typed_code(kernel: ExportedKernel) -> Any:
     text = re.sub(r'target triple = ".*"', f'target triple = "{TRIPLE}"', text)
     text = re.sub(r'target datalayout = ".*"', f'target datalayout = "{LAYOUT}"', text)
     kinds = r"= (?:linkonce_odr|common) (?:local_unnamed_addr |unnamed_addr )?global"
+    counting = r"(?ms)^define [^\n]*@(NRT_incref|NRT_decref)\(.*?^}"
+    text = re.sub(counting, r"define internal void @\1(ptr) {\nret void\n}", text)
     code = _llvm.parse_assembly(re.sub(kinds, "= internal global", text))
     inner = code.get_function(name)
     parameters = [str(argument.type) for argument in inner.arguments]
@@ -113,6 +115,7 @@ def _typed_code(kernel: ExportedKernel) -> Any:
         f'target triple = "{TRIPLE}"',
         f'target datalayout = "{LAYOUT}"',
         f'declare i32 @"{name}"({", ".join(parameters)})',
+        "declare void @rewind()",
     ]
     wrapper = _llvm.parse_assembly("\n".join([*head, *lines]))
     inner.linkage = "external"
@@ -133,6 +136,7 @@ def _call(kernel: ExportedKernel, inner: str, parameters: list[str]) -> list[str
         f'define i32 @"{kernel.name}"(ptr %at) {{',
         *(f"%p{number} = getelementptr i8, ptr %at, i32 {_place(number)}" for number, _ in every),
         *(f"%a{number} = load {kind}, ptr %p{number}" for number, kind in every[2:]),
+        "call void @rewind()",
         f'%code = call i32 @"{inner}"({", ".join(given)})',
         "ret i32 %code",
         "}",

@@ -13,6 +13,17 @@ from drapery.web.wasm.module import module_info, read_module
 LANES = 4
 """Lanes of a cloth's arrays: the register of WebAssembly holds four float32."""
 
+FAULTS = {
+    "play": "the cloth has blown up; use a weaker wind",
+    "draw": "the cloth is outside the picture",
+}
+"""What it means that a kernel fails, by the purpose of its call."""
+WRITERS = {
+    **dict.fromkeys(("vertices", "normals", "light"), "cover"),
+    **dict.fromkeys(("figure", "figureLight"), "pose"),
+}
+"""The calls that write arrays which a host reads, where it is not `play`."""
+
 
 def plans_of(body: Body, settings: Settings, *, picture: bool = False) -> list[bytes]:
     """The plans of a body's panels, in their order, at the start of the motion.
@@ -42,13 +53,14 @@ def write_plan(panel: LivePanel, info: dict[str, Any]) -> bytes:
             raise WasmBuildError(
                 f"the WebAssembly module has no kernel {kernel.name} for this cloth"
             )
-        calls[purpose] = [kernel.name, image.add_call(kernel.arguments, addresses)]
+        fault = FAULTS.get(purpose, f"the kernel {kernel.name} has failed")
+        calls[purpose] = [kernel.name, image.add_call(kernel.arguments, addresses), fault]
     header = {
         **panel.header,
         "module": info["sources"],
         "calls": calls,
         "fields": {
-            name: [image.add_array(array), array.dtype.name, array.size]
+            name: [image.add_array(array), array.dtype.name, array.size, WRITERS.get(name)]
             for name, array in panel.arrays.items()
         },
         "image": len(image.data),

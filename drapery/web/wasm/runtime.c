@@ -1,7 +1,7 @@
 /* Memory for the kernels, in place of numba's runtime for Python.
 
-   Cloths are reserved once, from the end of the module's own data upwards. The arrays that a kernel
-   makes lie above them; as soon as none is in use, their memory is used again. */
+   Cloths are reserved once, from the end of the module's own data upwards. The arrays that kernels
+   make lie above them until the next call of the module. */
 
 typedef unsigned long size;
 
@@ -11,7 +11,7 @@ struct info { /* numba's MemInfo with 32-bit pointers */
 };
 
 extern unsigned char __heap_base;
-static size reserved, top, in_use;
+static size reserved, top;
 
 static size aligned(size place) { return (place + 63) & ~(size)63; }
 
@@ -26,7 +26,6 @@ __attribute__((export_name("reserve"))) size reserve(size bytes) {
   size place = aligned(reserved ? reserved : (size)&__heap_base);
   if (!grown(place + bytes)) return 0;
   reserved = place + bytes;
-  if (!in_use) top = reserved;
   return place;
 }
 
@@ -34,16 +33,13 @@ struct info *NRT_MemInfo_alloc_aligned(unsigned long long bytes, unsigned align)
   size place = aligned(top), data = aligned(place + sizeof(struct info));
   if (!grown(data + (size)bytes + 64)) __builtin_trap();
   struct info *made = (struct info *)place;
-  made->references = 1;
   made->data = (void *)data;
   top = data + (size)bytes;
-  in_use++;
   return made;
 }
 
-void NRT_MemInfo_call_dtor(struct info *gone) {
-  if (--in_use == 0) top = reserved;
-}
+/* Kernels call this before they make arrays: none of the last call is in use. */
+void rewind(void) { top = reserved; }
 
 /* Only rows that follow one another are reshaped. */
 int numba_attempt_nocopy_reshape(
