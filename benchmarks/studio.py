@@ -34,6 +34,7 @@ from studio_browser import (
     console_errors,
     open_browser,
     open_page,
+    paste,
     resize,
     wait_until,
 )
@@ -56,11 +57,6 @@ const [field, share] = arguments;
 if (field.tagName === "SELECT") field.selectedIndex = Math.floor(share * field.options.length);
 else field.value = Number(field.min) + share * (Number(field.max) - Number(field.min));
 for (const name of ["input", "change"]) field.dispatchEvent(new Event(name, { bubbles: true }));
-"""
-PASTE = """
-const data = new DataTransfer();
-data.setData("text/plain", arguments[0]);
-document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData: data, bubbles: true }));
 """
 WORDS = ("creeper", "12", "-3", "lime ghost", "zigzag, red", "'\"<b>", "1e9", "", "München 4")
 
@@ -191,13 +187,13 @@ def _random_design(visitor: Visitor) -> str:
 def _paste(visitor: Visitor) -> str:
     banner = banner_of(random_sketch(visitor.random.getrandbits(32)))
     text = write_banner(banner, visitor.random.choice(("give", "text", "needcoolshoes")))
-    visitor.page.execute_script(PASTE, text)
+    paste(visitor.page, text)
     return text
 
 
 def _paste_nonsense(visitor: Visitor) -> str:
     text = visitor.random.choice(("white creeper:mauve", "{", "/give @p stone", "\x00", "ab " * 99))
-    visitor.page.execute_script(PASTE, text)
+    paste(visitor.page, text)
     return repr(text)
 
 

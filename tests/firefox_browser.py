@@ -11,11 +11,14 @@ import os
 import re
 import shutil
 import subprocess
+import tempfile
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from PIL import Image
 
 FIREFOX = shutil.which("firefox-esr") or shutil.which("firefox")
@@ -23,6 +26,8 @@ XVFB = shutil.which("Xvfb")
 PREFERENCES = {
     "app.normandy.enabled": False,
     "app.update.enabled": False,
+    "browser.download.alwaysOpenPanel": False,
+    "browser.download.folderList": 2,
     "browser.shell.checkDefaultBrowser": False,
     "datareporting.policy.dataSubmissionEnabled": False,
     "network.captive-portal-service.enabled": False,
@@ -34,19 +39,41 @@ PREFERENCES = {
 }
 
 
+@pytest.fixture(scope="session")
+def firefox() -> "Iterator[Firefox]":
+    """A browser of its own profile; skipped only where Firefox, Xvfb or the client is missing."""
+    pytest.importorskip("websocket", reason="websocket-client is not installed (selenium needs it)")
+    if FIREFOX is None or XVFB is None:
+        pytest.skip("Firefox and Xvfb are not installed (apt: firefox-esr, xvfb)")
+    # Firefox may still write into its profile while it ends.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        browser = Firefox(Path(folder))
+        yield browser
+        browser.close()
+
+
 class Firefox:
-    """A Firefox with a profile of its own in a folder."""
+    """A Firefox with a profile of its own in a folder.
+
+    downloads: the folder of what it downloads. errors: what pages wrote into its console as errors.
+    """
 
     def __init__(self, folder: Path) -> None:
-        lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in PREFERENCES.items()]
+        self.downloads = folder / "downloads"
+        self.errors: list[str] = []
+        own = PREFERENCES | {"browser.download.dir": str(self.downloads)}
+        lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in own.items()]
         (folder / "user.js").write_text("".join(lines), encoding="utf-8")
         screen = [str(XVFB), "-displayfd", "1", "-screen", "0", "1280x1024x24"]
         self.screen = subprocess.Popen(screen, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         assert self.screen.stdout is not None
-        own = os.environ | {"DISPLAY": f":{int(self.screen.stdout.readline())}"}
+        number = self.screen.stdout.readline().decode().strip()
+        if not number:
+            raise AssertionError(f"Xvfb did not start; it ended with {self.screen.wait(20)}")
+        shown = os.environ | {"DISPLAY": f":{number}"}
         options = ["--no-remote", "--remote-debugging-port", "0", "--profile", str(folder)]
         command = [str(FIREFOX), *options, "about:blank"]
-        self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=own)
+        self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=shown)
         try:
             self._connect()
         except BaseException:
@@ -58,6 +85,7 @@ class Firefox:
 
         # A Firefox that says nothing for a minute is ended, which ends the reading of its lines.
         late = threading.Timer(60, self.process.kill)
+        late.daemon = True
         late.start()
         address = self._address()
         late.cancel()
@@ -65,7 +93,9 @@ class Firefox:
         self.socket = create_connection(f"{address}/session", timeout=60, suppress_origin=True)
         self.count = 0
         self.send("session.new", capabilities={})
-        self.context = self.send("browsingContext.getTree")["contexts"][0]["context"]
+        # A tab of its own has the focus, without which fields do not report what is typed.
+        self.context = self.send("browsingContext.create", type="tab")["context"]
+        self.send("session.subscribe", events=["log.entryAdded"])
 
     def _address(self) -> str:
         assert self.process.stderr is not None
@@ -85,6 +115,9 @@ class Firefox:
         self.socket.send(json.dumps({"id": self.count, "method": method, "params": parameters}))
         while True:
             answer = json.loads(self.socket.recv())
+            entry = answer.get("params", {})
+            if answer.get("method") == "log.entryAdded" and entry["level"] == "error":
+                self.errors.append(entry["text"])
             if answer.get("id") == self.count:
                 assert answer["type"] == "success", answer
                 return answer["result"]
@@ -104,6 +137,17 @@ class Firefox:
         """Press and release keys, one after the other."""
         actions = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]
         source = {"type": "key", "id": "keys", "actions": actions}
+        self.send("input.performActions", context=self.context, actions=[source])
+
+    def click(self, selector: str) -> None:
+        """Click in the middle of the first element that a CSS selector finds."""
+        found = f"document.querySelector({json.dumps(selector)})"
+        self.ask(f"{found}.scrollIntoView({{ block: 'center' }})")
+        box = self.ask(f"{found}.getBoundingClientRect()")
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        move = {"type": "pointerMove", "x": round(x), "y": round(y)}
+        press = [{"type": kind, "button": 0} for kind in ("pointerDown", "pointerUp")]
+        source = {"type": "pointer", "id": "mouse", "actions": [move, *press]}
         self.send("input.performActions", context=self.context, actions=[source])
 
     def screenshot(self) -> np.ndarray:

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import threading
 import time
+from base64 import b64encode
 from collections.abc import Callable, Iterator
 from glob import glob
 from pathlib import Path
@@ -30,6 +31,19 @@ FLAGS = (
     *("--disable-background-networking", "--force-prefers-reduced-motion"),
     "--no-proxy-server",
 )
+
+PASTE = """
+const data = new DataTransfer();
+data.setData("text/plain", arguments[0]);
+document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData: data, bubbles: true }));
+"""
+DROP = """
+const bytes = Uint8Array.from(atob(arguments[1]), (c) => c.charCodeAt(0));
+const data = new DataTransfer();
+data.items.add(new File([bytes], arguments[0]));
+const options = { dataTransfer: data, bubbles: true, cancelable: true };
+document.querySelector(arguments[2]).dispatchEvent(new DragEvent("drop", options));
+"""
 
 WIDE = (1280, 800)
 PHONE = (390, 844)
@@ -137,6 +151,16 @@ def open_address(driver: Any, address: str) -> None:
     driver.get_log("browser")
     driver.get(address)
     wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
+
+
+def paste(driver: Any, text: str) -> None:
+    """What Ctrl+V does when no field has the focus."""
+    driver.execute_script(PASTE, text)
+
+
+def drop(driver: Any, name: str, data: bytes, on: str = ".viewport") -> None:
+    """What a file does that is dropped on a part of the page."""
+    driver.execute_script(DROP, name, b64encode(data).decode(), on)
 
 
 def wait_until(condition: Callable[[], T], seconds: float = 60.0) -> T:

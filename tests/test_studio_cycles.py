@@ -1,5 +1,6 @@
 """Tabs that are opened and closed leave nothing behind: no session, thread, file or memory."""
 
+import json
 import os
 import time
 import urllib.error
@@ -60,6 +61,13 @@ def test_tabs_leave_nothing(studio: Studio) -> None:
     assert after[0] <= before[0] + 16
     assert after[2] < before[2] + 30
     assert not list(studio.folder.glob("drapery-studio-*"))
+
+
+def test_a_busy_page_is_not_gone(studio: Studio) -> None:
+    """A page that draws for a minute answers no message of its framework, and is not reloaded."""
+    address = f"{studio.address}_nicegui_ws/socket.io/?EIO=4&transport=polling"
+    opened = json.loads(urllib.request.urlopen(address, timeout=10).read()[1:])
+    assert opened["pingTimeout"] >= 60_000
 
 
 def test_a_stopped_studio_leaves_no_files(tmp_path: Path) -> None:

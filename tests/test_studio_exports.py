@@ -52,6 +52,14 @@ def test_the_bytes_are_those_of_the_command(kind: str, tmp_path: Path, drapery) 
     assert page == line
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_turntable_is_of_animations(kind: str) -> None:
+    wanted = ExportRequest(BANNER, Settings(turntable=True), kind, garment="cape")
+    is_loop = kind in ("gif", "apng", "webp", "mp4")
+    assert ("--turntable" in as_command(wanted)) == is_loop
+    assert ("turntable=True" in as_python(wanted)) == is_loop
+
+
 def test_the_design_is_what_show_writes(tmp_path: Path, drapery) -> None:
     make(request_of("json"), tmp_path / "banner.json")
     assert (tmp_path / "banner.json").read_text() == drapery("show", TEXT, "--as", "json")[1]

@@ -12,11 +12,13 @@ import numpy as np
 import pytest
 from pack_maker import plain, png
 
+from drapery.banner import Banner, FoundBanner
 from drapery.banner.formats import parse_banner
 from drapery.errors import DesignError, DraperyError, OutputError
+from drapery.packs import open_packs
 from drapery.settings import Settings
 from drapery.studio.library import APPLICATION_ID, VERSION, Library, default_place
-from drapery.studio.records import Design, checked_tags
+from drapery.studio.records import Design, checked_tags, tagged_designs
 from drapery.studio.sketch import Sketch, Stroke, hide, sketch_of
 
 PICTURE = Settings(view="iso", wind=7.5, grid=(9, 17))
@@ -29,6 +31,11 @@ def design(text: str = "white creeper:lime", title: str = "Lime", *tags: str) ->
 @pytest.fixture
 def library(tmp_path: Path) -> Library:
     return Library(tmp_path / "a folder" / "library.sqlite")
+
+
+def rename(library: Library, number: int, title: str) -> None:
+    old = library.get(number)
+    library.change(replace(old, sketch=replace(old.sketch, title=title)))
 
 
 def found(library: Library, words: str = "", tag: str | None = None) -> list[str]:
@@ -75,8 +82,8 @@ def test_pages_of_a_search(library: Library) -> None:
 
 def test_rename_tag_change_and_order(library: Library) -> None:
     first, second = library.add(design(title="one")), library.add(design(title="two"))
-    library.rename(first, " uno ")
-    library.tag(first, ["B", "b ", "", "A  c"])
+    rename(library, first, " uno ")
+    library.change(replace(library.get(first), tags=("B", "b ", "", "A  c")))
     assert found(library) == ["uno", "two"] and library.get(first).tags == ("b", "a c")
     library.change(replace(library.get(second), sketch=Sketch("black", title="zwei")))
     assert library.get(second).sketch.base == "black" and found(library, "lime") == ["uno"]
@@ -93,7 +100,7 @@ def test_what_is_removed_can_be_put_back(library: Library) -> None:
 
 @pytest.mark.parametrize("number", [0, -1, 99, 1 << 70])
 def test_a_number_that_is_not_there(library: Library, number: int) -> None:
-    for act in (library.get, library.remove, lambda n: library.rename(n, "x")):
+    for act in (library.get, library.remove, lambda n: library.change(replace(design(), number=n))):
         with pytest.raises(DesignError, match="no longer in the library"):
             act(number)
 
@@ -260,8 +267,9 @@ from drapery.studio.library import Library
 from drapery.studio.sketch import sketch_of
 library = Library(Path(sys.argv[1]))
 for n in range(15):
-    number = library.add(Design(sketch_of(parse_banner("red"), f"{sys.argv[2]} {n}"), Settings()))
-    library.tag(number, [sys.argv[2]])
+    sketch = sketch_of(parse_banner("red"), f"{sys.argv[2]} {n}")
+    number = library.add(Design(sketch, Settings()))
+    library.change(Design(sketch, Settings(), (sys.argv[2],), number=number))
 """
 
 
@@ -291,3 +299,14 @@ def test_the_default_place() -> None:
 
 def test_tags_are_brought_to_one_spelling() -> None:
     assert checked_tags([" My  Team", "my team", "ß"]) == ("my team", "ß")
+
+
+def test_all_banners_of_a_file_are_saved_once_with_their_place(library: Library) -> None:
+    first, second = Banner("red"), Banner("blue", kind="shield")
+    read = [FoundBanner(first, "a\tb 1"), FoundBanner(second, "2"), FoundBanner(first, "3")]
+    designs = [*tagged_designs(read, "Hall, old.schem", Settings(), open_packs(()))]
+    assert library.add_new(designs) == (2, 0)
+    assert library.add_new(designs) == (0, 2)
+    shield, banner = library.search(tag="hall old.schem")[0]
+    assert (shield.title, shield.sketch.kind, banner.title) == ("2", "shield", "ab 1")
+    assert banner.thumbnail

@@ -66,16 +66,18 @@ class LibraryMachine(RuleBasedStateMachine):
     @rule(number=numbers, title=TITLES)
     def rename(self, number: int, title: str) -> None:
         """Only the title changes."""
-        self.library.rename(number, title)
-        old, new = self.designs[number], self.library.get(number)
+        old = self.designs[number]
+        self.library.change(replace(old, sketch=replace(old.sketch, title=title)))
+        new = self.library.get(number)
         assert new == replace(old, sketch=new.sketch, changed=new.changed)
         self.designs[number] = new
 
     @rule(number=numbers, tags=TAGS)
     def tag(self, number: int, tags: tuple[str, ...]) -> None:
         """Only the tags change."""
-        self.library.tag(number, tags)
-        old, new = self.designs[number], self.library.get(number)
+        old = self.designs[number]
+        self.library.change(replace(old, tags=tags))
+        new = self.library.get(number)
         assert new == replace(old, tags=new.tags, changed=new.changed)
         assert {tag.lower() for tag in new.tags} == {tag.lower() for tag in tags}
         self.designs[number] = new

@@ -103,7 +103,7 @@ def test_no_pack_is_read_before_the_page_is_there(tmp_path: Path) -> None:
     session = Session(Settings(packs=(zip_pack(tmp_path / "pack.zip", files),)))
     (entry,) = session.pack_store.entries
     assert entry.contents == PackContents()
-    assert session.pack_store.contents_as(None) == {entry.number: PackContents("1 pattern")}
+    assert session.pack_store.contents_as(None) == {entry.number: PackContents("Patterns: 1")}
     session.close()
 
 

@@ -17,8 +17,10 @@ from studio_browser import (
     WIDE,
     Studio,
     console_errors,
+    drop,
     open_browser,
     open_page,
+    paste,
     resize,
     wait_until,
 )
@@ -93,16 +95,6 @@ def press(page: Any, *keys: str) -> None:
 def titles(page: Any) -> list[str]:
     """The layers as they are listed, topmost first."""
     return [each.text for each in page.find_elements(By.CSS_SELECTOR, ".layer .row-title")]
-
-
-def paste(page: Any, text: str) -> None:
-    """What Ctrl+V does when no field has the focus."""
-    page.execute_script(
-        "const data = new DataTransfer(); data.setData('text/plain', arguments[0]);"
-        "document.body.dispatchEvent("
-        " new ClipboardEvent('paste', { clipboardData: data, bubbles: true }));",
-        text,
-    )
 
 
 def alert(page: Any) -> str:
@@ -218,18 +210,6 @@ def test_broken_text_shows_the_line_and_the_page_goes_on(page: Any) -> None:
     paste(page, "white creeper:lime")
     is_now(page, "white creeper:lime")
     assert not find(page, ".panel-text .fault").is_displayed()
-
-
-def drop(page: Any, name: str, data: bytes) -> None:
-    """What a file does that is dropped on the page."""
-    page.execute_script(
-        "const bytes = Uint8Array.from(atob(arguments[1]), (c) => c.charCodeAt(0));"
-        "const data = new DataTransfer(); data.items.add(new File([bytes], arguments[0]));"
-        "document.querySelector('.viewport').dispatchEvent("
-        " new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));",
-        name,
-        base64.b64encode(data).decode(),
-    )
 
 
 def test_a_file_of_several_offers_a_choice(page: Any) -> None:

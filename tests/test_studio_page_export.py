@@ -5,7 +5,6 @@ import http.client
 import json
 import re
 import socket
-from base64 import b64encode
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +14,7 @@ from urllib.parse import urlsplit
 import pytest
 from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 from studio_browser import Studio, console_errors, lying, open_page, wait_until
+from studio_browser import drop as drop_file
 
 from drapery.settings import Settings
 from drapery.studio.panels.file_options import difference
@@ -217,7 +217,7 @@ def test_packs_change_the_patterns(page: Page, tmp_path: Path) -> None:
     before = sheet(page)
     pack = zip_pack(tmp_path / "blue <b>&.zip", {META: mcmeta(), CREEPER: plain(0, 0, 255, 255)})
     drop(page, "packs", pack)
-    page.notice("blue <b>&.zip: 1 pattern")
+    page.notice("blue <b>&.zip: Patterns: 1")
     assert wait_until(lambda: sheet(page) != before)
     changed = sheet(page)
     page.run("document.querySelector('.pack input').click()")
@@ -234,19 +234,10 @@ def test_packs_change_the_patterns(page: Page, tmp_path: Path) -> None:
     assert wait_until(lambda: not sent(page))
 
 
-THROW = """
-const pack = new File([Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0))], "thrown.zip");
-const transfer = new DataTransfer();
-transfer.items.add(pack);
-const drop = new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true });
-document.querySelector(".viewport").dispatchEvent(drop);
-"""
-
-
 def test_a_pack_may_be_dropped_anywhere(page: Page, tmp_path: Path) -> None:
     pack = zip_pack(tmp_path / "x.zip", {META: mcmeta(), CREEPER: plain(0, 0, 255, 255)})
-    page.run(THROW, b64encode(pack.read_bytes()).decode())
-    page.notice("thrown.zip: 1 pattern")
+    drop_file(page.driver, "thrown.zip", pack.read_bytes())
+    page.notice("thrown.zip: Patterns: 1")
     assert page.find(".pack-name").text.startswith("thrown.zip")
 
 
@@ -367,7 +358,7 @@ def test_the_library_keeps_finds_and_opens(page: Page, downloads: Path, tmp_path
     assert status == 200 and len(json.loads(dumped)["designs"]) == 2
     (tmp_path / "again.json").write_bytes(dumped)
     drop(other, "library", tmp_path / "again.json")
-    other.notice("0 designs added, 2 were here already")
+    other.notice("Designs added: 0; here already: 2")
     (tmp_path / "broken.json").write_text("{")
     drop(other, "library", tmp_path / "broken.json")
     other.notice("the file is not a library")
@@ -487,7 +478,7 @@ def test_uploads_are_bounded_as_they_come(page: Page) -> None:
     for _ in range(16):
         assert fetch(page.studio, "POST", f"/upload/{token}/pack?name=a", b"x")[0] == 200
     status, body = fetch(page.studio, "POST", f"/upload/{token}/pack?name=a", b"x")
-    assert status == 413 and b"16 files for a pack are here already" in body
+    assert status == 413 and b"16 files of this kind are here already" in body
 
 
 def _pour(studio: Studio, path: str, limit: int) -> int:

@@ -1,21 +1,13 @@
 """What other editors have, on the real page: commands with names, recent designs, comparison."""
 
-from base64 import b64encode
 from typing import Any
 
 import numpy as np
 import pytest
-from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
+from studio_browser import WIDE, Studio, console_errors, drop, open_page, resize, wait_until
 
 from drapery.render import png_bytes
 
-THROW = """
-const data = Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0));
-const transfer = new DataTransfer();
-transfer.items.add(new File([data], "me.png"));
-const drop = new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true });
-document.querySelector(".live-view canvas").dispatchEvent(drop);
-"""
 FILL = """
 const field = [...document.querySelectorAll("#panel-text label")]
   .find((each) => each.innerText.startsWith(arguments[0])).querySelector("input, select");
@@ -96,6 +88,6 @@ def test_what_other_pages_need_follows_the_design(page: Any) -> None:
 
 def test_a_skin_dropped_on_the_live_view_becomes_a_player(page: Any) -> None:
     skin = png_bytes(np.full((64, 64, 4), 200, np.uint8))
-    page.execute_script(THROW, b64encode(skin).decode())
+    drop(page, "me.png", skin, ".live-view canvas")
     command = "drapery player --skin me.png --head white -o banner.png"
     wait_until(lambda: value(page, "as-command").startswith(command))

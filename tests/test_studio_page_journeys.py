@@ -4,7 +4,7 @@
 """
 
 import os
-from base64 import b64encode
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,9 @@ from studio_browser import (
     WIDE,
     Studio,
     console_errors,
+    drop,
     open_page,
+    paste,
     resize,
     wait_until,
 )
@@ -43,6 +45,7 @@ def page(chromium: Any, studio: Studio, request: pytest.FixtureRequest) -> Itera
     chromium.find_element("css selector", ".live-bar button[aria-label=Pause]").click()
     yield chromium
     if SHOTS:
+        time.sleep(3)  # until the cloth and all faces show the last step
         Path(SHOTS).mkdir(parents=True, exist_ok=True)
         chromium.save_screenshot(f"{SHOTS}/{request.node.name.removeprefix('test_')}.png")
     assert console_errors(chromium) == []
@@ -107,28 +110,6 @@ def press(page: Any, *keys: str) -> None:
 
 def press_with(page: Any, held: str, key: str) -> None:
     ActionChains(page).key_down(held).send_keys(key).key_up(held).perform()
-
-
-def paste(page: Any, text: str) -> None:
-    script = """
-      const data = new DataTransfer();
-      data.setData("text/plain", arguments[0]);
-      const options = { clipboardData: data, bubbles: true };
-      document.body.dispatchEvent(new ClipboardEvent("paste", options));
-    """
-    page.execute_script(script, text)
-
-
-def drop(page: Any, path: Path, on: str = ".viewport") -> None:
-    """Drop a file on a part of the page."""
-    script = """
-      const bytes = Uint8Array.from(atob(arguments[1]), (c) => c.charCodeAt(0));
-      const data = new DataTransfer();
-      data.items.add(new File([bytes], arguments[0]));
-      const options = { dataTransfer: data, bubbles: true, cancelable: true };
-      document.querySelector(arguments[2]).dispatchEvent(new DragEvent("drop", options));
-    """
-    page.execute_script(script, path.name, b64encode(path.read_bytes()).decode(), on)
 
 
 def loaded(page: Any, selector: str) -> bool:
@@ -209,7 +190,7 @@ def test_a_design_from_a_command(page: Any) -> None:
 def test_a_pattern_of_a_pack(page: Any, tmp_path: Path) -> None:
     anvil = "assets/acme/textures/entity/banner/anvil.png"
     files = {META: mcmeta(), CREEPER: plain(0, 0, 255, 255), anvil: png(noise(3))}
-    drop(page, zip_pack(tmp_path / "acme.zip", files))
+    drop(page, "acme.zip", zip_pack(tmp_path / "acme.zip", files).read_bytes())
     wait_until(lambda: text(page, ".pack-name").startswith("acme.zip"))
     open_tab(page, "patterns")
     click(page, "[data-pattern='acme:anvil']")
@@ -220,9 +201,8 @@ def test_a_pattern_of_a_pack(page: Any, tmp_path: Path) -> None:
     wait_until(lambda: line in text(page, "#panel-layers .warning"))
 
 
-def test_a_cape_on_a_skin(page: Any, tmp_path: Path) -> None:
-    (tmp_path / "me.png").write_bytes(png(noise(5)))
-    drop(page, tmp_path / "me.png", ".live-view canvas")
+def test_a_cape_on_a_skin(page: Any) -> None:
+    drop(page, "me.png", png(noise(5)), ".live-view canvas")
     wait_until(lambda: "me.png" in value(page, "as-command"))
     page.find_element("xpath", "//label[.//div[text()='Garment']]").click()
     path = "//*[contains(@class, 'q-menu')]//*[starts-with(text(), 'cape:')]"
@@ -230,28 +210,38 @@ def test_a_cape_on_a_skin(page: Any, tmp_path: Path) -> None:
     wait_until(lambda: "cape" in value(page, "as-command"))
     assert "me.png" in value(page, "as-command")
     wait_until(lambda: "getting ready" not in text(page, ".live-view"))
+    open_tab(page, "export")
+    fill(page, "File", "gif")
+    path = "//label[starts-with(., 'Turntable')]//input"
+    wait_until(page.find_element("xpath", path).is_displayed)
+    page.find_element("xpath", path).click()
+    wait_until(lambda: "--turntable" in value(page, "as-command"))
 
 
-def test_all_banners_of_a_schematic(page: Any, tmp_path: Path) -> None:
+def test_all_banners_of_a_schematic(page: Any) -> None:
     designs = ["red creeper:lime", "blue skull:white border:black", "white flower:red"]
     banners = [Banner.parse(text) for text in designs]
     cells = {(n, 1, 0): (block_id(each), entity(each)) for n, each in enumerate(banners)}
-    path = tmp_path / "hall.schem"
-    path.write_bytes(nbt_file(schem(2, (3, 2, 1), cells), "Schematic"))
-    drop(page, path)
+    drop(page, "hall.schem", nbt_file(schem(2, (3, 2, 1), cells), "Schematic"))
     wait_until(lambda: len(page.find_elements("css selector", "#panel-text .found")) == 3)
     wait_until(lambda: loaded(page, "#panel-text .found img"))
     assert text(page, "#panel-text .found") == "hall.schem block 0,1,0"
     for place, design in enumerate(designs):
         page.find_elements("css selector", "#panel-text .found")[place].click()
         is_now(page, design)
+    click(page, "#panel-text button[aria-label='Save all banners in the library']")
+    open_tab(page, "library")
+    titles = "#panel-library .design-title"
+    wait_until(lambda: len(page.find_elements("css selector", titles)) >= 3)
+    assert text(page, titles) == "hall.schem block 2,1,0"
+    assert text(page, "#panel-library .design-tags") == "hall.schem"
 
 
 def test_packs_are_compared(page: Any, tmp_path: Path) -> None:
     paste(page, "white creeper:lime")
     for name, blue in (("soft.zip", 90), ("hard.zip", 255)):
         files = {META: mcmeta(), CREEPER: plain(blue, blue, blue, 255)}
-        drop(page, zip_pack(tmp_path / name, files))
+        drop(page, name, zip_pack(tmp_path / name, files).read_bytes())
         wait_until(lambda name=name: text(page, ".pack-name").startswith(name))
     fill(page, "Compare with", "1")
     wait_until(lambda: loaded(page, ".versus-slider img") and loaded(page, ".versus img"))

@@ -9,7 +9,9 @@ from selenium.webdriver.common.by import By
 from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
 
 from drapery import Banner, draw_face
-from drapery.banner import alt_text, letter_banners, write_banner
+from drapery.banner import letter_banners, write_banner
+from drapery.studio.descriptions import described
+from drapery.studio.sketch import sketch_of
 
 
 @pytest.fixture
@@ -41,8 +43,8 @@ def test_a_word_is_written_and_a_letter_opened(page: Any) -> None:
         lambda: value(page, "letters-text") == "\n".join(write_banner(b, "give") for b in banners)
     )
     letters = panel.find_elements(By.CSS_SELECTOR, ".letters button")
-    assert [letter.find_element(By.TAG_NAME, "img").get_attribute("alt") for letter in letters] == [
-        alt_text(banner) for banner in banners
+    assert [letter.get_attribute("aria-label") for letter in letters] == [
+        described(sketch_of(banner)) for banner in banners
     ]
     letters[0].click()
     wait_until(lambda: value(page, "written") == write_banner(banners[0], "give"))
@@ -56,8 +58,8 @@ def test_a_picture_becomes_candidates_and_one_is_opened(page: Any, tmp_path: Pat
     panel = open_tab(page, "picture")
     panel.find_element(By.CSS_SELECTOR, "input[type=file]").send_keys(str(tmp_path / "face.png"))
     wait_until(lambda: "click one" in panel.find_element(By.CSS_SELECTOR, ".hint").text)
-    pictures = panel.find_elements(By.CSS_SELECTOR, ".candidates img")
-    assert pictures[0].get_attribute("alt") == alt_text(design)
+    pictures = panel.find_elements(By.CSS_SELECTOR, ".candidates button")
+    assert pictures[0].get_attribute("aria-label") == f"1: {described(sketch_of(design))}"
     pictures[0].click()
     wait_until(lambda: value(page, "written") == write_banner(design, "give"))
     panel.find_element(By.CSS_SELECTOR, "input[type=file]").send_keys(str(tmp_path / "words.png"))

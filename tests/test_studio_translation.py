@@ -1,17 +1,23 @@
 """The page's catalogues are whole, and the browser's first known language is chosen."""
 
+import ast
 import asyncio
 import re
 import sys
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from fastapi import Request
 from nicegui import Client, core
+from nicegui.element import Element
 from nicegui.page import page
 
-from drapery.banner import DYES, PATTERNS
+from drapery.banner import DYES, FORMS, PATTERNS
 from drapery.settings import OPTIONS
+from drapery.studio import translation
 from drapery.studio.descriptions import named
+from drapery.studio.design_catalogue import own_designs
 from drapery.studio.page import build as build_page
 from drapery.studio.panels.live import garment_descriptions, scene_summaries
 from drapery.studio.session import Sessions
@@ -56,12 +62,13 @@ def test_a_text_without_a_page_or_a_translation_is_english() -> None:
 def test_every_text_and_choice_of_the_page_is_in_the_catalogues(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Names of methods, grids and forms of text are the same in all languages."""
+    """Names of methods, grids, designs and forms of text are the same in all languages."""
     asked: set[str] = set()
+    shown: set[str] = set()
 
-    def note(text: str) -> str:
+    def note(text: str, to: str = "") -> str:
         asked.add(text)
-        return text
+        return f"«{text}»"
 
     for name, module in [*sys.modules.items()]:
         if name.startswith("drapery.studio.") and hasattr(module, "translated"):
@@ -69,18 +76,92 @@ def test_every_text_and_choice_of_the_page_is_in_the_catalogues(
 
     async def build() -> None:
         monkeypatch.setattr(core, "loop", asyncio.get_running_loop())
-        with Client(page("/"), request=Request(SCOPE)):
+        with Client(page("/"), request=Request(SCOPE)) as client:
             session = sessions.open()
             build_page(session, sessions)
             for summary in (*scene_summaries().values(), *garment_descriptions().values()):
                 named("", summary)
             session.selection.press_pattern("creeper")
+            for element in client.elements.values():
+                shown.update(texts_of(element))
 
     sessions = Sessions()
     try:
         asyncio.run(build())
     finally:
         sessions.close_all()
-    same = {*OPTIONS["solver"].choices, *OPTIONS["samples"].choices}
-    own = {text for text in asked if re.search(r": | × |format \d", text) or text in map(str, same)}
-    assert sorted(asked - own - set(catalogue("de")) - {""}) == []
+    same = {*OPTIONS["solver"].choices, *FORM_TITLES}
+    left = {text for text in asked - same if WORD.search(without_marks(text))}
+    assert sorted(text for text in left if not is_german(text)) == []
+    titles = {"Drapery Studio", *(design.title for design in own_designs())}
+    # The name of a design's button begins with the title that it shows.
+    named_designs = re.compile(f"({'|'.join(map(re.escape, titles))}): «")
+    left = {named_designs.sub("«", text) for text in shown - titles}
+    assert sorted(text for text in left if WORD.search(without_marks(text))) == []
+
+
+FORM_TITLES = frozenset(f"{name}: {form.title}" for name, form in FORMS.items())
+
+
+def is_german(text: str) -> bool:
+    """Whether the German catalogue has the text, filled in or as it is."""
+    return text in catalogue("de") or translated(text, "de") != text
+
+
+WORD = re.compile("[A-Za-z]{4}")
+"""What remains of a text that nobody has translated; an abbreviation or a key is shorter."""
+
+
+def texts_of(element: Element) -> Iterator[str]:
+    """What an element of the page says."""
+    yield getattr(element, "text", "") or ""
+    for name in ("title", "aria-label", "placeholder", "alt", "label", "aria-valuetext"):
+        yield str(element.props.get(name, ""))
+
+
+def without_marks(text: str) -> str:
+    """A text without its marked parts, one in another, and without keys in brackets."""
+    while (inner := re.sub("«[^«»]*»", "", text)) != text:
+        text = inner
+    return re.sub(r"\((Ctrl|Shift|Enter|\+|[A-Z?])+\)| with ", "", text)
+
+
+@pytest.mark.parametrize(
+    ("text", "german"),
+    [
+        ("my {pack}.zip is empty; send it again", "my {pack}.zip ist leer; sende sie noch einmal"),
+        ("a with b", "a with b"),
+        (
+            "layer 1 'creeper:mauve': unknown dye 'mauve'; did you mean 'lime'?",
+            "Lage 1 'creeper:mauve': unbekannte Farbe 'mauve'; meintest du 'lime'?",
+        ),
+    ],
+)
+def test_a_message_is_translated_with_what_is_filled_in(text: str, german: str) -> None:
+    assert translated(text, "de") == german
+
+
+def test_every_message_of_the_studio_is_in_the_catalogues() -> None:
+    """The errors that its modules raise; not those of the command, nor of links and files that
+    somebody has changed."""
+    found = set()
+    for path in Path(translation.__file__).parent.glob("**/*.py"):
+        if path.stem not in UNTRANSLATED:
+            for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(call, ast.Call) and ast.unparse(call.func) in ERRORS and call.args:
+                    found.add(sample(call.args[0]))
+    missing = {text for text in found if WORD.search(text) and not is_german(text)}
+    assert sorted(missing) == []
+
+
+ERRORS = frozenset({"DesignError", "OptionError", "OutputError", "PackError", "show_notice"})
+UNTRANSLATED = frozenset({"app", "share", "records", "exports"})
+
+
+def sample(text: ast.expr) -> str:
+    """A message with something in each of its places."""
+    if isinstance(text, ast.JoinedStr):
+        return "".join(
+            each.value if isinstance(each, ast.Constant) else "7" for each in text.values
+        )
+    return text.value if isinstance(text, ast.Constant) else ""

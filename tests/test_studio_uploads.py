@@ -161,7 +161,7 @@ def test_a_pack_counts_when_it_is_adopted(session: Session, tmp_path: Path) -> N
     events = []
     session.listen("packs", lambda: events.append(1))
     pack_store = store_with(session, packed(tmp_path, 7), packed(tmp_path, 9))
-    assert [entry.contents.summary for entry in pack_store.entries] == ["1 pattern"] * 2
+    assert [entry.contents.summary for entry in pack_store.entries] == ["Patterns: 1"] * 2
     assert red(session.packs()) == 9 and len(events) == 2
     pack_store.move(pack_store.entries[1].number, -1)
     assert red(session.packs()) == 7

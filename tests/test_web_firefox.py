@@ -1,33 +1,19 @@
 """A page with live cloth in Firefox: it waves, turns and pauses by keyboard."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import pytest
+from firefox_browser import Firefox
 from studio_browser import wait_until
 
 from drapery import Banner
 from drapery.settings import Settings
 from drapery.web.page import write_page
 
-pytest.importorskip("websocket", reason="websocket-client is not installed (selenium needs it)")
-
-from firefox_browser import FIREFOX, XVFB, Firefox
-
 ELEMENT = "document.querySelector('drapery-banner')"
 ENTER_PAGE, RIGHT = "\ue004", "\ue014"
 """The keys Tab and arrow right in WebDriver."""
-
-
-@pytest.fixture
-def firefox(tmp_path: Path) -> Iterator[Firefox]:
-    if FIREFOX is None or XVFB is None:
-        pytest.skip("Firefox and Xvfb are not installed (apt: firefox-esr, xvfb)")
-    (tmp_path / "profile").mkdir()
-    browser = Firefox(tmp_path / "profile")
-    yield browser
-    browser.close()
 
 
 def differs(browser: Firefox, before: np.ndarray) -> bool:

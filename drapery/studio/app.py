@@ -9,7 +9,7 @@ from urllib.parse import urlencode
 import uvicorn
 from fastapi import FastAPI
 from nicegui import app as nicegui_app
-from nicegui import ui
+from nicegui import core, ui
 
 from drapery import OutputError
 from drapery.studio import page, routes, stream
@@ -18,6 +18,9 @@ from drapery.studio.session import Sessions, StudioConfig
 
 RECONNECT = 2.0
 """How long a session waits for its tab to come back [s]."""
+BUSY = 120.0
+"""How long a page may be too busy to answer [s]. A closed tab closes its socket at once, and the
+server's own pings find a network that is gone."""
 PRUNE_INTERVAL = 60.0
 """How often old kept work is dropped [s]."""
 
@@ -30,6 +33,7 @@ def make_app(
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        core.sio.eio.ping_timeout = BUSY
         pruning = asyncio.create_task(prune_regularly(sessions, PRUNE_INTERVAL))
         yield
         pruning.cancel()

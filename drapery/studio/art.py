@@ -1,15 +1,22 @@
 """Small pictures of designs and patterns, drawn from the session's packs, as PNG files."""
 
 import threading
-from base64 import b64encode
 from collections.abc import Callable
+from urllib.parse import urlencode
 from weakref import WeakKeyDictionary
 from zlib import crc32
 
 import numpy as np
 
 from drapery import Banner, Layer, OptionError, Settings
-from drapery.banner import FLAG_REGIONS, SHIELD_REGIONS, composite, flag_layers, shield_layers
+from drapery.banner import (
+    FLAG_REGIONS,
+    SHIELD_REGIONS,
+    composite,
+    flag_layers,
+    shield_layers,
+    write_banner,
+)
 from drapery.packs import Packs, Texels, read_png
 from drapery.render import draw_scene, png_bytes
 from drapery.scenes import still
@@ -38,9 +45,10 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
     return png_bytes(region.sample(composite(layers), scale))
 
 
-def face_address(banner: Banner, packs: Packs, scale: int = 2) -> str:
-    """The flat face as a `data:` address. Raises PackError."""
-    return f"data:image/png;base64,{b64encode(face_png(banner, packs, scale)).decode()}"
+def face_address(document: Document, banner: Banner, scale: int = 2) -> str:
+    """The address of the flat face of any design, drawn from the tab's packs."""
+    words = {"design": write_banner(banner, "text"), "kind": banner.kind, "scale": scale}
+    return f"/design/{document.token}.png?{urlencode(words)}&packs={_packs_mark(document)}"
 
 
 def pattern_names(packs: Packs) -> tuple[str, ...]:
@@ -127,6 +135,11 @@ def _cell(packs: Packs, banner: Banner) -> Texels:
 
 def sheet_address(document: Document, dye: str) -> str:
     """The address of `pattern_sheet` for the tab's packs, the dye of its field and this dye."""
+    words = f"base={document.sketch.base}&dye={dye}&packs={_packs_mark(document)}"
+    return f"/patterns/{document.token}.png?{words}"
+
+
+def _packs_mark(document: Document) -> str:
+    """Differs for other packs, because browsers keep pictures."""
     settings = document.settings
-    mark = crc32(repr((settings.packs, settings.format)).encode())
-    return f"/patterns/{document.token}.png?base={document.sketch.base}&dye={dye}&packs={mark:x}"
+    return f"{crc32(repr((settings.packs, settings.format)).encode()):x}"

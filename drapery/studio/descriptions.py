@@ -43,11 +43,22 @@ def view_title(view: str) -> str:
     return {"iso": "Corner", "gui": "Item"}.get(view, view.capitalize())
 
 
+def option_help(option: Option) -> str:
+    """What an option means, with its limits; in other languages than English only its numbers."""
+    words = translated(option.help)
+    if words == option.help:
+        return option.describe()
+    if option.bounds is None:
+        return words
+    low, high = option.bounds
+    return f"{words} ({low:g} – {high:g} {translated(option.unit)})".replace(" )", ")")
+
+
 def with_unit(option: Option, value: float) -> str:
     """A number with the unit of its option, for example `1 texel`."""
     is_symbol = len(option.unit) < 4  # such as m/s, which has no plural
     unit = option.unit if is_symbol or value != 1 else option.unit.removesuffix("s")
-    return f"{value:g} {unit}".rstrip()
+    return f"{value:g} {translated(unit)}".rstrip()
 
 
 def choice_titles(option: Option) -> dict[Any, str]:

@@ -16,7 +16,7 @@ from drapery.packs import Packs, open_packs
 from drapery.studio.history import History
 from drapery.studio.sketch import Sketch
 
-Event = Literal["sketch", "settings", "packs", "scene", "preview", "recent"]
+Event = Literal["sketch", "settings", "packs", "scene", "preview", "recent", "library"]
 
 
 class Document:

@@ -60,6 +60,7 @@ def make(request: ExportRequest, path: Path, progress: Progress | None = None) -
     if request.kind in LOOPS:
         _loop(request, path, on_progress)
         return
+    on_progress(0, 1)
     _ONCE[request.kind](request, path, on_progress)
 
 
@@ -84,7 +85,6 @@ def check(request: ExportRequest) -> None:
 def _still(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery import draw
 
-    on_progress(0, 1)
     frame = draw(subject_of(request), options_for(request))
     on_progress(1, 1)
     frame.save(path)
@@ -93,7 +93,6 @@ def _still(request: ExportRequest, path: Path, on_progress: Progress) -> None:
 def _face(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery import draw_face
 
-    on_progress(0, 1)
     settings = options_for(request)
     banner = _banner(request)
     face = draw_face(banner, packs=settings.packs, format=settings.format, scale=request.scale)
@@ -158,7 +157,6 @@ def _model(request: ExportRequest, path: Path, on_progress: Progress) -> None:
 def _page(request: ExportRequest, path: Path, on_progress: Progress) -> None:
     from drapery.web.page import page_text
 
-    on_progress(0, 1)
     text = page_text(request.banner, options_for(request))
     on_progress(1, 1)
     path.write_text(text, encoding="utf-8")

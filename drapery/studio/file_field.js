@@ -6,13 +6,13 @@ export default {
       <label class="file-field-label">
         <input type="file" class="file-field-input" :accept="accept" :multiple="multiple"
                :disabled="busy" @change="choose" />
-        <span>{{ busy ? "Sending " + sending : label }}</span>
+        <span>{{ busy ? sending : label }}</span>
       </label>
       <progress v-if="busy" class="file-field-progress" max="1" :value="share"
-                :aria-label="'Sending ' + sending"></progress>
+                :aria-label="sending"></progress>
     </div>`,
   props: {
-    address: String, label: String, accept: String, multiple: Boolean, maxBytes: Number,
+    address: String, label: String, sends: String, accept: String, multiple: Boolean, maxBytes: Number,
     // The tab that opens when a file with such an ending is dropped elsewhere on the page.
     tab: String,
     // A selector: files with such an ending that are dropped there are for this field alone.
@@ -63,7 +63,7 @@ export default {
       if (file.size > this.maxBytes) {
         return { line: `${name} is over ${Math.floor(this.maxBytes / 1048576)} MiB; send a smaller one` };
       }
-      this.sending = name;
+      this.sending = this.sends.replace("{name}", () => name);
       this.share = 0;
       return new Promise((resolve) => {
         const request = new XMLHttpRequest();

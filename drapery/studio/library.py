@@ -10,7 +10,6 @@ import os
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +29,7 @@ from drapery.studio.records import (
     words_of,
     write_designs,
 )
-from drapery.studio.share import checked_title, of_tree
+from drapery.studio.share import of_tree
 
 APPLICATION_ID = 0x44726170
 """"Drap" in ASCII."""
@@ -109,15 +108,6 @@ class Library:
         with self._change() as session:
             return _design(_found(session, number))
 
-    def rename(self, number: int, title: str) -> None:
-        """Give a design another title. Raises DesignError, OutputError."""
-        old = self.get(number)
-        self.change(replace(old, sketch=replace(old.sketch, title=checked_title(title))))
-
-    def tag(self, number: int, tags: Iterable[str]) -> None:
-        """Give a design these tags and no others. Raises DesignError, OutputError."""
-        self.change(replace(self.get(number), tags=tuple(tags)))
-
     def remove(self, number: int) -> Design:
         """Remove and return a design; `add` restores it. Raises DesignError, OutputError."""
         with self._change() as session:
@@ -161,7 +151,14 @@ class Library:
 
         Raises DesignError, which names the place, if a design is not valid; then adds none.
         """
-        designs = read_designs(data)
+        return self.add_new(read_designs(data))
+
+    def add_new(self, designs: Iterable[Design]) -> tuple[int, int]:
+        """Add those designs that are not here yet; returns their number and that of the others.
+
+        designs: each as `checked` returns it. Raises DesignError or OutputError; then adds none.
+        """
+        designs = [*designs]
         with self._change() as session:
             known = {(row.tree, _names(row)) for row in session.scalars(select(_Row))}
             fresh = [design for design in designs if identity(design) not in known]

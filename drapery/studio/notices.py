@@ -1,23 +1,27 @@
 """Notices on the page for its user: input errors, warnings and confirmations."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Literal
+from typing import Literal, TypeVar
 
-from nicegui import ui
+from nicegui import Client, run, ui
 
 from drapery import DraperyError
+from drapery.studio.translation import translated
 
+T = TypeVar("T")
 Tone = Literal["fault", "warning", "done"]
 
+ADDED = "Designs added: {}; here already: {}"
+"""What a library says after it has got several designs."""
 _TYPES: dict[Tone, Literal["negative", "warning", "positive"]] = {
     "fault": "negative",
     "warning": "warning",
     "done": "positive",
 }
 _CLOSE: dict[Tone, list[dict[str, str | bool]]] = {
-    "fault": [{"label": "Close", "color": "white", "dense": True, "noCaps": True}],
-    "warning": [{"label": "Close", "color": "dark", "dense": True, "noCaps": True}],
+    "fault": [{"color": "white", "dense": True, "noCaps": True}],
+    "warning": [{"color": "dark", "dense": True, "noCaps": True}],
     "done": [],
 }
 
@@ -25,13 +29,13 @@ _CLOSE: dict[Tone, list[dict[str, str | bool]]] = {
 def show_notice(line: str, tone: Tone = "done") -> None:
     """Show one line to the user; a screen reader reads it too."""
     ui.notify(
-        line,
+        translated(line),
         type=_TYPES[tone],
         position="bottom",
         timeout={"fault": 10_000, "warning": 7_000, "done": 1_800}[tone],
         attrs={"role": "status" if tone == "done" else "alert"},
         classes="notice",
-        actions=_CLOSE[tone],
+        actions=[each | {"label": translated("Close")} for each in _CLOSE[tone]],
     )
 
 
@@ -42,3 +46,13 @@ def errors_shown() -> Iterator[None]:
         yield
     except DraperyError as error:
         show_notice(str(error), "fault")
+
+
+async def called_in_thread(client: Client, call: Callable[[], T]) -> T | None:
+    """The result of a call in a thread; None after a DraperyError, which the page's user sees."""
+    try:
+        return await run.io_bound(call)
+    except DraperyError as error:
+        with client:  # what was pressed may be gone, and the notice would go with it
+            show_notice(str(error), "fault")
+        return None

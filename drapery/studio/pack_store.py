@@ -193,5 +193,4 @@ def _contents(path: Path, name: str, format: int | None) -> PackContents:
     packs.base_sheet()
     own = sum(packs.level(pattern) == 1 for pattern in names)
     warnings = (line.replace(str(path), name) for line in packs.warnings() if OWN_ART not in line)
-    summary = "1 pattern" if own == 1 else f"{own or 'no'} patterns"
-    return PackContents(summary, tuple(warnings))
+    return PackContents(f"Patterns: {own}", tuple(warnings))

@@ -124,7 +124,9 @@ def build(session: Session, sessions: Sessions) -> None:
     """Draw the whole page for a session. sessions: of the pages that it may go on from."""
     _head(session)
     with ui.element("div").classes("studio").props(f'data-token="{session.token}"') as root:
-        root.props["data-language"] = language()
+        session.language = root.props["data-language"] = language()
+        root.props["data-copied"] = translated("Copied")
+        root.props["data-drop"] = translated("Drop it to read its banners")
         with ui.element("header").classes("bar"):
             bar.build(session)
         for place in ("left", "viewport", "under"):
@@ -199,7 +201,8 @@ def _panels(session: Session, place: str) -> None:
 
 
 def _tabs() -> None:
-    with ui.element("div").classes("tabs").props('role="tablist" aria-label="Panels"'):
+    with ui.element("div").classes("tabs").props("role=tablist") as tabs:
+        tabs.props["aria-label"] = translated("Panels")
         for panel in PANELS:
             if panel.place == "viewport" or panel.name == "palette":
                 continue

@@ -20,7 +20,7 @@ export default {
       <div class="patterns-head">
         <input v-model="wanted" type="search" class="field" :placeholder="words.find + '  ( / )'"
           :aria-label="words.find" @keydown.enter="first" @keydown.esc="leave">
-        <div v-if="canSwap" class="segments" role="group" aria-label="What a pattern does">
+        <div v-if="canSwap" class="segments" role="group" :aria-label="words.what">
           <button type="button" :aria-pressed="!swaps" @click="$emit('swaps', false)">{{ words.add }}</button>
           <button type="button" :aria-pressed="swaps" @click="$emit('swaps', true)">{{ words.change }}</button>
         </div>

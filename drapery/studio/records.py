@@ -2,15 +2,16 @@
 
 import json
 from base64 import b64decode, b64encode
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from drapery import DesignError, DraperyError, Settings
+from drapery import Banner, DesignError, DraperyError, FoundBanner, Settings
 from drapery.banner import PATTERNS
-from drapery.packs import png_size, read_png
+from drapery.packs import Packs, png_size, read_png
+from drapery.studio.art import thumbnail
 from drapery.studio.share import as_tree, checked_title, of_tree
-from drapery.studio.sketch import Sketch
+from drapery.studio.sketch import Sketch, sketch_of
 
 VERSION = 1
 """The version of the export file's form."""
@@ -45,6 +46,22 @@ class Design:
     def title(self) -> str:
         """The sketch's title."""
         return self.sketch.title
+
+
+def tagged_designs(
+    found: Iterable[FoundBanner], name: str, settings: Settings, packs: Packs
+) -> Iterator[Design]:
+    """Each of the banners once, with its first place as title and the name of its file as tag.
+
+    Raises PackError.
+    """
+    tag = "".join(each for each in name if each != "," and each.isprintable())[:MAX_TAG]
+    places: dict[Banner, str] = {}
+    for each in found:
+        places.setdefault(each.banner, each.where)
+    for banner, place in places.items():
+        title = "".join(filter(str.isprintable, place))
+        yield checked(Design(sketch_of(banner, title), settings, (tag,), thumbnail(banner, packs)))
 
 
 def tree_of(design: Design) -> str:

@@ -5,16 +5,16 @@ Every address holds the token of an open session; no part of an address is a fil
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Literal
+from typing import Annotated, Literal
 from urllib.parse import quote
 
-from fastapi import FastAPI, HTTPException, Request, Response
+from fastapi import FastAPI, HTTPException, Query, Request, Response
 from fastapi.responses import FileResponse, JSONResponse
 
 from drapery import DesignError, DraperyError
+from drapery.banner import parse_banner
 from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_rows, pattern_sheet, style_png
-from drapery.studio.design_catalogue import own_designs
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of
 from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name
@@ -33,6 +33,9 @@ MEDIA_TYPES = {
 
 CACHING = "private, max-age=3600"
 """For pictures whose addresses change whenever their content does."""
+
+Text = Annotated[str, Query(max_length=4000)]
+Scale = Annotated[int, Query(ge=1, le=8)]
 
 
 def add_routes(app: FastAPI, sessions: Sessions) -> None:
@@ -61,36 +64,17 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
         shown = replace(shown, kind=kind or shown.kind)
         return _picture(session, lambda: face_png(banner_of(shown), session.packs()))
 
-    @app.get("/steps/{token}/{count}.png")
-    def step(token: str, count: int) -> Response:
+    @app.get("/design/{token}.png")
+    def design(
+        token: str, design: Text, kind: Literal["banner", "shield"], scale: Scale
+    ) -> Response:
         session = session_of(token)
-        whole = banner_of(session.sketch)
-        part = replace(whole, layers=whole.layers[: max(0, count)])
-        return _picture(session, lambda: face_png(part, session.packs(), 2))
 
-    @app.get("/found/{token}/{number}.png")
-    def found(token: str, number: int) -> Response:
-        session = session_of(token)
-        banners = session.upload_queue.found
-        if not 0 <= number < len(banners):
-            raise HTTPException(404, "no such banner")
-        return _picture(session, lambda: face_png(banners[number].banner, session.packs(), 2))
+        def draw() -> bytes:
+            banner = replace(parse_banner(design, form="text"), kind=kind)
+            return face_png(banner, session.packs(), scale)
 
-    @app.get("/own/{token}/{number}.png")
-    def own(token: str, number: int) -> Response:
-        session, designs = session_of(token), own_designs()
-        if not 0 <= number < len(designs):
-            raise HTTPException(404, "no such design")
-        banner = designs[number].banner
-        return _picture(session, lambda: face_png(banner, session.packs(), 2), CACHING)
-
-    @app.get("/past/{token}/{step}.png")
-    def past(token: str, step: int) -> Response:
-        session = session_of(token)
-        states = session.history.states
-        if not 0 <= step < len(states):
-            raise HTTPException(404, "no such step")
-        return _picture(session, lambda: face_png(banner_of(states[step]), session.packs(), 2))
+        return _picture(session, draw, CACHING)
 
     @app.get("/patterns/{token}.png")
     def patterns(token: str, base: str, dye: str) -> Response:

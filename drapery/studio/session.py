@@ -42,7 +42,7 @@ class Session(Document):
     library, slots: shared with the other tabs of the studio; if not given, the session makes them.
     entries: the number of each design's entry in the library, by the origin of its sketch.
     tags: the tags that the user gave a design, by the same. recent: the latest designs of the
-    user's browser with their options, newest first.
+    user's browser with their options, newest first. language: that of its page.
     """
 
     def __init__(
@@ -57,6 +57,7 @@ class Session(Document):
         self.library = library or SharedLibrary(None)
         self.entries: dict[int, int] = {}
         self.tags: dict[int, str] = {}
+        self.language = "en"
         self.recent: tuple[tuple[Sketch, Settings], ...] = ()
         self.selection = Selection(self)
         self.uploads = Uploads(self)

@@ -29,6 +29,7 @@ KINDS = (*STILLS, "face", *LOOPS, "glb", "html", "json")
 `json` is the design itself."""
 
 PICTURE_OPTIONS = tuple(NAMED_OPTIONS)
+STILL_OPTIONS = tuple(name for name in PICTURE_OPTIONS if name != "turntable")
 SCALE = Option("scale", "Pixels of a texel", int, 8, bounds=(1, 256), unit="pixels")
 """The option `--scale` of `drapery flat`."""
 MODEL_OPTIONS = (
@@ -244,7 +245,13 @@ def style_names_of(request: ExportRequest) -> tuple[str, ...]:
 
 
 _COMMANDS = {"png": "render", "face": "flat", "glb": "model", "html": "web"}
-_OPTIONS = {"glb": MODEL_OPTIONS, "face": FACE_OPTIONS, "html": WEB_OPTIONS, "json": ()}
+_OPTIONS = {
+    "png": STILL_OPTIONS,
+    "glb": MODEL_OPTIONS,
+    "face": FACE_OPTIONS,
+    "html": WEB_OPTIONS,
+    "json": (),
+}
 
 
 def _names(request: ExportRequest) -> tuple[str, ...]:

@@ -17,8 +17,9 @@ from fastapi import FastAPI, WebSocket, WebSocketDisconnect
 
 from drapery import DraperyError, OptionError
 from drapery.studio.live import Ray
-from drapery.studio.session import Sessions
-from drapery.studio.viewport import Viewport, in_thread
+from drapery.studio.session import Session, Sessions
+from drapery.studio.translation import translated
+from drapery.studio.viewport import in_thread
 from drapery.studio.wind_controls import KEYS
 from drapery.web.messages import MessageEncoder
 
@@ -35,8 +36,9 @@ fault in the program."""
 class ViewerConnection:
     """The server side of one viewer's connection; it counts the messages sent and drawn."""
 
-    def __init__(self, viewport: Viewport, which: str) -> None:
-        self.viewport = viewport
+    def __init__(self, session: Session, which: str) -> None:
+        self.viewport = session.viewport
+        self.language = session.language
         self.encoder = MessageEncoder(which)
         self.hidden = False
         self.sent = self.drawn = 0
@@ -70,7 +72,7 @@ class ViewerConnection:
                 await socket.close(UNKNOWN)
                 return
             seen = self.viewport.version
-            line = self.viewport.fault or self.viewport.note
+            line = translated(self.viewport.fault or self.viewport.note, self.language)
             if line != self._line:
                 self._line = line
                 await socket.send_text(json.dumps({"line": line}))
@@ -159,12 +161,12 @@ def add_routes(app: FastAPI, sessions: Sessions) -> None:
         elif session.viewport.viewers >= MAX_VIEWERS:
             await socket.close(ENOUGH)
         else:
-            await _serve(socket, session.viewport, which if which in ("left", "right") else "all")
+            await _serve(socket, session, which if which in ("left", "right") else "all")
 
 
-async def _serve(socket: WebSocket, viewport: Viewport, which: str) -> None:
+async def _serve(socket: WebSocket, session: Session, which: str) -> None:
     """Serve one viewer until it disconnects; then undo all that it did."""
-    viewer = ViewerConnection(viewport, which)
+    viewer, viewport = ViewerConnection(session, which), session.viewport
     viewport.viewers += 1
     viewport.enter()
     sending = asyncio.create_task(viewer.send_moments(socket), name="live socket")

@@ -96,7 +96,7 @@ async function copy(text, from) {
   if (!from) return;
   const label = from.querySelector(".copy-label") ?? from;
   const before = (label.dataset.before ??= label.textContent);
-  label.textContent = "Copied";
+  label.textContent = root().dataset.copied;
   setTimeout(() => (label.textContent = before), 1500);
 }
 

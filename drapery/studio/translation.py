@@ -5,6 +5,7 @@ the key. The names of dyes and patterns are those of the game in that language. 
 which languages its user reads; a text that a catalogue lacks stays English.
 """
 
+import re
 from collections.abc import Mapping
 from functools import cache, lru_cache
 from importlib.resources import files
@@ -29,9 +30,42 @@ GAME_LANGUAGES = {
 """The languages of the page, and what the game calls them."""
 
 
-def translated(text: str) -> str:
-    """A text of the page in the language of the user whose page is being built or changed."""
-    return catalogue(language()).get(text, text)
+_FIXED = 8
+"""The fewest letters beside its places of a text that is found filled in; fewer fit too much."""
+
+
+def translated(text: str, to: str = "") -> str:
+    """A text in a language, by default that of the user whose page is being built or changed.
+
+    Places may be filled in: "a.zip is empty; send it again" is translated like the catalogue's
+    "{name} is empty; send it again".
+    """
+    return _translated(text, to or language())
+
+
+@lru_cache(maxsize=4096)
+def _translated(text: str, language: str) -> str:
+    texts = catalogue(language)
+    if text in texts:
+        return texts[text]
+    for form, wanted in _forms(language):
+        if found := form.fullmatch(text):
+            words = found.groupdict().items()
+            return wanted.format(**{name: _translated(each, language) for name, each in words})
+    return text
+
+
+@cache
+def _forms(language: str) -> list[tuple[re.Pattern[str], str]]:
+    """The texts with places to fill in, as patterns; those with the most other letters first."""
+    forms = []
+    for english, text in catalogue(language).items():
+        fixed, names = re.split(r"{\w+}", english), re.findall(r"{(\w+)}", english)
+        if names and len("".join(fixed)) >= _FIXED:
+            places = [*(f"(?P<{name}>.+)" for name in names), ""]
+            parts = zip(map(re.escape, fixed), places, strict=True)
+            forms.append((len("".join(fixed)), "".join(a + b for a, b in parts), text))
+    return [(re.compile(form), text) for _, form, text in sorted(forms, reverse=True)]
 
 
 def language() -> str:

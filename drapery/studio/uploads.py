@@ -138,8 +138,7 @@ class Uploads:
         bounds = PURPOSES[purpose]
         if present.count(purpose) >= bounds.max_count:
             raise DesignError(
-                f"{name}: {bounds.max_count} files for a {purpose} are here already;"
-                " remove one first"
+                f"{name}: {bounds.max_count} files of this kind are here already; remove one first"
             )
         return bounds.max_bytes
 

@@ -9,17 +9,17 @@ export default {
         <svg viewBox="-10 -10 20 20" :style="arrow" aria-hidden="true"><path d="M0 -8 L5 3 L0 0.5 L-5 3 Z" /></svg>
         <span>{{ windText }}</span>
       </div>
-      <div v-show="rate" class="viewer-rate" aria-hidden="true">{{ rate }} frames/s</div>
+      <div v-show="rate" class="viewer-rate" aria-hidden="true">{{ rate }} {{ words[1] }}</div>
       <p v-show="line" class="viewer-line" role="alert">{{ line }}</p>
     </div>`,
-  props: { address: String, label: String },
+  props: { address: String, label: String, words: Array },
   data() {
     return { line: "", rate: null, wind: null, azimuth: 0, ready: false };
   },
   computed: {
     windText() {
       if (!this.wind) return "";
-      return this.wind[2] ? `${this.wind[0].toFixed(1)} m/s` : "no wind";
+      return this.wind[2] ? `${this.wind[0].toFixed(1)} m/s` : this.words[0];
     },
     arrow() {
       if (!this.wind) return {};

@@ -7,6 +7,7 @@ from nicegui import ui
 
 import drapery.web
 from drapery.studio.session import Session
+from drapery.studio.translation import translated
 
 VIEWER = str(Path(drapery.web.__file__).parent / "viewer")
 
@@ -29,4 +30,5 @@ class ViewerElement(ui.element, component="viewer.js", esm={"drapery-viewer": VI
     def __init__(self, session: Session, which: Which = "all", label: str = LABEL) -> None:
         super().__init__()
         self._props["address"] = f"/live/{session.token}?which={which}"
-        self._props["label"] = label
+        self._props["label"] = translated(label)
+        self._props["words"] = [translated(text) for text in ("no wind", "frames/s")]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drapery.cloth import Wind
+from drapery.cloth import Fabric, Wind
 from drapery.scenes import WIND_AXIS, breeze
 from drapery.settings import MAX_WIND, OPTIONS, Settings
 
@@ -26,7 +26,7 @@ PHASES = 1 << 16
 class WindControls:
     """The wind: speed [m/s], direction [degrees], gusts and seed as in `Settings`.
 
-    on: whether it blows.
+    on: whether it blows. fabric: of the cloth; light cloth ripples less.
     """
 
     speed: float = OPTIONS["wind"].default
@@ -34,6 +34,7 @@ class WindControls:
     gusts: float = Settings.gusts
     seed: int = 0
     on: bool = True
+    fabric: str | Fabric = Settings.fabric
 
     @property
     def heading(self) -> float:
@@ -48,13 +49,16 @@ def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
         x, _, z = wind.velocity
         heading = float(np.degrees(np.arctan2(x, z)))
         return WindControls(min(_speed(wind), MAX_WIND), heading, wind.gusts, wind.seed, on)
-    return WindControls(wind, settings.direction, settings.gusts, settings.seed, on)
+    return WindControls(
+        wind, settings.direction, settings.gusts, settings.seed, on, settings.fabric
+    )
 
 
 def wind_of(controls: WindControls) -> Wind:
     """The wind on a cloth, in the cloth's frame; bit-identical to the wind of pictures."""
     speed = controls.speed if controls.on else 0.0
-    return breeze(speed, controls.direction, controls.gusts, controls.seed)
+    direction, gusts, seed = controls.direction, controls.gusts, controls.seed
+    return breeze(speed, direction, gusts, seed, fabric=controls.fabric)
 
 
 def steered(

@@ -66,7 +66,7 @@ def build(session: Session) -> None:
         if kept is None:
             return
         with place, errors_shown():
-            other = face_address(banner_of(kept), session.packs(), SCALE)
+            other = face_address(session, banner_of(kept), SCALE)
             now = f"/face/{session.token}.png?kind={session.sketch.kind}&v=c{next(version)}"
             versus_slider(now, other, described(kept))
 

@@ -12,7 +12,7 @@ from nicegui import ui
 from nicegui.elements.mixins.value_element import ValueElement
 
 from drapery.settings import OPTIONS
-from drapery.studio.descriptions import choice_titles, with_unit
+from drapery.studio.descriptions import choice_titles, option_help, with_unit
 from drapery.studio.form_field import FormField
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
@@ -93,7 +93,7 @@ class Controls:
             self._session.adjust(**{name: value if option.type is float else int(value)})
 
         to_text = partial(with_unit, option)
-        self.slider(label, (*option.bounds, step), get, change, to_text, option.describe())
+        self.slider(label, (*option.bounds, step), get, change, to_text, option_help(option))
 
     def choice(self, name: str, label: str, **also: Any) -> None:
         """A list for an option with few choices. also: other options that change with it."""
@@ -104,7 +104,7 @@ class Controls:
             self._getter(name),
             lambda value: self._session.adjust(**{name: value}, **also),
         )
-        element.props.update({"title": option.describe()})
+        element.props.update({"title": option_help(option)})
 
     def flag(self, name: str, label: str) -> None:
         """A switch for an option that is on or off."""

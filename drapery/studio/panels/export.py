@@ -48,7 +48,8 @@ class _ProgressRow:
 
     def __init__(self, stop: Callable[[], None]) -> None:
         with ui.element("div").classes("going") as self._row:
-            self._bar = ui.element("progress").props("max=1 aria-label=Progress")
+            self._bar = ui.element("progress").props("max=1")
+            self._bar.props["aria-label"] = translated("Progress")
             self._words = text_element("").classes("hint").props("role=status")
             button("Stop the export", stop, text="Cancel")
         self.hide()

@@ -12,6 +12,7 @@ from nicegui import ui
 from nicegui.element import Element
 
 from drapery.option import Option
+from drapery.studio.descriptions import option_help
 from drapery.studio.form_field import FormField, Kind
 from drapery.studio.snippets import plain
 from drapery.studio.translation import translated
@@ -37,7 +38,7 @@ class Fields:
         assert option.bounds is not None
         minimum, maximum = option.bounds
         step = "1" if option.type is int else "any"
-        props = {"min": minimum, "max": maximum, "step": step, "title": option.describe()}
+        props = {"min": minimum, "max": maximum, "step": step, "title": option_help(option)}
 
         def changed(text: Any) -> None:
             if _is_number(text):

@@ -17,6 +17,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import LOOPS, SCALE, ExportRequest
+from drapery.studio.translation import translated
 from drapery.studio.viewport import ViewportRequest
 from drapery.studio.widgets import text_element
 
@@ -92,6 +93,8 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
             _sides(session, fields)
         with _only(groups, lambda: choice.kind in MOVING):
             _times(choice, fields)
+        with _only(groups, lambda: choice.kind in LOOPS and _can_turn(session)):
+            _tick(session, fields, "Turntable", "turntable")
         with _only(groups, lambda: choice.kind == "face"):
             _choice_number(fields, "Pixels a texel", choice, SCALE)
         with _only(groups, lambda: choice.kind in PICTURES | {"glb", "html"}):
@@ -111,9 +114,9 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
 
     def fit() -> None:
         fields.refresh()
-        hint.set_text(HINTS.get(choice.kind, ""))
+        hint.set_text(translated(HINTS.get(choice.kind, "")))
         line = difference(session.viewport.request, choice.kind)
-        differs.set_text(line)
+        differs.set_text(translated(line))
         differs.set_visibility(bool(line))
         for group, counts in groups:
             group.set_visibility(counts())
@@ -168,6 +171,17 @@ def _pick(
     )
 
 
+def _tick(session: Session, fields: Fields, label: str, name: str) -> None:
+    """A check box for an option of the picture that is on or off."""
+    get = partial(_value, session, name)
+    fields.tick(label, get, lambda on: session.adjust(**{name: bool(on)}))
+
+
+def _can_turn(session: Session) -> bool:
+    """Whether a turntable turns what is shown: a scene has cameras of its own, an item a slot."""
+    return session.viewport.request.scene is None and session.settings.placement != "item"
+
+
 def _value(session: Session, name: str) -> Any:
     return getattr(session.settings, name)
 
@@ -201,9 +215,7 @@ def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups
         )
         lights = {str(name): str(name) for name in OPTIONS["light"].choices}
         _pick(session, fields, "Light", "light", BY_VIEW | lights)
-        fields.tick(
-            "Shadow", lambda: session.settings.shadow, lambda on: session.adjust(shadow=bool(on))
-        )
+        _tick(session, fields, "Shadow", "shadow")
 
 
 def difference(request: ViewportRequest, kind: str) -> str:

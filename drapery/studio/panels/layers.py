@@ -69,7 +69,7 @@ def missing_patterns(session: Session) -> list[str]:
     packs = session.packs()
     added = {each.pattern for each in session.sketch.strokes if each.pattern not in PATTERNS}
     return [
-        f"{name} is in none of the packs: the game shows a checker. Add its pack."
+        translated(f"{name} is in none of the packs: the game shows a checker. Add its pack.")
         for name in sorted(added)
         if packs.level(name) is None
     ]

@@ -6,13 +6,13 @@ from typing import Any
 from nicegui import ui
 
 from drapery import Banner, DraperyError
-from drapery.banner import DYE_NAMES, alt_text, letter_banners, write_banner
-from drapery.studio.art import face_address
+from drapery.banner import DYE_NAMES, letter_banners, write_banner
 from drapery.studio.descriptions import dye_title
-from drapery.studio.panels.fields import Fields
+from drapery.studio.design_buttons import design_button
+from drapery.studio.panels.fields import Fields, copy_field
 from drapery.studio.session import Session
-from drapery.studio.sketch import sketch_of
-from drapery.studio.widgets import button, translated_text
+from drapery.studio.translation import translated
+from drapery.studio.widgets import translated_text
 
 MAX_WORD = 40
 """The most characters of a word on the page."""
@@ -59,38 +59,20 @@ def build(session: Session) -> None:
             lambda: chosen.border or "",
             lambda dye: change(border=dye or None),
         )
-    row = ui.element("div").classes("letters").props('role="group" aria-label="Letters"')
-    copy = button("Copy commands", lambda: None, icon="content_copy")
-    copy.props('data-copy="letters-text"')
-    with copy:
-        translated_text("Copy commands").classes("copy-label")
-    written = (
-        ui.element("textarea").classes("field code").props('id="letters-text" rows=4 readonly')
-    )
-    written.props.update({"aria-label": "The commands of the letters", "spellcheck": "false"})
+    row = ui.element("div").classes("letters").props("role=group")
+    row.props["aria-label"] = translated("Letters")
+    written = copy_field("letters-text", "The commands of the letters", 4)
 
     def show() -> None:
         try:
             banners = chosen.banners()
-            addresses = [face_address(banner, session.packs()) for banner in banners]
         except DraperyError:
             return
         row.clear()
         with row:
-            for banner, address in zip(banners, addresses, strict=True):
-                _letter(session, banner, address)
-        written.props["value"] = "\n".join(write_banner(banner, "give") for banner in banners)
-        written.update()
+            for banner in banners:
+                design_button(session, "found", banner, side=30)
+        written("\n".join(write_banner(banner, "give") for banner in banners))
 
     show()
     session.listen("packs", show)
-
-
-def _letter(session: Session, banner: Banner, address: str) -> None:
-    words = alt_text(banner)
-    choice = ui.element("button").classes("found").props("type=button")
-    choice.props.update({"aria-label": f"Open {words}", "title": words})
-    choice.on("click", lambda: session.selection.lay_out(sketch_of(banner, session.sketch.title)))
-    with choice:
-        picture = ui.element("img").props("width=30 height=60")
-        picture.props.update({"src": address, "alt": words})

@@ -5,13 +5,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
-from nicegui import background_tasks, run, ui
+from nicegui import background_tasks, ui
 
 from drapery import DraperyError
 from drapery.studio.art import thumbnail
 from drapery.studio.components import value_of
 from drapery.studio.file_field import FileField
-from drapery.studio.notices import Tone, show_notice
+from drapery.studio.notices import ADDED, Tone, called_in_thread, show_notice
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, banner_of
@@ -55,12 +55,15 @@ class LibraryPanel:
         self._search()
         self._undo = ui.element("div").classes("line undo").props("role=status")
         self._undo.set_visibility(False)
-        self._found = ui.element("ul").classes("designs").props("aria-label=Designs")
+        self._found = (
+            ui.element("ul").classes("designs").props(f'aria-label="{translated("Designs")}"')
+        )
         self._count = text_element("", "p").classes("hint").props("role=status")
         self._more = button("More designs", self._show_more, text="More")
         self._more.set_visibility(False)
         self._whole_library()
         session.listen("sketch", self._follow)
+        session.listen("library", lambda: background_tasks.create(self._refresh()))
         # Load the database after the first picture, which does not need it.
         ui.timer(LATER, self._refresh, once=True)
 
@@ -154,15 +157,7 @@ class LibraryPanel:
 
     async def _do(self, act: "Callable[[Library], T]") -> T | None:
         """Call the library in a thread; after an error, notify the user and return None."""
-
-        def ask() -> T:
-            return act(self._session.library.open())
-
-        try:
-            return await run.io_bound(ask)
-        except DraperyError as error:
-            self._notice(str(error), "fault")
-            return None
+        return await called_in_thread(self._client, lambda: act(self._session.library.open()))
 
     async def _refresh(self) -> None:
         self._asked += 1
@@ -188,7 +183,8 @@ class LibraryPanel:
             self._names = names
             self._tag_choice.refresh()
         self._show(designs)
-        self._count.set_text(_counted(count, bool(wanted or tag)))
+        with self._client:  # says the language
+            self._count.set_text(_counted(count, bool(wanted or tag)))
         self._more.set_visibility(count > len(designs))
 
     def _show(self, designs: "list[Design]") -> None:
@@ -203,18 +199,21 @@ class LibraryPanel:
                     self._card(design)
 
     def _card(self, design: "Design") -> None:
-        name = design.title or "Untitled"
+        name = design.title or translated("Untitled")
         opened = ui.element("button").classes("design-open").props("type=button")
-        opened.props.update({"aria-label": f"Open {name}", "title": f"Open {name}"})
+        words = translated("Open {name}").format(name=name)
+        opened.props.update({"aria-label": words, "title": words})
         opened.on("click", lambda: self._open_design(design.number))
         with opened:
             picture = ui.element("img").props('alt=""')
             picture.props["src"] = f"data:image/png;base64,{b64encode(design.thumbnail).decode()}"
         text_element(name).classes("design-title").props.update({"title": name})
         text_element(", ".join(design.tags)).classes("hint design-tags")
+        rename = translated("Rename or tag {name}").format(name=name)
+        delete = translated("Delete {name}").format(name=name)
         with ui.element("div").classes("design-acts"):
-            edit = button(f"Rename or tag {name}", lambda: self._edit(design), icon="edit")
-            gone = button(f"Delete {name}", lambda: self._remove(design.number), icon="delete")
+            edit = button(rename, lambda: self._edit(design), icon="edit")
+            gone = button(delete, lambda: self._remove(design.number), icon="delete")
         edit.classes("small")
         gone.classes("small")
 
@@ -338,10 +337,7 @@ class LibraryPanel:
         counts = await self._do(lambda library: library.load(upload.path.read_bytes()))
         self._session.uploads.remove(number)
         if counts is not None:
-            fresh, known = counts
-            self._notice(
-                f"{fresh} designs added" + (f", {known} were here already" if known else "")
-            )
+            self._notice(ADDED.format(*counts))
             await self._refresh()
 
     async def _show_more(self) -> None:

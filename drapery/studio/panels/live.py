@@ -66,7 +66,7 @@ def build(session: Session) -> None:
                 lambda name: wear(session, viewport.request.garment, name),
             )
             controls.line(
-                lambda: what_follows(viewport.request.scene) if viewport.request.scene else ""
+                lambda: translated(what_follows(shown)) if (shown := viewport.request.scene) else ""
             )
         with ui.element("details").classes("advanced live-files"):
             translated_text("A garment or a skin of your own", "summary")

@@ -1,7 +1,7 @@
 """The design as a recipe for the loom: the required items and the steps."""
 
+from dataclasses import replace
 from html import escape
-from itertools import count
 
 from nicegui import ui
 
@@ -15,6 +15,7 @@ from drapery.banner import (
     simplify,
 )
 from drapery.packs import Packs
+from drapery.studio.art import face_address
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.icons import icon_address
 from drapery.studio.notices import errors_shown
@@ -26,7 +27,6 @@ from drapery.studio.widgets import button, text_element, translated_text
 
 def build(session: Session) -> None:
     """The recipe, and a button that leaves out layers that cannot be seen."""
-    version = count()
     translated_text("Loom recipe", "h2").classes("heading")
     warning = text_element("", "p").classes("warning").props('role="status"')
     with ui.element("div").classes("line") as spare:
@@ -44,15 +44,12 @@ def build(session: Session) -> None:
             unseen = len(banner.layers) - len(simplify(banner, session.packs()).layers)
         except DraperyError:
             return
-        warning.set_text(
-            f"A loom makes at most {LOOM_LAYERS} layers; the design has {len(banner.layers)}."
-        )
+        line = f"A loom makes at most {LOOM_LAYERS} layers; the design has {len(banner.layers)}."
+        warning.set_text(translated(line))
         warning.set_visibility(not fits_loom(banner))
-        some = "one layer changes" if unseen == 1 else f"{unseen} layers change"
-        hint.set_text(f"{some.capitalize()} nothing that can be seen.")
+        hint.set_text(translated(f"Layers that change nothing that can be seen: {unseen}"))
         spare.set_visibility(unseen > 0)
-        address = f"/steps/{session.token}"
-        recipe.set_content(_recipe(banner, session.packs(), address, next(version)))
+        recipe.set_content(_recipe(session, banner))
 
     show()
     session.listen("sketch", show)
@@ -66,28 +63,27 @@ def simplify_design(session: Session) -> None:
         session.selection.lay_out(sketch_of(banner, session.sketch.title), same=True)
 
 
-def _recipe(banner: Banner, packs: Packs, address: str, version: int) -> str:
-    items = "".join(_item(one, packs) for one in crafting_items(banner))
+def _recipe(session: Session, banner: Banner) -> str:
+    items = "".join(_item(one, session.packs()) for one in crafting_items(banner))
     rows = "".join(
         _row(
-            f"{address}/{number}.png?v={version}",
+            face_address(session, replace(banner, layers=banner.layers[:number])),
             _step_title(step.layer.dye, step.layer.pattern),
             step.item,
         )
         for number, step in enumerate(loom_steps(banner), 1)
     )
-    headings = [escape(translated(text)) for text in ("Items", "Steps")]
-    return f'<h3>{headings[0]}</h3><ul class="goods">{items}</ul><h3>{headings[1]}</h3>' + (
-        f'<ol class="steps">{rows}</ol>'
-        if rows
-        else '<p class="hint">None: the banner is plain.</p>'
+    first, second, none = (
+        escape(translated(text)) for text in ("Items", "Steps", "None: the banner is plain.")
     )
+    steps = f'<ol class="steps">{rows}</ol>' if rows else f'<p class="hint">{none}</p>'
+    return f'<h3>{first}</h3><ul class="goods">{items}</ul><h3>{second}</h3>{steps}'
 
 
 def _item(item: CraftingItem, packs: Packs) -> str:
     """One item with its icon and count; a hint says if it is kept, and where it comes from."""
     words = f"{item.count} {item.item.replace('_', ' ')}"
-    hints = [] if item.consumed else ["kept"]
+    hints = [] if item.consumed else [translated("kept")]
     hints += [item.source.replace("_", " ")] if item.source else []
     hint = f' <span class="hint">{escape(", ".join(hints))}</span>' if hints else ""
     picture = f'<img src="{icon_address(item.item, packs)}" alt="" width="24" height="24">'

@@ -5,6 +5,7 @@ import math
 from nicegui import ui
 
 from drapery.settings import OPTIONS, ROTATIONS
+from drapery.studio.descriptions import option_help
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
 from drapery.studio.translation import translated
@@ -43,7 +44,7 @@ def _wind(session: Session, controls: Controls) -> None:
         lambda: round(wind_controls_of(session.settings).heading),
         lambda heading: session.adjust(direction=float(heading)),
         "{:.0f}°".format,
-        OPTIONS["direction"].describe(),
+        option_help(OPTIONS["direction"]),
     )
     controls.number("gusts", "Gusts", 0.05)
     viewport = session.viewport
@@ -73,14 +74,14 @@ def _simulation(session: Session, controls: Controls) -> None:
 
 
 def _placement(session: Session, controls: Controls) -> None:
-    controls.choice("placement", "Placement", rotation=0, facing=None)
+    controls.choice("placement", "Placement", rotation=0, facing=None, turntable=False)
     controls.slider(
         "Rotation",
         (0, ROTATIONS - 1, 1),
         lambda: _rotation(session),
         lambda number: _rotate(session, int(number)),
         lambda number: f"{number * 360 / ROTATIONS:g}°",
-        OPTIONS["rotation"].describe(),
+        option_help(OPTIONS["rotation"]),
     )
     controls.choice("pose", "Flag")
     controls.flag("shadow", "Shadow")
@@ -118,7 +119,7 @@ def _light(session: Session, controls: Controls) -> None:
         hour,
         choose,
         lambda hour: f"{int(hour)}:{int(hour % 1 * 60):02d}",
-        OPTIONS["daylight"].describe(),
+        option_help(OPTIONS["daylight"]),
     )
     controls.number("block_light", "Torch light", 1)
     with ui.element("details").classes("advanced"):

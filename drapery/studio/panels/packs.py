@@ -43,7 +43,7 @@ def build(session: Session) -> None:
     pack_store = session.pack_store
 
     async def take(number: int) -> None:
-        reading.set_text(READING)
+        reading.set_text(translated(READING))
         try:
             contents = await run.io_bound(pack_store.check, number) or PackContents()
             entry = pack_store.adopt(number, contents)
@@ -71,12 +71,13 @@ def _list(session: Session) -> None:
 
     @ui.refreshable
     def entries() -> None:
-        with ui.element("ol").classes("packs").props('aria-label="Packs, the one that wins first"'):
+        with ui.element("ol").classes("packs") as found:
+            found.props["aria-label"] = translated("Packs, the one that wins first")
             for entry in reversed(pack_store.entries):
                 with ui.element("li").classes("pack").props(f"data-pack={entry.number}"):
                     _row(session, entry)
             with ui.element("li").classes("pack"):
-                _name(OWN_ART, OWN_ART, "below all others")
+                _name(translated(OWN_ART), "", "below all others")
 
     entries()
     session.listen("packs", entries.refresh)
@@ -85,9 +86,9 @@ def _list(session: Session) -> None:
 def _name(title: str, name: str, summary: str, warnings: tuple[str, ...] = ()) -> None:
     with ui.element("div").classes("pack-name"):
         text_element(title).props.update({"title": name})
-        text_element(summary).classes("hint")
+        translated_text(summary).classes("hint")
         for line in warnings:
-            text_element(line, "p").classes("warning")
+            translated_text(line, "p").classes("warning")
 
 
 def _format(session: Session, reading: ui.label) -> None:
@@ -100,7 +101,8 @@ def _format(session: Session, reading: ui.label) -> None:
         nonlocal read_count
         wanted.append(format)
         place = len(wanted)
-        reading.set_text(READING)
+        with client:  # says the language
+            reading.set_text(translated(READING))
         contents = await run.io_bound(pack_store.contents_as, format)
         if contents is None or session.closed or place < len(wanted):
             return
@@ -119,7 +121,7 @@ def _format(session: Session, reading: ui.label) -> None:
 
     fields = Fields()
     formats = {"": "what each pack says"} | {number: _format_title(number) for number in FORMATS}
-    formats.setdefault(current(), f"pack format {current()}")
+    formats.setdefault(current(), translated("pack format {number}").format(number=current()))
     with ui.element("div").classes("options"):
         fields.choice("Read packs as", formats, current, choose)
     session.listen("settings", fields.refresh)
@@ -146,21 +148,24 @@ def _row(session: Session, entry: PackEntry) -> None:
             session.notify("packs")
 
     switch = ui.element("input").props("type=checkbox")
-    switch.props.update({"checked": entry.on, "aria-label": f"Use {entry.title}"})
+    switch.props.update(
+        {"checked": entry.on, "aria-label": translated("Use {name}").format(name=entry.title)}
+    )
     switch.on("change", lambda: act(lambda: pack_store.switch(entry.number)))
     _name(entry.title, entry.name, entry.contents.summary, entry.contents.warnings)
     acts: tuple[tuple[str, str, Callable[[], None]], ...] = (
-        ("arrow_upward", "Higher", lambda: pack_store.move(entry.number, 1)),
-        ("arrow_downward", "Lower", lambda: pack_store.move(entry.number, -1)),
-        ("close", "Remove", lambda: pack_store.remove(entry.number)),
+        ("arrow_upward", "Higher: {name}", lambda: pack_store.move(entry.number, 1)),
+        ("arrow_downward", "Lower: {name}", lambda: pack_store.move(entry.number, -1)),
+        ("close", "Remove: {name}", lambda: pack_store.remove(entry.number)),
     )
-    for icon, label, call in acts:
+    for place, (icon, text, call) in enumerate(acts, 1):
 
-        def press(label: str = label, call: Callable[[], None] = call) -> None:
+        def press(place: int = place, call: Callable[[], None] = call) -> None:
             act(call)
-            _focus(client, f'[data-pack="{entry.number}"] [aria-label^="{label}"]')
+            _focus(client, f'[data-pack="{entry.number}"] button:nth-of-type({place})')
 
-        button(f"{label}: {entry.title}", press, icon=icon).classes("small")
+        label = translated(text).format(name=entry.title)
+        button(label, press, icon=icon).classes("small")
 
 
 def _focus(client: Client, selector: str) -> None:
@@ -222,10 +227,10 @@ def _side(session: Session, which: str, caption: str, version: int) -> None:
     field = next(each for each in (sketch.base, "white", "black") if each != dye)
     address = f"/compare/{session.token}/{which}"
     with ui.element("figure").classes("versus-side"):
-        text_element(caption, "figcaption")
+        translated_text(caption, "figcaption")
         for what, query in (("face", ""), ("patterns", f"&base={field}&dye={dye}")):
             picture = ui.element("img").classes(f"versus-{what}")
-            title = "Design" if what == "face" else "Patterns"
+            title = translated("Design" if what == "face" else "Patterns")
             picture.props.update(
                 {"src": f"{address}/{what}.png?v={version}{query}", "alt": f"{title}: {caption}"}
             )

@@ -21,7 +21,7 @@ def build(session: Session) -> None:
         dye = session.selection.pattern_dye
         grid.show(
             sheet=sheet_address(session, dye),
-            label=f"Patterns in {dye_title(dye)}",
+            label=translated("Patterns in {dye}").format(dye=dye_title(dye)),
             swaps=session.selection.swaps,
             canSwap=isinstance(session.selection.chosen, int),
             current=_current(session),
@@ -60,6 +60,7 @@ _WORDS = {
     "count": "Patterns: {count}",
     "add": "New layer",
     "change": "Change layer",
+    "what": "What a pattern does",
     "nothing": "No pattern is called that. Try another word, such as stripe or corner.",
 }
 """The texts of the grid itself."""

@@ -7,15 +7,16 @@ from nicegui import context, ui
 from starlette.concurrency import run_in_threadpool
 
 from drapery import DraperyError
-from drapery.banner import LOOM_LAYERS, alt_text
+from drapery.banner import LOOM_LAYERS
 from drapery.match import Match, Matcher, MatchProgress, fit_picture, match_photo, read_picture
 from drapery.packs import Packs
-from drapery.studio.art import face_address
 from drapery.studio.descriptions import described
+from drapery.studio.design_buttons import design_button
 from drapery.studio.file_field import FileField
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
+from drapery.studio.translation import translated
 from drapery.studio.widgets import text_element, translated_text
 
 ENDINGS = ".png,.jpg,.jpeg,.webp"
@@ -39,7 +40,7 @@ def build(session: Session) -> None:
         nonlocal newest
         newest = number
         upload = session.uploads.get(number, "picture")
-        status.set_text(f"Looking for designs like {upload.name} …")
+        status.set_text(translated(f"Looking for designs like {upload.name} …"))
         try:
             states = _states(upload.path, upload.name, session.packs(), is_photo)
             shown: tuple[Match, ...] = ()
@@ -50,7 +51,9 @@ def build(session: Session) -> None:
                     shown = state.matches
                     with client:
                         _show(session, row, shown)
-            status.set_text(f"The designs most like {upload.name}: click one to open it.")
+            line = f"The designs most like {upload.name}: click one to open it."
+            with client:
+                status.set_text(translated(line))
         except DraperyError:
             status.set_text("")
             raise
@@ -70,7 +73,7 @@ def build(session: Session) -> None:
         fields.tick("It is a photo of a banner: set it upright", lambda: is_photo, set_photo)
     status = text_element("", "p").classes("hint").props('role="status"')
     row = ui.element("div").classes("letters candidates").props('role="group"')
-    row.props.update({"aria-label": "Candidates"})
+    row.props["aria-label"] = translated("Candidates")
 
 
 def _states(path: Path, name: str, packs: Packs, is_photo: bool) -> Iterator[MatchProgress]:
@@ -92,19 +95,5 @@ def _show(session: Session, row: ui.element, matches: tuple[Match, ...]) -> None
     row.clear()
     with row:
         for number, match in enumerate(matches, 1):
-            _candidate(session, number, match)
-
-
-def _candidate(session: Session, number: int, match: Match) -> None:
-    sketch = sketch_of(match.banner)
-    words = f"{number}: {described(sketch)}"
-    choice = ui.element("button").classes("found").props("type=button")
-    choice.props.update({"aria-label": f"Open {words}", "title": words})
-    choice.on(
-        "click",
-        lambda: session.selection.lay_out(sketch_of(match.banner, session.sketch.title)),
-    )
-    with choice:
-        picture = ui.element("img").props("width=50 height=100")
-        address = face_address(match.banner, session.packs(), 3)
-        picture.props.update({"src": address, "alt": alt_text(match.banner)})
+            words = f"{number}: {described(sketch_of(match.banner))}"
+            design_button(session, "found", match.banner, label=words, side=50)

@@ -1,20 +1,18 @@
 """The start page: designs to begin with."""
 
+from collections.abc import Sequence
 from functools import partial
-from zlib import crc32
 
 from nicegui import ui
-from nicegui.element import Element
 
 from drapery import Settings
-from drapery.studio.art import face_address
-from drapery.studio.descriptions import described
+from drapery.studio.design_buttons import design_button
 from drapery.studio.design_catalogue import EXAMPLES, OwnDesign, groups, own_designs
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
-from drapery.studio.sketch import Sketch, banner_of, sketch_of
+from drapery.studio.sketch import Sketch, banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, text_element, translated_text
+from drapery.studio.widgets import button, translated_text
 
 
 def build(session: Session) -> None:
@@ -32,10 +30,7 @@ def build(session: Session) -> None:
     )
     for group in groups():
         translated_text(group.capitalize(), "h3")
-        with ui.element("div").classes("own-designs"):
-            for number, design in enumerate(own_designs()):
-                if design.group == group:
-                    _card(session, number, design)
+        _designs(session, [design for design in own_designs() if design.group == group])
 
 
 def _show_tab(name: str) -> None:
@@ -53,23 +48,17 @@ def _recent(session: Session) -> None:
         recent.set_visibility(bool(session.recent))
         with row, errors_shown():
             for sketch, settings in session.recent:
-                _recent_card(session, sketch, settings)
+                press = partial(_open_again, session, sketch, settings)
+                text = sketch.title or translated("Untitled")
+                design_button(session, "own-design", banner_of(sketch), press, text=text)
 
     show()
     session.listen("recent", show)
 
 
-def _recent_card(session: Session, sketch: Sketch, settings: Settings) -> None:
-    def press() -> None:
-        with errors_shown():
-            session.open(sketch, settings)
-
-    choice = ui.element("button").classes("own-design").props("type=button")
-    choice.props["title"] = described(sketch)
-    choice.on("click", press)
-    with choice:
-        face_picture(face_address(banner_of(sketch), session.packs()))
-        text_element(sketch.title or translated("Untitled"))
+def _open_again(session: Session, sketch: Sketch, settings: Settings) -> None:
+    with errors_shown():
+        session.open(sketch, settings)
 
 
 def build_examples(session: Session) -> None:
@@ -80,10 +69,7 @@ def build_examples(session: Session) -> None:
             " Or begin with one of these:",
             "p",
         )
-        with ui.element("div").classes("own-designs"):
-            for number, design in enumerate(own_designs()):
-                if design.title in EXAMPLES:
-                    _card(session, number, design)
+        _designs(session, [design for design in own_designs() if design.title in EXAMPLES])
 
     def show() -> None:
         welcome.set_visibility(session.sketch == Sketch() and not session.history.past)
@@ -92,29 +78,16 @@ def build_examples(session: Session) -> None:
     session.listen("sketch", show)
 
 
-def _card(session: Session, number: int, design: OwnDesign) -> None:
-    choice = ui.element("button").classes("own-design").props("type=button")
-    choice.props.update({"data-own": design.title, "title": described(sketch_of(design.banner))})
-    choice.on("click", lambda: session.selection.lay_out(sketch_of(design.banner, design.title)))
-    with choice:
-        picture = face_picture(_address(session, number))
-        text_element(design.title)
+def _designs(session: Session, designs: Sequence[OwnDesign]) -> None:
+    row = ui.element("div").classes("own-designs")
 
     def show() -> None:
-        picture.props["src"] = _address(session, number)
-        picture.update()
+        row.clear()
+        with row:
+            for each in designs:
+                name = each.title
+                card = design_button(session, "own-design", each.banner, text=name, title=name)
+                card.props["data-own"] = name
 
+    show()
     session.listen("packs", show)
-
-
-def _address(session: Session, number: int) -> str:
-    """Where a design's face is; another one for other packs, because browsers keep pictures."""
-    read = session.settings.packs, session.settings.format
-    return f"/own/{session.token}/{number}.png?v={crc32(repr(read).encode()):x}"
-
-
-def face_picture(address: str) -> Element:
-    """A small flat face, which the browser loads when it comes into sight."""
-    picture = ui.element("img").props('alt="" loading="lazy" width=40 height=80')
-    picture.props["src"] = address
-    return picture

@@ -1,11 +1,13 @@
 """The history as a strip of small faces; a click goes to a state."""
 
-from zlib import crc32
+from functools import partial
 
 from nicegui import ui
 
 from drapery.studio.descriptions import described
+from drapery.studio.design_buttons import design_button
 from drapery.studio.session import Session
+from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
 
 SHOWN = 12
@@ -28,15 +30,9 @@ def build(session: Session) -> None:
                 words = translated("Step {number}: {design}").format(
                     number=place + 1, design=described(states[place])
                 )
-                step = ui.element("button").classes("step").props("type=button")
-                step.props.update({"aria-label": words, "title": words})
+                banner, press = banner_of(states[place]), partial(session.go_to, place)
+                step = design_button(session, "step", banner, press, label=words, side=20)
                 step.props["aria-current"] = "step" if place == now else "false"
-                step.on("click", lambda place=place: session.go_to(place))
-                read = session.settings.packs, session.settings.format
-                mark = crc32(repr((states[place], read)).encode())
-                with step:
-                    picture = ui.element("img").props('alt="" width=20 height=40')
-                    picture.props["src"] = f"/past/{session.token}/{place}.png?v={mark:x}"
 
     show()
     session.listen("sketch", show)

@@ -36,7 +36,9 @@ def build(session: Session) -> None:
         group.props["aria-label"] = translated("Styles")
         for name in style_names():
             with ui.element("button").classes("style").props("type=button") as button:
-                button.props.update({"data-style": name, "title": find_style(name).description})
+                button.props.update(
+                    {"data-style": name, "title": translated(find_style(name).description)}
+                )
                 pictures[name] = ui.element("img").props('loading=lazy alt=""')
                 translated_text(name.replace("-", " "))
             buttons[name] = button.on("click", lambda name=name: press(name))

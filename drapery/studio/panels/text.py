@@ -1,14 +1,17 @@
 """Read a design from any form of text or file, and write it in any form."""
 
+from functools import partial
+
 from nicegui import context, ui
 
 from drapery import Banner
 from drapery.studio.components import value_of
-from drapery.studio.descriptions import described
-from drapery.studio.notices import show_notice
+from drapery.studio.design_buttons import design_button
+from drapery.studio.notices import ADDED, called_in_thread, show_notice
 from drapery.studio.panels.written import build_writer
 from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
+from drapery.studio.translation import translated
 from drapery.studio.upload_queue import MAX_FOUND, UploadQueue
 from drapery.studio.widgets import button, text_element, translated_text
 
@@ -31,7 +34,8 @@ def _reader(session: Session) -> None:
     upload_queue = session.upload_queue
     translated_text("Read a design", "h2").classes("heading")
     text = ui.element("textarea").classes("field code").props('id="design-text" rows=4')
-    text.props.update({"placeholder": _PLACEHOLDER, "aria-label": "A design in any form"})
+    text.props.update({"placeholder": translated(_PLACEHOLDER)})
+    text.props["aria-label"] = translated("A design in any form")
     fault = text_element("", "p").classes("fault").props('role="alert"')
     with ui.element("div").classes("line"):
         press = button("Read this text", lambda: None, text="Read", key="Ctrl+Enter")
@@ -40,7 +44,7 @@ def _reader(session: Session) -> None:
             ui.icon("upload_file").props("aria-hidden=true")
             translated_text("Choose a file")
             chooser = ui.element("input").props('id="design-file" type="file"')
-            chooser.props.update({"aria-label": "A file of designs"})
+            chooser.props.update({"aria-label": translated("A file of designs")})
     translated_text(
         "Or drop a file anywhere: schematics, structures, regions, saves, functions.", "p"
     ).classes("hint")
@@ -55,7 +59,7 @@ def _reader(session: Session) -> None:
     def arrive() -> None:
         with client:
             _arrive(session, upload_queue)
-            fault.set_text(upload_queue.line)
+            fault.set_text(translated(upload_queue.line))
             fault.set_visibility(bool(upload_queue.line))
             listed.clear()
             with listed:
@@ -84,26 +88,37 @@ def _arrive(session: Session, upload_queue: UploadQueue) -> None:
 def _open(session: Session, banner: Banner, title: str = "") -> None:
     sketch = sketch_of(banner, title or session.sketch.title)
     session.selection.lay_out(sketch)
-    count = len(sketch.strokes)
-    show_notice(f"Read a {sketch.kind} of {count} layer{'' if count == 1 else 's'}")
+    show_notice(f"The design has been read. Layers: {len(sketch.strokes)}")
 
 
 def _choices(session: Session, upload_queue: UploadQueue) -> None:
     if len({found.banner for found in upload_queue.found}) < 2:
         return
+    button("Save all banners in the library", lambda: save_all(session), text="Save all")
     for number, found in enumerate(upload_queue.found[:MAX_FOUND]):
-        label = f"{number + 1}: {described(sketch_of(found.banner))}"
-        choice = ui.element("button").classes("found").props("type=button")
-        choice.props.update({"aria-label": label, "title": label})
-        choice.on("click", lambda banner=found.banner: _open(session, banner))
-        with choice:
-            picture = ui.element("img").props('alt="" loading="lazy" width=30 height=60')
-            picture.props["src"] = (
-                f"/found/{session.token}/{number}.png?v={id(upload_queue.found):x}"
-            )
-            text_element(_shortened(found.where) or f"Banner {number + 1}")
+        place = _shortened(found.where) or f"{translated('Banner')} {number + 1}"
+        press = partial(_open, session, found.banner)
+        design_button(session, "found", found.banner, press, text=place, side=30)
     if len(upload_queue.found) > MAX_FOUND:
-        text_element(f"The first {MAX_FOUND} of {len(upload_queue.found)}.", "p").classes("hint")
+        translated_text(f"The first {MAX_FOUND} of {len(upload_queue.found)}.", "p").classes("hint")
+
+
+async def save_all(session: Session) -> None:
+    """Save each banner that was read in the library, under its place and a tag of its file."""
+    client, settings = context.client, session.settings
+    found, name = session.upload_queue.found, session.upload_queue.name
+
+    def save() -> tuple[int, int]:
+        from drapery.studio.records import tagged_designs
+
+        designs = tagged_designs(found, name, settings, session.packs())
+        return session.library.open().add_new(designs)
+
+    counts = await called_in_thread(client, save)
+    if counts is not None and not session.closed:
+        with client:
+            show_notice(ADDED.format(*counts))
+        session.notify("library")
 
 
 def _shortened(place: str) -> str:

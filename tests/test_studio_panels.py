@@ -1,0 +1,124 @@
+"""The panels of the page in German, built without a browser."""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi import Request
+from nicegui import Client, core, ui
+from nicegui.page import page
+from pack_maker import META, mcmeta, plain, zip_pack
+
+from drapery import Banner, Settings
+from drapery.studio.design_buttons import design_button
+from drapery.studio.library import Library
+from drapery.studio.panels import file_options, motion, packs
+from drapery.studio.panels.library import LibraryPanel
+from drapery.studio.records import Design
+from drapery.studio.session import Session, Sessions, StudioConfig
+from drapery.studio.sketch import sketch_of
+
+SCOPE = {
+    **{"type": "http", "method": "GET", "path": "/", "scheme": "http", "query_string": b""},
+    **{"server": ("127.0.0.1", 80)},
+    "headers": [(b"host", b"127.0.0.1"), (b"accept-language", b"de")],
+}
+BANNER = Banner.parse("white creeper:lime")
+Build = Callable[[Client, Session], Coroutine[Any, Any, None]]
+
+
+@pytest.fixture
+def in_page(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., None]:
+    """Calls a function with the client of a page and a session of it."""
+
+    def call(build: Build, settings: Settings | None = None) -> None:
+        async def run() -> None:
+            monkeypatch.setattr(core, "loop", asyncio.get_running_loop())
+            await build(Client(page("/"), request=Request(SCOPE)), sessions.open(settings))
+
+        sessions = Sessions(StudioConfig(library=tmp_path / "library.sqlite"))
+        try:
+            asyncio.run(run())
+        finally:
+            sessions.close_all()
+
+    return call
+
+
+def texts(client: Client, prop: str = "") -> list[str]:
+    """The texts, or a property, of the elements of a page."""
+    return [
+        str(each.props.get(prop, "") if prop else getattr(each, "text", ""))
+        for each in client.elements.values()
+    ]
+
+
+def test_the_name_of_a_design_button_begins_with_its_text(in_page: Callable[..., None]) -> None:
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            seen = design_button(session, "found", BANNER, text="Row 3")
+            alone = design_button(session, "found", BANNER)
+        assert seen.props["aria-label"] == seen.props["title"]
+        assert seen.props["aria-label"] == f"Row 3: {alone.props['aria-label']}"
+
+    in_page(build)
+
+
+def test_a_search_that_no_click_began_counts_in_german(
+    in_page: Callable[..., None], tmp_path: Path
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            panel = LibraryPanel(session)
+        await asyncio.create_task(panel._refresh())
+        assert "Entwürfe: 1" in texts(client)
+        assert "Red löschen" in texts(client, "title")
+        assert "Red umbenennen oder markieren" in texts(client, "title")
+
+    picture = plain(1, 2, 3, 255, side=16)
+    Library(tmp_path / "library.sqlite").add(
+        Design(sketch_of(BANNER, "Red"), Settings(), (), picture)
+    )
+    in_page(build)
+
+
+def test_a_choice_of_the_format_says_in_german_what_is_read(
+    in_page: Callable[..., None], tmp_path: Path
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            packs.build(session)
+        (choice,) = [e for e in client.elements.values() if e.props.get("kind") == "select"][:1]
+        said = []
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(ui.label, "set_text", lambda self, text: said.append(text))
+            choice._take(value="34", number=1)
+            while "" not in said:
+                await asyncio.sleep(0.01)
+        assert said == ["Alle Muster werden gelesen …", ""]
+
+    pack = zip_pack(tmp_path / "pack.zip", {META: mcmeta()})
+    in_page(build, Settings(packs=(pack,)))
+
+
+def test_an_item_has_no_turntable(in_page: Callable[..., None]) -> None:
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            fit = file_options.build_options(session, file_options.FileChoice(kind="gif"))
+            motion.build(session)
+        (tick,) = [e for e in client.elements.values() if getattr(e, "text", "") == "Drehteller"]
+        (place,) = [
+            e for e in client.elements.values() if isinstance(e, ui.select) and "item" in e.options
+        ]
+        group = tick.parent_slot.parent.parent_slot.parent
+        fit()
+        assert group.visible
+        session.adjust(turntable=True)
+        place.value = "item"
+        assert (session.settings.placement, session.settings.turntable) == ("item", False)
+        fit()
+        assert not group.visible
+
+    in_page(build)
