@@ -1,5 +1,6 @@
 """What all tests share: strict numerics, a real pack, the command line."""
 
+import gc
 import os
 import signal
 import sys
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from firefox_browser import firefox
 from hypothesis import settings
 from studio_browser import chromium, compiled_kernels, studio
 from tracing import PROCESSES, trace_no_compiler
@@ -20,7 +22,7 @@ from drapery import Settings, cli
 sys.path.append(str(Path(__file__).parents[1]))
 
 # Fixtures are found by their names here.
-__all__ = ["chromium", "compiled_kernels", "studio"]
+__all__ = ["chromium", "compiled_kernels", "firefox", "studio"]
 
 # How long one example takes is the machine's business on a shared machine, not the example's.
 settings.register_profile("shared machine", deadline=None)
@@ -79,8 +81,13 @@ def drapery(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str])
 
     def run(*words: str | Path) -> tuple[int, str, str]:
         monkeypatch.setattr("sys.argv", ["drapery", *map(str, words)])
-        with pytest.raises(SystemExit) as ended:
-            cli.main()
+        thresholds = gc.get_threshold()
+        try:
+            with pytest.raises(SystemExit) as ended:
+                cli.main()
+        finally:  # `main` changes both, for a process that ends soon
+            gc.set_threshold(*thresholds)
+            gc.unfreeze()
         out, err = capsys.readouterr()
         return int(ended.value.code or 0), out, err
 
