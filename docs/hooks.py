@@ -12,7 +12,7 @@ from typing import Any
 
 import typer.main
 
-from drapery.cli import app
+from drapery.cli import command_line
 from drapery.option import Option
 from drapery.player_settings import PLAYER_OPTIONS
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
@@ -130,7 +130,7 @@ def _live_gallery() -> str:
 
 def commands() -> str:
     """A table of all commands, and a section of each with its options."""
-    sections = list(_command("drapery", typer.main.get_command(app)))
+    sections = list(_command("drapery", typer.main.get_command(command_line())))
     found = re.findall(r"(?m)^## (.+)\n\n(.+?)(?:\n|$)", "\n".join(sections))
     rows = [f"| [`{name}`](#{name.replace(' ', '-')}) | {_cell(text)} |" for name, text in found]
     return "\n".join(["| command | what it does |", "|---|---|", *rows, "", *sections])

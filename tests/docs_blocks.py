@@ -19,7 +19,7 @@ from typing import Any
 import typer.main
 from markdown_it import MarkdownIt
 
-from drapery.cli import app
+from drapery.cli import command_line
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
@@ -80,7 +80,7 @@ def check_command(line: str) -> None:
     program, *words = shlex.split(line.rpartition("&& ")[2], comments=True)
     if program != "drapery":
         return
-    command: Any = typer.main.get_command(app)
+    command: Any = typer.main.get_command(command_line())
     name = "drapery"
     while hasattr(command, "commands"):
         name, *words = words

@@ -10,7 +10,7 @@ import pytest
 import typer.main
 import yaml
 
-from drapery.cli import app
+from drapery.cli import command_line
 from drapery.settings import NAMED_OPTIONS
 
 ROOT = Path(__file__).parent.parent
@@ -23,7 +23,7 @@ PAGES = sorted(
 def test_the_reference_describes_every_command_and_option() -> None:
     hooks = runpy.run_path(str(ROOT / "docs" / "hooks.py"))
     text = hooks["commands"]()
-    for name, command in typer.main.get_command(app).commands.items():  # type: ignore[attr-defined]
+    for name, command in typer.main.get_command(command_line()).commands.items():  # type: ignore[attr-defined]
         for inner in getattr(command, "commands", {"": command}):
             assert f"\n## {f'drapery {name} {inner}'.strip()}\n" in text
     listed = "".join(hooks["TABLES"][name]() for name in ("options", "loop-options"))
