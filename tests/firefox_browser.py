@@ -67,7 +67,11 @@ class Firefox:
         screen = [str(XVFB), "-displayfd", "1", "-screen", "0", "1280x1024x24"]
         self.screen = subprocess.Popen(screen, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         assert self.screen.stdout is not None
+        late = threading.Timer(60, self.screen.kill)
+        late.daemon = True
+        late.start()
         number = self.screen.stdout.readline().decode().strip()
+        late.cancel()
         if not number:
             raise AssertionError(f"Xvfb did not start; it ended with {self.screen.wait(20)}")
         shown = os.environ | {"DISPLAY": f":{number}"}
