@@ -480,7 +480,7 @@ def place_of(flag: np.ndarray, pictures: list[np.ndarray]) -> int:
     return next(n for n, known in enumerate(pictures) if np.array_equal(known, flag))
 
 
-def wait_for(condition: Any, seconds: float = 5.0) -> None:
+def wait_for(condition: Any, seconds: float = 60.0) -> None:
     import time
 
     end = time.monotonic() + seconds
