@@ -47,7 +47,7 @@ def contact_shadow(
     scale = min(RESOLUTION, (MAX_TEXELS - 8) / max(float((high - low).max()), 1e-6))
     size = np.ceil((high - low) * scale).astype(int) + 8
     middle = (low + high) / 2
-    heights = reach / 2.0 ** np.arange(4)
+    heights = np.ldexp(reach, -np.arange(4))
     shares = [_covered(models, floor, height, middle, size, scale) for height in heights]
     alpha = np.mean(shares, axis=0)
     for _ in range(BLURS):

@@ -19,8 +19,8 @@ FOLDERS = {
 NOT_INSTALLED = ROOT / "assets" / "drawing"
 
 FOUNDATION = {
-    *("errors", "mesh", "option", "options", "settings", "yaml_text", "jit", "jit_cache"),
-    *("aot", "jit_calls", "kernel_sources"),
+    *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
+    *("aot", "jit_cache", "jit_calls", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
@@ -32,6 +32,7 @@ RINGS = (FOUNDATION, CORE, PICTURES, APPLICATIONS)
 # Within a ring, and in the foundation, each package names those that it may import.
 ALLOWED: dict[str, set[str]] = {
     "errors": set(),
+    "elementary": set(),
     "kernel_sources": set(),
     "aot": {"kernel_sources"},
     "jit_cache": {"kernel_sources"},

@@ -1,4 +1,4 @@
-"""The same bits whatever kernels the BLAS chooses for its processor."""
+"""The same bits whatever kernels the BLAS and NumPy choose for the processor."""
 
 import ast
 import subprocess
@@ -11,6 +11,8 @@ from tracing import untraced_environment
 PROGRAM = """
 import hashlib
 import numpy as np
+from drapery import Banner, draw
+from drapery.cloth import Wind, disc, simulate
 from drapery.render import *
 from drapery.render.gl import far_to_near
 
@@ -46,6 +48,12 @@ note("picture", picture.pixels.tobytes())
 scene = Scene((make_model(cloth, texture=texture),), camera)
 save_model(scene, "scene.glb")
 note("glb", open("scene.glb", "rb").read())
+wind = Wind((3, 0, 1), ripples=1)
+for _, state in zip(range(4), simulate(disc(12, 0.6), forces=(wind,))):
+    note("disc", state.positions.tobytes())
+banner = Banner.parse("white creeper:lime border:black")
+for style in ("embroidered", "ink"):
+    note(style, draw(banner, style=style, view="hero", size=(96, 128)).pixels.tobytes())
 for name, digest in found.items():
     print(name, digest.hexdigest())
 """
@@ -53,13 +61,13 @@ for name, digest in found.items():
 
 @pytest.fixture(scope="module")
 def usual(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    return results(tmp_path_factory.mktemp("usual"), "Haswell")
+    return results(tmp_path_factory.mktemp("usual"), OPENBLAS_CORETYPE="Haswell")
 
 
-def results(folder: object, kernels: str) -> dict[str, str]:
+def results(folder: object, **variables: str) -> dict[str, str]:
     said = subprocess.run(
         [sys.executable, "-c", PROGRAM],
-        env=untraced_environment() | {"OPENBLAS_CORETYPE": kernels},
+        env=untraced_environment() | variables,
         cwd=str(folder),
         capture_output=True,
         text=True,
@@ -70,8 +78,35 @@ def results(folder: object, kernels: str) -> dict[str, str]:
 
 @pytest.mark.parametrize("kernels", ["Nehalem", "Prescott"])
 def test_the_blas_reaches_no_result(tmp_path: object, kernels: str, usual: dict[str, str]) -> None:
-    assert len(usual) == 8
-    assert results(tmp_path, kernels) == usual
+    assert len(usual) == 11
+    assert results(tmp_path, OPENBLAS_CORETYPE=kernels) == usual
+
+
+def test_the_instructions_of_the_processor_reach_no_result(
+    tmp_path: object, usual: dict[str, str]
+) -> None:
+    """NumPy's sines and unstable sorts differ between sets of vector instructions."""
+    names = "X86_V3 X86_V4 AVX512_ICL AVX512_SPR AVX2 FMA3 AVX512F AVX512CD AVX512_SKX ASIMDHP SVE"
+    assert results(tmp_path, NPY_DISABLE_CPU_FEATURES=names) == usual
+
+
+OF_THE_PROCESSOR = {
+    *("sin", "cos", "tan", "arcsin", "arccos", "arctan", "arctan2", "sinh", "cosh", "tanh"),
+    *("exp", "exp2", "expm1", "log", "log2", "log10", "log1p", "cbrt", "power", "float_power"),
+}
+ROUNDED_OFF = {"drapery/match", "drapery/studio"}
+"""What these find is no picture, or is rounded to fewer bits."""
+
+
+def test_sources_use_no_function_that_numpy_has_for_each_processor() -> None:
+    root = Path(__file__).parents[1]
+    for path in [*root.glob("drapery/**/*.py"), *root.glob("render/**/*.py")]:
+        name = path.relative_to(root).as_posix()
+        if name.startswith(tuple(ROUNDED_OFF)):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "np":
+                assert node.attr not in OF_THE_PROCESSOR, (name, node.lineno)
 
 
 EXACT_PRODUCTS = {

@@ -17,6 +17,7 @@ from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import FLEXION, STRUCTURAL, Cloth
 from drapery.cloth.fabric import Fabric
 from drapery.cloth.pins import Pins, pinned_particles
+from drapery.elementary import cos, sin
 from drapery.errors import OptionError
 from drapery.mesh import Array, face_normals
 
@@ -159,7 +160,7 @@ def disc(
     points, faces = [np.zeros((1, 3))], []
     for ring in range(1, rings + 1):
         turns = 2 * np.pi * np.arange(6 * ring) / (6 * ring)
-        x, z = np.cos(turns), -np.sin(turns)
+        x, z = cos(turns), -sin(turns)
         points.append(radius * ring / rings * np.stack([x, 0 * x, z], axis=1))
         faces += _ring_faces(ring)
     rest = np.concatenate(points)

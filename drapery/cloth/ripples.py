@@ -22,6 +22,7 @@ import numpy as np
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.exact import sine_of_turns
 from drapery.cloth.wind import Gusts, Wind
+from drapery.elementary import cbrt, power
 from drapery.mesh import Array, face_normals
 
 WAVES = 16
@@ -136,9 +137,9 @@ def ripple_tables(wind: Wind) -> RippleTables:
     """The tables of a wind's ripples."""
     jitter, angle, pace, turns = _random(wind.seed, 4, WAVES)
     octaves = OCTAVES * ((np.arange(WAVES) + jitter) / WAVES - 0.5)
-    lengths = wind.ripple_size * 2.0**octaves
+    lengths = wind.ripple_size * power(2.0, octaves)
     heading = SPREAD * (2 * angle - 1)
-    roots = np.cbrt(lengths)
+    roots = cbrt(lengths)
     return RippleTables(
         lengths,
         CARRIED[0] + (CARRIED[1] - CARRIED[0]) * pace,

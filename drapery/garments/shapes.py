@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth import Cloth, disc, from_triangles, grid, rotation_about
 from drapery.cloth.exact import sine_of_turns
+from drapery.elementary import power
 from drapery.errors import OptionError
 from drapery.garments.model import (
     MAX_PARTICLES,
@@ -186,9 +187,9 @@ def _ring(piece: RingPiece, garment: Garment) -> CutPiece:
     share = np.arange(count) / columns
     turns = share if closed else (piece.open + (720 - 2 * piece.open) * share) / 720
     sine, cosine = sine_of_turns(turns), sine_of_turns(turns + 0.25)
-    power = piece.square
+    n = piece.square
     # |x|^n + |z|^n = 1, along the direction of each particle.
-    away = (np.abs(sine) ** power + np.abs(cosine) ** power) ** (-1 / power)
+    away = power(power(np.abs(sine), n) + power(np.abs(cosine), n), -1 / n)
     high, wide, deep = _profile(piece, rows)
     height = np.broadcast_to(high, (rows + 1, count))
     places = np.stack([wide * away * sine, height, deep * away * cosine], axis=-1)

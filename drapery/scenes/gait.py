@@ -4,6 +4,7 @@ In the figure's own frame the air comes from ahead at the speed of the walk, so 
 as on a figure that walks through still air.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -49,7 +50,7 @@ class Gait:
 
         In half a period the foot on the ground moves back by 2 L sin(swing), as the ground does.
         """
-        return float(np.degrees(np.arcsin(min(self.speed * self.period / (4 * LEG), 0.9))))
+        return math.degrees(math.asin(min(self.speed * self.period / (4 * LEG), 0.9)))
 
     def poses(self, time: float) -> Mapping[str, Placed]:
         """Where each part of the figure is, by name."""

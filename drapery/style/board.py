@@ -1,5 +1,7 @@
 """Cloth as the game shows it: a stiff board below its top edge."""
 
+import math
+
 import numpy as np
 
 from drapery.mesh import Array, Mesh
@@ -23,7 +25,7 @@ def stiff_board(size: tuple[float, float], thickness: float, uv_mapping: UVMappi
 
 def tilted(mesh: Mesh, angle: float) -> Mesh:
     """The mesh turned about the x axis [radians]; a negative angle lifts its foot to the front."""
-    cos, sin = np.cos(angle), np.sin(angle)
+    cos, sin = math.cos(angle), math.sin(angle)
     matrix = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]])
     # einsum adds in a fixed order; BLAS may not.
     positions = np.einsum("ij,...j->...i", matrix, mesh.positions)

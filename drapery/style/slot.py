@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drapery.elementary import cos, sin
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import Light
@@ -52,7 +53,7 @@ def slot_camera(size: tuple[int, int]) -> Camera:
 
 def _matrix(rotation: Vector) -> Array:
     """Rotations about z, y and x, in that order, shape [3, 3]."""
-    (a, b, c), (i, j, k) = np.cos(np.radians(rotation)), np.sin(np.radians(rotation))
+    (a, b, c), (i, j, k) = cos(np.radians(rotation)), sin(np.radians(rotation))
     about_x = np.array([[1, 0, 0], [0, a, -i], [0, i, a]])
     about_y = np.array([[b, 0, j], [0, 1, 0], [-j, 0, b]])
     about_z = np.array([[c, -k, 0], [k, c, 0], [0, 0, 1]])

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.banner.dyes import DYES
+from drapery.elementary import cos, sin
 from drapery.mesh import Array
 from drapery.render.flatten import lay_over
 from drapery.render.scene import Material, Texels, TextureLayer
@@ -83,9 +84,10 @@ def embroider(
     dyes = _enlarged_like(_dye_numbers(material), texels)
     ground = _enlarged_like(_dye_numbers(replace(material, layers=material.layers[:2])), texels)
     y, x = np.indices(texels.shape[:2])
-    angle = np.radians(20 + 70 * (np.arange(len(DYES)) % 3 - 1.0))[dyes]
-    across = (x * np.cos(angle) + y * np.sin(angle)) / stitch
-    along = (y * np.cos(angle) - x * np.sin(angle)) / (9.0 * stitch) + 0.5 * (np.floor(across) % 2)
+    turns = np.radians(20 + 70 * (np.arange(len(DYES)) % 3 - 1.0))
+    cosine, sine = cos(turns)[dyes], sin(turns)[dyes]
+    across = (x * cosine + y * sine) / stitch
+    along = (y * cosine - x * sine) / (9.0 * stitch) + 0.5 * (np.floor(across) % 2)
     satin = _bulge(across % 1 * 16, 16) * (0.75 + 0.25 * _bulge(along % 1 * 16, 16))
     edge = _near(_borders(dyes), 1)
     stitched = (1.12 - depth * (1 - satin)) * np.where(edge, 0.5, 1.0)
@@ -296,7 +298,7 @@ def _near(marks: NDArray[np.bool_], distance: int) -> NDArray[np.bool_]:
 
 def _bulge(place: Array | Numbers, width: int) -> Array:
     """The height 0..1 of a round thread at a place across its width."""
-    bulge: Array = np.sin(np.pi * (place + 0.5) / width)
+    bulge: Array = sin(np.pi * (place + 0.5) / width)
     return np.clip(bulge, 0, 1)
 
 

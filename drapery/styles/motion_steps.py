@@ -6,6 +6,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
+from drapery.elementary import arctan2, cos, sin
 from drapery.mesh import Array
 from drapery.styles.sheet import Sheet
 
@@ -46,7 +47,7 @@ def snap_angles(
     pieces = np.diff(chain.rows, axis=1)
     ahead = np.cross(chain.hinge, -chain.rest)
     rest, middle = np.cross(chain.hinge, ahead), pieces.mean(axis=2)
-    angles = np.arctan2(*(np.sum(middle * axis[:, None], axis=-1) for axis in (ahead, rest)))
+    angles = arctan2(*(np.sum(middle * axis[:, None], axis=-1) for axis in (ahead, rest)))
     turns = _kept_angles(angles, np.radians(degrees)) - angles
     turned = _turned(pieces, -chain.hinge[:, None, None], turns[..., None])
     below = chain.rows[:, :1] + np.cumsum(turned, axis=1)
@@ -135,7 +136,7 @@ def _kept_angles(angles: Array, step: float) -> Array:
 
 def _turned(vectors: Array, axes: Array, angles: Array) -> Array:
     """Vectors turned about unit axes, by Rodrigues' formula."""
-    cosine, sine = np.cos(angles)[..., None], np.sin(angles)[..., None]
+    cosine, sine = cos(angles)[..., None], sin(angles)[..., None]
     along = np.sum(vectors * axes, axis=-1, keepdims=True) * axes
     turned: Array = along + cosine * (vectors - along) + sine * np.cross(axes, vectors)
     return turned

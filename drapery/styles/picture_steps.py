@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from drapery.elementary import cos, sin
 from drapery.render.buffers import BACKGROUND, Buffers
 from drapery.render.pixels import Pixels
 from drapery.styles.canvas import Canvas, laid_over
@@ -50,7 +51,7 @@ def shade(
     from drapery.styles.kernels import cel
 
     a, e = np.radians([azimuth, elevation])
-    towards = np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)
+    towards = sin(a) * cos(e), sin(e), cos(a) * cos(e)
     light = np.array([*towards, DARK, BRIGHT - DARK], np.float32)
     factors = darkest + (1 - darkest) * (np.arange(bands, dtype=np.float32) / (bands - 1))
     table = np.rint(np.arange(256) * factors[:, None].astype(np.float64)).astype(np.uint8)
@@ -79,7 +80,7 @@ def outline(
     levels = np.arange(256)[None] * (1 - darken) + np.array(rgb_of(colour))[:, None] * darken
     # A line of one pixel is as it is; others grow by discs.
     reach, table = _disc((width * canvas.grid - 1) / 2), np.rint(levels).astype(np.uint8)
-    limits = np.array([depth, np.cos(np.radians(crease))], np.float32)
+    limits = np.array([depth, cos(np.radians(crease))], np.float32)
     source, drawn, found = _own_words(canvas), canvas.words(), canvas.buffers
     if materials:
         found = replace(found, model=_surface_numbers(found))
@@ -151,7 +152,7 @@ def hatching(
 
     angles = np.radians((45, -45, 0, 90)[:layers])
     least = 0.22 + 0.6 * np.arange(layers) / layers
-    strokes = np.stack([np.cos(angles), np.sin(angles), least], axis=-1)
+    strokes = np.stack([cos(angles), sin(angles), least], axis=-1)
     pen = np.array([spacing, width, strength, SOLID])
     drawn, model = canvas.words(), canvas.buffers.model
     hatch(drawn, model, strokes, canvas.grid, pen, word_of(colour), word_of(paper))

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from drapery.elementary import arctan2, cos, sin
 from drapery.mesh import Array, Mesh
 from drapery.render.vectors import dots
 from drapery.style.uv_mapping import UVMapping
@@ -83,11 +84,11 @@ def boards(
     front = np.cross(side, [0.0, 1.0, 0.0])
     lengths = np.linalg.norm(along, axis=-1)
     aside, ahead = (np.sum(along * axis, axis=-1) for axis in (side, front))
-    lean = _snapped(np.arctan2(aside, np.hypot(along[..., 1], ahead)), steps)
-    bend = _snapped(np.arctan2(ahead, -along[..., 1]), steps)
+    lean = _snapped(arctan2(aside, np.hypot(along[..., 1], ahead)), steps)
+    bend = _snapped(arctan2(ahead, -along[..., 1]), steps)
     down = np.array([0.0, -1.0, 0.0])
-    turned = np.cos(bend)[..., None] * down + np.sin(bend)[..., None] * front
-    pieces = np.cos(lean)[..., None] * turned + np.sin(lean)[..., None] * side
+    turned = cos(bend)[..., None] * down + sin(bend)[..., None] * front
+    pieces = cos(lean)[..., None] * turned + sin(lean)[..., None] * side
     below = np.cumsum(lengths[..., None] * pieces, axis=-2)
     offsets = np.concatenate([np.zeros_like(below[..., :1, :]), below], axis=-2)
     result = (rows[..., :1, :, :] + offsets[..., None, :]).reshape(sheet.positions.shape)

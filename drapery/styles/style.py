@@ -1,5 +1,6 @@
 """A style: a named chain of steps that change motion, shape, material and picture."""
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -239,8 +240,8 @@ def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
     if camera.height is not None:
         camera = replace(camera, height=camera.height * taller)
     else:
-        half = np.tan(np.radians(camera.fov / 2)) * taller
-        camera = replace(camera, fov=float(2 * np.degrees(np.arctan(half))))
+        half = math.tan(math.radians(camera.fov / 2)) * taller
+        camera = replace(camera, fov=2 * math.degrees(math.atan(half)))
     coarse = replace(scene, camera=camera, size=(across, down), samples=1, background=CLEAR)
     corner = (down * size - scene.size[1]) // 2, (across * size - scene.size[0]) // 2
     frame, make_buffers = draw_with_buffers(coarse, draw_scene)

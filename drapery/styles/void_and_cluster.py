@@ -9,6 +9,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.elementary import exp
+
 SIDE = 32
 """Side of the tile [pixels]."""
 LEVELS = 32
@@ -76,6 +78,6 @@ def _weights() -> NDArray[np.int64]:
     """The energy around a point at the corner of the tile, which repeats."""
     away = np.minimum(np.arange(SIDE), SIDE - np.arange(SIDE))
     squares = away[:, None] ** 2 + away[None] ** 2
-    weights = (1 << 20) * np.exp(-squares / (2 * SPREAD**2))
+    weights = (1 << 20) * exp(-squares / (2 * SPREAD**2))
     whole: NDArray[np.int64] = np.rint(weights).astype(np.int64)
     return whole

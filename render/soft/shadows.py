@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.elementary import cos, sin
 from drapery.mesh import Array, Triangles
 from drapery.render.camera import Camera, Vector
 from drapery.render.drawlist import DrawList, Float32
@@ -199,7 +200,7 @@ def _directions(count: int) -> Array:
     height = 1 - 2 * number / count
     around = np.pi * (1 + np.sqrt(5.0)) * number
     flat = np.sqrt(1 - height * height)
-    towards = np.stack([flat * np.cos(around), height, flat * np.sin(around)], axis=-1)
+    towards = np.stack([flat * cos(around), height, flat * sin(around)], axis=-1)
     right = unit(np.cross(np.array([0.0, 1.0, 0.0]), towards))
     return np.stack([right, np.cross(towards, right), towards], axis=1)
 

@@ -13,6 +13,7 @@ from drapery.cloth.colliders.bvh import build_tree
 from drapery.cloth.colliders.fields import SURFACE, Field
 from drapery.cloth.colliders.shapes import TriangleMesh
 from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, row, scale, subtract
+from drapery.elementary import arccos
 from drapery.jit import kernel
 from drapery.mesh import Array, Triangles, face_normals
 
@@ -65,7 +66,7 @@ def _corner_angles(corners: Array) -> Array:
     to_next = _units(np.roll(corners, -1, axis=1) - corners)
     to_last = _units(np.roll(corners, 1, axis=1) - corners)
     cosines = np.clip(np.einsum("tci,tci->tc", to_next, to_last), -1, 1)
-    angles: Array = np.arccos(cosines)
+    angles: Array = arccos(cosines)
     return angles
 
 

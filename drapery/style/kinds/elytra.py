@@ -3,6 +3,8 @@
 The wings are rigid, so no wind moves them.
 """
 
+import math
+
 import numpy as np
 
 from drapery.banner.design import Banner
@@ -42,7 +44,7 @@ def _left_wing() -> Mesh:
 
 def _folded(angle: float) -> Array:
     """The rotation of the left wing in the model: about x, then about -z, shape [3, 3]."""
-    cos, sin = np.cos(angle), np.sin(angle)
+    cos, sin = math.cos(angle), math.sin(angle)
     about_x = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]])
     about_z = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
     matrix: Array = np.einsum("ij,jk->ik", about_z, about_x)
