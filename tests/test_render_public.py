@@ -2,8 +2,6 @@
 
 import ast
 import inspect
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,12 +12,6 @@ from drapery.errors import OptionError
 from drapery.render import Camera, draw_models, draw_scene, frame_view, make_mesh, make_model
 
 SQUARE = make_mesh([(-1, 1, 0), (1, 1, 0), (-1, -1, 0), (1, -1, 0)], [(0, 2, 1), (1, 2, 3)])
-
-
-def test_importing_the_package_does_not_wait_for_numba() -> None:
-    code = "import drapery.render, sys; drapery.render.Camera; print('numba' in sys.modules)"
-    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert said.stdout.strip() == "False"
 
 
 def test_a_mesh_in_one_line_fills_its_picture() -> None:

@@ -1,8 +1,6 @@
 """Styles: chains of checked steps for motion, shape, material and picture."""
 
 import re
-import subprocess
-import sys
 import tracemalloc
 from dataclasses import replace
 from importlib.resources import files
@@ -264,12 +262,6 @@ def test_steps_leave_invisible_pixels_as_they_are() -> None:
     for name in ("shade", "posterize", "palette", "tones", "hatching"):
         drawn = STEPS["picture"][name](given).pixels
         assert (drawn[:, :7] == (3, 2, 1, 0)).all(), name
-
-
-def test_styles_are_imported_without_their_kernels() -> None:
-    program = "import sys; from drapery.styles import STEPS; print('numba.core' in sys.modules)"
-    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert said.stdout.strip() == "False", said.stderr
 
 
 def test_large_pixels_are_squares_of_one_colour() -> None:
