@@ -117,9 +117,10 @@ def cover_tile(
             if mode == OPAQUE:
                 for k in range(count):
                     at = np.uint64(start + k)
-                    outside = (ab + k * right_ab) | (bc + k * right_bc) | (ca + k * right_ca)
-                    key = ((depth + k * step_right) & ~ID_MASK) | (t + 1)
-                    keys[at] = max(keys[at], key if outside >= 0 else np.int64(0))
+                    key = (depth & ~ID_MASK) | (t + 1)
+                    keys[at] = max(keys[at], key if ab | bc | ca >= 0 else np.int64(0))
+                    ab, bc, ca = ab + right_ab, bc + right_bc, ca + right_ca
+                    depth += step_right
                 continue
             for k in range(count):
                 at = np.uint64(start + k)
