@@ -1,5 +1,7 @@
 """Waves of pressure that run along a cloth, and vortices at its sides."""
 
+import gc
+import weakref
 from dataclasses import replace
 from itertools import islice
 
@@ -77,6 +79,17 @@ def test_the_seed_chooses_the_ripples() -> None:
     assert np.array_equal(pressure(RIPPLED, CLOTH, 1.0), same)
     for seed in (1, -1, 2**64 - 1):
         assert not np.array_equal(pressure(replace(RIPPLED, seed=seed), CLOTH, 1.0), same)
+
+
+def test_waves_are_made_once_for_any_number_of_cloths_and_kept_no_longer() -> None:
+    many = [(replace(RIPPLED), grid(3, 4, 0.5, 0.5)) for _ in range(40)]
+    made = [waves_of(*each) for each in many]
+    assert all(waves_of(*each) is waves for each, waves in zip(many, made, strict=True))
+    wind, cloth = many.pop()
+    gone = weakref.ref(wind), weakref.ref(cloth)
+    del wind, cloth
+    gc.collect()
+    assert [each() for each in gone] == [None, None]
 
 
 @pytest.mark.parametrize("name", ["xpbd", "desbrun", "verlet"])

@@ -50,10 +50,12 @@ def from_lanes(lanes: Array, count: int) -> Array:
 
 def padded(values: Array, lanes: int) -> Array:
     """The last axis padded to `lanes` by copies of its last part."""
-    more = [(0, 0)] * (values.ndim - 1) + [(0, lanes - values.shape[-1])]
     if not values.size:
         return np.zeros((*values.shape[:-1], 0), values.dtype)
-    return np.ascontiguousarray(np.pad(values, more, mode="edge"))
+    made = np.empty((*values.shape[:-1], lanes), values.dtype)
+    made[..., : values.shape[-1]] = values
+    made[..., values.shape[-1] :] = values[..., -1:]
+    return made
 
 
 def block_width(particles: int, values: Array, threads: int) -> int:

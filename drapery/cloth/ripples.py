@@ -14,8 +14,8 @@ for a wind that repeats.
 """
 
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -52,9 +52,21 @@ class Waves(NamedTuple):
     cosines: Array
 
 
-@lru_cache(maxsize=16)
+_known: WeakKeyDictionary[Cloth, WeakKeyDictionary[Wind, Waves]] = WeakKeyDictionary()
+"""Waves that are made, as long as both cloth and wind exist. A limit on their number would make
+all of them anew in each step wherever more cloths are stepped in turn."""
+
+
 def waves_of(wind: Wind, cloth: Cloth) -> Waves:
     """The waves of a wind on a cloth in its rest shape; none if it has no ripples or vortices."""
+    known = _known.setdefault(cloth, WeakKeyDictionary())
+    waves = known.get(wind)
+    if waves is None:
+        waves = known[wind] = _made_waves(wind, cloth)
+    return waves
+
+
+def _made_waves(wind: Wind, cloth: Cloth) -> Waves:
     velocity = np.asarray(wind.velocity, float)
     speed = float(np.sqrt((velocity * velocity).sum()))
     along, across = _places(velocity, cloth)
@@ -76,17 +88,15 @@ def with_waves(gusts: Gusts, winds: Sequence[Wind], cloth: Cloth) -> Gusts:
         return gusts
     waves = [waves_of(wind, cloth) for wind in winds]
     most = max(len(wave.rates) for wave in waves)
-    fill = [most - len(wave.rates) for wave in waves]
-    return gusts._replace(
-        rates=np.stack([np.pad(w.rates, (0, more)) for w, more in zip(waves, fill, strict=True)]),
-        turns=np.stack([np.pad(w.turns, (0, more)) for w, more in zip(waves, fill, strict=True)]),
-        sines=np.stack(
-            [np.pad(w.sines, ((0, more), (0, 0))) for w, more in zip(waves, fill, strict=True)]
-        ),
-        cosines=np.stack(
-            [np.pad(w.cosines, ((0, more), (0, 0))) for w, more in zip(waves, fill, strict=True)]
-        ),
-    )
+    filled = ([_filled(part, most) for part in parts] for parts in zip(*waves, strict=True))
+    rates, turns, sines, cosines = map(np.stack, filled)
+    return gusts._replace(rates=rates, turns=turns, sines=sines, cosines=cosines)
+
+
+def _filled(values: Array, count: int) -> Array:
+    """So many rows, the last of them zeros."""
+    more = np.zeros((count - len(values), *values.shape[1:]))
+    return np.concatenate([values, more]) if len(more) else values
 
 
 def _no_waves(particles: int) -> Waves:

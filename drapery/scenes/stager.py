@@ -493,9 +493,10 @@ def forces_of(settings: Settings, wind: Wind) -> tuple[Force, ...]:
     return (Gravity(), wind, *settings.forces)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=256)
 def in_lee(wind: Wind) -> Wind:
-    """The wind before a wall that faces +z; the same object for the same wind."""
+    """The wind before a wall that faces +z; the same object for the same wind, of which a server
+    has as many as live cloths."""
     x, y, z = wind.velocity
     return replace(wind, velocity=(x, y, LEE * z))
 
