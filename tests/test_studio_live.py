@@ -94,6 +94,18 @@ def test_same_inputs_same_bits() -> None:
     assert one.wind_controls == other.wind_controls and one.time == other.time
 
 
+def test_steps_of_one_turn_are_those_of_many() -> None:
+    alone, together = a_live(placement="wall"), a_live(placement="wall")
+    for live, turns in ((alone, [1] * 60), (together, [4, 1, 3, 2] * 6)):
+        live.grab(straight_at(live.particles()[0][44] + still_origin(live)))
+        live.pull(straight_at(np.array([0.8, 1.2, 0.0])))
+        for number, steps in enumerate(turns):
+            if sum(turns[:number]) == 20:
+                live.release()
+            live.step(steps)
+    assert np.array_equal(alone.particles()[0], together.particles()[0])
+
+
 def test_another_design_leaves_the_motion() -> None:
     changed, left = a_live(), a_live()
     changed.step(30)

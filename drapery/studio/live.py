@@ -168,12 +168,13 @@ class Live:
 
     def step(self, steps: int = 1) -> None:
         """Make time steps. Raises OptionError if the cloth blew up; it then restarts at rest."""
-        for _ in range(steps):
+        each = 1 if self._keys else steps
+        for _ in range(0, steps, each):
             if self._keys:
                 azimuth = self._azimuth + self._stager.settings.turned
                 self.set_wind(steered(self.wind_controls, self._keys, azimuth, STEP))
             try:
-                self._stager.advance()
+                self._stager.advance(each)
             except OptionError as error:
                 self.reset()
                 raise OptionError(

@@ -69,10 +69,15 @@ class LiveCloth(MovingCloth):
 
         Raises OptionError if the cloth has blown up.
         """
-        moved = super().advance(forces, steps, pins or self._path())
-        # A picture makes all its steps in one call, so its time is rounded only once.
-        time = round(moved.state.time / STEP) * STEP
-        return replace(moved, state=replace(moved.state, time=time))
+        moved, left = self, steps
+        while left:
+            path = moved._path() if pins is None else pins
+            each = left if path is pins else 1  # a path of its own leads through one step
+            moved = MovingCloth.advance(moved, forces, each, path)
+            # A picture makes all its steps in one call, so its time is rounded only once.
+            time = round(moved.state.time / STEP) * STEP
+            moved, left = replace(moved, state=replace(moved.state, time=time)), left - each
+        return moved
 
     def grabbed(self, particle: int) -> Self:
         """The cloth with a grab at a particle; the grab does not move the particle."""
