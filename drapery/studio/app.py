@@ -94,18 +94,22 @@ def run(
     named = f"[{reached}]" if ":" in reached else reached
     query = f"?{urlencode({'token': token})}" if token else ""
     address = f"http://{named}:{listening.getsockname()[1]}/{query}"
-    asyncio.run(_serve(uvicorn.Server(config), listening, lambda: ready(address)))
+    # It takes uvloop, which `asyncio.run` would not, and which sends a frame at half the cost.
+    _Server(config, lambda: ready(address)).run(sockets=[listening])
 
 
-async def _serve(
-    server: uvicorn.Server, listening: socket.socket, ready: Callable[[], None]
-) -> None:
-    serving = asyncio.create_task(server.serve([listening]))
-    while not (server.started or serving.done()):
-        await asyncio.sleep(0.01)
-    if server.started:
-        ready()
-    await serving
+class _Server(uvicorn.Server):
+    """A server that calls `ready` as soon as it answers."""
+
+    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """See `uvicorn.Server`."""
+        await super().startup(sockets)
+        if self.started:
+            self._ready()
 
 
 def reachable(host: str) -> str:
