@@ -155,7 +155,7 @@ class Live:
         depth = float(np.sum(ray.along * ray.facing))
         if self._held is None or grab is None or abs(depth) < 1e-6:
             return
-        at = self._to_world(self._held, grab.target)
+        at = _to_world(self._stager, self._held, grab.target)
         share = float(np.sum((at - ray.origin) * ray.facing)) / depth
         target = self._from_world(self._held, ray.origin + share * ray.along)
         self._replace(self._held, self._cloths[self._held].pulled(target))
@@ -191,7 +191,9 @@ class Live:
         stager, settings = self._stager, self._stager.settings
         meshes = stager.meshes()
         bodies = (stager.body, *([] if self._other is None else [self._other]))
-        framing = partial(stager.camera, self._framed_points(meshes))
+        moves = self.leaves_room and settings.pose == "cloth"
+        rests = [cloth.whole.rest_positions for cloth in self._cloths] if moves else []
+        framing = partial(_camera, stager, meshes, rests)
         panes = []
         for body, caption in zip(bodies, self._captions, strict=True):
             models = stager.models(meshes, self.time, body)
@@ -226,16 +228,6 @@ class Live:
     def _replace(self, number: int, cloth: LiveCloth) -> None:
         self._stager.cloths[number] = cloth
 
-    def _framed_points(self, meshes: Sequence[Mesh]) -> list[Array]:
-        points = [mesh.positions for mesh in meshes]
-        if self.leaves_room and self._stager.settings.pose == "cloth":
-            points += [
-                self._to_world(number, cloth.whole.rest_positions + swing)
-                for number, cloth in enumerate(self._cloths)
-                for swing in SWINGS
-            ]
-        return points
-
     def _shadow_of(self, models: Sequence[Model]) -> Model:
         steps = self._stager.steps
         if self._shadow is None or abs(steps - self._shadow[0]) >= SHADOW_STEPS:
@@ -248,21 +240,33 @@ class Live:
         among = cloth.free
         if self._stager.settings.pose != "cloth" or not len(among):
             return np.inf, None
-        places = self._to_world(number, cloth.positions[among])
+        places = _to_world(self._stager, number, cloth.positions[among])
         along = ray.along / np.sqrt(np.sum(ray.along * ray.along))
         off = np.cross(places - ray.origin, along)
         misses = np.sum(off * off, axis=1)
         best = int(np.argmin(misses))
         return float(misses[best]), int(among[best])
 
-    def _to_world(self, number: int, points: Array) -> Array:
-        """Convert points from a cloth's frame to the world's [m], shape [..., 3]."""
-        origin = self._stager.body.panels[number].origin
-        return _turned_points(points + origin, self._stager.settings.turned)
-
     def _from_world(self, number: int, points: Array) -> Array:
         origin = self._stager.body.panels[number].origin
         return _turned_points(points, -self._stager.settings.turned) - origin
+
+
+def _to_world(stager: Stager, number: int, points: Array) -> Array:
+    """Convert points from a cloth's frame to the world's [m], shape [..., 3]."""
+    return _turned_points(points + stager.body.panels[number].origin, stager.settings.turned)
+
+
+def _camera(
+    stager: Stager, meshes: Sequence[Mesh], rests: Sequence[Array], aspect: float
+) -> Camera:
+    """A camera that frames meshes, and cloths that swing about their rest positions [m]."""
+    swung = [
+        _to_world(stager, number, rest + swing)
+        for number, rest in enumerate(rests)
+        for swing in SWINGS
+    ]
+    return stager.camera([*(mesh.positions for mesh in meshes), *swung], aspect)
 
 
 def _turned_points(points: Array, degrees: float) -> Array:

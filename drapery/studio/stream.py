@@ -17,9 +17,9 @@ from fastapi import FastAPI, WebSocket, WebSocketDisconnect
 
 from drapery import DraperyError, OptionError
 from drapery.studio.live import Ray
+from drapery.studio.live_threads import in_thread
 from drapery.studio.session import Session, Sessions
 from drapery.studio.translation import translated
-from drapery.studio.viewport import in_thread
 from drapery.studio.wind_controls import KEYS
 from drapery.web.messages import MessageEncoder
 

@@ -8,12 +8,11 @@ import asyncio
 import math
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from drapery import Banner, DraperyError
 from drapery.garments import Garment
@@ -22,6 +21,7 @@ from drapery.scenes import STEP
 from drapery.studio.chosen_scene import SceneChoice, scene_choice
 from drapery.studio.document import Document
 from drapery.studio.live import Live
+from drapery.studio.live_threads import in_thread
 from drapery.studio.pack_store import PackStore
 from drapery.studio.player import Player, garment_show, scene_show
 from drapery.studio.sketch import banner_of
@@ -31,7 +31,6 @@ from drapery.web.panes import ViewerState
 
 BEHIND = 4
 """The most ticks in one turn; more delayed ticks are skipped, so simulated time runs slower."""
-THREADS = 4
 LONG = 0.8
 """The user gets a note if a turn takes longer than this [s]."""
 FIRST = 2.0
@@ -42,7 +41,6 @@ LONGEST = 60.0
 A picture is simulated from the start, so a later moment would take too long.
 """
 
-T = TypeVar("T")
 Input = Callable[[Live], object]
 
 
@@ -68,17 +66,6 @@ class ViewportRequest:
     def shown(self) -> tuple[str | None, ...]:
         """What takes the place of the banner, if anything does."""
         return self.scene, self.garment, self.skin
-
-
-@cache
-def _pool() -> ThreadPoolExecutor:
-    """The threads that move the cloths of all tabs."""
-    return ThreadPoolExecutor(THREADS, thread_name_prefix="live")
-
-
-async def in_thread(call: Callable[[], T]) -> T:
-    """Call a function in a thread of the live cloths and return its result."""
-    return await asyncio.get_running_loop().run_in_executor(_pool(), call)
 
 
 class Viewport:

@@ -10,13 +10,13 @@ from drapery.settings import OPTIONS
 from drapery.studio.chosen_scene import what_follows
 from drapery.studio.descriptions import named, view_title
 from drapery.studio.file_field import FileField
+from drapery.studio.live_threads import in_thread
 from drapery.studio.panels.controls import Controls
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import ExportRequest, drawn_garment
 from drapery.studio.translation import translated
 from drapery.studio.viewer import ViewerElement
-from drapery.studio.viewport import in_thread
 from drapery.studio.widgets import translated_text
 
 OWN = "your banner"
