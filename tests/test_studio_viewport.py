@@ -1,5 +1,7 @@
 """The viewport: what its event loop and its threads share is neither lost nor waited for."""
 
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -99,6 +101,15 @@ def test_a_loop_that_nobody_will_see_is_given_up(session: Session) -> None:
     session.close()
     for player in players:
         assert isinstance(player._prepared.exception(60), _ClosedError)
+
+
+def test_a_process_ends_while_a_turn_is_made() -> None:
+    """A kernel may be compiled for half a minute, and Ctrl-C would seem to do nothing."""
+    endless = "import asyncio, threading; from drapery.studio.live_threads import in_thread\n"
+    endless += "turn = in_thread(threading.Event().wait)\n"
+    endless += "asyncio.run(asyncio.wait_for(turn, 0.2))"
+    run = subprocess.run([sys.executable, "-c", endless], timeout=100, stderr=subprocess.PIPE)
+    assert run.returncode == 1 and run.stderr.endswith(b"TimeoutError\n")
 
 
 def test_no_version_is_counted_twice(session: Session) -> None:
