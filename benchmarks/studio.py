@@ -8,7 +8,7 @@ actions on designs change, and that Undo brings back. It prints what failed; the
 gets, and how much of a processor core the server and all viewers take.
 
 `first` opens the page in Chromium again and again (`--count 10`) and prints the time from the
-address to a picture of cloth that has moved. The kernels, the files and the browser's cache are warm.
+address to a picture of cloth that has moved. Kernels, files and the browser's cache are warm.
 """
 
 import argparse
