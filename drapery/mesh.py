@@ -68,12 +68,16 @@ def vertex_normals(positions: Array, triangles: Triangles) -> Array:
 
     A vertex without area around it gets (0, 0, 1), never NaN.
     """
+    return normals_around(positions, triangles, faces_around(triangles, positions.shape[-2]))
+
+
+def normals_around(positions: Array, triangles: Triangles, around: NDArray[np.intp]) -> Array:
+    """The same for triangles whose `faces_around` are known."""
     points = _planes(positions)
     a, b, c = ([plane[triangles[:, corner]] for plane in points] for corner in range(3))
     faces = _cross(
         [q - p for p, q in zip(a, b, strict=True)], [q - p for p, q in zip(a, c, strict=True)]
     )
-    around = _faces_around(triangles, positions.shape[-2])
     sums = [_sum_of_rows(plane, around) for plane in faces]
     lengths = np.sqrt(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2])
     flat = lengths < np.finfo(positions.dtype).tiny ** 0.5
@@ -98,7 +102,7 @@ def _cross(u: list[Array], v: list[Array]) -> list[Array]:
     ]
 
 
-def _faces_around(triangles: Triangles, count: int) -> NDArray[np.intp]:
+def faces_around(triangles: Triangles, count: int) -> NDArray[np.intp]:
     """The triangles at each vertex, shape [V, D] for the largest degree D; unused entries are T."""
     corners = triangles.T.reshape(-1)
     order = np.argsort(corners, kind="stable")

@@ -493,7 +493,7 @@ def forces_of(settings: Settings, wind: Wind) -> tuple[Force, ...]:
     return (Gravity(), wind, *settings.forces)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=64)
 def in_lee(wind: Wind) -> Wind:
     """The wind before a wall that faces +z; the same object for the same wind, of which a server
     has as many as live cloths."""

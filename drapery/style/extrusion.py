@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.mesh import Array, Mesh, Triangles, vertex_normals
+from drapery.mesh import Array, Mesh, Triangles, faces_around, normals_around
 from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
 
 THINNEST = 2e-4
@@ -61,6 +61,11 @@ class Shell:
         parts = [self.sheet, self.sheet[:, ::-1] + self.count, quads.reshape(-1, 3)]
         return np.ascontiguousarray(np.concatenate(parts), np.int32)
 
+    @cached_property
+    def _around(self) -> NDArray[np.intp]:
+        """The triangles at each vertex of the thin sheet; see `faces_around`."""
+        return faces_around(self.sheet, self.count)
+
     def cover(self, positions: Array, normals: Array, thickness: float) -> Mesh:
         """The shells around thin sheets: each vertex moves half the thickness along its normal.
 
@@ -103,7 +108,8 @@ def thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
 
     sheet: positions [m], shape [..., N, 3]. thickness: distance between the two sheets [m].
     """
-    return shell.cover(sheet, vertex_normals(sheet, shell.sheet), thickness)
+    normals = normals_around(sheet, shell.sheet, shell._around)
+    return shell.cover(sheet, normals, thickness)
 
 
 def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING) -> Mesh:
