@@ -33,6 +33,8 @@ _lock = threading.RLock()
 class Kernel:
     """A function that numba compiles when it is first used; kernels call it as any other."""
 
+    _options: dict[str, Any] = INNER
+
     def __init__(self, function: Callable[..., object]) -> None:
         update_wrapper(cast(Any, self), function)
         self.py_func = function
@@ -51,7 +53,7 @@ class Kernel:
     def _make(self) -> Any:
         from numba import njit
 
-        return cast(Any, njit)(**INNER)(self.py_func)
+        return cast(Any, njit)(**self._options)(self.py_func)
 
     @property
     def _numba_type_(self) -> Any:
@@ -61,6 +63,12 @@ class Kernel:
         if name.startswith("__"):
             raise AttributeError(name)
         return getattr(self.dispatcher, name)
+
+
+class Borrower(Kernel):
+    """A kernel that does not count references to arrays."""
+
+    _options = INNER | {"_nrt": False}
 
 
 class EntryPoint(Kernel):
@@ -112,6 +120,16 @@ class NumbaName:
 def kernel(function: Function) -> Function:
     """A function that only kernels call: strict IEEE arithmetic, cached as part of its callers."""
     return cast(Function, Kernel(function))
+
+
+def borrowing_kernel(function: Function) -> Function:
+    """The same for a function that neither makes nor returns arrays, in which references to its
+    callers' arrays are not counted.
+
+    Counting is atomic, and numba leaves much of it inside loops and around calls (its issues 2345
+    and 2350): it took up to half the time of contact.
+    """
+    return cast(Function, Borrower(function))
 
 
 def entry_point(function: Function) -> Function:

@@ -1,14 +1,20 @@
 """Registers of lanes, and what stands in for them, calculate what numpy does, to the bit."""
 
+from importlib import import_module
+from pathlib import Path
+from typing import get_args, get_type_hints
+
 import llvmlite.ir
 import numba.core.caching
 import numba.core.cgutils
 import numba.core.datamodel
 import numba.core.dispatcher
 import numba.core.event
+import numba.core.options
 import numba.core.registry
 import numba.extending
 import numba.misc.appdirs
+import numba.types
 import numpy as np
 import pytest
 from numba import njit
@@ -101,6 +107,7 @@ INTERNALS = {
     numba.core.dispatcher: "Dispatcher",
     numba.core.event: "Listener register unregister",
     numba.core.datamodel: "default_manager",
+    numba.core.options.DefaultOptions: "_nrt",
     numba.misc.appdirs: "AppDirs",
     numba.core.registry.cpu_target.typing_context: "refresh resolve_value_type",
     numba.core.registry.cpu_target.target_context: "refresh call_conv make_array get_value_type",
@@ -115,3 +122,48 @@ def test_numba_and_llvmlite_have_what_kernels_are_made_with(owner):
     and `user_calls`, or lower the highest versions in pyproject.toml."""
     missing = [name for name in INTERNALS[owner].split() if not hasattr(owner, name)]
     assert not missing
+
+
+def borrowing_kernels():
+    top = Path(jit.__file__).parent
+    for path in sorted(top.rglob("*.py")):
+        if "@borrowing_kernel" in path.read_text():
+            inside = path.relative_to(top.parent).with_suffix("").parts
+            functions = vars(import_module(".".join(inside))).values()
+            yield from (each for each in functions if isinstance(each, jit.Borrower))
+
+
+def parts_of(kind):
+    """The types in a type of tuples."""
+    return set().union(*map(parts_of, get_args(kind))) if get_args(kind) else {kind}
+
+
+def test_borrowing_kernels_return_no_arrays():
+    """Their callers would drop a reference that was never taken."""
+    returned = {each: get_type_hints(each.py_func)["return"] for each in borrowing_kernels()}
+    assert len(returned) > 50
+    for kind in returned.values():
+        assert parts_of(kind) <= {float, int, bool, type(None)}
+
+
+@jit.borrowing_kernel
+def number_in(rows, i):
+    row = rows[i % 2]
+    return row[i]
+
+
+@pytest.mark.parametrize(
+    ("decorator", "counted"), [(jit.kernel, True), (jit.borrowing_kernel, False)]
+)
+def test_borrowing_kernels_count_no_references(decorator, counted):
+    @decorator
+    def total(rows, count):
+        total = 0.0
+        for i in range(count):
+            total += number_in(rows, i)
+        return total
+
+    rows = numba.types.UniTuple(numba.types.float64[::1], 2)
+    total.dispatcher.compile((rows, numba.types.int64))
+    code = total.dispatcher.inspect_llvm((rows, numba.types.int64))
+    assert ("NRT_incref" in code) == counted

@@ -35,7 +35,7 @@ from drapery.cloth.contact.box_frame import (
 from drapery.cloth.contact.box_guard import guard_boxes
 from drapery.cloth.contact.geometry import put, read
 from drapery.cloth.contact.near_boxes import find_boxes, whole_margin
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
 PASSES = 6
@@ -52,7 +52,7 @@ AMPLIFIED = 4.0
 """A contact moves no particle by more than this many times its depth."""
 
 
-@kernel
+@borrowing_kernel
 def meet_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> bool:
     """Resolve the contacts of one cloth in one step; returns whether there was any.
 
@@ -64,7 +64,7 @@ def meet_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> bo
     return met
 
 
-@kernel
+@borrowing_kernel
 def meet_close_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> bool:
     """`meet_boxes`, which first looks only at what is close to a box.
 
@@ -87,7 +87,7 @@ def meet_close_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates)
     return meet_boxes(x0, x, contact, near)
 
 
-@kernel
+@borrowing_kernel
 def solve_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> tuple[bool, float]:
     """Resolve the contacts with what was found near; whether there was any, and the longest path of
     a particle [m].
@@ -111,7 +111,7 @@ def solve_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> t
     return met, longest
 
 
-@kernel
+@borrowing_kernel
 def solve_box(contact: BoxContact, k: int, near: Candidates, since: int) -> float:
     """One pass over the contacts with one box of what changed in turn `since` or later; returns the
     depth of the deepest [m]."""
@@ -142,7 +142,7 @@ def solve_box(contact: BoxContact, k: int, near: Candidates, since: int) -> floa
     return deepest
 
 
-@kernel
+@borrowing_kernel
 def solve_face(
     half: Vector,
     w: Array,
@@ -162,7 +162,7 @@ def solve_face(
     return deepest
 
 
-@kernel
+@borrowing_kernel
 def push(
     half: Vector,
     w: Array,
@@ -191,7 +191,7 @@ def push(
     return True
 
 
-@kernel
+@borrowing_kernel
 def shift(half: Vector, frame: Array, i: int, part: float, change: Vector, size: float) -> None:
     """Move particle i by a part of a change of a size [m]."""
     if part > 0.0:

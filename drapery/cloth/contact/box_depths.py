@@ -14,7 +14,7 @@ from drapery.cloth.colliders.primitives import cuboid_distance
 from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, subtract
 from drapery.cloth.contact.box_frame import DISTANCE, START, blend, end_of, outward_of, start_of
 from drapery.cloth.contact.geometry import UP, grown, higher, lower, overlap
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
 SEARCH = 16
@@ -26,7 +26,7 @@ HELD = 0.9
 """What is fastened to a pin near a box keeps this part of the pin's distance."""
 
 
-@kernel
+@borrowing_kernel
 def particle_depth(half: Vector, radius: float, frame: Array, i: int) -> tuple[float, Vector]:
     """How far [m] particle i must move along a direction to keep the radius; 0 or less: none."""
     d, normal = frame[i, DISTANCE], outward_of(frame, i)
@@ -40,14 +40,14 @@ def particle_depth(half: Vector, radius: float, frame: Array, i: int) -> tuple[f
     return radius - d, normal
 
 
-@kernel
+@borrowing_kernel
 def edge_radius(w: Array, radius: float, frame: Array, i: int, j: int) -> float:
     """The distance [m] that an edge can keep: less than the radius where a pin holds it nearer, and
     below 0 where a pin is inside the box."""
     return min(particle_radius(w, radius, frame, i), particle_radius(w, radius, frame, j))
 
 
-@kernel
+@borrowing_kernel
 def face_radius(
     half: Vector, w: Array, radius: float, frame: Array, face: tuple[int, int, int]
 ) -> float:
@@ -62,14 +62,14 @@ def face_radius(
     return kept
 
 
-@kernel
+@borrowing_kernel
 def particle_radius(w: Array, radius: float, frame: Array, i: int) -> float:
     """The same for what is close to a particle."""
     d = frame[i, DISTANCE]
     return HELD * d if w[i] == 0.0 and d < 0.999 * radius else radius
 
 
-@kernel
+@borrowing_kernel
 def passes(half: Vector, start: Vector, motion: Vector) -> bool:
     """Whether a segment passes through a box: it lies between all three pairs of planes at once."""
     first, last = 0.0, 1.0
@@ -79,7 +79,7 @@ def passes(half: Vector, start: Vector, motion: Vector) -> bool:
     return first < last
 
 
-@kernel
+@borrowing_kernel
 def clip(
     half: float, start: float, motion: float, first: float, last: float
 ) -> tuple[float, float]:
@@ -90,7 +90,7 @@ def clip(
     return max(first, min(a, b)), min(last, max(a, b))
 
 
-@kernel
+@borrowing_kernel
 def edge_depth(
     half: Vector, radius: float, frame: Array, i: int, j: int
 ) -> tuple[float, float, Vector]:
@@ -122,7 +122,7 @@ def edge_depth(
     return part, radius - d, normal
 
 
-@kernel
+@borrowing_kernel
 def nearest_of_edge(
     half: Vector,
     radius: float,
@@ -157,7 +157,7 @@ def nearest_of_edge(
     return part, d, normal
 
 
-@kernel
+@borrowing_kernel
 def corner_of(half: Vector, number: int) -> Vector:
     """Corner number 0 to 7 of a box."""
     return (
@@ -167,7 +167,7 @@ def corner_of(half: Vector, number: int) -> Vector:
     )
 
 
-@kernel
+@borrowing_kernel
 def near_face(frame: Array, face: tuple[int, int, int], radius: float, corner: Vector) -> bool:
     """Whether a corner of the box is within the radius of a face's bounds; a radius below 0 is
     never kept."""
@@ -178,7 +178,7 @@ def near_face(frame: Array, face: tuple[int, int, int], radius: float, corner: V
     return overlap(grown(low, -radius), grown(high, radius), corner, corner)
 
 
-@kernel
+@borrowing_kernel
 def face_depth(
     half: Vector, radius: float, frame: Array, face: tuple[int, int, int], corner: Vector
 ) -> tuple[Vector, float, Vector]:
@@ -199,7 +199,7 @@ def face_depth(
     return weights, radius - d, normal
 
 
-@kernel
+@borrowing_kernel
 def foot_on_face(a: Vector, b: Vector, c: Vector, p: Vector) -> tuple[Vector, Vector]:
     """Barycentric weights of the foot of p on the plane of a triangle, and the foot."""
     ab, ac, ap = subtract(b, a), subtract(c, a), subtract(p, a)
@@ -212,7 +212,7 @@ def foot_on_face(a: Vector, b: Vector, c: Vector, p: Vector) -> tuple[Vector, Ve
     return (1.0 - v - w, v, w), add_scaled(add_scaled(a, v, ab), w, ac)
 
 
-@kernel
+@borrowing_kernel
 def face_of(triangles: NDArray[np.int32], t: int) -> tuple[int, int, int]:
     """The particles of a face."""
     return triangles[t, 0], triangles[t, 1], triangles[t, 2]

@@ -19,7 +19,7 @@ from drapery.cloth.colliders.vectors import (
 )
 from drapery.cloth.contact.box_data import BoxContact, Candidates
 from drapery.cloth.contact.geometry import put
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
 START, END, DISTANCE, OUTWARD, MOVED, CHANGED = 0, 3, 6, 7, 10, 11
@@ -34,14 +34,14 @@ NOW = np.inf
 """CHANGED of a particle that is being moved."""
 
 
-@kernel
+@borrowing_kernel
 def reset_tracks(near: Candidates) -> None:
     """Prepare for a step: no particle was moved."""
     for i in range(len(near.tracks)):
         near.tracks[i, CARRIED] = 0.0
 
 
-@kernel
+@borrowing_kernel
 def enter_frame(
     x0: Array, x: Array, contact: BoxContact, k: int, near: Candidates, since: int, turn: int
 ) -> None:
@@ -60,7 +60,7 @@ def enter_frame(
             frame[i, CHANGED] = turn
 
 
-@kernel
+@borrowing_kernel
 def leave_frame(x: Array, contact: BoxContact, k: int, near: Candidates, turn: int) -> float:
     """Write the new places of the particles that were moved; returns the longest path [m]."""
     longest = 0.0
@@ -81,29 +81,29 @@ def leave_frame(x: Array, contact: BoxContact, k: int, near: Candidates, turn: i
     return longest
 
 
-@kernel
+@borrowing_kernel
 def start_of(frame: Array, i: int) -> Vector:
     return frame[i, 0], frame[i, 1], frame[i, 2]
 
 
-@kernel
+@borrowing_kernel
 def end_of(frame: Array, i: int) -> Vector:
     return frame[i, 3], frame[i, 4], frame[i, 5]
 
 
-@kernel
+@borrowing_kernel
 def outward_of(frame: Array, i: int) -> Vector:
     return frame[i, 7], frame[i, 8], frame[i, 9]
 
 
-@kernel
+@borrowing_kernel
 def measure(half: Vector, frame: Array, i: int) -> None:
     """Set the distance and the direction of particle i at its end."""
     frame[i, DISTANCE], outward = cuboid_distance(half, end_of(frame, i))
     put(frame, i, OUTWARD, outward)
 
 
-@kernel
+@borrowing_kernel
 def blend(frame: Array, first: int, face: tuple[int, int, int], weights: Vector) -> Vector:
     """The weighted sum of the places of three particles, at the start or the end of the step."""
     i, j, k = face

@@ -27,7 +27,7 @@ from drapery.cloth.contact.box_frame import (
     start_of,
 )
 from drapery.cloth.contact.geometry import put
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
 GUARDS = 16
@@ -37,7 +37,7 @@ SKIN = 2e-5
 let them touch it; at most half the distance that the cloth keeps."""
 
 
-@kernel
+@borrowing_kernel
 def guard_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> float:
     """Return particles to their start until no part of the cloth is in a box; returns the longest
     path of a particle [m]."""
@@ -52,7 +52,7 @@ def guard_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> f
     return longest
 
 
-@kernel
+@borrowing_kernel
 def return_some(contact: BoxContact, k: int, frame: Array, near: Candidates) -> bool:
     """Return the particles of edges and faces that are inside the box; whether any was moved."""
     half, skin, found = row(contact.halves, k), min(SKIN, 0.5 * contact.radius), False
@@ -81,7 +81,7 @@ def return_some(contact: BoxContact, k: int, frame: Array, near: Candidates) -> 
     return found
 
 
-@kernel
+@borrowing_kernel
 def to_start(half: Vector, w: Array, frame: Array, i: int) -> bool:
     """Return a free particle to its start; whether that moved it."""
     start, end = start_of(frame, i), end_of(frame, i)

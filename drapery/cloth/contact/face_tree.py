@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth.colliders.vectors import Vector, row
 from drapery.cloth.contact.geometry import higher, lower, put
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel, kernel
 from drapery.mesh import Array
 
 NOWHERE = 1e300
@@ -51,7 +51,7 @@ def tree_of(faces: Array, begin: NDArray[np.int32]) -> Array:
     return tree
 
 
-@kernel
+@borrowing_kernel
 def following(node: int) -> int:
     """The node that begins right of where this one ends; 0 after the last one."""
     while node & 1:
@@ -59,7 +59,7 @@ def following(node: int) -> int:
     return node + 1 if node > 0 else 0
 
 
-@kernel
+@borrowing_kernel
 def top(bounds: Array, i: int) -> Vector:
     """The high corner of bounds [K, 6]."""
     return bounds[i, 3], bounds[i, 4], bounds[i, 5]

@@ -34,7 +34,7 @@ from drapery.cloth.contact.geometry import (
     put,
     read,
 )
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
 Marks = NDArray[np.uint8]
@@ -46,13 +46,13 @@ ITSELF, PAIR = 1, 2
 """The marks of a band: it is near together with one of its neighbours; with the next one."""
 
 
-@kernel
+@borrowing_kernel
 def whole_margin(contact: BoxContact) -> float:
     """The distance [m] beyond the radius within which everything is looked at."""
     return 2.0 * contact.radius + contact.reach
 
 
-@kernel
+@borrowing_kernel
 def find_boxes(x0: Array, x: Array, contact: BoxContact, margin: float, near: Candidates) -> bool:
     """List what is within a margin [m] beyond the radius; returns whether there is anything.
 
@@ -93,7 +93,7 @@ def find_boxes(x0: Array, x: Array, contact: BoxContact, margin: float, near: Ca
     return found
 
 
-@kernel
+@borrowing_kernel
 def swept_extent(contact: BoxContact, k: int) -> tuple[Vector, Vector]:
     """The lowest and the highest coordinates of what a box keeps free at the start or the end of
     the step."""
@@ -102,7 +102,7 @@ def swept_extent(contact: BoxContact, k: int) -> tuple[Vector, Vector]:
     return lower(low, low1), higher(high, high1)
 
 
-@kernel
+@borrowing_kernel
 def find_close(bounds: Array, close: Marks, low: Vector, high: Vector) -> bool:
     """Mark the bands that may, each with the next one, overlap an upright box; whether any does.
 
@@ -122,7 +122,7 @@ def find_close(bounds: Array, close: Marks, low: Vector, high: Vector) -> bool:
     return found
 
 
-@kernel
+@borrowing_kernel
 def extent_of(contact: BoxContact, poses: Array, k: int) -> tuple[Vector, Vector]:
     """The lowest and the highest coordinates of what a box keeps free in one of its poses."""
     pose, half = poses[k], row(contact.halves, k)
@@ -133,7 +133,7 @@ def extent_of(contact: BoxContact, poses: Array, k: int) -> tuple[Vector, Vector
     return subtract(centre, extent), add(centre, extent)
 
 
-@kernel
+@borrowing_kernel
 def mark_particles(
     x0: Array,
     x: Array,
@@ -153,7 +153,7 @@ def mark_particles(
                 marks[i] = LISTED * (codes[i] & outcode(row(x0, i), low, high) == 0)
 
 
-@kernel
+@borrowing_kernel
 def outcode(place: Vector, low: Vector, high: Vector) -> int:
     """A bit for each of the six planes about an upright box: whether a place is beyond it."""
     return (
@@ -166,7 +166,7 @@ def outcode(place: Vector, low: Vector, high: Vector) -> int:
     )
 
 
-@kernel
+@borrowing_kernel
 def find_edges(
     edges: Numbers,
     bands: Numbers,
@@ -191,7 +191,7 @@ def find_edges(
     counts[k, 1] = found
 
 
-@kernel
+@borrowing_kernel
 def find_faces(
     triangles: Numbers,
     bands: Numbers,
@@ -217,7 +217,7 @@ def find_faces(
     counts[k, 2] = found
 
 
-@kernel
+@borrowing_kernel
 def measure_marked(x0: Array, x: Array, contact: BoxContact, k: int, near: Candidates) -> None:
     """Set the places relative to box k, and the distances, of marked particles."""
     turn0, centre0 = contact.starts[k, 3:].reshape(3, 3), row(contact.starts, k)
@@ -234,7 +234,7 @@ def measure_marked(x0: Array, x: Array, contact: BoxContact, k: int, near: Candi
                     frame[i, MOVED] = frame[i, CHANGED] = 0.0
 
 
-@kernel
+@borrowing_kernel
 def choose_edges(contact: BoxContact, k: int, near: Candidates) -> None:
     """Keep the edges that may touch box k, and list their ends."""
     found, edges, marks, frame = 0, near.edges, near.marks, near.frames[k]
@@ -250,7 +250,7 @@ def choose_edges(contact: BoxContact, k: int, near: Candidates) -> None:
     near.counts[k, 1] = found
 
 
-@kernel
+@borrowing_kernel
 def choose_faces(contact: BoxContact, k: int, near: Candidates) -> None:
     """Keep the faces inside which a corner of box k may touch, and list their particles."""
     found, faces, marks, frame = 0, near.faces, near.marks, near.frames[k]
@@ -267,7 +267,7 @@ def choose_faces(contact: BoxContact, k: int, near: Candidates) -> None:
     near.counts[k, 2] = found
 
 
-@kernel
+@borrowing_kernel
 def list_particles(x: Array, contact: BoxContact, k: int, near: Candidates) -> None:
     """List the particles that are marked for it, in order, and begin their tracks."""
     close, bands, marks, tracks = near.close, contact.bands, near.marks, near.tracks
@@ -284,7 +284,7 @@ def list_particles(x: Array, contact: BoxContact, k: int, near: Candidates) -> N
     near.counts[k, 0] = found
 
 
-@kernel
+@borrowing_kernel
 def may_touch(radius: float, frame: Array, i: int, j: int) -> bool:
     """Whether an edge may come within the radius [m], contacts of the radius included."""
     along = subtract(end_of(frame, j), end_of(frame, i))
@@ -293,7 +293,7 @@ def may_touch(radius: float, frame: Array, i: int, j: int) -> bool:
     return near
 
 
-@kernel
+@borrowing_kernel
 def near_corner(half: Vector, radius: float, frame: Array, i: int, j: int, m: int) -> bool:
     """Whether a corner of the box may come near the inside of a face."""
     a, b, c = end_of(frame, i), end_of(frame, j), end_of(frame, m)

@@ -9,11 +9,11 @@ from drapery.cloth.colliders.vectors import (
     scale,
     subtract,
 )
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
 
-@kernel
+@borrowing_kernel
 def nearest(
     x: Array, i: int, j: int, k: int, m: int, edges: int
 ) -> tuple[tuple[float, float, float, float], Vector]:
@@ -30,7 +30,7 @@ def nearest(
     return (1.0, -u, -v, -w), subtract(a, q)
 
 
-@kernel
+@borrowing_kernel
 def gap_along(direction: Vector, x: Array, i: int, j: int, k: int, m: int, edges: int) -> float:
     """How far the parts of a pair are from each other along a direction of length 1 [m]; never more
     than their distance, and below 0 where they overlap."""
@@ -39,14 +39,14 @@ def gap_along(direction: Vector, x: Array, i: int, j: int, k: int, m: int, edges
     return gap_of(a, b, c, d, edges)
 
 
-@kernel
+@borrowing_kernel
 def gap_of(a: float, b: float, c: float, d: float, edges: int) -> float:
     """The gap between two edges from a to b and from c to d, or a particle at a and a face from b
     over c to d, on a line."""
     return min(a, b) - max(c, d) if edges else a - max(b, max(c, d))
 
 
-@kernel
+@borrowing_kernel
 def nearest_of_segments(a: Vector, b: Vector, c: Vector, d: Vector) -> tuple[float, float]:
     """The parts of two segments at which they are nearest (Ericson 2005, section 5.1.9)."""
     d1, d2, r = subtract(b, a), subtract(d, c), subtract(a, c)
@@ -66,7 +66,7 @@ def nearest_of_segments(a: Vector, b: Vector, c: Vector, d: Vector) -> tuple[flo
     return s, t
 
 
-@kernel
+@borrowing_kernel
 def nearest_of_face(a: Vector, b: Vector, c: Vector, p: Vector) -> Vector:
     """Barycentric weights of the nearest point of a triangle (Ericson 2005, section 5.1.5)."""
     ab, ac, ap = subtract(b, a), subtract(c, a), subtract(p, a)
@@ -97,7 +97,7 @@ def nearest_of_face(a: Vector, b: Vector, c: Vector, p: Vector) -> Vector:
     return va * inverse, vb * inverse, vc * inverse
 
 
-@kernel
+@borrowing_kernel
 def distance_of(a: Vector, b: Vector, c: Vector, d: Vector, edges: int) -> float:
     """The distance [m] of two edges ab and cd, or of a particle a and a face bcd."""
     if edges:

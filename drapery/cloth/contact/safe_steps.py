@@ -13,7 +13,7 @@ from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, row, 
 from drapery.cloth.contact.geometry import put
 from drapery.cloth.contact.pair_distance import distance_of, gap_along
 from drapery.cloth.contact.touching_pairs import TouchingPairs, moved
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
 MARGIN, CLOSE = 0.1, 0.02
@@ -31,7 +31,7 @@ ADVANCES = 64
 """The most advances of a pair in a step; one that needs more stops there."""
 
 
-@kernel
+@borrowing_kernel
 def shorten_unsafe(
     x0: Array,
     x: Array,
@@ -73,21 +73,21 @@ def shorten_unsafe(
     return found
 
 
-@kernel
+@borrowing_kernel
 def least_distance(start: float, thickness: float) -> float:
     """The distance at which a pair stops that was `start` apart [m]."""
     nearest = min(start, LEAST, 0.5 * thickness)
     return max(MARGIN * start, HOLD * min(start, thickness), nearest)
 
 
-@kernel
+@borrowing_kernel
 def shorten(x0: Array, x: Array, w: Array, i: int, part: float) -> None:
     """Shorten the displacement of a free particle to a part of it."""
     if w[i] > 0.0:
         put(x, i, 0, add_scaled(row(x0, i), part, moved(x0, x, i)))
 
 
-@kernel
+@borrowing_kernel
 def safe_part(
     x0: Array,
     x: Array,
@@ -124,7 +124,7 @@ def safe_part(
     return part
 
 
-@kernel
+@borrowing_kernel
 def longest_relative(x0: Array, x: Array, i: int, j: int, k: int, m: int, edges: int) -> float:
     """The longest displacement [m] of a particle of one part relative to one of the other."""
     a, b, c, d = moved(x0, x, i), moved(x0, x, j), moved(x0, x, k), moved(x0, x, m)
@@ -133,7 +133,7 @@ def longest_relative(x0: Array, x: Array, i: int, j: int, k: int, m: int, edges:
     return float(np.sqrt(most))
 
 
-@kernel
+@borrowing_kernel
 def square(a: Vector, b: Vector) -> float:
     offset = subtract(a, b)
     return dot(offset, offset)

@@ -20,7 +20,7 @@ from drapery.cloth.contact.pair_distance import gap_along, nearest
 from drapery.cloth.contact.safe_steps import shorten_unsafe
 from drapery.cloth.contact.self_contact_data import SelfContact
 from drapery.cloth.contact.touching_pairs import REACH, TouchingPairs, find_pairs, moved
-from drapery.jit import entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point, kernel
 from drapery.mesh import Array
 
 PASSES = 4
@@ -99,7 +99,7 @@ def meet_one(
         make_safe(x0, x, pairs, contact, boxes, near)
 
 
-@kernel
+@borrowing_kernel
 def farthest(x: Array, y: Array) -> float:
     """The longest distance [m] between the places of a particle in two arrays, [N, 3]."""
     longest = 0.0
@@ -108,7 +108,7 @@ def farthest(x: Array, y: Array) -> float:
     return longest
 
 
-@kernel
+@borrowing_kernel
 def is_smooth(x: Array, contact: SelfContact) -> bool:
     """Whether a grid lies over a plane without folds, so that it cannot touch itself.
 
@@ -149,7 +149,7 @@ def is_smooth(x: Array, contact: SelfContact) -> bool:
     return True
 
 
-@kernel
+@borrowing_kernel
 def list_near(x: Array, pairs: TouchingPairs, limit: float, active: NDArray[np.int32]) -> int:
     """List the numbers of the pairs that may be nearer than a limit [m], or have crossed; returns
     how many there are."""
@@ -161,7 +161,7 @@ def list_near(x: Array, pairs: TouchingPairs, limit: float, active: NDArray[np.i
     return count
 
 
-@kernel
+@borrowing_kernel
 def push_pairs(
     x0: Array, x: Array, pairs: TouchingPairs, active: NDArray[np.int32], contact: SelfContact
 ) -> float:

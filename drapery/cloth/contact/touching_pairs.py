@@ -21,7 +21,7 @@ from drapery.cloth.contact.face_tree import following, joined_bounds, top, tree_
 from drapery.cloth.contact.geometry import UP, grown, higher, lower, overlap, put
 from drapery.cloth.contact.pair_distance import gap_of, nearest
 from drapery.cloth.contact.self_contact_data import LEAF, SelfContact
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel, kernel
 from drapery.mesh import Array
 
 REACH = 1.5
@@ -116,7 +116,7 @@ def particle_bounds(x0: Array, x: Array, margin: float, stop: bool) -> Array:
     return bounds
 
 
-@kernel
+@borrowing_kernel
 def list_corners(
     bounds: Array,
     of_faces: Array,
@@ -143,7 +143,7 @@ def list_corners(
     return waiting
 
 
-@kernel
+@borrowing_kernel
 def list_edges(
     of_edges: Array,
     edges: NDArray[np.int32],
@@ -189,7 +189,7 @@ def longer(pairs: TouchingPairs) -> TouchingPairs:
     return more
 
 
-@kernel
+@borrowing_kernel
 def add_pairs(
     x0: Array,
     x: Array,
@@ -221,7 +221,7 @@ def add_pairs(
     return count
 
 
-@kernel
+@borrowing_kernel
 def between_middles(x: Array, i: int, j: int, k: int, m: int, edges: int) -> Vector:
     """The vector from the middle of the second part of a pair to that of the first."""
     a, b, c, d = row(x, i), row(x, j), row(x, k), row(x, m)
@@ -230,7 +230,7 @@ def between_middles(x: Array, i: int, j: int, k: int, m: int, edges: int) -> Vec
     return add_scaled(a, -1.0 / 3.0, add_scaled(add_scaled(b, 1.0, c), 1.0, d))
 
 
-@kernel
+@borrowing_kernel
 def swept_gap(
     direction: Vector, x0: Array, x: Array, i: int, j: int, k: int, m: int, edges: int, stop: bool
 ) -> float:
@@ -252,7 +252,7 @@ def swept_gap(
     return min(a, a1) - max(max(b, b1), max(c, d))
 
 
-@kernel
+@borrowing_kernel
 def moved(x0: Array, x: Array, i: int) -> Vector:
     """The displacement of particle i."""
     return subtract(row(x, i), row(x0, i))
