@@ -15,6 +15,8 @@ from drapery import Banner, OptionError, draw_face
 from drapery.banner import read_designs
 from drapery.cli import main
 from drapery.match import (
+    Match,
+    Matcher,
     Mural,
     decode_picture,
     fit_mural,
@@ -261,3 +263,37 @@ def test_ctrl_c_shows_the_best_so_far(
     shown = capsys.readouterr()
     assert "blue half_vertical:red" in shown.out or "red half_vertical_right:blue" in shown.out
     assert "the best designs so far" in shown.err
+
+
+def stopped_at(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ctrl-C while the banner of this number is searched for."""
+    whole, faces = Matcher.match, []
+
+    def match(matcher: Matcher, *words: Any, **named: Any) -> list[Match]:
+        faces.append(words)
+        if len(faces) == count:
+            raise KeyboardInterrupt
+        return whole(matcher, *words, **named)
+
+    monkeypatch.setattr(Matcher, "match", match)
+
+
+def test_ctrl_c_keeps_the_banners_of_a_mural(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    stripes = np.tile(picture(20, 40), (1, 4, 1))[:, :64]
+    path, out = saved(stripes, tmp_path / "three.png"), tmp_path / "three.mcfunction"
+    words = ("--mural", "3x1", "--layers", 1, "--effort", 0, "-o", out)
+    stopped_at(2, monkeypatch)
+    assert run(monkeypatch, path, *words) == 0
+    assert "1 of 3 banners are found, the others have one colour" in capsys.readouterr().err
+    assert [len(one.banner.layers) for one in read_designs(str(out))] == [1, 0, 0]
+
+
+def test_ctrl_c_before_the_first_banner_of_a_mural_writes_nothing(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    path, out = saved(picture(88, 40), tmp_path / "two.png"), tmp_path / "two.mcfunction"
+    stopped_at(1, monkeypatch)
+    assert run(monkeypatch, path, "--mural", "2x1", "-o", out) == 130
+    assert not out.exists()

@@ -114,7 +114,7 @@ def run(
 ) -> None:
     """Find the banners that look most like a picture.
 
-    Ctrl-C shows the best that were found, except for a photo.
+    Ctrl-C keeps the best that were found, except for a photo.
     """
     from drapery.match import read_picture
     from drapery.packs import open_packs
@@ -249,18 +249,27 @@ def _matched_mural(
     framing: dict[str, Any],
     wanted: dict[str, Any],
 ) -> "Mural":
-    """The banners of a mural, each found by itself."""
-    from drapery.match import Matcher, Mural, fit_mural
+    """The banners of a mural, each found by itself.
+
+    After Ctrl-C those that were not yet found have one colour, so that the command ends soon.
+    """
+    from drapery.match import Match, Matcher, Mural, fit_mural
 
     faces = fit_mural(pixels, *size, **framing)
-    matcher, banners = Matcher(packs), []
+    matcher, found = Matcher(packs), list[Match]()
     chosen = {"effort": MURAL_EFFORT, **wanted, "alternatives": 1}
-    with progress("mural", len(faces)) as update:
-        for number, seen in enumerate(faces, 1):
-            (best,) = matcher.match(seen.face, weights=seen.weights, **chosen)
-            banners.append(best.banner)
-            update(number, len(faces))
-    return Mural(*size, tuple(banners))
+    try:
+        with progress("mural", len(faces)) as update:
+            for seen in faces:
+                found += matcher.match(seen.face, weights=seen.weights, **chosen)
+                update(len(found), len(faces))
+    except KeyboardInterrupt:
+        if not found:
+            raise
+        say(f"stopped; {len(found)} of {len(faces)} banners are found, the others have one colour")
+        for seen in faces[len(found) :]:
+            found += matcher.match(seen.face, weights=seen.weights, layers=0, alternatives=1)
+    return Mural(*size, tuple(one.banner for one in found))
 
 
 def _save_mural(made: "Mural", paths: list[Path], packs: "Packs") -> None:
