@@ -56,6 +56,15 @@ def test_random_designs_are_found_exactly() -> None:
         np.testing.assert_array_equal(art.paint(*found), face)
 
 
+def test_layers_that_hide_much_are_found_from_the_top_downwards(matcher: Matcher) -> None:
+    """The gradient and the border hide most of the crosses, so nothing begins with these."""
+    text = "black cross:lime straight_cross:black gradient:orange border:orange"
+    goal = NearestSearch(matcher.art).goal(face_of(text), np.ones(800, np.int32), MEASURED)
+    downwards = [stack for stacks in goal.lowered(4, 4) for stack in stacks]
+    upwards = [stack for stacks in goal.grow(4, 12) for stack in stacks]
+    assert 100 * min(map(goal.error, downwards)) < min(map(goal.error, upwards))
+
+
 def test_hidden_layers_are_left_out(matcher: Matcher) -> None:
     text = "red creeper:lime border:pink half_vertical:white half_vertical_right:white cross:black"
     (found,) = matcher.match(face_of(text), alternatives=1, effort=0)

@@ -13,6 +13,7 @@ from drapery.match import match_photo
 from drapery.match.light import seen_face
 from drapery.match.perspective import PhotoView, bend_count, find_corners, texel_shifts
 from drapery.match.photo import _WAYS, _aligned
+from drapery.match.smooth import grid_fit, least_squares, products
 from drapery.pictures import draw_face
 
 DESIGN = Banner.parse("white creeper:red border:black")
@@ -61,6 +62,18 @@ def test_a_design_is_found_in_unknown_light_that_changes() -> None:
     )
 
 
+def test_polynomials_on_a_grid_are_fitted_as_any_others() -> None:
+    random = np.random.default_rng(2)
+    goal, weights = random.normal(size=(40, 20)), random.random((40, 20))
+    v, u = np.divmod(np.arange(800), 20)
+    terms, stiffness = products((u + 0.5) / 20, (v + 0.5) / 40, 4, 3), np.linspace(0.5, 2, 20)
+    np.testing.assert_allclose(
+        grid_fit(goal, weights, stiffness, 4, 3),
+        least_squares(terms, goal.ravel(), weights.ravel(), stiffness),
+        atol=1e-12,
+    )
+
+
 def test_light_is_estimated_from_a_design() -> None:
     face = draw_face(DESIGN, scale=1).pixels[..., :3].reshape(-1, 3).astype(float)
     v, u = np.divmod(np.arange(800), 20)
@@ -70,11 +83,11 @@ def test_light_is_estimated_from_a_design() -> None:
     assert seen.error(face, seen.light_on(face)) < 0.05 * seen.error(face[::-1], light)
 
 
-def bulging() -> PhotoView:
-    """A flag of one colour whose right edge is up to a texel further right than its corners."""
+def bulging(texels: float = 1) -> PhotoView:
+    """A flag of one colour whose right edge is up to so far further right than its corners."""
     picture = np.full((200, 160, 3), 90, np.uint8)
     y = np.arange(20, 180)
-    for row, out in zip(y, 4 * np.sin((y - 20) / 160 * np.pi), strict=True):
+    for row, out in zip(y, 4 * texels * np.sin((y - 20) / 160 * np.pi), strict=True):
         picture[row, 40 : round(120 + out)] = 220
     return PhotoView(picture, ((40, 20), (120, 20), (120, 180), (40, 180)))
 
@@ -86,6 +99,14 @@ def test_the_outline_says_how_cloth_bends() -> None:
     assert abs(across[20, 19] - 1) < 0.3 and abs(across[20, 0]) < 0.3
     assert np.abs(across[2, [0, 19]]).max() < 0.5 and np.abs(down).max() < 0.3
     assert view.bend_cost(bend) < view.bend_cost(np.zeros(bend_count())) / 2
+
+
+def test_the_part_of_a_flag_that_is_not_read_is_measured() -> None:
+    view, flat = bulging(3), np.zeros(bend_count())
+    # The integral of 3 sin x - 1 where that is positive, times 40 texels for pi.
+    assert abs(view.left_out(flat) - 40.8) < 4
+    assert view.left_out(view.outline_bend()) < 3
+    assert bulging().left_out(flat) < 1
 
 
 def test_a_face_that_says_nothing_is_aligned_with_the_outline() -> None:

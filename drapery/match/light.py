@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.match.art import HEIGHT, WIDTH
-from drapery.match.smooth import Reals, least_squares, orders, products, row_sums
+from drapery.match.smooth import Reals, grid_fit, orders, products, row_sums
 
-_ACROSS, _DOWN = 7, 3
+_ACROSS, _DOWN = 9, 7
 """The highest orders of the polynomials along the two sides."""
 _USUAL, _SPREAD = 0.8, 0.12
 """The mean of all light, and how far it usually is from that."""
@@ -52,7 +52,8 @@ class SeenFace:
             weights = self.weights / (1 + (rest / _ASTRAY) ** 2) / _NOISE**2
             square = (tinted * tinted).sum(axis=1)
             more = (tinted * self.levels).sum(axis=1) / np.maximum(square, 1) - _USUAL
-            factors = least_squares(_TERMS, more, weights * square, _STIFFNESS)
+            goal, counts = (part.reshape(HEIGHT, WIDTH) for part in (more, weights * square))
+            factors = grid_fit(goal, counts, _STIFFNESS, _ACROSS, _DOWN)
             light = np.clip(_USUAL + row_sums(_TERMS.T, factors), _LEAST, _BRIGHTEST)
             dark = face * light[:, None]
             both = np.stack([dark * dark, dark * self.levels]) * weights[:, None]

@@ -23,6 +23,8 @@ _HARDLY = 0.005
 """A layer is left out if the error grows by no more than this share of it."""
 _SWEEPS = 6
 """The most times that descent goes over all layers of a stack."""
+_UNKNOWN = 600
+"""What a texel costs as long as no layer is known that hides what is below, as a distance."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,6 +267,47 @@ class Goal:
             for stacks in self.grow(layers - kept, width, above):
                 base, below = stacks[0]
                 yield base, (*below, *above)
+
+    def lowered(self, layers: int, width: int) -> Iterator[list[Stack]]:
+        """The `width` best stacks of 1, 2, 3, ... layers, found from the top layer downwards.
+
+        A layer is seen wherever no higher one hides it, so it can be told before those below it are
+        known. A beam that grows upwards may lose one of which later layers hide much.
+        """
+        states: dict[int, tuple[tuple[int, int], ...]] = {0: ()}
+        for _ in range(layers):
+            found: dict[int, tuple[tuple[int, int], ...]] = {}
+            for above in states.values():
+                table = self._lower_choices(self.over(above)).reshape(-1)
+                for place in np.argsort(table, kind="stable")[: 2 * width].tolist():
+                    layer = divmod(place, self.search.art.dyes)
+                    found.setdefault(int(table[place]), (layer, *above))
+            states = {error: found[error] for error in sorted(found)[:width]}
+            yield [(int(self.bases(self.over(above)).argmin()), above) for above in states.values()]
+
+    def _lower_choices(self, over: tuple[Floats, Floats]) -> Totals:
+        """The errors of all patterns in all dyes as the next layer below `over`, [P, D].
+
+        Below that one each texel has the dye that suits it best, and costs _UNKNOWN more times how
+        much of it is seen.
+        """
+        added, through = over
+        colours = self.search.art.bases.reshape(-1, _TEXELS, 3).astype(np.float32)
+        unknown = (_UNKNOWN * through[:, 0] * self.weights).astype(np.int32)
+        before = self._errors(added + through * colours, slice(None)).min(axis=0) + unknown
+        part = self._parts[1]
+        texels = part.texels
+        layer = added[texels, None] + through[texels, None] * part.colours
+        clear = through[texels] * part.clear[:, None]
+        gained = np.full(layer.shape[:2], np.iinfo(np.int32).max, np.int32)
+        for colour in colours:
+            seen = layer + (clear * colour[texels])[:, None]
+            np.minimum(gained, self._errors(seen, texels), out=gained)
+        gained += ((part.clear * unknown[texels]).astype(np.int32) - before[texels])[:, None]
+        total = part.sums(gained)
+        total += self.opaque_errors(over)
+        total += (~self.search._covered * before).sum(axis=1, dtype=np.int64)[:, None]
+        return total
 
     def varied(self, stack: Stack, count: int) -> Iterator[Stack]:
         """Stacks with one of the `count` next best layers in place of each one of a stack."""

@@ -42,6 +42,8 @@ _EDGE = 0.1
 """The weight of each place of an edge that is seen."""
 _EDGE_NOISE = 1.0
 """How far an edge is usually seen from where it is [texels]."""
+_SLACK, _FAR = 1.0, 6.0
+"""A place of an edge that lies further out than a bend tells counts from and up to [texels]."""
 _OUTLINE_FITS = 3
 _SURE = 1000.0
 """The weight of a place that is given."""
@@ -126,7 +128,7 @@ class PhotoView:
         lowered: how much lower than that the middle of the flag is seen [texels].
         """
         bend = np.zeros(bend_count())
-        shifts, apart = self.outline
+        shifts, apart, _ = self.outline
         for _ in range(_OUTLINE_FITS):
             weights = self.outline_weights(bend)
             bend = least_squares(shifts, apart, weights, np.ones(len(bend)))
@@ -147,19 +149,26 @@ class PhotoView:
         away = np.log1p((self._outline_rest(bend) / _EDGE_NOISE) ** 2).sum()
         return float((bend**2).sum() + _EDGE * _EDGE_NOISE**2 * away)
 
+    def left_out(self, bend: Reals) -> float:
+        """How much of the flag that is seen lies outside the face that a bend reads [texels]."""
+        _, _, outwards = self.outline
+        out = np.sign(outwards) * self._outline_rest(bend) - _SLACK
+        return float((np.abs(outwards) * np.clip(out, 0, _FAR)).sum())
+
     def _outline_rest(self, bend: Reals) -> Reals:
-        shifts, apart = self.outline
+        shifts, apart, _ = self.outline
         return np.asarray(apart - row_sums(shifts.T, bend))
 
     @cached_property
-    def outline(self) -> tuple[Reals, Reals]:
-        """Places along the flag's edges: their `bend_shifts` across the edge [BENDS, m], and how
-        far from the straight edge each is seen [texels], [m].
+    def outline(self) -> tuple[Reals, Reals, Reals]:
+        """Places along the flag's edges: their `bend_shifts` across the edge [BENDS, m], how far
+        from the straight edge each is seen [texels], [m], and how far it is to the next place
+        [texels], [m], below 0 where the flag lies in the positive direction.
 
         There are none where no flag before a background of one colour is seen between the corners.
         """
         part = flag_part(self.picture)
-        nothing = np.zeros((bend_count(), 0)), np.zeros(0)
+        nothing = np.zeros((bend_count(), 0)), np.zeros(0), np.zeros(0)
         if part is None:
             return nothing
         u = np.linspace(-_AROUND, 1 + _AROUND, int(20 * (1 + 2 * _AROUND) * WIDTH))
@@ -182,7 +191,10 @@ class PhotoView:
         ends = bend_shifts(np.tile(u[columns], 2), np.repeat([0.0, 1.0], len(columns)))[:, 1]
         straight = np.zeros(len(columns))
         apart = np.concatenate([left * WIDTH, right * WIDTH, straight, low * HEIGHT])
-        return np.concatenate([sides, ends], axis=1), apart
+        steps = _EVERY * (v[1] - v[0]) * HEIGHT, _EVERY * (u[1] - u[0]) * WIDTH
+        places = (len(rows), len(rows), len(columns), len(columns))
+        outwards = np.repeat([-steps[0], steps[0], -steps[1], steps[1]], places)
+        return np.concatenate([sides, ends], axis=1), apart, outwards
 
 
 def _grid(samples: int, margin: float) -> tuple[Reals, Reals]:
@@ -254,7 +266,7 @@ def flag_part(picture: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
 
     picture: [H, W, 3]. None if nothing there is as large as a flag.
     """
-    from scipy.ndimage import binary_fill_holes, binary_opening, label
+    from scipy.ndimage import binary_fill_holes, label
 
     edge = np.concatenate([picture[0], picture[-1], picture[:, 0], picture[:, -1]])
     background = np.median(edge.astype(np.float64), axis=0)
@@ -270,8 +282,16 @@ def flag_part(picture: NDArray[np.uint8]) -> NDArray[np.bool_] | None:
     # What is narrower than a sixth of the flag goes: the pole below it.
     width = int(np.median(part.sum(axis=1)[part.any(axis=1)]))
     if width >= MIN_SIDE:
-        part = binary_opening(part, np.ones((1, max(width // 6, 1)), bool))
+        part = _long_runs(part, max(width // 6, 1))
     return part if part.sum() > MIN_SIDE**2 else None
+
+
+def _long_runs(part: NDArray[np.bool_], least: int) -> NDArray[np.bool_]:
+    """The pixels in rows of at least `least`: an opening, at any length in the same time."""
+    counts = np.cumsum(np.pad(part, ((0, 0), (1, 0))), axis=1)
+    whole = counts[:, least:] - counts[:, :-least] == least
+    starts = np.cumsum(np.pad(whole, ((0, 0), (least, least - 1))), axis=1)
+    return np.asarray(starts[:, least:] > starts[:, :-least])
 
 
 def _quadrilateral(part: NDArray[np.bool_]) -> tuple[Corner, ...] | None:

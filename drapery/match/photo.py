@@ -30,7 +30,7 @@ from drapery.match.smooth import Reals, least_squares, row_sums
 from drapery.option import within
 from drapery.packs import PackLike, open_packs
 
-_LOWERED = (0.0, 2.5, -2.5)
+_LOWERED = (0.0, 2.5, -2.5, -5.0)
 """How much lower than its outline tells the middle of the flag may be [texels]."""
 _GAINS = (0.7, 0.78, 0.86)
 """Even lights that the search begins with."""
@@ -40,6 +40,8 @@ _LAYER = 40.0
 """What a layer costs, as an error [levels, summed over texels]."""
 _BENT = 6.0
 """What a bend of the usual size costs, likewise."""
+_LEFT_OUT = 10.0
+"""What each texel of the flag costs that is outside the face that is read, likewise."""
 _TINTED = 600.0
 """What light of a colour costs, times the range of its channels, likewise."""
 _STIFF, _SOFT = 4000.0, 500.0
@@ -76,6 +78,8 @@ _DESCENTS = 2
 """How many designs are improved layer by layer after each search."""
 _WIDTH = 6
 """How many stacks are kept while layers are added."""
+_LOWEST = 4
+"""How many stacks are kept while layers are found from the top downwards."""
 _WEIGHT = 1000
 """Weights are rounded to this many steps."""
 _LITTLE = 1.0
@@ -141,8 +145,9 @@ class _PhotoSearch:
         if outline.any():
             others.append(np.zeros(bend_count()))
         searches = [self.started(outline, _GAINS)]
-        if searches[0].error > _WELL:
-            searches += [self.started(bend, _GAINS[1:2]) for bend in others]
+        for bend in others:
+            if min(search.error for search in searches) > _WELL:
+                searches.append(self.started(bend, _GAINS[1:2]))
         limit = _CLOSE * min(search.error for search in searches)
         for search in searches:
             if search.error < limit:
@@ -158,7 +163,8 @@ class _PhotoSearch:
         for gain, metric in product(gains, _METRICS):
             _, quick = self._goals(seen, np.full((HEIGHT * WIDTH, 3), gain), metric)
             stacks = [grown[0] for grown in quick.grow(self.layers, 2 * _WIDTH)]
-            found._put(seen, bend, [*stacks, quick.descend(stacks[-1])])
+            ends = [stacks[-1], *_lowered(quick, self.layers)]
+            found._put(seen, bend, [*stacks, *map(quick.descend, ends)])
         found.align()
         for stack in found.distinct(len(gains)):
             found.refine(stack)
@@ -185,7 +191,9 @@ class _PhotoSearch:
         seen, bend, light = fit.seen, fit.bend, fit.light
         for metric in _METRICS:
             goal, quick = self._goals(seen, light, metric)
-            grown = [stack, *quick.regrown(stack, self.layers, _WIDTH)]
+            lowered = _lowered(quick, self.layers)
+            self._put(seen, bend, lowered)
+            grown = [stack, *quick.regrown(stack, self.layers, _WIDTH), *lowered]
             near = {one: goal.error(one) for one in grown}
             best = sorted(near, key=lambda one: near[one])[:_DESCENTS]
             self._put(seen, bend, [goal.reordered(goal.descend(one)) for one in best])
@@ -281,10 +289,19 @@ class _PhotoSearch:
     def _fit(self, seen: SeenFace, bend: Reals, stack: Stack, light: Reals | None = None) -> _Fit:
         face = self._paint(stack)
         light = seen.light_on(face) if light is None else light
-        bent = self.view.bend_cost(bend)
         tint = light[0] / light[0].mean()
-        cost = _LAYER * len(stack[1]) + _BENT * bent + _TINTED * float(tint.max() - tint.min())
+        cost = _LAYER * len(stack[1]) + _TINTED * float(tint.max() - tint.min())
+        cost += _BENT * self.view.bend_cost(bend) + _LEFT_OUT * self.view.left_out(bend)
         return _Fit(seen, light, bend, seen.error(face, light) + cost)
+
+
+def _lowered(goal: Goal, layers: int) -> list[Stack]:
+    """The best stacks of each number of layers that are found from the top layer downwards."""
+    if goal.metric is not MEASURED:
+        return []
+    every = (stack for stacks in goal.lowered(layers, _LOWEST) for stack in stacks)
+    errors = {goal.error(stack): stack for stack in every}
+    return [errors[error] for error in sorted(errors)[:_DESCENTS]]
 
 
 def _aligned(
@@ -307,7 +324,7 @@ def _aligned(
         rows = (shifts[:, 0] * slopes[0] + shifts[:, 1] * slopes[1]).reshape(len(bend), -1)
         # The whole bend is fitted, not the step, so that it is the bend that resists.
         whole = rest.ravel() + row_sums(rows.T, bend)
-        edges, apart = view.outline
+        edges, apart, _ = view.outline
         bend = least_squares(
             np.concatenate([rows, edges], axis=1),
             np.concatenate([whole, apart]),

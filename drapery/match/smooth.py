@@ -1,5 +1,7 @@
 """Smooth functions over a face, and their fit by least squares, with sums in a fixed order."""
 
+from itertools import product
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,8 +25,8 @@ def orders(across: int, down: int) -> tuple[Reals, Reals]:
 
 
 def row_sums(rows: Reals, factors: Reals) -> Reals:
-    """The products of rows [K, n] with factors [n], [K]."""
-    return np.asarray((rows * factors).sum(axis=1))
+    """The products of rows [..., n] with factors [n], [...]."""
+    return np.asarray((rows * factors).sum(axis=-1))
 
 
 def least_squares(rows: Reals, goal: Reals, weights: Reals, stiffness: Reals) -> Reals:
@@ -41,6 +43,31 @@ def least_squares(rows: Reals, goal: Reals, weights: Reals, stiffness: Reals) ->
     return _solved(matrix, row_sums(weighted, goal))
 
 
+def grid_fit(goal: Reals, weights: Reals, stiffness: Reals, across: int, down: int) -> Reals:
+    """As `least_squares` with the `products` at the middles of a grid's cells, goal [H, W].
+
+    A product of Chebyshev polynomials is a sum, T_a T_b = (T_a+b + T_|a-b|) / 2, so the matrix
+    needs the sums over the grid of few polynomials only.
+    """
+    sums = _moments(weights, 2 * across, 2 * down)
+    first, second = (order.astype(np.intp) for order in orders(across, down))
+    columns = first[:, None] + first, abs(first[:, None] - first)
+    rows = second[:, None] + second, abs(second[:, None] - second)
+    matrix = np.diag(stiffness)
+    for row, column in product(rows, columns):
+        matrix += sums[row, column] / 4
+    return _solved(matrix, _moments(weights * goal, across, down).reshape(-1))
+
+
+def _moments(values: Reals, across: int, down: int) -> Reals:
+    """The sums over a grid [H, W] of values times `products`, [down + 1, across + 1]."""
+    height, width = values.shape
+    along_u = np.stack(_chebyshev(2 * (np.arange(width) + 0.5) / width - 1, across))
+    along_v = np.stack(_chebyshev(2 * (np.arange(height) + 0.5) / height - 1, down))
+    rows = row_sums(along_u[:, None], values)
+    return np.asarray((along_v[:, None] * rows).sum(axis=2))
+
+
 def _chebyshev(x: Reals, highest: int) -> list[Reals]:
     rows = [np.ones_like(x), x]
     while len(rows) <= highest:
@@ -52,8 +79,10 @@ def _solved(matrix: Reals, right: Reals) -> Reals:
     """The solution of a positive definite system, by Gaussian elimination."""
     rows = np.concatenate([matrix, right[:, None]], axis=1)
     for pivot in range(len(right)):
-        rows[pivot] /= rows[pivot, pivot]
-        factors = rows[:, pivot].copy()
-        factors[pivot] = 0
-        rows -= factors[:, None] * rows[pivot]
-    return rows[:, -1]
+        factors = rows[pivot + 1 :, pivot] / rows[pivot, pivot]
+        rows[pivot + 1 :, pivot:] -= factors[:, None] * rows[pivot, pivot:]
+    found = rows[:, -1].copy()
+    for pivot in reversed(range(len(right))):
+        found[pivot] /= rows[pivot, pivot]
+        found[:pivot] -= found[pivot] * rows[:pivot, pivot]
+    return found
