@@ -74,6 +74,8 @@ _ALIGNED = 8
 """With how many of them the photo is aligned."""
 _NEAR = 2
 """How many of them are refined."""
+_POLISHED = 3
+"""How many designs, and one of each number of layers, are aligned in the end."""
 _DESCENTS = 2
 """How many designs are improved layer by layer after each search."""
 _WIDTH = 6
@@ -148,10 +150,7 @@ class _PhotoSearch:
         for bend in others:
             if min(search.error for search in searches) > _WELL:
                 searches.append(self.started(bend, _GAINS[1:2]))
-        limit = _CLOSE * min(search.error for search in searches)
         for search in searches:
-            if search.error < limit:
-                search.refine(search.best()[0])
             for stack, fit in search.fits.items():
                 self._keep(stack, fit)
         self.improve()
@@ -163,7 +162,9 @@ class _PhotoSearch:
         for gain, metric in product(gains, _METRICS):
             _, quick = self._goals(seen, np.full((HEIGHT * WIDTH, 3), gain), metric)
             stacks = [grown[0] for grown in quick.grow(self.layers, 2 * _WIDTH)]
-            ends = [stacks[-1], *_lowered(quick, self.layers)]
+            ends = [stacks[-1]]
+            if metric is MEASURED:
+                ends += _lowered(quick, self.layers)[:_DESCENTS]
             found._put(seen, bend, [*stacks, *map(quick.descend, ends)])
         found.align()
         for stack in found.distinct(len(gains)):
@@ -183,20 +184,31 @@ class _PhotoSearch:
         fit = self.fits[best]
         goal, _ = self._goals(fit.seen, fit.light)
         self._put(fit.seen, fit.bend, goal.varied(best, 1))
+        self.polish()
+
+    def polish(self) -> None:
+        """Align the photo with the best designs, also of fewer layers, until nothing is better."""
+        limit = _CLOSE * self.error
+        best: dict[int, Stack] = {}
+        for stack in self.best():
+            best.setdefault(len(stack[1]), stack)
+        for stack in dict.fromkeys([*self.distinct(_POLISHED), *best.values()]):
+            before = limit
+            while self.fits[stack].error < before - _LITTLE:
+                before = self.fits[stack].error
+                self._realign(stack, self.fits[stack], _WAYS)
 
     def refine(self, stack: Stack) -> None:
         """Align the photo with a design, and search for better designs in its light."""
         self._realign(stack, self.fits[stack], _WAYS)
         fit = self.fits[stack]
-        seen, bend, light = fit.seen, fit.bend, fit.light
-        for metric in _METRICS:
-            goal, quick = self._goals(seen, light, metric)
-            lowered = _lowered(quick, self.layers)
-            self._put(seen, bend, lowered)
-            grown = [stack, *quick.regrown(stack, self.layers, _WIDTH), *lowered]
-            near = {one: goal.error(one) for one in grown}
-            best = sorted(near, key=lambda one: near[one])[:_DESCENTS]
-            self._put(seen, bend, [goal.reordered(goal.descend(one)) for one in best])
+        goal, quick = self._goals(fit.seen, fit.light)
+        lowered = _lowered(quick, self.layers)[:_DESCENTS]
+        grown = [stack, *quick.regrown(stack, self.layers, _WIDTH), *lowered]
+        near = {one: goal.error(one) for one in grown}
+        best = sorted(near, key=lambda one: near[one])[:_DESCENTS]
+        better = [goal.reordered(goal.descend(one)) for one in best]
+        self._put(fit.seen, fit.bend, [*lowered, *better])
 
     def best(self) -> list[Stack]:
         """The designs, best first."""
@@ -211,13 +223,15 @@ class _PhotoSearch:
                 self._realign(stack, self.fits[stack])
 
     def near(self, stack: Stack) -> list[Stack]:
-        """The best designs that have one layer less or one other layer, aligned.
+        """The best designs that have one layer less, one other layer or a like face, aligned.
 
         A layer may only hide other faults, and two orders of layers may differ little.
         """
         fit, (base, layers) = self.fits[stack], stack
         _, quick = self._goals(fit.seen, fit.light)
-        found = map(quick.reordered, quick.varied(stack, _OTHERS))
+        *_, grown = quick.grow(len(layers), _WIDTH)
+        found = [*map(quick.reordered, quick.varied(stack, _OTHERS)), *grown]
+        found += _lowered(quick, self.layers)
         errors = {quick.error(other): other for other in found}
         others = [errors[error] for error in sorted(errors)[:_ALIGNED]]
         others += [(base, (*layers[:n], *layers[n + 1 :])) for n in range(len(layers))]
@@ -296,12 +310,10 @@ class _PhotoSearch:
 
 
 def _lowered(goal: Goal, layers: int) -> list[Stack]:
-    """The best stacks of each number of layers that are found from the top layer downwards."""
-    if goal.metric is not MEASURED:
-        return []
+    """Stacks that are found from the top layer downwards, best first."""
     every = (stack for stacks in goal.lowered(layers, _LOWEST) for stack in stacks)
     errors = {goal.error(stack): stack for stack in every}
-    return [errors[error] for error in sorted(errors)[:_DESCENTS]]
+    return [errors[error] for error in sorted(errors)]
 
 
 def _aligned(
