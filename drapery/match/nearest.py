@@ -295,7 +295,7 @@ class Goal:
         colours = self.search.art.bases.reshape(-1, _TEXELS, 3).astype(np.float32)
         unknown = (_UNKNOWN * through[:, 0] * self.weights).astype(np.int32)
         before = self._errors(added + through * colours, slice(None)).min(axis=0) + unknown
-        part = self._parts[1]
+        part = self._parts[1].within(through[:, 0] > 0)
         texels = part.texels
         layer = added[texels, None] + through[texels, None] * part.colours
         clear = through[texels] * part.clear[:, None]
