@@ -24,8 +24,10 @@ from drapery.cloth import (
 )
 from drapery.cloth.colliders import straight
 from drapery.cloth.colliders.check import sample_distances
-from drapery.cloth.collisions import resolver
+from drapery.cloth.collisions import boxes_met, resolver
 from drapery.cloth.contact.box_data import bands_of
+from drapery.cloth.contact.box_depths import line_passes_by
+from drapery.cloth.contact.lanes_contact import contact_work, resolve
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array
 from drapery.settings import SolverName
@@ -97,6 +99,36 @@ def test_a_crowd_in_contact_equals_its_cloths_alone_on_any_threads(method: Any) 
         state = alone.advance((Gravity(), wind), 40).state
         assert np.array_equal(state.positions[0], one.positions[number])
         assert np.array_equal(state.velocities[0], one.velocities[number])
+
+
+def test_how_far_contact_looks_at_first_changes_no_bit() -> None:
+    cloth = flag((9, 17))
+    boxes = boxes_met(cloth, MET)
+    assert boxes is not None
+    contact, ends = boxes.contact, []
+    noise = np.random.default_rng(0).normal(0, 0.01, cloth.rest_positions.shape)
+    for far in (0.0, 0.4, 1.0, 3.0, 1e3):
+        work = contact_work(contact)
+        work.start[:] = cloth.rest_positions
+        work.end[:] = cloth.rest_positions + noise - (0.02, 0.0, 0.03)
+        work.near.longest[:] = far * contact.radius
+        assert resolve(work, contact, contact.ends[None], 0)
+        ends.append(work.end)
+    assert all(np.array_equal(ends[0], end) for end in ends[1:])
+
+
+def test_a_line_that_passes_by_a_rectangle_keeps_its_distance() -> None:
+    passes_by: Any = line_passes_by
+    random, parts = np.random.default_rng(0), np.linspace(-8, 8, 8001)[:, None]
+    found = []
+    for _ in range(500):
+        half, start, angle = random.uniform(0.1, 2, 2), random.normal(0, 2, 2), random.uniform(0, 7)
+        along = np.array([np.cos(angle), np.sin(angle)])
+        away = np.maximum(np.abs(start + parts * along) - half, 0)
+        distance = np.sqrt(np.square(away).sum(axis=1)).min()
+        found.append(passes_by.py_func(*half, 0.3, *start, *along))
+        assert distance >= 0.3 if found[-1] else distance < 0.3001
+    assert any(found) and not all(found)
 
 
 def test_edges_and_faces_join_only_neighbouring_bands() -> None:

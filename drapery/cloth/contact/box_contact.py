@@ -42,9 +42,9 @@ PASSES = 6
 """The most passes over all contacts in a step."""
 TOLERANCE = 0.02
 """A pass whose deepest contact is shallower than this part of the radius is the last one."""
-CLOSE, FARTHER = 2.0, 6.0
-"""At first only what is within this many times the radius, beyond the radius, is looked at; then
-within so many times as much."""
+CLOSE, FARTHER = 0.5, 1.5
+"""At first only what is within this many times the radius, beyond the radius, is looked at, or
+within so many times as far as contact moved a particle in the step before."""
 GUARDED = 0.25
 """Particles may return to their start only if the last pass found a contact that is deeper than
 this part of the radius."""
@@ -71,18 +71,20 @@ def meet_close_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates)
     If contact moves a particle farther than that, it starts again and looks farther. So the result
     is the same.
     """
-    margin, whole = CLOSE * contact.radius, whole_margin(contact)
+    whole = whole_margin(contact)
+    margin = max(CLOSE * contact.radius, FARTHER * near.longest[0])
     while margin < whole:
         reset_tracks(near)
         if not find_boxes(x0, x, contact, margin, near):
             return False
-        met, longest = solve_boxes(x0, x, contact, near)
-        if longest < margin:
+        met, near.longest[0] = solve_boxes(x0, x, contact, near)
+        if near.longest[0] < margin:
             return met
         for i in range(len(x)):
             if near.listed[i]:
                 put(x, i, 0, read(near.tracks, i, SOLVED))
-        margin *= FARTHER
+        margin = max(2.0 * margin, FARTHER * near.longest[0])
+    near.longest[0] = contact.radius
     reset_tracks(near)
     return meet_boxes(x0, x, contact, near)
 

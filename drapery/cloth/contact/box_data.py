@@ -185,7 +185,8 @@ class Candidates(NamedTuple):
     bounds: of each band, lowest and highest coordinates [m], [B, 6]. close: whether a band and the
     next are near a box, [B]. codes, marks: of each particle and one box, see `near_boxes`, [N].
     listed: whether a particle is near any box, [N]. frames, tracks: see `box_frame`, of shape
-    [K, N, COLUMNS] and [N, TRACK].
+    [K, N, COLUMNS] and [N, TRACK]. longest: how far contact last moved a particle [m], [1], which
+    only the time of the next step depends on.
     """
 
     particles: NDArray[np.int32]
@@ -199,6 +200,7 @@ class Candidates(NamedTuple):
     listed: NDArray[np.uint8]
     frames: Array
     tracks: Array
+    longest: Array
 
 
 def candidate_arrays(contact: BoxContact) -> Candidates:
@@ -216,6 +218,7 @@ def candidate_arrays(contact: BoxContact) -> Candidates:
         np.zeros(particles, np.uint8),
         np.zeros((boxes, particles, COLUMNS)),
         np.zeros((particles, TRACK)),
+        np.full(1, contact.radius),
     )
 
 

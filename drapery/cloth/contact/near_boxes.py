@@ -149,8 +149,9 @@ def mark_particles(
     for band in range(len(close)):
         if close[band]:
             for i in range(bands[band, 0], bands[band + 1, 0]):
-                codes[i] = outcode(row(x, i), low, high)
-                marks[i] = LISTED * (codes[i] & outcode(row(x0, i), low, high) == 0)
+                a, b = row(x0, i), row(x, i)
+                codes[i] = outcode(b, low, high)
+                marks[i] = LISTED * overlap(lower(a, b), higher(a, b), low, high)
 
 
 @borrowing_kernel
@@ -296,11 +297,16 @@ def may_touch(radius: float, frame: Array, i: int, j: int) -> bool:
 @borrowing_kernel
 def near_corner(half: Vector, radius: float, frame: Array, i: int, j: int, m: int) -> bool:
     """Whether a corner of the box may come near the inside of a face."""
-    a, b, c = end_of(frame, i), end_of(frame, j), end_of(frame, m)
-    low, high = lower(a, lower(b, c)), higher(a, higher(b, c))
-    low, high = grown(low, -2.0 * radius), grown(high, 2.0 * radius)
+    a, b, c, margin = end_of(frame, i), end_of(frame, j), end_of(frame, m), 2.0 * radius
+    # Upright first: few faces are near an end of a pole.
     return (
-        has_end(low[0], high[0], half[0])
-        and has_end(low[1], high[1], half[1])
-        and has_end(low[2], high[2], half[2])
+        spans_end(half[1], margin, a[1], b[1], c[1])
+        and spans_end(half[0], margin, a[0], b[0], c[0])
+        and spans_end(half[2], margin, a[2], b[2], c[2])
     )
+
+
+@borrowing_kernel
+def spans_end(half: float, margin: float, a: float, b: float, c: float) -> bool:
+    """Whether -half or half is within a margin of what lies between three numbers."""
+    return has_end(min(a, min(b, c)) - margin, max(a, max(b, c)) + margin, half)
