@@ -12,6 +12,10 @@ from drapery.jit import entry_point
 TILE_BITS = 6
 TILE = 1 << TILE_BITS
 """Side of a tile [samples]: its depth keys and colours, 12 bytes a sample, stay in cache."""
+LANES = 8
+"""Samples in a group; groups are tested without a branch, for SIMD instructions."""
+STRIDE = TILE + LANES
+"""Samples in a row of a tile with those of the last group that lie outside."""
 
 ID_BITS = 24
 ID_MASK = (1 << ID_BITS) - 1

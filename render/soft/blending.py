@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from drapery.jit import kernel
-from drapery.render.soft.bins import TILE
+from drapery.render.soft.bins import STRIDE, TILE
 
 OPAQUE_BITS = 0xFF000000
 CHANNELS = 0x00FF00FF
@@ -15,6 +15,9 @@ HALVES = 0x00010001
 LIGHT_BITS = 24
 FULL_LIGHT = 1 << LIGHT_BITS
 """Light is multiplied in integers, which is faster than converting colours to floats and back."""
+
+UNLIT = -1
+"""In place of light where it does not reach: the colour stays as it is."""
 
 
 @kernel
@@ -48,49 +51,99 @@ def tinted(texel: Any, red: Any, green: Any, blue: Any) -> Any:
 
 
 @kernel
-def lit(colour: Any, light: Any, tint: Any) -> Any:
-    """round(colour * light * tint) for each channel; light and tint in units of 1 / FULL_LIGHT."""
-    half = FULL_LIGHT >> 1
-    r = ((colour & 255) * (light * tint[0] >> LIGHT_BITS) + half) >> LIGHT_BITS
-    g = (((colour >> 8) & 255) * (light * tint[1] >> LIGHT_BITS) + half) >> LIGHT_BITS
-    b = (((colour >> 16) & 255) * (light * tint[2] >> LIGHT_BITS) + half) >> LIGHT_BITS
-    return (colour & OPAQUE_BITS) | b << 16 | g << 8 | r
+def factors_of(light: Any, tint: Any) -> Any:
+    """Light of a tint, for red, green and blue: uint32 in units of 1 / FULL_LIGHT.
+
+    light: int32, tint: three of uint32, both in these units.
+    """
+    full = np.uint64(np.uint32(light))
+    return (
+        np.uint32(full * np.uint64(tint[0]) >> np.uint64(LIGHT_BITS)),
+        np.uint32(full * np.uint64(tint[1]) >> np.uint64(LIGHT_BITS)),
+        np.uint32(full * np.uint64(tint[2]) >> np.uint64(LIGHT_BITS)),
+    )
+
+
+@kernel
+def lit(colour: Any, light: Any, factors: Any) -> Any:
+    """round(colour * factor) for each channel, or the colour itself where `light` is UNLIT.
+
+    colour: uint32. factors: see `factors_of`. Products fit in 32 bits: twice as many of them are
+    in a register as of 64 bits.
+    """
+    half, byte = np.uint32(FULL_LIGHT >> 1), np.uint32(255)
+    r = np.uint32((colour & byte) * factors[0] + half) >> np.uint32(LIGHT_BITS)
+    g = np.uint32(((colour >> np.uint32(8)) & byte) * factors[1] + half) >> np.uint32(LIGHT_BITS)
+    b = np.uint32(((colour >> np.uint32(16)) & byte) * factors[2] + half) >> np.uint32(LIGHT_BITS)
+    shaded = (colour & np.uint32(OPAQUE_BITS)) | b << np.uint32(16) | g << np.uint32(8) | r
+    return np.uint32(shaded) if light >= 0 else colour
 
 
 @kernel
 def resolve(
-    colours: Any, x0: Any, y0: Any, width: Any, height: Any, across: Any, grid: Any, picture: Any
+    colours: Any,
+    x0: Any,
+    y0: Any,
+    width: Any,
+    height: Any,
+    across: Any,
+    grid: Any,
+    picture: Any,
+    sums: Any,
 ) -> Any:
     """Put a tile into the picture: grid x grid samples are averaged to a pixel, weighted by their
     opacity.
 
-    Where all samples are opaque, which most are, the weights are equal: two channels at once are
-    added in one number and divided by a power of two, which rounds as `_mean` does.
+    sums: scratch, see `_add_samples`.
     """
-    shift = np.uint32(4 if grid == 4 else 2)
-    half = np.uint32(HALVES << (shift - np.uint32(1)))
     for row in range(height):
         start = (y0 + row) * across + x0
         if grid == 1:
             for column in range(width):
                 picture[np.uint64(start + column)] = colours[np.uint64(row * TILE + column)]
             continue
+        corner = row * grid * TILE
+        _add_samples(colours, corner, grid, sums)
         for column in range(width):
-            corner = np.uint64(row * grid * TILE + column * grid)
-            opaque = np.uint32(OPAQUE_BITS)
-            low = high = half
-            for line in range(grid):
-                for place in range(grid):
-                    colour = colours[corner + np.uint64(line * TILE + place)]
-                    opaque &= colour
-                    low += colour & np.uint32(CHANNELS)
-                    high += (colour >> np.uint32(8)) & np.uint32(CHANNELS)
-            at = np.uint64(start + column)
-            if opaque == np.uint32(OPAQUE_BITS):
-                low = (low >> shift) & np.uint32(CHANNELS)
-                picture[at] = low | ((high >> shift) & np.uint32(CHANNELS)) << np.uint32(8)
+            place, at = np.uint64(column * grid), np.uint64(start + column)
+            opacity = sums[place + np.uint64(STRIDE)]
+            if opacity == 255 * grid * grid:
+                picture[at] = sums[place]
+            elif opacity == 0:
+                picture[at] = 0
             else:
-                picture[at] = _mean(colours, np.int64(corner), grid)
+                picture[at] = _mean(colours, corner + column * grid, grid)
+
+
+@kernel
+def _add_samples(colours: Any, corner: Any, grid: Any, sums: Any) -> Any:
+    """Average the grid x grid samples from each sample of a row on, as if they were opaque.
+
+    corner: the row's first sample. sums: the averages, and from STRIDE on the sums of the alphas,
+    [2 * STRIDE], uint32.
+    Two channels at once are added in one number and divided by a power of two, which rounds as
+    `_mean` does.
+    """
+    for k in range(2 * STRIDE):
+        sums[k] = 0
+    for line in range(grid):
+        for k in range(TILE):
+            colour = colours[np.uint64(corner + line * TILE + k)]
+            sums[k] += colour & np.uint32(CHANNELS)
+            sums[STRIDE + k] += (colour >> np.uint32(8)) & np.uint32(CHANNELS)
+    for k in range(2 * STRIDE - 1):
+        sums[k] += sums[k + 1]
+    if grid == 4:
+        for k in range(2 * STRIDE - 2):
+            sums[k] += sums[k + 2]
+    shift = np.uint32(4 if grid == 4 else 2)
+    half = np.uint32(HALVES << (shift - np.uint32(1)))
+    for k in range(TILE):
+        low, high = sums[k], sums[STRIDE + k]
+        sums[STRIDE + k] = high >> np.uint32(16)
+        low = ((low + half) >> shift) & np.uint32(CHANNELS)
+        high = ((high + half) >> shift) & np.uint32(CHANNELS)
+        sums[k] = low | high << np.uint32(8)
 
 
 @kernel

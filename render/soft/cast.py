@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from drapery.jit import entry_point, kernel
+from drapery.render.soft.bins import LANES
 from drapery.render.soft.blending import FULL_LIGHT
-from drapery.render.soft.coverage import LANES
 
 FLAT_AREA = 1e-3
 LARGE = 131072.0
@@ -18,27 +18,11 @@ TAPS_MIDDLE = 1.5
 
 
 @kernel
-def _sunlit(place: Any, column: Any, line: Any, grid: Any, shadows: Any) -> Any:
-    """The share 0..1 of places around a place of the shadow map that the light reaches.
-
-    column, line: which of the pixel's samples it is, 0..grid - 1. There are TAPS x TAPS places for
-    each pixel, and each of its samples compares its own share of them.
-    """
-    (x, y, depth), (depths, side, spread) = place, shadows
-    lit = 0
-    for j in range(line, TAPS, grid):
-        down = min(max(np.int64(y + (j - TAPS_MIDDLE) * spread), 0), side - 1)
-        for i in range(column, TAPS, grid):
-            across = min(max(np.int64(x + (i - TAPS_MIDDLE) * spread), 0), side - 1)
-            lit += depths[np.uint64(down * side + across)] <= depth
-    return np.float64(lit * (grid * grid)) / (TAPS * TAPS)
-
-
-@kernel
 def cast_shadows(
     t: Any,
     x: Any,
     y: Any,
+    first: Any,
     count: Any,
     weights: Any,
     triangles: Any,
@@ -48,13 +32,15 @@ def cast_shadows(
     light: Any,
     scratch: Any,
 ) -> Any:
-    """Darken the light of a run of `count` samples of triangle t from x, y on, where it lies in
-    shadow.
+    """Darken the light of a run of samples of triangle t from x, y on, where it lies in shadow.
 
-    weights: as `weights_at` gives them. scratch: place, depth and darkness of each sample.
+    first, count: the run in `light`. weights: as `weights_at` gives them.
+    scratch: place across and down the shadow map, depth, darkness, place in the map's array and
+        how many places are lit, of each sample.
+    There are TAPS x TAPS places for each pixel, and each of its samples compares its own share.
     """
-    _, side, _ = shadows
-    across, down, deep, dark = scratch
+    depths, side, spread = shadows
+    across, down, deep, dark, place, free = scratch
     wa, wb, wc, da, db, dc = weights
     a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
     w0, dw = wa + wb + wc, da + db + dc
@@ -67,20 +53,31 @@ def cast_shadows(
     s0 = (wa * receivers[a, 3] + wb * receivers[b, 3] + wc * receivers[c, 3]) * FULL_LIGHT
     ds = (da * receivers[a, 3] + db * receivers[b, 3] + dc * receivers[c, 3]) * FULL_LIGHT
     highest = np.float64(side - 1)
-    for k in range(((count - 1) // LANES + 1) * LANES):
+    whole = ((count - 1) // LANES + 1) * LANES
+    for k in range(whole):
         at = np.float64(k)
         w = 1.0 / (w0 + at * dw)
-        column = min(max((x0 + at * dx) * w, 0.0), highest)
-        line = min(max((y0 + at * dy) * w, 0.0), highest)
-        across[np.uint64(k)], down[np.uint64(k)] = column, line
+        across[np.uint64(k)] = min(max((x0 + at * dx) * w, 0.0), highest)
+        down[np.uint64(k)] = min(max((y0 + at * dy) * w, 0.0), highest)
         deep[np.uint64(k)] = np.int32((z0 + at * dz) * w)
         dark[np.uint64(k)] = np.int32((s0 + at * ds) * w)
-    for k in range(count):
-        more = light[np.uint64(k)] - dark[np.uint64(k)]
-        if more > 0:
-            place = across[np.uint64(k)], down[np.uint64(k)], deep[np.uint64(k)]
-            share = _sunlit(place, (x + k) % grid, y % grid, grid, shadows)
-            light[np.uint64(k)] = dark[np.uint64(k)] + np.int32(more * share)
+        free[np.uint64(k)] = 0
+    last = np.int32(side - 1)
+    for j in range(y & (grid - 1), TAPS, grid):
+        below = (j - TAPS_MIDDLE) * spread
+        for i in range(0, TAPS, grid):
+            for k in range(whole):
+                aside = (np.float64(i + ((x + k) & (grid - 1))) - TAPS_MIDDLE) * spread
+                column = min(max(np.int32(across[np.uint64(k)] + aside), np.int32(0)), last)
+                line = min(max(np.int32(down[np.uint64(k)] + below), np.int32(0)), last)
+                place[np.uint64(k)] = line * side + column
+            for k in range(count):
+                free[np.uint64(k)] += depths[np.uint64(place[np.uint64(k)])] <= deep[np.uint64(k)]
+    share = np.float64(grid * grid) / (TAPS * TAPS)
+    for k in range(whole):
+        lit, least = light[np.uint64(first + k)], dark[np.uint64(k)]
+        more = np.float64(lit - least) * (np.float64(free[np.uint64(k)]) * share)
+        light[np.uint64(first + k)] = least + np.int32(more) if lit > least else lit
 
 
 @entry_point

@@ -17,17 +17,13 @@ from typing import Any
 import numpy as np
 
 from drapery.jit import entry_point, kernel
-from drapery.render.soft.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
+from drapery.render.soft.bins import ID_BITS, ID_MASK, LANES, STRIDE, TILE, TILE_BITS
 from drapery.render.soft.projection import NEAREST
 
 KEY_BITS = 31
 KEY_SCALE = 1 << KEY_BITS
 """Units of a key in one unit of depth; the lowest ID_BITS bits hold the triangle's number."""
 
-LANES = 8
-"""Samples in a group; groups are tested without a branch, for SIMD instructions."""
-
-STRIDE = TILE + LANES
 LAYER = TILE * STRIDE
 """Keys of a tile: one layer for solid triangles, one for a triangle that blends."""
 
@@ -215,4 +211,5 @@ def depth_tiles(
         x0, y0 = cover_solid(tile, tiles_x, first, starts, records, mesh, tables, keys)
         for row in range(TILE):
             for k in range(TILE):
-                depths[(y0 + row) * across + x0 + k] = keys[row * STRIDE + k] >> KEY_BITS
+                at = np.uint64((y0 + row) * across + x0 + k)
+                depths[at] = keys[np.uint64(row * STRIDE + k)] >> KEY_BITS

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from drapery.jit import entry_point
-from drapery.render.soft.bins import ID_MASK, TILE
-from drapery.render.soft.coverage import KEY_BITS, LAYER, STRIDE, cover_solid, weights_at
+from drapery.render.soft.bins import ID_MASK, STRIDE, TILE
+from drapery.render.soft.coverage import KEY_BITS, LAYER, cover_solid, weights_at
 from drapery.render.soft.projection import NEAREST
 
 

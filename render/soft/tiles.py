@@ -5,21 +5,113 @@ from typing import Any
 import numpy as np
 
 from drapery.jit import entry_point, kernel
-from drapery.render.soft.bins import ID_BITS, ID_MASK, TILE, TILE_BITS
-from drapery.render.soft.blending import FULL_LIGHT, OPAQUE_BITS, lay_over, lit, resolve, tinted
+from drapery.render.soft.bins import ID_BITS, ID_MASK, LANES, STRIDE, TILE, TILE_BITS
+from drapery.render.soft.blending import (
+    FULL_LIGHT,
+    OPAQUE_BITS,
+    UNLIT,
+    factors_of,
+    lay_over,
+    lit,
+    resolve,
+    tinted,
+)
 from drapery.render.soft.cast import cast_shadows
-from drapery.render.soft.coverage import BLEND, LANES, LAYER, STRIDE, cover_tile, weights_at
+from drapery.render.soft.coverage import BLEND, LAYER, cover_tile
+from drapery.render.soft.triangle_setup import SETUP, SLOTS, set_up, texels_of, weights_of
 
 
 @kernel
-def _reach(low: Any, high: Any, count: Any) -> Any:
-    """The first and last of `count` texels that a triangle with these bounds of u or v reaches.
+def _find_runs(keys: Any, start: Any, left: Any, right: Any, runs: Any) -> Any:
+    """The number of runs of one triangle, or none, among the samples left..right of a row.
 
-    A sample on the edge of a triangle must not show a neighbouring part of the sheet.
+    start: the row's keys. runs: the first sample of each run, then the end of the last one.
+    There is no branch, because no processor predicts where a run ends.
     """
-    first = min(max(np.int64(low * count + 1e-3), 0), count - 1)
-    last = min(max(np.int64(np.ceil(high * count - 1e-3)) - 1, first), count - 1)
-    return first, last
+    count, last = 0, np.int64(-1)
+    for x in range(left, right + 1):
+        seen = keys[np.uint64(start + x)] & ID_MASK
+        runs[np.uint64(count)] = x
+        count += seen != last
+        last = seen
+    runs[np.uint64(count)] = right + 1
+    return count
+
+
+@kernel
+def _lay_layers(
+    material: Any,
+    first: Any,
+    count: Any,
+    lines: Any,
+    tables: Any,
+    setup: Any,
+    place: Any,
+    shown: Any,
+) -> Any:
+    """Tint the lowest layer of a run in `shown` and lay the others over it.
+
+    material: its first layer and their number. first, count: the run in `place` and `shown`.
+    lines: 1 / w, u and v over w, each at the first sample and its step to the right.
+    """
+    (_, layers, atlas, wide), (w0, dw, u0, du, v0, dv) = tables, lines
+    lowest = material[0]
+    red, green, blue = layers[lowest, 4], layers[lowest, 5], layers[lowest, 6]
+    if red & green & blue != 255:
+        for k in range(first, first + count):
+            shown[k] = tinted(np.int64(shown[k]), red, green, blue)
+    for upper in range(lowest + 1, lowest + material[1]):
+        across, down = layers[upper, 2], layers[upper, 3]
+        origin = layers[upper, 1] * wide + layers[upper, 0]
+        red, green, blue = layers[upper, 4], layers[upper, 5], layers[upper, 6]
+        if across != layers[lowest, 2] or down != layers[lowest, 3]:
+            i_low, i_high = texels_of(setup.ua, setup.ub, setup.uc, across)
+            j_low, j_high = texels_of(setup.va, setup.vb, setup.vc, down)
+            for k in range(count):
+                w = 1.0 / (w0 + k * dw)
+                i = min(max(np.int64((u0 + k * du) * w * across), i_low), i_high)
+                j = min(max(np.int64((v0 + k * dv) * w * down), j_low), j_high)
+                texel = tinted(np.int64(atlas[origin + j * wide + i]), red, green, blue)
+                shown[first + k] = lay_over(texel, np.int64(shown[first + k]))
+            continue
+        # A layer of the same size is a fixed distance away.
+        away = origin - setup.origin
+        for k in range(first, first + count):
+            texel = np.int64(atlas[np.uint64(place[np.uint64(k)] + away)])
+            texel = tinted(texel, red, green, blue)
+            shown[np.uint64(k)] = lay_over(texel, np.int64(shown[np.uint64(k)]))
+
+
+@kernel
+def _light_row(row: Any, shown: Any, light: Any, tint: Any, seen: Any, colours: Any) -> Any:
+    """Light the colours of a row's samples that a solid triangle covers.
+
+    shown, light: of each sample. seen: the keys of the tile.
+    """
+    is_white = tint[0] == FULL_LIGHT and tint[1] == FULL_LIGHT and tint[2] == FULL_LIGHT
+    for x in range(TILE if is_white else 0):
+        # The loop without a tint takes half the time.
+        bright = light[np.uint64(x)]
+        factor = np.uint32(bright)
+        colour = lit(shown[np.uint64(x)], bright, (factor, factor, factor))
+        at, is_seen = np.uint64(row * TILE + x), seen[np.uint64(row * STRIDE + x)] != 0
+        colours[at] = colour if is_seen else colours[at]
+    for x in range(0 if is_white else TILE):
+        bright = light[np.uint64(x)]
+        colour = lit(shown[np.uint64(x)], bright, factors_of(bright, tint))
+        at, is_seen = np.uint64(row * TILE + x), seen[np.uint64(row * STRIDE + x)] != 0
+        colours[at] = colour if is_seen else colours[at]
+
+
+@kernel
+def _blend_row(
+    row: Any, left: Any, right: Any, shown: Any, light: Any, tint: Any, seen: Any, colours: Any
+) -> Any:
+    """Lay the samples left..right of a triangle that blends over the colours of a row."""
+    for x in range(left, right + 1):
+        if seen[LAYER + row * STRIDE + x]:
+            colour = np.int64(lit(shown[x], light[x], factors_of(light[x], tint)))
+            colours[row * TILE + x] = lay_over(colour, np.int64(colours[row * TILE + x]))
 
 
 @kernel
@@ -28,9 +120,7 @@ def _shade_tile(
     bounds: Any,
     x0: Any,
     y0: Any,
-    vertices: Any,
-    triangles: Any,
-    triangle_material: Any,
+    mesh: Any,
     tables: Any,
     tint: Any,
     receivers: Any,
@@ -43,69 +133,62 @@ def _shade_tile(
     """Colour the visible samples of the tile at x0, y0, one run of the same triangle after another.
 
     layer: start of the keys; 0 for solid triangles, LAYER for one that blends.
-    receivers, shadows: see `draw_tiles`. grid: samples along a pixel's side.
-    scratch: u, v, light, place in the atlas and colour of each sample of a run, then those of
-        `cast_shadows`.
-    The layers are composited first and lit once at the end. Each step is a separate loop over whole
-    groups of samples, so that it can be vectorised.
+    tint: see `lit`. receivers, shadows: see `draw_tiles`. grid: samples along a pixel's side.
+    scratch: setups of triangles; of each sample of a row the runs, light, place in the atlas and
+        colour; then that of `cast_shadows`.
+    The layers of a run are composited first, and a row is lit once at the end. A loop goes over
+    whole groups of samples, so that it can be vectorised: what is beyond a run is overwritten by
+    the next one, or not seen.
     """
-    materials, layers, atlas, wide = tables
-    (u, v, light, place, shown), dusk = scratch
+    _, triangles, triangle_material = mesh
+    materials, _, atlas, wide = tables
+    setups, (runs, light, place, shown), dusk = scratch
+    solid = np.uint32(0 if layer else OPAQUE_BITS)
     left, right, top, bottom = bounds
     for row in range(top, bottom + 1):
         start = layer + row * STRIDE
-        last = left - 1
-        while last < right:
-            x = last + 1
-            seen = keys[np.uint64(start + x)] & ID_MASK
-            last = x
-            while last < right and keys[np.uint64(start + last + 1)] & ID_MASK == seen:
-                last += 1
-            if seen == 0:
+        for run in range(_find_runs(keys, start, left, right, runs)):
+            x, until = np.int64(runs[np.uint64(run)]), np.int64(runs[np.uint64(run + 1)])
+            t = (keys[np.uint64(start + x)] & ID_MASK) - 1
+            if t < 0:
                 continue
-
-            t = seen - 1
-            a, b, c = (
-                vertices[triangles[t, 0]],
-                vertices[triangles[t, 1]],
-                vertices[triangles[t, 2]],
-            )
-            wa, wb, wc, da, db, dc = weights_at(t, x0 + x, y0 + row, vertices, triangles)
-            w0, dw = wa + wb + wc, da + db + dc
-            u0, du = wa * a.u + wb * b.u + wc * c.u, da * a.u + db * b.u + dc * c.u
-            v0, dv = wa * a.v + wb * b.v + wc * c.v, da * a.v + db * b.v + dc * c.v
-            s0 = (wa * a.shade + wb * b.shade + wc * c.shade) * FULL_LIGHT
-            ds = (da * a.shade + db * b.shade + dc * c.shade) * FULL_LIGHT
-            u_low, u_high = min(a.u, b.u, c.u), max(a.u, b.u, c.u)
-            v_low, v_high = min(a.v, b.v, c.v), max(a.v, b.v, c.v)
-
-            material = triangle_material[t]
-            lowest = materials[material, 0]
-            end = lowest + materials[material, 1]
-            solid = np.uint32(OPAQUE_BITS if materials[material, 2] != BLEND else 0)
-            across, down = np.float64(layers[lowest, 2]), np.float64(layers[lowest, 3])
-            i_first, i_last = _reach(u_low, u_high, layers[lowest, 2])
-            j_first, j_last = _reach(v_low, v_high, layers[lowest, 3])
-            i_low, i_high = np.float64(i_first), np.float64(i_last)
-            j_low, j_high = np.float64(j_first), np.float64(j_last)
-            origin = layers[lowest, 1] * wide + layers[lowest, 0]
-            count = last - x + 1
+            count = until - x
+            setup = setups[t & (SLOTS - 1)]
+            if setup.triangle != t:
+                set_up(t, mesh, tables, setup)
+            wa, wb, wc = weights_of(setup, x0 + x, y0 + row)
+            w0, dw = wa + wb + wc, setup.dw
+            u0, du = wa * setup.ua + wb * setup.ub + wc * setup.uc, setup.du
+            v0, dv = wa * setup.va + wb * setup.vb + wc * setup.vc, setup.dv
+            s0, ds = (wa * setup.sa + wb * setup.sb + wc * setup.sc) * FULL_LIGHT, setup.ds
+            origin, across, down = setup.origin, setup.across, setup.down
+            i_low, i_high, j_low, j_high = setup.i_low, setup.i_high, setup.j_low, setup.j_high
             whole = ((count - 1) // LANES + 1) * LANES
             for k in range(whole):
                 at = np.float64(k)
                 w = 1.0 / (w0 + at * dw)
-                su, sv = (u0 + at * du) * w, (v0 + at * dv) * w
-                u[np.uint64(k)], v[np.uint64(k)] = su, sv
-                light[np.uint64(k)] = np.int32((s0 + at * ds) * w)
-                i = np.int32(min(max(su * across, i_low), i_high))
-                j = np.int32(min(max(sv * down, j_low), j_high))
-                place[np.uint64(k)] = origin + j * wide + i
-            if len(receivers) and materials[material, 3] and shadows[0][t]:
-                weights = wa, wb, wc, da, db, dc
+                u, v = (u0 + at * du) * w, (v0 + at * dv) * w
+                # In this order, what is beyond the run and not a number still is a texel.
+                i = np.int32(min(i_high, max(i_low, u * across)))
+                j = np.int32(min(j_high, max(j_low, v * down)))
+                place[np.uint64(x + k)] = origin + j * wide + i
+                light[np.uint64(x + k)] = np.int32((s0 + at * ds) * w)
+            for k in range(x, x + whole):
+                shown[np.uint64(k)] = atlas[np.uint64(place[np.uint64(k)])] | solid
+            if not setup.is_plain:
+                lines = w0, dw, u0, du, v0, dv
+                _lay_layers(
+                    materials[triangle_material[t]], x, count, lines, tables, setup, place, shown
+                )
+            if not setup.is_lit:
+                light[x:until] = UNLIT
+            elif len(receivers) and shadows[0][t]:
+                weights = wa, wb, wc, setup.da, setup.db, setup.dc
                 cast_shadows(
                     t,
                     x0 + x,
                     y0 + row,
+                    x,
                     count,
                     weights,
                     triangles,
@@ -115,34 +198,10 @@ def _shade_tile(
                     light,
                     dusk,
                 )
-            for k in range(count):
-                shown[np.uint64(k)] = atlas[np.uint64(place[np.uint64(k)])] | solid
-
-            red, green, blue = layers[lowest, 4], layers[lowest, 5], layers[lowest, 6]
-            if red & green & blue != 255:
-                for k in range(count):
-                    shown[k] = tinted(np.int64(shown[k]), red, green, blue)
-            for upper in range(lowest + 1, end):
-                red, green, blue = layers[upper, 4], layers[upper, 5], layers[upper, 6]
-                i_first, i_last = _reach(u_low, u_high, layers[upper, 2])
-                j_first, j_last = _reach(v_low, v_high, layers[upper, 3])
-                origin = layers[upper, 1] * wide + layers[upper, 0]
-                for k in range(count):
-                    column = min(max(np.int64(u[k] * layers[upper, 2]), i_first), i_last)
-                    line = min(max(np.int64(v[k] * layers[upper, 3]), j_first), j_last)
-                    texel = np.int64(atlas[np.uint64(origin + line * wide + column)])
-                    texel = tinted(texel, red, green, blue)
-                    shown[k] = lay_over(texel, np.int64(shown[k]))
-            if materials[material, 3]:
-                for k in range(whole):
-                    colour = np.int64(shown[np.uint64(k)])
-                    shown[np.uint64(k)] = lit(colour, np.int64(light[np.uint64(k)]), tint)
-            at = row * TILE + x
-            if layer:
-                for k in range(count):
-                    shown[k] = lay_over(np.int64(shown[k]), np.int64(colours[at + k]))
-            for k in range(count):
-                colours[np.uint64(at + k)] = shown[np.uint64(k)]
+        if layer:
+            _blend_row(row, left, right, shown, light, tint, keys, colours)
+        else:
+            _light_row(row, shown, light, tint, keys, colours)
 
 
 @entry_point
@@ -182,20 +241,29 @@ def draw_tiles(
     """
     across, down = size
     vertices, triangles, triangle_material = mesh
+    factors = np.uint32(tint[0]), np.uint32(tint[1]), np.uint32(tint[2])
     keys = np.empty(2 * LAYER, np.int64)
     colours = np.empty(TILE * TILE, np.uint32)
+    sums = np.empty(2 * STRIDE, np.uint32)
+    setups = np.empty(SLOTS, SETUP)
+    for slot in range(SLOTS):
+        setups[slot].triangle = -1
     scratch = (
-        np.empty(STRIDE),
-        np.empty(STRIDE),
-        np.empty(STRIDE, np.int32),
-        np.empty(STRIDE, np.int32),
-        np.zeros(STRIDE, np.uint32),
-    )
-    dusk = (
-        np.empty(STRIDE),
-        np.empty(STRIDE),
-        np.empty(STRIDE, np.int32),
-        np.empty(STRIDE, np.int32),
+        setups,
+        (
+            np.empty(STRIDE, np.int32),
+            np.zeros(STRIDE, np.int32),
+            np.zeros(STRIDE, np.int32),
+            np.zeros(STRIDE, np.uint32),
+        ),
+        (
+            np.empty(STRIDE),
+            np.empty(STRIDE),
+            np.empty(STRIDE, np.int32),
+            np.empty(STRIDE, np.int32),
+            np.empty(STRIDE, np.int32),
+            np.empty(STRIDE, np.int32),
+        ),
     )
     for tile in range(part, len(starts) - 1, parts):
         column, line = (first + tile) % tiles_x, (first + tile) // tiles_x
@@ -223,17 +291,15 @@ def draw_tiles(
                 bounds,
                 x0,
                 y0,
-                vertices,
-                triangles,
-                triangle_material,
+                mesh,
                 tables,
-                tint,
+                factors,
                 receivers,
                 shadows,
                 grid,
                 keys,
                 colours,
-                (scratch, dusk),
+                scratch,
             )
             entry = until
-        resolve(colours, px, py, width, height, across, grid, picture)
+        resolve(colours, px, py, width, height, across, grid, picture, sums)
