@@ -85,11 +85,12 @@ def shadow_light(light: Light, size: tuple[int, int], drawing: DrawList) -> Shad
     lit = constant.lit_vertices
     if not lit.any():
         return None
-    camera = light_camera(light, positions[lit])
+    receiving = positions[lit]
+    camera = light_camera(light, receiving)
     width = float(camera.height or 0.0)
     side = map_side(size, width)
     spread, lift = map_spread(side, width)
-    openness = openness_of(positions, normals, lit, constant.casters)
+    openness = openness_of(positions, normals, lit, bounds_of(receiving), constant.casters)
     lifted = positions + np.float32(lift) * normals
     shades = split_light(light, normals, openness, constant.transmission)
     return ShadowLight(camera, side, spread, lifted, *shades)
@@ -164,14 +165,31 @@ def split_light(
     return np.minimum(dark + key, np.float32(1)), np.minimum(dark, np.float32(1))
 
 
+def bounds_of(positions: Float32) -> tuple[Float32, Float32]:
+    """The least and the greatest coordinates of points, shape [3] each.
+
+    Axis by axis, because numpy needs eight times as long to reduce all three at once.
+    """
+    low, high = (
+        np.array([find(positions[:, axis]) for axis in range(3)], np.float32)
+        for find in (np.min, np.max)
+    )
+    return low, high
+
+
 def openness_of(
-    positions: Float32, normals: Float32, lit: NDArray[np.bool_], casters: Triangles
+    positions: Float32,
+    normals: Float32,
+    lit: NDArray[np.bool_],
+    bounds: tuple[Float32, Float32],
+    casters: Triangles,
 ) -> Float32:
     """How much of the sky each vertex sees, 0..1, shape [V]; see `occlude`.
 
     lit: the vertices to be measured, which hold those of the casters, shape [V].
+    bounds: of these vertices; see `bounds_of`.
     """
-    low, high = positions[lit].min(axis=0), positions[lit].max(axis=0)
+    low, high = bounds
     reach = float(np.sqrt(((high - low) ** 2).sum())) / 2
     cell = max(2 * reach / (OCCLUSION_MAP - 4), 1e-6)
     open_sky = np.ones(len(positions), np.float32)
