@@ -85,6 +85,15 @@ def boxes_met(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
     return box_colliders(*surface, colliders, radius) if colliders else NOTHING
 
 
+def met_inside(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
+    """What a cloth meets inside the steps of its solver: boxes, and itself; None where it meets
+    other shapes. Raises OptionError."""
+    boxes = boxes_met(cloth, collisions)
+    if boxes is None or collisions.apart is None:
+        return boxes
+    return replace(boxes, itself=make_self_contact(cloth, collisions.apart))
+
+
 def resolver(cloth: Cloth, collisions: Collisions) -> Callable[[State, State], State]:
     """The collision stage after each step of any solver. Raises OptionError."""
     stage = contact_stage(cloth, collisions)

@@ -122,7 +122,8 @@ def live_call(
     if type(plan) not in PLAYERS:
         name = type(moving.solver).__name__
         raise OptionError(f"solver {name} cannot be played without Python; use xpbd or desbrun")
-    if moving.resolve is not None:
+    meets_itself = moving.boxes is not None and len(moving.boxes.itself.triangles) > 0
+    if moving.resolve is not None or meets_itself:
         raise OptionError(
             "contact of the cloth with itself cannot be played without Python; use contact world"
         )
@@ -222,6 +223,7 @@ def play(live: Any, plan: Any, batch: Any, substeps: Any) -> Any:
             batch.width,
             batch.residuals,
             batch.contact,
+            batch.itself,
             batch.poses[begin : begin + often + 1],
             batch.resolve,
             batch.work,

@@ -54,8 +54,9 @@ class MovingCloth:
         _check_types(cloth, solver)
         state = rest_state(cloth, count) if start is None else start
         check_state(cloth, state)
-        met = _contact_of(cloth, solver, collisions)
-        return MovingCloth(cloth, solver, dt, state, solver.init(cloth, dt), *met)
+        solver_state = solver.init(cloth, dt)
+        met = _contact_of(cloth, solver, solver_state, collisions)
+        return MovingCloth(cloth, solver, dt, state, solver_state, *met)
 
     def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
         """The cloths some time steps later. Raises OptionError where they are torn to infinity."""
@@ -74,16 +75,18 @@ class MovingCloth:
 
 
 def _contact_of(
-    cloth: Cloth, solver: Solver, collisions: Collisions | None
+    cloth: Cloth, solver: Solver, solver_state: Any, collisions: Collisions | None
 ) -> tuple[Callable[[State, State], State] | None, BoxColliders | None]:
     """The `resolve` and `boxes` of a `MovingCloth`. Raises OptionError."""
     if collisions is None:
         return None, None
     # Imported here: a cloth that meets nothing starts without the colliders' kernels.
-    from drapery.cloth.collisions import boxes_met, resolver
+    from drapery.cloth.collisions import met_inside, resolver
 
-    inside = isinstance(solver, KernelSolver) and collisions.apart is None
-    boxes = boxes_met(cloth, collisions) if inside else None
+    inside = isinstance(solver, KernelSolver)
+    if inside and collisions.apart is not None:
+        inside = not solver_state.often  # contact of a cloth with itself is resolved once a step
+    boxes = met_inside(cloth, collisions) if inside else None
     return (None, boxes) if boxes is not None else (resolver(cloth, collisions), None)
 
 

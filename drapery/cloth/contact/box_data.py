@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.pose import Path, Pose, still
 from drapery.cloth.colliders.shapes import Box, Plane, Shape
+from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
 from drapery.jit import kernel
 from drapery.mesh import Array
 
@@ -64,11 +65,13 @@ NO_CONTACT = BoxContact(
 class BoxColliders:
     """Colliders that are boxes or planes, and what contact with them needs of a cloth.
 
-    contact: with the boxes in their own frames. paths: of each box.
+    contact: with the boxes in their own frames. paths: of each box. itself: what contact of the
+    cloth with itself needs, if that is resolved along with it.
     """
 
     contact: BoxContact
     paths: tuple[Path, ...]
+    itself: SelfContact = NOT_ITSELF
 
     def poses(self, times: Sequence[float]) -> Array:
         """Place [m] and rotation of each box at some times [s], [T, K, 12]; one entry for all times

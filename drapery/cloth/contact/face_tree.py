@@ -52,14 +52,6 @@ def tree_of(faces: Array, begin: NDArray[np.int32]) -> Array:
 
 
 @borrowing_kernel
-def following(node: int) -> int:
-    """The node that begins right of where this one ends; 0 after the last one."""
-    while node & 1:
-        node >>= 1
-    return node + 1 if node > 0 else 0
-
-
-@borrowing_kernel
 def top(bounds: Array, i: int) -> Vector:
     """The high corner of bounds [K, 6]."""
     return bounds[i, 3], bounds[i, 4], bounds[i, 5]

@@ -2,8 +2,9 @@
 
 A solver moves the cloth without regard to boxes. Then, still in the same compiled loop, registers
 of cloths, or of particles of one cloth, are compared with the bounds of the boxes. A cloth that may
-touch one is copied to an array [N, 3], its contacts are resolved, and the next step starts from
-there. The kernels call `resolve` by its address, so it is compiled once for all of them.
+touch one, or that meets itself, is copied to an array [N, 3], its contacts are resolved, and the
+next step starts from there. The kernels call `resolve`, or `resolve_itself`, by its address,
+so it is compiled once for all of them.
 """
 
 from functools import cache
@@ -21,9 +22,11 @@ from drapery.cloth.contact.box_data import (
     Candidates,
     candidate_arrays,
 )
-from drapery.cloth.contact.box_frame import CARRIED, SOLVED
-from drapery.cloth.contact.geometry import grown, put, read
+from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
+from drapery.cloth.contact.geometry import grown, put
 from drapery.cloth.contact.near_boxes import swept_extent
+from drapery.cloth.contact.self_contact import meet_one
+from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
 from drapery.cloth.kernels import load_lanes
 from drapery.cloth.sheet_kernels import lane_of
 from drapery.cloth.simd import fill, lane_count, load, maximum, minimum, store
@@ -45,9 +48,9 @@ class ContactWork(NamedTuple):
     near: Candidates
 
 
-def contact_work(contact: BoxContact) -> ContactWork:
+def contact_work(contact: BoxContact, itself: SelfContact = NOT_ITSELF) -> ContactWork:
     """Arrays for the contact of one cloth at a time."""
-    particles = contact.inv_mass.size if len(contact.halves) > 0 else 0
+    particles = max(contact.inv_mass.size if len(contact.halves) > 0 else 0, itself.inv_mass.size)
     return ContactWork(
         np.empty((particles, 3)),
         np.empty((particles, 3)),
@@ -76,21 +79,35 @@ def contact_at(boxes: Any, poses: Any, turn: Any) -> BoxContact:
 
 
 @entry_point
-def resolve(work: Any, boxes: Any, poses: Any, turn: Any) -> bool:
-    """Resolve the contacts of a cloth in step number `turn`, which ends at work.end; see
+def resolve(work: Any, boxes: Any, itself: Any, poses: Any, turn: Any) -> bool:
+    """Resolve the contacts of a cloth with boxes in step number `turn`, which ends at work.end; see
     `contact_at`. Returns whether it had any."""
     contact = contact_at(boxes, poses, turn)
     return bool(meet_close_boxes(work.start, work.end, contact, work.near))
 
 
-EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NO_CONTACT.ends[None], 0)
+@entry_point
+def resolve_itself(work: Any, boxes: Any, itself: Any, poses: Any, turn: Any) -> bool:
+    """The same for contacts with boxes and with itself."""
+    reset_tracks(work.near)
+    contact = contact_at(boxes, poses, turn)
+    return bool(meet_one(work.start, work.end, itself, contact, work.near))
+
+
+EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NOT_ITSELF, NO_CONTACT.ends[None], 0)
 _resolve_at = call_by_address(bool, EXAMPLE)
 
 
 @cache
-def resolve_address() -> int:
-    """Where `resolve` is in memory."""
-    return address_of(resolve, EXAMPLE)
+def resolve_address(itself: bool) -> int:
+    """Where `resolve`, or `resolve_itself`, is in memory."""
+    return address_of(resolve_itself if itself else resolve, EXAMPLE)
+
+
+@kernel
+def meets_itself(batch: Any) -> bool:
+    """Whether contact of each cloth with itself is resolved."""
+    return len(batch.itself.triangles) > 0
 
 
 @kernel
@@ -113,16 +130,19 @@ def meet_lanes(y: Any, u: Any, before: Any, batch: Any, start: Any, turn: Any, d
     set_extents(batch, turn)
     gaps = simd.empty_lanes(1, lanes, y)
     for first in range(0, min(y.shape[1], batch.cloths - start), lanes):
-        store(gaps, 0, 0, gap_of_lanes(before, y, work.extents, batch.contact.bands, first))
+        if not meets_itself(batch):
+            store(gaps, 0, 0, gap_of_lanes(before, y, work.extents, batch.contact.bands, first))
         for cloth in range(first, min(first + lanes, batch.cloths - start)):
-            if gaps[0, cloth - first] < 0:
+            if meets_itself(batch) or gaps[0, cloth - first] < 0:
                 for i in range(work.end.shape[0]):
                     for axis in range(3):
                         work.start[i, axis] = before[3 * i + axis, cloth]
                         work.end[i, axis] = y[3 * i + axis, cloth]
-                if _resolve_at(batch.resolve, (work, batch.contact, batch.poses, turn)):
+                met = work, batch.contact, batch.itself, batch.poses, turn
+                if _resolve_at(batch.resolve, met):
                     for i in range(work.end.shape[0]):
-                        if has_moved(work, i):
+                        place = y[3 * i, cloth], y[3 * i + 1, cloth], y[3 * i + 2, cloth]
+                        if has_moved(work, i, place):
                             solved = u[3 * i, cloth], u[3 * i + 1, cloth], u[3 * i + 2, cloth]
                             speed = limited_speed(work, i, solved, dt)
                             for axis in range(3):
@@ -146,17 +166,17 @@ def meet_plane(y: Any, u: Any, before: Any, batch: Any, turn: Any, dt: Any, shee
     if before.shape[1] == 0:
         return
     set_extents(batch, turn)
-    if near_plane(before, y, work.extents, sheet):
+    if meets_itself(batch) or near_plane(before, y, work.extents, sheet):
         for r in range(sheet.rows):
             for c in range(sheet.columns):
                 i, lane = r * sheet.columns + c, r * sheet.width + c
                 for axis in range(3):
                     work.start[i, axis] = before[axis, lane]
                     work.end[i, axis] = y[axis, lane]
-        if _resolve_at(batch.resolve, (work, batch.contact, batch.poses, turn)):
+        if _resolve_at(batch.resolve, (work, batch.contact, batch.itself, batch.poses, turn)):
             for i in range(work.end.shape[0]):
-                if has_moved(work, i):
-                    lane = lane_of(i, sheet)
+                lane = lane_of(i, sheet)
+                if has_moved(work, i, (y[0, lane], y[1, lane], y[2, lane])):
                     speed = limited_speed(work, i, (u[0, lane], u[1, lane], u[2, lane]), dt)
                     for axis in range(3):
                         y[axis, lane] = work.end[i, axis]
@@ -261,11 +281,9 @@ def near_plane(x0: Any, x: Any, extents: Any, sheet: Any) -> bool:
 
 
 @kernel
-def has_moved(work: Any, i: Any) -> bool:
-    """Whether contact moved a particle."""
-    if not work.near.listed[i]:
-        return False
-    end, solved = row(work.end, i), read(work.near.tracks, i, SOLVED)
+def has_moved(work: Any, i: Any, solved: Any) -> bool:
+    """Whether contact moved a particle from where its solver left it."""
+    end = row(work.end, i)
     return end[0] != solved[0] or end[1] != solved[1] or end[2] != solved[2]
 
 
@@ -276,5 +294,6 @@ def limited_speed(work: Any, i: Any, speed: Any, dt: Any) -> Vector:
     solver pulls into a surface at every step would keep the speed of that pull."""
     seen = scale(1.0 / np.float64(dt), subtract(row(work.end, i), row(work.start, i)))
     own = norm((np.float64(speed[0]), np.float64(speed[1]), np.float64(speed[2])))
-    limit, length = max(own, work.near.tracks[i, CARRIED] / dt), norm(seen)
+    carried = work.near.tracks[i, CARRIED] if i < len(work.near.tracks) else 0.0
+    limit, length = max(own, carried / dt), norm(seen)
     return scale(limit / length if length > limit else 1.0, seen)

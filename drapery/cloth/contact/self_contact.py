@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.colliders.vectors import add_scaled, dot, norm, row, scale, subtract
-from drapery.cloth.contact.box_contact import meet_boxes
+from drapery.cloth.contact.box_contact import meet_boxes, meet_close_boxes
 from drapery.cloth.contact.box_data import BoxContact, Candidates, empty_candidates
 from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
 from drapery.cloth.contact.box_guard import guard_boxes
@@ -19,6 +19,7 @@ from drapery.cloth.contact.near_boxes import find_boxes, whole_margin
 from drapery.cloth.contact.pair_distance import gap_along, nearest
 from drapery.cloth.contact.safe_steps import shorten_unsafe
 from drapery.cloth.contact.self_contact_data import SelfContact
+from drapery.cloth.contact.smoothness import smooth_windows
 from drapery.cloth.contact.touching_pairs import REACH, TouchingPairs, find_pairs, moved
 from drapery.jit import borrowing_kernel, entry_point, kernel
 from drapery.mesh import Array
@@ -68,35 +69,59 @@ def meet_all(
 @kernel
 def meet_one(
     x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates
-) -> None:
-    """The same for one cloth, [N, 3]."""
-    meets_boxes = len(boxes.halves) > 0
-    if is_smooth(x0, contact) and is_smooth(x, contact):
-        if meets_boxes:
-            meet_boxes(x0, x, boxes, near)
-        return
-    wanted = x.copy()
-    pairs = find_pairs(x0, x, contact, REACH * contact.thickness, False)
-    active = np.empty(len(pairs.ends), np.int32)
+) -> bool:
+    """The same for one cloth, [N, 3]; returns whether there may be any contact."""
+    met = len(boxes.halves) > 0 and meet_close_boxes(x0, x, boxes, near)
+    return meet_itself(x0, x, contact, boxes, near) or met
+
+
+@kernel
+def meet_itself(
+    x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates
+) -> bool:
+    """Resolve the contacts of one cloth with itself, after those with boxes; returns whether there
+    may be any. If not, nothing is changed."""
+    smooth = smooth_windows(x, contact)
+    if len(smooth) > 0 and smooth[-1]:
+        return False
+    pairs = find_pairs(x0, x, contact, smooth, REACH * contact.thickness, False)
+    if len(pairs.ends) == 0:
+        return False
+    wanted, meets_boxes = x.copy(), len(boxes.halves) > 0
+    active, pushed = np.empty(len(pairs.ends), np.int32), False
     for _ in range(ROUNDS):
         count = list_near(x, pairs, NEAR * contact.thickness, active)
         for _ in range(PASSES):
-            if push_pairs(x0, x, pairs, active[:count], contact) < TOLERANCE * contact.thickness:
+            deepest = push_pairs(x0, x, pairs, active[:count], contact)
+            pushed = pushed or deepest > 0.0
+            if deepest < TOLERANCE * contact.thickness:
                 break
-        if not meets_boxes or not meet_boxes(x0, x, boxes, near):
+        if not pushed or not meets_boxes or not meet_boxes(x0, x, boxes, near):
             break
     for i in range(len(x)):
         change = subtract(row(x, i), row(wanted, i))
         length, limit = norm(change), 0.5 * (REACH - 1.0) * contact.thickness
         if length > limit:
             put(x, i, 0, add_scaled(row(wanted, i), limit / length, change))
-    if meets_boxes:  # what was near before the pairs were pushed may not be all
-        find_boxes(x0, x, boxes, whole_margin(boxes), near)
-    make_safe(x0, x, pairs, contact, boxes, near)
-    if farthest(x, wanted) >= 0.5 * REACH * contact.thickness:
-        # Parts that were stopped may be in the way of others, of which no pair is known.
-        pairs = find_pairs(x0, x, contact, STOPPED * contact.thickness, True)
-        make_safe(x0, x, pairs, contact, boxes, near)
+    if not make_safe(x0, x, pairs, contact, boxes, near, pushed) and not pushed:
+        return True
+    stopped = farthest(x, wanted) >= 0.5 * REACH * contact.thickness
+    if stopped or not stay_smooth(smooth, smooth_windows(x, contact)):
+        # Parts that were stopped may be in the way of others, or out of place beside others, of
+        # which no pair is known.
+        smooth[:] = 0
+        pairs = find_pairs(x0, x, contact, smooth, STOPPED * contact.thickness, True)
+        make_safe(x0, x, pairs, contact, boxes, near, True)
+    return True
+
+
+@kernel
+def stay_smooth(before: NDArray[np.uint8], after: NDArray[np.uint8]) -> bool:
+    """Whether all windows that were smooth are."""
+    changed = 0
+    for n in range(len(before)):
+        changed += before[n] > after[n]
+    return changed == 0
 
 
 @borrowing_kernel
@@ -106,47 +131,6 @@ def farthest(x: Array, y: Array) -> float:
     for i in range(len(x)):
         longest = max(longest, norm(subtract(row(x, i), row(y, i))))
     return longest
-
-
-@borrowing_kernel
-def is_smooth(x: Array, contact: SelfContact) -> bool:
-    """Whether a grid lies over a plane without folds, so that it cannot touch itself.
-
-    It does if, seen along some direction, every edge along a row is within 45 degrees of one
-    axis and every edge along a column within 45 degrees of the other: then the picture of no two
-    points of the grid is the same.
-    """
-    rows, columns = contact.rows, contact.columns
-    if rows < 2 or columns < 2:
-        return False
-    across, down = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-    for r in range(rows):
-        across = add_scaled(
-            across, 1.0, subtract(row(x, r * columns + columns - 1), row(x, r * columns))
-        )
-    for c in range(columns):
-        down = add_scaled(down, 1.0, subtract(row(x, (rows - 1) * columns + c), row(x, c)))
-    length = norm(across)
-    if length == 0.0:
-        return False
-    first = scale(1.0 / length, across)
-    down = add_scaled(down, -dot(down, first), first)
-    length = norm(down)
-    if length == 0.0:
-        return False
-    second = scale(1.0 / length, down)
-    for r in range(rows):
-        for c in range(columns):
-            i = r * columns + c
-            if c + 1 < columns:
-                edge = subtract(row(x, i + 1), row(x, i))
-                if dot(edge, first) <= abs(dot(edge, second)):
-                    return False
-            if r + 1 < rows:
-                edge = subtract(row(x, i + columns), row(x, i))
-                if dot(edge, second) <= abs(dot(edge, first)):
-                    return False
-    return True
 
 
 @borrowing_kernel
@@ -214,20 +198,29 @@ def make_safe(
     contact: SelfContact,
     boxes: BoxContact,
     near: Candidates,
-) -> None:
-    """Shorten displacements until no pair can have crossed and no part of the cloth is in a box."""
-    w, changed = contact.inv_mass, np.full(len(x), -1, np.int32)
+    pushed: bool,
+) -> bool:
+    """Shorten displacements until no pair can have crossed and no part of the cloth is in a box;
+    returns whether any was shortened.
+
+    pushed: whether the cloth was moved since it met the boxes.
+    """
+    w, changed, any_found = contact.inv_mass, np.full(len(x), -1, np.int32), False
     for turn in range(GUARDS):
         stop = turn >= GUARDS // 2
         found = shorten_unsafe(x0, x, pairs, w, contact.thickness, changed, turn, stop)
-        if len(boxes.halves) > 0:
+        if len(boxes.halves) > 0 and (pushed or found or any_found):
+            if not any_found:  # what was near before the cloth was moved may not be all
+                find_boxes(x0, x, boxes, whole_margin(boxes), near)
             before = x.copy()
             guard_boxes(x0, x, boxes, near)
             for i in range(len(x)):
                 if row(x, i) != row(before, i):
                     found, changed[i] = True, turn
         if not found:
-            return
+            return any_found
+        any_found = True
     for i in range(len(x)):
         if w[i] > 0.0:
             put(x, i, 0, row(x0, i))
+    return True

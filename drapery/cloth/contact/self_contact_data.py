@@ -28,7 +28,11 @@ class SelfContact(NamedTuple):
     leaves, which are LEAF neighbouring faces each. A particle or an edge of several faces belongs
     to the leaf of one of them. begin: the first particle, face and edge of each leaf and the ends,
     [L + 1, 3].
-    rows, columns: of a grid, or 0.
+    columns: particles of a row of a grid. nodes: the rectangle of cells
+    of each node of the tree of `face_tree`: first row and column, then the last ones, [2 L, 4].
+    levels: of the blocks of cells of `smooth_windows`, the number of the first one and how many
+    there are down and across, [K, 3]; the last one is a block of all cells. These three are 0 or
+    empty for other cloths.
     """
 
     thickness: float
@@ -39,8 +43,25 @@ class SelfContact(NamedTuple):
     triangles: NDArray[np.int32]
     edges: NDArray[np.int32]
     begin: NDArray[np.int32]
-    rows: int
     columns: int
+    nodes: NDArray[np.int32]
+    levels: NDArray[np.int32]
+
+
+NOT_ITSELF = SelfContact(
+    0.0,
+    np.zeros((0, 3)),
+    np.zeros(0),
+    np.zeros(0, np.int32),
+    np.zeros(0, np.int32),
+    np.zeros((0, 3), np.int32),
+    np.zeros((0, 2), np.int32),
+    np.zeros((1, 3), np.int32),
+    0,
+    np.zeros((0, 4), np.int32),
+    np.zeros((0, 3), np.int32),
+)
+"""The contact of cloths that pass through themselves."""
 
 
 def make_self_contact(cloth: Cloth, thickness: float) -> SelfContact:
@@ -68,7 +89,7 @@ def make_self_contact(cloth: Cloth, thickness: float) -> SelfContact:
     starts = np.append(np.arange(0, len(triangles), LEAF), len(triangles))
     particles, first_particle = _in_leaves(triangles, count, starts)
     edge_order, first_edge = _in_leaves(of_face[order], len(edges), starts)
-    rows, columns = cloth.grid_shape or (0, 0)
+    columns, nodes, levels = _blocks_of(cloth, triangles)
     return SelfContact(
         min(float(thickness), float(NARROW * lengths.min(initial=np.inf))),
         rest,
@@ -78,9 +99,43 @@ def make_self_contact(cloth: Cloth, thickness: float) -> SelfContact:
         triangles,
         np.ascontiguousarray(edges[edge_order], np.int32),
         np.stack([first_particle, starts, first_edge], axis=1).astype(np.int32),
-        rows,
         columns,
+        nodes,
+        levels,
     )
+
+
+def _blocks_of(
+    cloth: Cloth, triangles: NDArray[np.int32]
+) -> tuple[int, NDArray[np.int32], NDArray[np.int32]]:
+    """The columns, nodes and levels of a `SelfContact`. triangles: in the order of the leaves."""
+    rows, columns = cloth.grid_shape or (0, 0)
+    none = 0, np.zeros((0, 4), np.int32), np.zeros((0, 3), np.int32)
+    if not rows:
+        return none
+    places = np.stack(np.divmod(triangles, columns), axis=-1)
+    of_faces = places.min(axis=1).astype(np.int32)
+    cells = of_faces[::LEAF]
+    if (places.max(axis=1) != of_faces + 1).any() or (np.repeat(cells, LEAF, 0) != of_faces).any():
+        return none  # the faces of a leaf are not those of a cell
+    levels, first, down, across = [], 0, rows - 1, columns - 1
+    while True:
+        levels.append((first, down, across))
+        if down == across == 1:
+            return columns, _node_cells(cells), np.array(levels, np.int32)
+        first, down, across = first + down * across, (down + 1) // 2, (across + 1) // 2
+
+
+def _node_cells(cells: NDArray[np.int32]) -> NDArray[np.int32]:
+    """The `nodes` of a `SelfContact`. cells: row and column of the cell of each leaf, [L, 2]."""
+    count = 1 << (len(cells) - 1).bit_length()
+    nodes = np.zeros((2 * count, 4), np.int32)
+    nodes[count : count + len(cells)] = np.hstack([cells, cells])
+    nodes[count + len(cells) :] = nodes[count]  # these leaves are empty
+    for node in range(count - 1, 0, -1):
+        children = nodes[2 * node : 2 * node + 2]
+        nodes[node, :2], nodes[node, 2:] = children[:, :2].min(axis=0), children[:, 2:].max(axis=0)
+    return nodes
 
 
 def _leaf_order(

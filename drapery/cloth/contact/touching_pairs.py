@@ -17,10 +17,11 @@ from drapery.cloth.colliders.vectors import (
     scale,
     subtract,
 )
-from drapery.cloth.contact.face_tree import following, joined_bounds, top, tree_of
+from drapery.cloth.contact.face_tree import joined_bounds, top, tree_of
 from drapery.cloth.contact.geometry import UP, grown, higher, lower, overlap, put
 from drapery.cloth.contact.pair_distance import gap_of, nearest
 from drapery.cloth.contact.self_contact_data import LEAF, SelfContact
+from drapery.cloth.contact.smoothness import share_smooth
 from drapery.jit import borrowing_kernel, kernel
 from drapery.mesh import Array
 
@@ -29,6 +30,8 @@ REACH = 1.5
 particle by half of what this is above 1, and pairs that are not known still cannot cross."""
 LISTED = 1024
 """Pairs whose bounds overlap are collected up to this number, then their distances are computed."""
+DEEPEST = 128
+"""More pairs of nodes than wait at once: three for each level of a tree of 2^32 leaves."""
 MOST = 2 * 3 * LEAF * LEAF + 9 * LEAF * LEAF
 """Two leaves have no more pairs than this."""
 
@@ -48,11 +51,17 @@ class TouchingPairs(NamedTuple):
 
 @kernel
 def find_pairs(
-    x0: Array, x: Array, contact: SelfContact, limit: float, stop: bool
+    x0: Array,
+    x: Array,
+    contact: SelfContact,
+    smooth: NDArray[np.uint8],
+    limit: float,
+    stop: bool,
 ) -> TouchingPairs:
     """All pairs that may come within a limit [m] in this step, in an order that depends on the
     cloth alone.
 
+    smooth: the windows of which no pairs are wanted, see `smooth_windows`.
     stop: whether each particle may also stop anywhere on its way, so that others run into it.
     """
     particles, triangles, edges = contact.particles, contact.triangles, contact.edges
@@ -63,31 +72,31 @@ def find_pairs(
     leaves = len(tree) // 2
     listed, waiting = np.empty((LISTED, 5), np.int32), 0
     pairs, count = empty_pairs(8 * len(triangles) + LISTED), 0
-    for a in range(len(begin) - 1):
-        low, high = row(tree, leaves + a), top(tree, leaves + a)
-        node = leaves + a
-        while node > 0:
-            if not overlap(low, high, row(tree, node), top(tree, node)):
-                node = following(node)
-                continue
-            if node < leaves:
-                node *= 2
-                continue
-            b = node - leaves
+    # Both nodes of an entry are equally deep.
+    stack, depth = np.empty((DEEPEST, 2), np.int32), 1
+    stack[0] = 1
+    while depth > 0:
+        depth -= 1
+        m, n = stack[depth, 0], stack[depth, 1]
+        if not overlap(row(tree, m), top(tree, m), row(tree, n), top(tree, n)):
+            continue
+        if share_smooth(contact.nodes, contact.levels, smooth, m, n):
+            continue
+        if m < leaves:
+            depth = add_children(stack, depth, m, n)
+            continue
+        a, b = m - leaves, n - leaves
+        waiting = list_corners(bounds, of_faces, particles, triangles, begin, a, b, listed, waiting)
+        if b > a:
             waiting = list_corners(
-                bounds, of_faces, particles, triangles, begin, a, b, listed, waiting
+                bounds, of_faces, particles, triangles, begin, b, a, listed, waiting
             )
-            if b > a:
-                waiting = list_corners(
-                    bounds, of_faces, particles, triangles, begin, b, a, listed, waiting
-                )
-            waiting = list_edges(of_edges, edges, begin, a, b, listed, waiting)
-            if waiting + MOST > LISTED:
-                if count + waiting > len(pairs.ends):
-                    pairs = longer(pairs)
-                count = add_pairs(x0, x, limit, stop, listed, waiting, pairs, count)
-                waiting = 0
-            node = following(node)
+        waiting = list_edges(of_edges, edges, begin, a, b, listed, waiting)
+        if waiting + MOST > LISTED:
+            if count + waiting > len(pairs.ends):
+                pairs = longer(pairs)
+            count = add_pairs(x0, x, limit, stop, listed, waiting, pairs, count)
+            waiting = 0
     if count + waiting > len(pairs.ends):
         pairs = longer(pairs)
     count = add_pairs(x0, x, limit, stop, listed, waiting, pairs, count)
@@ -97,6 +106,16 @@ def find_pairs(
         pairs.normals[:count],
         pairs.starts[:count],
     )
+
+
+@kernel
+def add_children(stack: NDArray[np.int32], depth: int, m: int, n: int) -> int:
+    """Add the pairs of children of two nodes, or of one, to the stack; returns its new depth."""
+    for a in range(2 * m, 2 * m + 2):
+        for b in range(max(a, 2 * n), 2 * n + 2):
+            stack[depth, 0], stack[depth, 1] = a, b
+            depth += 1
+    return depth
 
 
 @kernel

@@ -16,6 +16,7 @@ from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.contact.box_data import NO_CONTACT, BoxColliders, BoxContact
 from drapery.cloth.contact.lanes_contact import ContactWork, contact_work, resolve_address
+from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
 from drapery.cloth.pins import PinPath
@@ -63,9 +64,10 @@ class Batch(NamedTuple):
 
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
     targets: positions of the pins after each substep. push: accelerations by user-defined forces.
-    contact: the boxes that the cloths meet. poses: of the boxes before the first contact and at
-        each, [T, K, 12]; one entry where no box moves. resolve: address of the function that
-        resolves it; 0 without contact. work: arrays for it, which no other thread uses.
+    contact: the boxes that the cloths meet. itself: what their contact with themselves needs.
+        poses: of the boxes before the first contact and at each, [T, K, 12]; one entry where no
+        box moves. resolve: address of the function that resolves it; 0 without contact. work:
+        arrays for it, which no other thread uses.
     often: see `SolverState`. cloths: their number, B.
     width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
@@ -83,6 +85,7 @@ class Batch(NamedTuple):
     width: int
     residuals: Array
     contact: BoxContact
+    itself: SelfContact
     poses: Array
     resolve: int
     work: ContactWork
@@ -190,7 +193,7 @@ def _advance(
     batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads, boxes)
 
     def work(first: int, last: int) -> None:
-        mine = batch._replace(work=contact_work(batch.contact))
+        mine = batch._replace(work=contact_work(batch.contact, batch.itself))
         solver_state.kernel(
             first, last, plan, mine, steps, solver_state.substeps, *solver_state.options
         )
@@ -220,6 +223,8 @@ def batch_of(
     dtype = state.positions.dtype
     x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
     h, count = solver_state.dt / solver_state.substeps, int((cloth.inv_mass == 0).sum())
+    itself = NOT_ITSELF if boxes is None else boxes.itself
+    meets_itself = len(itself.triangles) > 0
     return Batch(
         x,
         v,
@@ -238,8 +243,9 @@ def batch_of(
         lanes.block_width(len(cloth.inv_mass), x, threads),
         np.zeros(x.shape[1]),
         NO_CONTACT if boxes is None else boxes.contact,
+        itself,
         _box_poses(boxes, state.time, solver_state, steps),
-        0 if boxes is None or not boxes.paths else resolve_address(),
+        resolve_address(meets_itself) if meets_itself or (boxes and boxes.paths) else 0,
         contact_work(NO_CONTACT),
         solver_state.often,
         len(state.positions),
