@@ -1,7 +1,7 @@
 """Functions from a banner to a picture, an animation, its plain face or a 3-D file."""
 
 import warnings
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Unpack
@@ -83,12 +83,15 @@ def save_model(
     *,
     seconds: float = 4.0,
     fps: float = 20.0,
+    progress: Callable[[int, int], object] | None = None,
     **options: Unpack[Options],
 ) -> None:
     """Write a banner as a 3-D file: .glb (waves), or one pose as .obj, .ply, .bbmodel, .geo.json.
 
     banner, settings, options: see `draw`; the ground is not written.
     seconds: length of the loop [s]; 0 for one pose. fps: its frames per second.
+    progress: called with the number of finished frames and of all, often while the cloth moves; it
+    may raise to end the work, and then there is no file.
     Raises DesignError if `banner` is something else, OptionError, PackError or OutputError.
     """
     from drapery.render.export import check_model_target
@@ -99,7 +102,9 @@ def save_model(
     moves = check_model_target(path) == ".glb" and seconds != 0
     packs = open_packs(chosen.packs, format=chosen.format)
     if moves:
-        save_scenes(_loop(design, packs, chosen, seconds, fps), path, fps=fps)
+        tick, total = progress or (lambda done, total: None), frame_count(seconds, fps)
+        scenes = _loop(design, packs, chosen, seconds, fps, lambda: tick(0, total))
+        save_scenes(_counted(scenes, total, tick), path, fps=fps)
     else:
         save_scenes(_still(design, packs, chosen), path)
     _warn_of(packs)
@@ -177,8 +182,21 @@ def _still(design: "Banner | Garment | None", packs: Packs, settings: Settings) 
     return garment_still(design, packs, settings)
 
 
+def _counted(
+    scenes: Iterable[Scene], total: int, progress: Callable[[int, int], object]
+) -> Iterator[Scene]:
+    for number, scene in enumerate(scenes, 1):
+        yield scene
+        progress(number, total)
+
+
 def _loop(
-    design: "Banner | Garment | None", packs: Packs, settings: Settings, seconds: float, fps: float
+    design: "Banner | Garment | None",
+    packs: Packs,
+    settings: Settings,
+    seconds: float,
+    fps: float,
+    on_moment: Callable[[], object] | None = None,
 ) -> Iterator[Scene]:
     count = frame_count(seconds, fps)
     if design is None or isinstance(design, Banner):
@@ -187,7 +205,7 @@ def _loop(
         return loop(design, packs, settings, count, fps)
     from drapery.scenes.dressing import garment_loop
 
-    return garment_loop(design, packs, settings, count, fps)
+    return garment_loop(design, packs, settings, count, fps, on_moment)
 
 
 def _checked(
