@@ -50,8 +50,8 @@ from drapery.studio.sketch import banner_of, random_sketch
 QUIET = 0.25
 """An action has had its effect when the design has not changed for this time [s]."""
 USABLE = """
-const usable = "button, select, summary, input:not([type=file]), .q-toggle, .q-select";
-const avoided = "a[download], [data-copy], .q-uploader";
+const usable = "button, select, summary, input:not([type=file])";
+const avoided = "a[download], [data-copy]";
 return [...document.querySelectorAll(usable)].filter(
   (e) => !e.disabled && !e.matches(avoided) && e.checkVisibility({ visibilityProperty: true })
     && e.getBoundingClientRect().width > 2);

@@ -12,11 +12,13 @@ from studio_browser import Studio, wait_until
 from studio_tabs import open_tab
 
 CYCLES = int(os.environ.get("DRAPERY_STUDIO_CYCLES", "6"))
+FACE = "design=white&kind=banner&scale=2"
 
 
 def status(studio: Studio, token: str) -> int:
     try:
-        return urllib.request.urlopen(f"{studio.address}face/{token}.png", timeout=10).status
+        address = f"{studio.address}design/{token}.png?{FACE}"
+        return urllib.request.urlopen(address, timeout=10).status
     except urllib.error.HTTPError as error:
         return error.code
 
@@ -74,7 +76,9 @@ def test_a_stopped_studio_leaves_no_files(tmp_path: Path) -> None:
     studio = Studio(tmp_path)
     with open_tab(studio.address) as (token, _):
         body = b"white creeper:lime"
-        urllib.request.urlopen(f"{studio.address}designs/{token}?name=x.txt", body, timeout=10)
+        urllib.request.urlopen(
+            f"{studio.address}upload/{token}/design?name=x.txt", body, timeout=10
+        )
         assert list(tmp_path.glob("drapery-studio-*"))
         studio.stop()
     assert not list(tmp_path.glob("drapery-studio-*"))

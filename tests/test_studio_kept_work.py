@@ -82,14 +82,14 @@ def test_work_is_kept_for_a_time_and_up_to_a_number(monkeypatch: pytest.MonkeyPa
     now = 0.0
     kept = KeptWork(clock=lambda: now)
     session = Session()
-    kept.add("first", session.work)
+    kept.add("first", session.work, None)
     now = kept_work.KEEP - 1
     assert kept.find("first") is not None
     now = kept_work.KEEP + 1
     assert kept.find("first") is None
     monkeypatch.setattr(kept_work, "MAX_KEPT", 2)
     for name in "abc":
-        kept.add(name, session.work)
+        kept.add(name, session.work, None)
     assert kept.find("a") is None
     assert len(kept) == 2
     session.close()
@@ -101,7 +101,7 @@ def test_work_is_kept_up_to_a_size(pack: Path, monkeypatch: pytest.MonkeyPatch) 
     for _ in range(2):
         session = Session()
         send_pack(session, pack)
-        kept.add(session.token, session.work)
+        kept.add(session.token, session.work, session.take_folder())
         tokens.append(session.token)
         session.close()
     assert [kept.find(token) is not None for token in tokens] == [False, True]
@@ -124,11 +124,11 @@ def test_old_work_goes_although_no_page_comes(
     session = sessions.open()
     send_pack(session, pack)
     sessions.keep(session)
-    assert list(tmp_path.glob("drapery-kept-*/*"))
+    assert list(tmp_path.glob("drapery-studio-*/*"))
 
     async def until_it_is_gone() -> None:
         pruning = asyncio.create_task(prune_regularly(sessions, 0.05))
-        while list(tmp_path.glob("drapery-kept-*")):
+        while list(tmp_path.glob("drapery-studio-*")):
             await asyncio.sleep(0.05)
         pruning.cancel()
 

@@ -16,11 +16,11 @@ from drapery.studio.art import (
     CELL,
     COLUMNS,
     GAP,
+    THUMBNAIL_SCALE,
     face_png,
     pattern_rows,
     pattern_sheet,
     style_png,
-    thumbnail,
 )
 from drapery.studio.pack_store import PackContents
 from drapery.studio.panels.layers import missing_patterns
@@ -69,7 +69,7 @@ def test_rows_hold_the_cells_in_their_order(packs: Packs) -> None:
 def test_a_thumbnail_is_the_face_made_small(kind, packs: Packs) -> None:
     banner = Banner("red", (Layer("creeper", "lime"),), kind)
     face = read_png(face_png(banner, packs), "face")
-    small = read_png(thumbnail(banner, packs), "small")
+    small = read_png(face_png(banner, packs, THUMBNAIL_SCALE), "small")
     assert small.shape == (face.shape[0] // 4, face.shape[1] // 4, 4)
     np.testing.assert_array_equal(small, face[2::4, 2::4])
 
@@ -81,7 +81,7 @@ def test_a_pack_has_the_warnings_of_the_commands_and_the_format_is_chosen(tmp_pa
     path = zip_pack(tmp_path / "old.zip", files)
     session = Session(Settings(packs=(path,)))
     store, notified = session.pack_store, []
-    session.listen("packs", lambda: notified.append(store.entries[0].contents))
+    session.listen(lambda: notified.append(store.entries[0].contents), "packs")
 
     def warnings(format: int | None) -> tuple[str, ...]:
         store.read_as(format, store.contents_as(format))

@@ -106,6 +106,29 @@ def test_sliders_have_a_role_and_a_name_where_the_focus_is(page: Any) -> None:
             assert active.accessible_name
 
 
+CUT = """
+const cut = [];
+for (const each of document.querySelectorAll(".live-bar *, #panel-motion *")) {
+  if (!each.offsetParent) continue;
+  if (each.matches("select")) {
+    const alone = each.cloneNode();
+    alone.append(each.selectedOptions[0].cloneNode(true));
+    alone.style = "position: absolute; width: auto";
+    each.parentElement.append(alone);
+    if (alone.offsetWidth > each.offsetWidth) cut.push(each.selectedOptions[0].text);
+    alone.remove();
+  } else if (getComputedStyle(each).textOverflow === "ellipsis") {
+    if (each.scrollWidth > each.clientWidth) cut.push(each.textContent);
+  }
+}
+return cut;
+"""
+
+
+def test_no_choice_under_the_live_view_is_cut_off(page: Any) -> None:
+    assert page.execute_script(CUT) == []
+
+
 @pytest.mark.parametrize(
     "size", [(320, 640), (640, 400), (820, 1180), (1000, 700), (1280, 800), (3840, 2160)]
 )

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
+from urllib.parse import quote, urlsplit
 
 import pytest
 from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
@@ -144,7 +144,7 @@ def test_what_the_live_banner_has_alone_is_said() -> None:
 
 def test_a_file_without_wind_is_exported_without_wind(page: Page) -> None:
     page.run(
-        "[...document.querySelectorAll('#panel-motion .q-toggle')]"
+        "[...document.querySelectorAll('#panel-motion label')]"
         ".find((each) => each.innerText.includes('Wind on')).click()"
     )
     wait_until(lambda: "--wind 0" in page.text("#as-command"))
@@ -404,6 +404,9 @@ def fetch(
         connection.close()
 
 
+FACE = "design=red&kind=banner&scale=2"
+
+
 def test_an_address_reads_only_its_own_files(page: Page) -> None:
     token, secret = page.token, page.studio.folder / "secret.txt"
     secret.write_text("secret words")
@@ -425,15 +428,15 @@ def test_an_address_reads_only_its_own_files(page: Page) -> None:
             f"/export/{step}/1",
             f"/library/{token}/{step}/secret.txt",
             f"/library/{step}",
-            f"/compare/{token}/{step}/face.png",
-            f"/compare/{token}/own/{step}.png",
-            f"/compare/{step}/own/face.png",
+            f"/design/{token}.png?{FACE}&pack={step}",
+            f"/patterns/{token}.png?base=red&dye=lime&pack={step}",
+            f"/design/{step}.png?{FACE}&pack=own",
             f"/{step}/secret.txt",
         ):
             status, body = fetch(page.studio, "GET", path.replace(" ", "%20"))
             assert status in (400, 404, 405, 422), path
             assert b"secret words" not in body and b"root:" not in body
-    for path in ("/export/x/1", "/library/x", "/compare/x/own/face.png"):
+    for path in ("/export/x/1", "/library/x", f"/design/x.png?{FACE}"):
         assert fetch(page.studio, "GET", path)[0] == 404
     for number in ("0", "1", "-1", "99999999999999999999", "1e3"):
         assert fetch(page.studio, "GET", f"/export/{token}/{number}")[0] in (404, 422)
@@ -441,7 +444,7 @@ def test_an_address_reads_only_its_own_files(page: Page) -> None:
         assert fetch(
             page.studio,
             "GET",
-            f"/compare/{token}/{pack.encode('ascii', 'ignore').decode() or 'x'}/face.png",
+            f"/design/{token}.png?{FACE}&pack={quote(pack)}",
         )[0] in (404, 422)
 
 

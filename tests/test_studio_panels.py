@@ -110,13 +110,15 @@ def test_an_item_has_no_turntable(in_page: Callable[..., None]) -> None:
             motion.build(session)
         (tick,) = [e for e in client.elements.values() if getattr(e, "text", "") == "Drehteller"]
         (place,) = [
-            e for e in client.elements.values() if isinstance(e, ui.select) and "item" in e.options
+            e
+            for e in client.elements.values()
+            if "item" in dict(e.props.get("choices", ())) and e.props["kind"] == "select"
         ]
         group = tick.parent_slot.parent.parent_slot.parent
         fit()
         assert group.visible
         session.adjust(turntable=True)
-        place.value = "item"
+        place._take(value="item", number=1)
         assert (session.settings.placement, session.settings.turntable) == ("item", False)
         fit()
         assert not group.visible

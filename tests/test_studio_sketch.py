@@ -112,7 +112,7 @@ def test_history_is_bounded_and_an_equal_state_adds_no_step() -> None:
 
 def test_a_session_notifies_of_edits() -> None:
     session, events = Session(), []
-    session.listen("sketch", lambda: events.append(session.sketch))
+    session.listen(lambda: events.append(session.sketch), "sketch")
     session.edit(THREE)
     session.edit(THREE)
     session.undo()
@@ -123,8 +123,8 @@ def test_a_session_notifies_of_edits() -> None:
 
 def test_settings_out_of_bounds_change_nothing(tmp_path) -> None:
     session, events = Session(), []
-    session.listen("settings", lambda: events.append("settings"))
-    session.listen("packs", lambda: events.append("packs"))
+    session.listen(lambda: events.append("settings"), "settings")
+    session.listen(lambda: events.append("packs"), "packs")
     with pytest.raises(OptionError):
         session.adjust(wind=-1)
     with pytest.raises(PackError):

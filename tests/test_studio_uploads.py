@@ -159,7 +159,7 @@ def store_with(session: Session, *packs: bytes) -> PackStore:
 
 def test_a_pack_counts_when_it_is_adopted(session: Session, tmp_path: Path) -> None:
     events = []
-    session.listen("packs", lambda: events.append(1))
+    session.listen(lambda: events.append(1), "packs")
     pack_store = store_with(session, packed(tmp_path, 7), packed(tmp_path, 9))
     assert [entry.contents.summary for entry in pack_store.entries] == ["Patterns: 1"] * 2
     assert red(session.packs()) == 9 and len(events) == 2
@@ -251,17 +251,27 @@ def parts(text: str) -> AsyncIterator[bytes]:
     return body()
 
 
+async def read(session: Session, name: str, text: str) -> None:
+    """What the page does with a file of designs."""
+    upload = await session.uploads.receive(parts(text), "design", name)
+    await session.upload_queue.read_file(upload.number)
+
+
 def test_two_designs_that_arrive_at_once_do_not_mix(session: Session) -> None:
-    queue, read = session.upload_queue, []
-    queue.listen(lambda: read.append((queue.name, queue.line, [f.banner for f in queue.found])))
+    queue, noted = session.upload_queue, []
+
+    def note() -> None:
+        noted.append((queue.name, queue.line, [each.banner for each in queue.found]))
+
+    session.listen(note, "read")
     texts = {"a.txt": "red creeper:lime border:black", "b.txt": "blue skull:white"}
 
     async def both() -> None:
-        await asyncio.gather(*(queue.receive(parts(text), name) for name, text in texts.items()))
+        await asyncio.gather(*(read(session, *each) for each in texts.items()))
 
     asyncio.run(both())
     wanted = [(name, "", [Banner.parse(text)]) for name, text in texts.items()]
-    assert sorted(read) == sorted(wanted)
+    assert sorted(noted) == sorted(wanted)
     assert [*session.folder.iterdir()] == []
 
 
@@ -269,8 +279,8 @@ def test_a_design_that_is_too_long_is_one_line(
     session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(module.PURPOSES, "design", Purpose(10, 3))
-    asyncio.run(session.upload_queue.receive(parts("white creeper:lime"), "../x/big.txt"))
-    assert session.upload_queue.line.startswith("big.txt is over 10 bytes")
+    with pytest.raises(DesignError, match=r"^big\.txt is over 10 bytes; [a-z ]+$"):
+        asyncio.run(read(session, "../x/big.txt", "white creeper:lime"))
     assert session.upload_queue.found == () and [*session.folder.iterdir()] == []
 
 

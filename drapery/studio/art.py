@@ -24,6 +24,8 @@ from drapery.studio.document import Document
 from drapery.styles import find_style
 
 FACE_SCALE = 8
+THUMBNAIL_SCALE = 2
+"""Pixels of a texel in the library."""
 COLUMNS = 9
 """The number of patterns in one row of the comparison."""
 CELL = (20, 40)
@@ -45,10 +47,15 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
     return png_bytes(region.sample(composite(layers), scale))
 
 
-def face_address(document: Document, banner: Banner, scale: int = 2) -> str:
-    """The address of the flat face of any design, drawn from the tab's packs."""
+def face_address(
+    document: Document, banner: Banner, scale: int = FACE_SCALE, pack: str = "now"
+) -> str:
+    """The address of the flat face of any design.
+
+    pack: the tab's packs as they are `now`, its `own` art alone, or the number of one of its packs.
+    """
     words = {"design": write_banner(banner, "text"), "kind": banner.kind, "scale": scale}
-    return f"/design/{document.token}.png?{urlencode(words)}&packs={_packs_mark(document)}"
+    return f"/design/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 
 def pattern_names(packs: Packs) -> tuple[str, ...]:
@@ -89,13 +96,6 @@ def pattern_rows(sheet: bytes) -> bytes:
     return png_bytes(page)
 
 
-def thumbnail(banner: Banner, packs: Packs) -> bytes:
-    """The face with two pixels per texel, as a PNG file. Raises PackError."""
-    step = FACE_SCALE // 2
-    face = read_png(face_png(banner, packs), "the face")
-    return png_bytes(face[step // 2 :: step, step // 2 :: step].copy())
-
-
 _styled: WeakKeyDictionary[Packs, dict[tuple[Banner, str], bytes]] = WeakKeyDictionary()
 _one_style = threading.Lock()
 
@@ -133,13 +133,18 @@ def _cell(packs: Packs, banner: Banner) -> Texels:
     return FLAG_REGIONS["front"].sample(composite(flag_layers(banner, packs), side=64), 1)
 
 
-def sheet_address(document: Document, dye: str) -> str:
-    """The address of `pattern_sheet` for the tab's packs, the dye of its field and this dye."""
-    words = f"base={document.sketch.base}&dye={dye}&packs={_packs_mark(document)}"
-    return f"/patterns/{document.token}.png?{words}"
+def sheet_address(
+    document: Document, dye: str, base: str = "", pack: str = "now", *, rows: bool = False
+) -> str:
+    """The address of `pattern_sheet`, or its `pattern_rows`, for a dye on that of the field.
+
+    base: replaces the dye of the field. pack: as in `face_address`.
+    """
+    words = {"base": base or document.sketch.base, "dye": dye, "rows": rows}
+    return f"/patterns/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 
-def _packs_mark(document: Document) -> str:
-    """Differs for other packs, because browsers keep pictures."""
-    settings = document.settings
-    return f"{crc32(repr((settings.packs, settings.format)).encode()):x}"
+def _packs(document: Document, pack: str) -> dict[str, str]:
+    """The packs of a picture, and a mark of all of the tab's, because browsers keep pictures."""
+    used = document.settings.packs, document.settings.format
+    return {"pack": pack, "v": f"{crc32(repr(used).encode()):x}"}

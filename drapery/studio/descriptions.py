@@ -1,7 +1,5 @@
 """Designs, dyes and patterns for labels, tooltips and screen readers."""
 
-from typing import Any
-
 from drapery.banner import PATTERNS, Dye
 from drapery.option import Option
 from drapery.studio.sketch import Sketch
@@ -61,10 +59,10 @@ def with_unit(option: Option, value: float) -> str:
     return f"{value:g} {translated(unit)}".rstrip()
 
 
-def choice_titles(option: Option) -> dict[Any, str]:
-    """The choices of an option with their titles; None too, if the option may be None."""
-    titles: dict[Any, str] = {name: str(name).replace("-", " ") for name in option.choices}
-    return titles if option.default is not None else {None: option.default_text} | titles
+def choice_titles(option: Option) -> dict[str, str]:
+    """The choices of an option as text with their titles; "" for None, if it may be None."""
+    titles = {str(name): str(name).replace("-", " ") for name in option.choices}
+    return {"": option.default_text} | titles if titles and option.default is None else titles
 
 
 def described(sketch: Sketch) -> str:

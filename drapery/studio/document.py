@@ -14,9 +14,14 @@ from typing import Any, Literal
 from drapery import Settings
 from drapery.packs import Packs, open_packs
 from drapery.studio.history import History
-from drapery.studio.sketch import Sketch
+from drapery.studio.sketch import MAX_TITLE, Sketch
 
-Event = Literal["sketch", "settings", "packs", "scene", "preview", "recent", "library"]
+Event = (
+    Literal["sketch", "settings", "packs", "scene", "preview", "recent", "library"]
+    | Literal["selection", "steered", "read"]
+)
+"""`selection`: what is chosen, or the design. `steered`: the wind by keys, or a fault of the live
+cloth. `read`: a text or a file, of which designs come."""
 
 
 class Document:
@@ -51,6 +56,11 @@ class Document:
             self._folder = Path(tempfile.mkdtemp(prefix="drapery-studio-"))
         return self._folder
 
+    def take_folder(self) -> Path | None:
+        """The tab's folder, if it has one, which then remains when the tab closes."""
+        folder, self._folder = self._folder, None
+        return folder
+
     def packs(self) -> Packs:
         """The packs of the settings; opened again only when the settings name others.
 
@@ -69,6 +79,10 @@ class Document:
         """Replace the design, as a step that can be undone; notifies "sketch"."""
         self._go(self.history.push(sketch))
 
+    def name(self, title: str) -> None:
+        """Give the design a title, as a step that can be undone; notifies "sketch"."""
+        self.edit(replace(self.sketch, title=title[:MAX_TITLE].strip()))
+
     def undo(self) -> None:
         """Undo one step, if there is one; notifies "sketch"."""
         self._go(self.history.undo())
@@ -79,8 +93,7 @@ class Document:
 
     def go_to(self, place: int) -> None:
         """Go to a state of the history, by its place; notifies "sketch"."""
-        if 0 <= place < len(self.history.states) and place != len(self.history.past):
-            self._go(self.history.go_to(place))
+        self._go(self.history.go_to(place))
 
     def _go(self, history: History[Sketch]) -> None:
         if history is not self.history:
@@ -102,9 +115,15 @@ class Document:
         if after != before:
             self.notify("settings")
 
-    def listen(self, event: Event, call: Callable[[], object]) -> None:
-        """Call this at each event of this name."""
-        self._listeners[event].append(call)
+    def listen(self, call: Callable[[], object], *events: Event) -> None:
+        """Call this at each event of these names."""
+        for event in events:
+            self._listeners[event].append(call)
+
+    def follow(self, call: Callable[[], object], *events: Event) -> None:
+        """Call this now and at each event of these names."""
+        call()
+        self.listen(call, *events)
 
     def notify(self, event: Event) -> None:
         """Call all listeners of an event."""

@@ -4,16 +4,15 @@ import logging
 import os
 import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeVar
 
-from drapery import Banner, DraperyError, OptionError
+from drapery import DraperyError, Frame, OptionError
+from drapery.banner import write_banner
 from drapery.option import one_of
 from drapery.settings import frame_count
-from drapery.studio.chosen_scene import SceneChoice
 from drapery.studio.document import Document
 from drapery.studio.snippets import (
     KINDS,
@@ -39,8 +38,6 @@ LOG = logging.getLogger(__name__)
 Progress = Callable[[int, int], None]
 """A callable that gets the number of finished frames and the number of all frames."""
 
-Item = TypeVar("Item")
-
 
 class StoppedError(DraperyError):
     """The user stopped the export."""
@@ -52,16 +49,22 @@ def make(request: ExportRequest, path: Path, progress: Progress | None = None) -
     If progress raises, the work stops and no file remains. Raises OptionError, PackError,
     BackendError or OutputError.
     """
+    from drapery import save_model
+    from drapery.render import save_animation
+
     check(request)
-    on_progress = progress or (lambda done, total: None)
-    if scene := scene_of(request):
-        _scene(request, scene, path, on_progress)
-        return
+    tick, total, fps = progress or (lambda done, total: None), count_frames(request), request.fps
+    tick(0, total)
     if request.kind in LOOPS:
-        _loop(request, path, on_progress)
-        return
-    on_progress(0, 1)
-    _ONCE[request.kind](request, path, on_progress)
+        frames = _frames(request)
+        save_animation(frames, fps, path, progress=lambda done, _: tick(done, total))
+    elif request.kind == "glb":
+        given = subject_of(request), path, options_for(request)
+        save_model(*given, seconds=request.seconds, fps=fps, progress=tick)
+    else:
+        drawn = _drawn(request)
+        tick(1, 1)
+        path.write_bytes(drawn.encode()) if isinstance(drawn, str) else drawn.save(path)
 
 
 def count_frames(request: ExportRequest) -> int:
@@ -82,113 +85,39 @@ def check(request: ExportRequest) -> None:
         )
 
 
-def _still(request: ExportRequest, path: Path, on_progress: Progress) -> None:
-    from drapery import draw
-
-    frame = draw(subject_of(request), options_for(request))
-    on_progress(1, 1)
-    frame.save(path)
-
-
-def _face(request: ExportRequest, path: Path, on_progress: Progress) -> None:
-    from drapery import draw_face
-
-    settings = options_for(request)
-    banner = _banner(request)
-    face = draw_face(banner, packs=settings.packs, format=settings.format, scale=request.scale)
-    on_progress(1, 1)
-    face.save(path)
-
-
-def _loop(request: ExportRequest, path: Path, on_progress: Progress) -> None:
+def _frames(request: ExportRequest) -> Iterator[Frame]:
+    """The frames of a loop, or the last one of a scene for a picture."""
     from drapery import iter_frames
-    from drapery.render import check_animation_target, save_animation
-
-    total = count_frames(request)
-    on_progress(0, total)
-    check_animation_target(path)
-    drawn = iter_frames(
-        subject_of(request), options_for(request), seconds=request.seconds, fps=request.fps
-    )
-    save_animation(_counted(drawn, total, on_progress), request.fps, path, total=total)
-
-
-def _scene(request: ExportRequest, chosen: SceneChoice, path: Path, on_progress: Progress) -> None:
-    from drapery.render import check_animation_target, save_animation
     from drapery.scenes import find_scene, scene_frames
 
+    settings, chosen = options_for(request), scene_of(request)
+    if chosen is None:
+        subject = subject_of(request)
+        return iter_frames(subject, settings, seconds=request.seconds, fps=request.fps)
     scene = find_scene(chosen.name)
     clip, parameters = scene_clip(request, scene), scene.parameters(dict(chosen.words))
-    style, named = request.settings.style, request.settings.backend
-    backend = named if isinstance(named, str) else "auto"  # a page has names alone
-    if request.kind in STILLS:
-        on_progress(0, 1)
-        frame = next(scene_frames(scene, parameters, clip, backend, last=True, style=style))
-        on_progress(1, 1)
-        frame.save(path)
-        return
-    on_progress(0, clip.count)
-    check_animation_target(path)
-    drawn = scene_frames(scene, parameters, clip, backend, style=style)
-    counted = _counted(drawn, clip.count, on_progress)
-    save_animation(counted, request.fps, path, total=clip.count)
+    backend = settings.backend if isinstance(settings.backend, str) else "auto"
+    last = request.kind in STILLS
+    return scene_frames(scene, parameters, clip, backend, last=last, style=settings.style)
 
 
-def _model(request: ExportRequest, path: Path, on_progress: Progress) -> None:
-    from drapery.garments import Garment
-    from drapery.packs import open_packs
-    from drapery.render import check_model_target, save_model
-    from drapery.scenes import garment_loop, loop
-
-    total, settings, subject = count_frames(request), options_for(request), subject_of(request)
-    on_progress(0, total)
-    check_model_target(path)
-    packs = open_packs(settings.packs, format=settings.format)
-    settings = replace(settings, ground="none")
-    if isinstance(subject, Garment):
-        scenes = garment_loop(
-            subject, packs, settings, total, request.fps, lambda: on_progress(0, total)
-        )
-    else:
-        scenes = loop(subject, packs, settings, total, request.fps)
-    save_model(_counted(scenes, total, on_progress), path, fps=request.fps)
-
-
-def _page(request: ExportRequest, path: Path, on_progress: Progress) -> None:
+def _drawn(request: ExportRequest) -> Frame | str:
+    """A picture, a page or a design."""
+    from drapery import draw, draw_face
     from drapery.web.page import page_text
 
-    text = page_text(request.banner, options_for(request))
-    on_progress(1, 1)
-    path.write_text(text, encoding="utf-8")
-
-
-def _design(request: ExportRequest, path: Path, on_progress: Progress) -> None:
-    from drapery.banner import write_banner
-
-    text = write_banner(_banner(request)) + "\n"
-    on_progress(1, 1)
-    path.write_bytes(text.encode())
-
-
-_ONCE: dict[str, Callable[[ExportRequest, Path, Progress], None]] = {
-    "png": _still,
-    "face": _face,
-    "glb": _model,
-    "html": _page,
-    "json": _design,
-}
-
-
-def _banner(request: ExportRequest) -> Banner:
-    if request.banner is None:
+    settings, banner = options_for(request), request.banner
+    if scene_of(request) is not None:
+        return next(_frames(request))
+    if request.kind in STILLS:
+        return draw(subject_of(request), settings)
+    if request.kind == "html":
+        return page_text(banner, settings)
+    if banner is None:
         raise OptionError(f"a {request.kind} is of a design; give one")
-    return request.banner
-
-
-def _counted(items: Iterable[Item], total: int, on_progress: Progress) -> Iterator[Item]:
-    for number, item in enumerate(items, 1):
-        yield item
-        on_progress(number, total)
+    if request.kind == "json":
+        return write_banner(banner) + "\n"
+    return draw_face(banner, packs=settings.packs, format=settings.format, scale=request.scale)
 
 
 @dataclass(eq=False)

@@ -13,7 +13,8 @@ export default {
     </div>`,
   props: {
     address: String, label: String, sends: String, accept: String, multiple: Boolean, maxBytes: Number,
-    // The tab that opens when a file with such an ending is dropped elsewhere on the page.
+    // The tab that opens when a file with such an ending is dropped elsewhere on the page. A field
+    // for all endings gets what no other one takes.
     tab: String,
     // A selector: files with such an ending that are dropped there are for this field alone.
     zone: String,
@@ -24,21 +25,21 @@ export default {
   mounted() {
     if (!this.tab && !this.zone) return;
     this.catch = (event) => this.catches(event);
-    document.addEventListener("drop", this.catch, true);
+    document.addEventListener("drop", this.catch, !!this.accept);
   },
   beforeUnmount() {
-    if (this.catch) document.removeEventListener("drop", this.catch, true);
+    if (this.catch) document.removeEventListener("drop", this.catch, !!this.accept);
   },
   methods: {
     catches(event) {
       const files = [...(event.dataTransfer?.files ?? [])];
       const endings = this.accept.split(",").filter((each) => each.startsWith("."));
-      const wanted = files.filter((file) => endings.some((each) => file.name.toLowerCase().endsWith(each)));
+      const fits = (file) => !this.accept || endings.some((each) => file.name.toLowerCase().endsWith(each));
+      const wanted = files.filter(fits);
       if (!wanted.length || event.target.closest?.(".file-field")) return;
       if (this.zone && !event.target.closest?.(this.zone)) return;
       event.preventDefault();
       event.stopImmediatePropagation();
-      document.body.classList.remove("dropping");
       if (this.tab) window.studio?.tab(this.tab);
       this.send(wanted);
     },
@@ -49,13 +50,12 @@ export default {
     },
     drop(event) {
       this.over = false;
-      const files = [...event.dataTransfer.files];
-      this.send(this.multiple ? files : files.slice(0, 1));
+      this.send([...event.dataTransfer.files]);
     },
     async send(files) {
       if (this.busy) return;
       this.busy = true;
-      for (const file of files) this.$emit("sent", await this.post(file));
+      for (const file of this.multiple ? files : files.slice(0, 1)) this.$emit("sent", await this.post(file));
       this.busy = false;
     },
     post(file) {

@@ -38,6 +38,8 @@ export default {
       this.typing = false;
       this.sent += 1;
       this.$emit("value", { value, number: this.sent });
+      // A list that was chosen from by the mouse must not take the keys that change the wind.
+      if (this.kind === "select" && !this.$el.matches(":focus-visible")) this.$el.blur();
     },
     // What was typed may be what was there before; then the browser reports no change.
     leave() {

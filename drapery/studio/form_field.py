@@ -5,7 +5,6 @@ from typing import Any, Literal
 
 from nicegui.element import Element
 
-from drapery.studio.components import value_of
 from drapery.studio.notices import errors_shown
 
 Kind = Literal["text", "number", "checkbox", "color", "select", "range"]
@@ -32,7 +31,7 @@ class FormField(Element, component="form_field.js"):
         self._answered = 0
         self.props.update({"kind": kind, "choices": list((choices or {}).items())})
         self._show()
-        self.on("value", lambda event: self._take(**value_of(event)))
+        self.on("value", lambda event: self._take(**event.args))
 
     def refresh(self) -> None:
         """Show the current value."""

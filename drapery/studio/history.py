@@ -25,15 +25,11 @@ class History(Generic[T]):
 
     def undo(self) -> "History[T]":
         """The history after one undo; unchanged if there is no step to undo."""
-        if not self.past:
-            return self
-        return History(self.past[-1], self.past[:-1], (self.present, *self.future))
+        return self.go_to(len(self.past) - 1)
 
     def redo(self) -> "History[T]":
         """The history after one redo; unchanged if there is no step to redo."""
-        if not self.future:
-            return self
-        return History(self.future[0], (*self.past, self.present), self.future[1:])
+        return self.go_to(len(self.past) + 1)
 
     @property
     def states(self) -> tuple[T, ...]:
@@ -41,6 +37,8 @@ class History(Generic[T]):
         return (*self.past, self.present, *self.future)
 
     def go_to(self, place: int) -> "History[T]":
-        """The history with the state at a place of `states` as the current one."""
+        """The history with the state at a place of `states` as the current one, if it has it."""
         states = self.states
+        if place == len(self.past) or not 0 <= place < len(states):
+            return self
         return History(states[place], states[:place], states[place + 1 :])

@@ -1,24 +1,22 @@
 """The work of tabs that were closed a short time ago, for a page that is loaded again."""
 
 import shutil
-import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from drapery import Settings
 from drapery.studio.history import History
 from drapery.studio.pack_store import PackEntry
 from drapery.studio.sketch import Sketch
-from drapery.studio.uploads import link_or_copy
 
 KEEP = 600.0
 """How long the work of a closed tab is kept [s]."""
 MAX_KEPT = 32
 """The most closed tabs whose work is kept."""
 MAX_BYTES = 1 << 30
-"""The most bytes of their packs, all together."""
+"""The most bytes of their files, all together."""
 
 
 @dataclass(frozen=True)
@@ -44,15 +42,6 @@ class _Kept:
     size: int
 
 
-def _moved(entry: PackEntry, folder: Path | None) -> PackEntry:
-    if not entry.upload or folder is None:
-        return entry
-    # A move would fail on Windows, where the tab has the file open.
-    path = folder / entry.path.name
-    link_or_copy(entry.path, path)
-    return replace(entry, path=path)
-
-
 class KeptWork:
     """The work of closed tabs by the tab's token, oldest first. clock: gives the time [s]."""
 
@@ -63,20 +52,11 @@ class KeptWork:
     def __len__(self) -> int:
         return len(self._kept)
 
-    def add(self, token: str, work: Work) -> None:
-        """Keep a tab's work; its uploaded packs get a folder of their own, because the tab's
-        folder goes when it closes. Raises OSError.
-        """
-        uploads = [entry for entry in work.packs if entry.upload]
-        folder = Path(tempfile.mkdtemp(prefix="drapery-kept-")) if uploads else None
-        try:
-            packs = tuple(_moved(entry, folder) for entry in work.packs)
-            size = sum(entry.path.stat().st_size for entry in packs if entry.upload)
-        except OSError:
-            if folder is not None:
-                shutil.rmtree(folder, ignore_errors=True)
-            raise
-        self._kept[token] = _Kept(replace(work, packs=packs), self._clock() + KEEP, folder, size)
+    def add(self, token: str, work: Work, folder: Path | None) -> None:
+        """Keep a tab's work. folder: of all its files; from now on they are removed from here."""
+        files = (path for path in folder.rglob("*") if path.is_file()) if folder else ()
+        size = sum(path.stat().st_size for path in files)
+        self._kept[token] = _Kept(work, self._clock() + KEEP, folder, size)
         self.prune()
 
     def find(self, token: str) -> Work | None:

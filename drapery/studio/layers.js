@@ -11,7 +11,7 @@ export default {
         <button type="button" class="row-main" data-part="main" :aria-pressed="row.number === chosen"
           @click="pick(row)">
           <span class="row-place">{{ row.place + 1 }}</span>
-          <span class="cell thumb" :style="cell(row)"></span>
+          <span class="cell thumb" :style="{ '--sheet': 'url(' + row.sheet + ')', '--index': row.index, '--count': count }"></span>
           <span class="row-words">
             <span class="row-title">{{ row.title }}</span>
             <span class="row-dye"><i class="dot" :style="{ backgroundColor: row.colour }"></i>{{ row.dyeTitle }}</span>
@@ -60,14 +60,6 @@ export default {
     this.drop?.(false);
   },
   methods: {
-    cell(row) {
-      const last = Math.max(1, this.count - 1);
-      return {
-        backgroundImage: `url("${row.sheet}")`,
-        backgroundSize: `${this.count * 100}% 100%`,
-        backgroundPosition: `${(row.index / last) * 100}% 0`,
-      };
-    },
     pick(row) {
       // Ignore the click that ends a drag.
       if (!this.justDragged) this.$emit("choose", row.number);

@@ -10,6 +10,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -179,6 +180,12 @@ class Library:
             raise OutputError(f"library {self.path}: {_reason(error)}") from None
         except SQLAlchemyError as error:
             raise OutputError(f"library {self.path}: {str(error).splitlines()[0]}") from None
+
+
+@cache
+def opened(path: Path) -> Library:
+    """The library of a file; all callers get the same object. Raises OutputError."""
+    return Library(path)
 
 
 def default_place(environment: dict[str, str] | None = None) -> Path:

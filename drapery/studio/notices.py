@@ -11,31 +11,29 @@ from drapery.studio.translation import translated
 
 T = TypeVar("T")
 Tone = Literal["fault", "warning", "done"]
+_TONES: dict[Tone, tuple[Literal["negative", "warning", "positive"], int, str]] = {
+    "fault": ("negative", 10_000, "white"),
+    "warning": ("warning", 7_000, "dark"),
+    "done": ("positive", 1_800, ""),
+}
+"""Quasar's type, how long it is shown [ms], and the colour of its button, if it has one."""
 
 ADDED = "Designs added: {}; here already: {}"
 """What a library says after it has got several designs."""
-_TYPES: dict[Tone, Literal["negative", "warning", "positive"]] = {
-    "fault": "negative",
-    "warning": "warning",
-    "done": "positive",
-}
-_CLOSE: dict[Tone, list[dict[str, str | bool]]] = {
-    "fault": [{"color": "white", "dense": True, "noCaps": True}],
-    "warning": [{"color": "dark", "dense": True, "noCaps": True}],
-    "done": [],
-}
 
 
 def show_notice(line: str, tone: Tone = "done") -> None:
     """Show one line to the user; a screen reader reads it too."""
+    kind, timeout, colour = _TONES[tone]
+    close = {"label": translated("Close"), "color": colour, "dense": True, "noCaps": True}
     ui.notify(
         translated(line),
-        type=_TYPES[tone],
+        type=kind,
         position="bottom",
-        timeout={"fault": 10_000, "warning": 7_000, "done": 1_800}[tone],
+        timeout=timeout,
         attrs={"role": "status" if tone == "done" else "alert"},
         classes="notice",
-        actions=[each | {"label": translated("Close")} for each in _CLOSE[tone]],
+        actions=[close] if colour else [],
     )
 
 

@@ -2,8 +2,9 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from fastapi import Request
 from nicegui import Client, ui
@@ -12,28 +13,7 @@ from drapery import DraperyError, Settings
 from drapery.banner import parse_banner
 from drapery.studio.descriptions import described
 from drapery.studio.notices import errors_shown, show_notice
-from drapery.studio.panels import (
-    bar,
-    compare,
-    embed,
-    export,
-    face,
-    layers,
-    letters,
-    library,
-    live,
-    loom,
-    motion,
-    packs,
-    palette,
-    patterns,
-    picture,
-    shortcuts,
-    start,
-    steps,
-    styles,
-    text,
-)
+from drapery.studio.panels import bar, shortcuts
 from drapery.studio.session import Session, Sessions
 from drapery.studio.share import opened_link, write_link
 from drapery.studio.sketch import Sketch, sketch_of
@@ -48,38 +28,37 @@ Place = Literal["left", "viewport", "under", "side"]
 class PagePanel:
     """One part of the page.
 
-    name: part of the ids of its elements. build: draws it for a session. title: the text of its
-    heading and tab. icon: the tab's icon, a name in Material Icons. place: panels `left` of and
+    name: that of its module in `panels/`, and part of the ids of its elements. title: the text of
+    its heading and tab. icon: the tab's icon, a name in Material Icons. place: panels `left` of and
     `under` the viewport are always visible in a wide window; panels at the `side` share one place,
     with tabs. On a phone every panel except the viewport and the palette is a tab.
     """
 
     name: str
-    build: Callable[[Session], None]
     title: str
     icon: str
     place: Place
 
 
 PANELS = (
-    PagePanel("palette", palette.build, "Dyes", "palette", "left"),
-    PagePanel("layers", layers.build, "Layers", "layers", "left"),
-    PagePanel("live", live.build, "Live", "air", "viewport"),
-    PagePanel("face", face.build, "Flat", "crop_portrait", "viewport"),
-    PagePanel("steps", steps.build, "History", "history", "under"),
-    PagePanel("motion", motion.build, "Motion", "tune", "under"),
-    PagePanel("patterns", patterns.build, "Patterns", "grid_view", "side"),
-    PagePanel("start", start.build, "Start", "auto_awesome", "side"),
-    PagePanel("styles", styles.build, "Styles", "style", "side"),
-    PagePanel("text", text.build, "Text", "code", "side"),
-    PagePanel("letters", letters.build, "Letters", "abc", "side"),
-    PagePanel("picture", picture.build, "Picture", "image_search", "side"),
-    PagePanel("loom", loom.build, "Loom", "handyman", "side"),
-    PagePanel("packs", packs.build, "Packs", "inventory_2", "side"),
-    PagePanel("export", export.build, "Export", "ios_share", "side"),
-    PagePanel("compare", compare.build, "Compare", "compare", "side"),
-    PagePanel("embed", embed.build, "Embed", "share", "side"),
-    PagePanel("library", library.build, "Library", "collections_bookmark", "side"),
+    PagePanel("palette", "Dyes", "palette", "left"),
+    PagePanel("layers", "Layers", "layers", "left"),
+    PagePanel("live", "Live", "air", "viewport"),
+    PagePanel("face", "Flat", "crop_portrait", "viewport"),
+    PagePanel("steps", "History", "history", "under"),
+    PagePanel("motion", "Motion", "tune", "under"),
+    PagePanel("patterns", "Patterns", "grid_view", "side"),
+    PagePanel("start", "Start", "auto_awesome", "side"),
+    PagePanel("styles", "Styles", "style", "side"),
+    PagePanel("text", "Text", "code", "side"),
+    PagePanel("letters", "Letters", "abc", "side"),
+    PagePanel("picture", "Picture", "image_search", "side"),
+    PagePanel("loom", "Loom", "handyman", "side"),
+    PagePanel("packs", "Packs", "inventory_2", "side"),
+    PagePanel("export", "Export", "ios_share", "side"),
+    PagePanel("compare", "Compare", "compare", "side"),
+    PagePanel("embed", "Embed", "share", "side"),
+    PagePanel("library", "Library", "collections_bookmark", "side"),
 )
 
 FIRST_TAB = "patterns"
@@ -137,14 +116,14 @@ def build(session: Session, sessions: Sessions) -> None:
             _panels(session, "side")
     shortcuts.build()
     _write_into_address(session)
-    root.on("act", lambda event: bar.act(session, str(event.args)), js_handler=_DETAIL)
-    root.on("resume", lambda event: _resume(session, sessions, event.args), js_handler=_DETAIL)
-    root.on("recent", lambda event: session.set_recent(event.args), js_handler=_DETAIL)
-    root.on(
-        "pasted",
-        lambda event: session.upload_queue.read_text(str(event.args)),
-        js_handler=_DETAIL,
-    )
+    handlers: dict[str, Callable[[Any], object]] = {
+        "act": lambda what: bar.act(session, str(what)),
+        "resume": lambda token: _resume(session, sessions, token),
+        "recent": session.set_recent,
+        "pasted": lambda text: session.upload_queue.read_text(str(text)),
+    }
+    for name, handle in handlers.items():
+        root.on(name, lambda event, handle=handle: handle(event.args), js_handler=_DETAIL)
 
 
 def _resume(session: Session, sessions: Sessions, token: object) -> None:
@@ -175,10 +154,8 @@ def _write_into_address(session: Session) -> None:
         with client:
             ui.page_title(f"{session.sketch.title or described(session.sketch)} - Drapery Studio")
 
-    name_tab()
-    session.listen("sketch", name_tab)
-    session.listen("sketch", write)
-    session.listen("settings", write)
+    session.follow(name_tab, "sketch")
+    session.listen(write, "sketch", "settings")
 
 
 def _head(session: Session) -> None:
@@ -197,7 +174,7 @@ def _panels(session: Session, place: str) -> None:
             if panel.name == FIRST_TAB:
                 section.props("data-active")
             with section:
-                panel.build(session)
+                import_module(f"{__package__}.panels.{panel.name}").build(session)
 
 
 def _tabs() -> None:

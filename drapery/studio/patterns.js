@@ -1,4 +1,4 @@
-// All patterns in the chosen dyes: cells of one picture. Arrow keys move the focus among them.
+// All patterns in the chosen dyes: cells of one picture.
 const UNLIKE = 9;
 const HOVER = 80; // How long the pointer rests on a pattern before it is shown [ms].
 
@@ -25,13 +25,14 @@ export default {
           <button type="button" :aria-pressed="swaps" @click="$emit('swaps', true)">{{ words.change }}</button>
         </div>
       </div>
-      <div class="pattern-grid" role="group" :aria-label="label" @keydown="key">
+      <div class="pattern-grid" role="group" :aria-label="label"
+        :style="{ '--sheet': 'url(' + sheet + ')', '--count': patterns.length }">
         <button v-for="(pattern, index) in found" :key="pattern.name" type="button" class="pattern"
           :data-pattern="pattern.name" :aria-label="pattern.title" :title="pattern.title"
           :tabindex="index === at ? 0 : -1" :aria-pressed="swaps ? pattern.name === current : null"
           @focus="at = index; preview(pattern.name)" @blur="preview('')" @click="lay(pattern.name)"
           @pointerenter="preview(pattern.name, $event)" @pointerleave="preview('')">
-          <span class="cell" :style="cell(pattern.index)"></span>
+          <span class="cell" :style="{ '--index': pattern.index }"></span>
           <span class="pattern-title" aria-hidden="true">{{ pattern.title }}</span>
         </button>
       </div>
@@ -59,14 +60,6 @@ export default {
     },
   },
   methods: {
-    cell(index) {
-      const last = Math.max(1, this.patterns.length - 1);
-      return {
-        backgroundImage: `url("${this.sheet}")`,
-        backgroundSize: `${this.patterns.length * 100}% 100%`,
-        backgroundPosition: `${(index / last) * 100}% 0`,
-      };
-    },
     first(event) {
       event.preventDefault();
       if (this.found.length) this.lay(this.found[0].name);
@@ -85,21 +78,6 @@ export default {
       event.stopPropagation();
       if (this.wanted) this.wanted = "";
       else event.target.blur();
-    },
-    key(event) {
-      const buttons = [...this.$el.querySelectorAll(".pattern")];
-      const here = buttons.indexOf(document.activeElement);
-      if (here < 0 || event.altKey || event.ctrlKey || event.metaKey) return;
-      const top = buttons[0].offsetTop;
-      const columns = buttons.filter((button) => button.offsetTop === top).length;
-      const next = {
-        ArrowRight: here + 1, ArrowLeft: here - 1, ArrowDown: here + columns, ArrowUp: here - columns,
-        Home: 0, End: buttons.length - 1,
-      }[event.key];
-      if (next === undefined) return;
-      event.preventDefault();
-      event.stopPropagation();
-      buttons[Math.min(Math.max(next, 0), buttons.length - 1)].focus();
     },
   },
 };

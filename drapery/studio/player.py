@@ -4,7 +4,6 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
-from typing import Any
 
 from drapery import Settings
 from drapery.garments import Garment
@@ -81,9 +80,7 @@ class Player:
         self.show = show
         self._clip: Clip = replace(show.clip, size=_framed_size(size))
         self._prepared: Future[list[ViewerState]] | None = None
-        self._cache: list[ViewerState] | None = []
-        self._free = MAX_CACHED
-        self._counted: set[int] = set()
+        self._cache: list[ViewerState] = []
         self._starts = 0
         self._closed = threading.Event()
         self._upcoming: Iterator[ViewerState] = iter(())
@@ -138,48 +135,27 @@ class Player:
         self.step()
 
     def _restart(self) -> None:
-        whole = self._cache is not None and len(self._cache) == self._clip.count
-        self._upcoming = iter(self._cache or ()) if whole else self._simulated()
+        whole = len(self._cache) == self._clip.count
+        self._upcoming = iter(self._cache) if whole else self._simulated()
 
     def _simulated(self) -> Iterator[ViewerState]:
         """Simulate all moments; caches them unless they exceed the cache's limit."""
-        self._cache, self._free = ([], MAX_CACHED) if self._cache is not None else (None, 0)
-        self._counted = set()
+        self._cache = []
         for picture in self.show.play(self._clip, self._check_open):
             shown = shown_picture(picture)
-            self._add_to_cache(shown, picture)
+            if self._clip.count * _changing_bytes(picture) <= MAX_CACHED:
+                self._cache.append(shown)
             yield shown
 
-    def _add_to_cache(self, shown: ViewerState, picture: Picture) -> None:
-        if self._cache is None:
-            return
-        self._free -= self._new_bytes(picture)
-        self._cache.append(shown)
-        if self._free < 0:
-            self._cache = None
 
-    def _new_bytes(self, picture: Picture) -> int:
-        """The size of those arrays that no cached moment refers to yet [bytes]."""
-        total = 0
-        for array in _arrays(picture):
-            # An array keeps its identity while a cached moment holds it.
-            if id(array) not in self._counted:
-                self._counted.add(id(array))
-                total += array.nbytes
-        return total
-
-
-def _arrays(picture: Picture) -> Iterator[Any]:
+def _changing_bytes(picture: Picture) -> int:
+    """The size of what differs from moment to moment; textures are the same arrays [bytes]."""
     if isinstance(picture, PictureGrid):
-        for part in picture.pictures:
-            yield from _arrays(part)
-    elif isinstance(picture, Scene):
-        for model in picture.models:
-            mesh = model.mesh
-            yield from (mesh.positions, mesh.normals, mesh.triangles, mesh.uvs)
-            yield from (layer.texels for material in model.materials for layer in material.layers)
-    else:
-        yield picture.pixels
+        return sum(map(_changing_bytes, picture.pictures))
+    if isinstance(picture, Scene):
+        meshes = [model.mesh for model in picture.models]
+        return sum(mesh.positions.nbytes + mesh.normals.nbytes for mesh in meshes)
+    return picture.pixels.nbytes
 
 
 def _framed_size(size: tuple[int, int]) -> tuple[int, int]:

@@ -9,7 +9,7 @@ from typing import Any
 from drapery import Banner, DesignError, DraperyError, FoundBanner, Settings
 from drapery.banner import PATTERNS
 from drapery.packs import Packs, png_size, read_png
-from drapery.studio.art import thumbnail
+from drapery.studio.art import THUMBNAIL_SCALE, face_png
 from drapery.studio.share import as_tree, checked_title, of_tree
 from drapery.studio.sketch import Sketch, sketch_of
 
@@ -61,7 +61,8 @@ def tagged_designs(
         places.setdefault(each.banner, each.where)
     for banner, place in places.items():
         title = "".join(filter(str.isprintable, place))
-        yield checked(Design(sketch_of(banner, title), settings, (tag,), thumbnail(banner, packs)))
+        picture = face_png(banner, packs, THUMBNAIL_SCALE)
+        yield checked(Design(sketch_of(banner, title), settings, (tag,), picture))
 
 
 def tree_of(design: Design) -> str:

@@ -32,7 +32,7 @@ MEDIA_TYPES = {
 }
 
 CACHING = "private, max-age=3600"
-"""For pictures whose addresses change whenever their content does."""
+"""The addresses of pictures change whenever their content does."""
 
 Text = Annotated[str, Query(max_length=4000)]
 Scale = Annotated[int, Query(ge=1, le=8)]
@@ -57,29 +57,29 @@ SessionOf = Callable[[str], Session]
 
 
 def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
-    @app.get("/face/{token}.png")
-    def face(token: str, kind: Literal["banner", "shield"] | None = None) -> Response:
-        session = session_of(token)
-        shown = session.selection.shown_sketch
-        shown = replace(shown, kind=kind or shown.kind)
-        return _picture(session, lambda: face_png(banner_of(shown), session.packs()))
-
     @app.get("/design/{token}.png")
     def design(
-        token: str, design: Text, kind: Literal["banner", "shield"], scale: Scale
+        token: str, design: Text, kind: Literal["banner", "shield"], scale: Scale, pack: str = "now"
     ) -> Response:
         session = session_of(token)
 
         def draw() -> bytes:
             banner = replace(parse_banner(design, form="text"), kind=kind)
-            return face_png(banner, session.packs(), scale)
+            return face_png(banner, _packs(session, pack), scale)
 
-        return _picture(session, draw, CACHING)
+        return _picture(session, draw)
 
     @app.get("/patterns/{token}.png")
-    def patterns(token: str, base: str, dye: str) -> Response:
+    def patterns(
+        token: str, base: str, dye: str, rows: bool = False, pack: str = "now"
+    ) -> Response:
         session = session_of(token)
-        return _picture(session, lambda: pattern_sheet(session.packs(), base, dye), CACHING)
+
+        def draw() -> bytes:
+            sheet = pattern_sheet(_packs(session, pack), base, dye)
+            return pattern_rows(sheet) if rows else sheet
+
+        return _picture(session, draw)
 
     @app.get("/styles/{token}/{name}.png")
     def style(token: str, name: str) -> Response:
@@ -91,27 +91,12 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
         def draw() -> bytes:
             return style_png(banner, session.packs(), name, lambda: not session.closed)
 
-        return _picture(session, draw, CACHING)
-
-    @app.get("/compare/{token}/{pack}/{what}.png")
-    def compare(
-        token: str, pack: str, what: str, base: str = "white", dye: str = "black"
-    ) -> Response:
-        session = session_of(token)
-        if what == "face":
-            return _picture(
-                session, lambda: face_png(banner_of(session.sketch), _packs(session, pack))
-            )
-        if what == "patterns":
-            return _picture(
-                session, lambda: pattern_rows(pattern_sheet(_packs(session, pack), base, dye))
-            )
-        raise HTTPException(404, "no such picture")
+        return _picture(session, draw)
 
 
-def _picture(session: Session, draw: Callable[[], bytes], caching: str = "no-store") -> Response:
+def _picture(session: Session, draw: Callable[[], bytes]) -> Response:
     try:
-        return Response(draw(), media_type="image/png", headers={"Cache-Control": caching})
+        return Response(draw(), media_type="image/png", headers={"Cache-Control": CACHING})
     except DraperyError as error:
         raise HTTPException(422, session.pack_store.with_names(str(error))) from None
 
@@ -141,7 +126,7 @@ def _add_downloads(app: FastAPI, session_of: SessionOf) -> None:
     def library(token: str) -> Response:
         session = session_of(token)
         try:
-            data = session.library.open().dump()
+            data = session.library().dump()
         except DraperyError as error:
             raise HTTPException(409, str(error)) from None
         headers = _attachment("drapery-library.json")
@@ -169,14 +154,6 @@ def _add_uploads(app: FastAPI, session_of: SessionOf) -> None:
         except OSError as error:
             return _refusal(f"the file cannot be stored: {error.strerror}", 507)
         return JSONResponse({"number": upload.number})
-
-    @app.post("/designs/{token}")
-    async def designs(token: str, request: Request, name: str = "") -> Response:
-        try:
-            await session_of(token).upload_queue.receive(request.stream(), name)
-        except OSError as error:
-            return _refusal(f"the file cannot be stored: {error.strerror}", 507)
-        return Response(status_code=204)
 
 
 def _refusal(line: str, status: int) -> JSONResponse:

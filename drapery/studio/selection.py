@@ -1,7 +1,6 @@
 """What is chosen in the editor: a part of the design, and the dye for the next layer."""
 
 import secrets
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 from typing import Literal
@@ -35,13 +34,12 @@ class Selection:
 
     def __init__(self, document: Document) -> None:
         self._document = document
-        self._listeners: list[Callable[[], None]] = []
         self.chosen: Chosen = "field"
         self._base = document.sketch.base
         self.dye = visible_on(self._base, "black")
         self.swaps = False
         self.previewed = ""
-        document.listen("sketch", self._follow)
+        document.listen(self._follow, "sketch")
 
     @property
     def shown_dye(self) -> str:
@@ -59,10 +57,6 @@ class Selection:
         if not isinstance(self.chosen, int):
             return self.dye
         return self.shown_dye if self.swaps else visible_on(self._base, self.shown_dye)
-
-    def listen(self, call: Callable[[], None]) -> None:
-        """Call this whenever the choice changes, even if the design stays the same."""
-        self._listeners.append(call)
 
     def choose(self, chosen: Chosen) -> None:
         """Choose the field, a stroke or, with None, the next layer; choosing it again clears it."""
@@ -137,12 +131,8 @@ class Selection:
         sketch = self._document.sketch
         if what == "move":
             self._edit(edits.move(sketch, number, place))
-        elif what == "hide":
-            self._edit(edits.hide(sketch, number))
-        elif what == "duplicate":
-            self._edit(edits.duplicate(sketch, number))
-        elif what == "remove":
-            self._edit(edits.remove(sketch, number))
+        elif what in ("hide", "duplicate", "remove"):
+            self._edit(getattr(edits, what)(sketch, number))
 
     def act_on_chosen(self, what: str, step: int = 0) -> None:
         """Call `act` for the chosen stroke, if there is one. step: the number of places upwards."""
@@ -174,6 +164,5 @@ class Selection:
         self.notify()
 
     def notify(self) -> None:
-        """Call all listeners."""
-        for call in self._listeners:
-            call()
+        """Say that the choice may have changed, even if the design has stayed the same."""
+        self._document.notify("selection")

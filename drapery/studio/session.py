@@ -3,6 +3,7 @@
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from drapery import DesignError, Settings
 from drapery.studio.document import Document
@@ -12,11 +13,13 @@ from drapery.studio.kept_work import KeptWork, Work
 from drapery.studio.pack_store import PackStore
 from drapery.studio.selection import Selection
 from drapery.studio.share import SHARED, as_tree, read_link, with_shared
-from drapery.studio.shared_library import SharedLibrary
 from drapery.studio.sketch import Sketch
 from drapery.studio.upload_queue import UploadQueue
 from drapery.studio.uploads import Uploads
 from drapery.studio.viewport import Viewport
+
+if TYPE_CHECKING:
+    from drapery.studio.library import Library
 
 MAX_SESSIONS = 64
 """The most open tabs; more than a person needs."""
@@ -39,7 +42,8 @@ class StudioConfig:
 class Session(Document):
     """The document of one tab with everything that works on it.
 
-    library, slots: shared with the other tabs of the studio; if not given, the session makes them.
+    library: the file of saved designs; None means the user's. slots: shared with the other tabs of
+    the studio; if not given, the session makes them.
     entries: the number of each design's entry in the library, by the origin of its sketch.
     tags: the tags that the user gave a design, by the same. recent: the latest designs of the
     user's browser with their options, newest first. language: that of its page.
@@ -50,22 +54,31 @@ class Session(Document):
         settings: Settings | None = None,
         sketch: Sketch | None = None,
         *,
-        library: SharedLibrary | None = None,
+        library: Path | None = None,
         slots: ExportSlots | None = None,
     ) -> None:
         super().__init__(settings, sketch)
-        self.library = library or SharedLibrary(None)
+        self._library = library
         self.entries: dict[int, int] = {}
         self.tags: dict[int, str] = {}
         self.language = "en"
         self.recent: tuple[tuple[Sketch, Settings], ...] = ()
         self.selection = Selection(self)
         self.uploads = Uploads(self)
-        self.upload_queue = UploadQueue(self.uploads)
+        self.upload_queue = UploadQueue(self, self.uploads)
         self.pack_store = PackStore(self, self.uploads)
         self.garment_store = GarmentStore(self, self.uploads)
         self.exports = Exports(self, slots or ExportSlots())
         self.viewport = Viewport(self, self.pack_store)
+
+    def library(self) -> "Library":
+        """The saved designs, opened at first use: a database is slow to import. Raises OutputError.
+
+        All tabs and threads share it.
+        """
+        from drapery.studio.library import default_place, opened
+
+        return opened(self._library or default_place())
 
     @property
     def work(self) -> Work:
@@ -111,7 +124,6 @@ class Sessions:
 
     def __init__(self, config: StudioConfig | None = None) -> None:
         self.config = config or StudioConfig()
-        self._library = SharedLibrary(self.config.library)
         self._slots = ExportSlots()
         self._open: dict[str, Session] = {}
         self._kept = KeptWork()
@@ -128,7 +140,7 @@ class Sessions:
         while len(self._open) >= MAX_SESSIONS:
             next(iter(self._open.values())).close()
         session = Session(
-            settings or self.config.settings, sketch, library=self._library, slots=self._slots
+            settings or self.config.settings, sketch, library=self.config.library, slots=self._slots
         )
         self._open[session.token] = session
         session.on_close(lambda: self._open.pop(session.token, None))
@@ -142,8 +154,7 @@ class Sessions:
         """End the session of a page that is gone; keep its work if it has any."""
         has_packs = any(entry.upload for entry in session.pack_store.entries)
         if not session.closed and (session.history.past or has_packs):
-            with suppress(OSError):  # without its packs no page can go on from there
-                self._kept.add(session.token, session.work)
+            self._kept.add(session.token, session.work, session.take_folder())
         session.close()
 
     def prune(self) -> None:

@@ -2,7 +2,7 @@
 
 import random
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 from drapery import Banner, DesignError, Layer
 from drapery.banner import DYE_NAMES, LOOM_LAYERS, MAX_LAYERS, PATTERN_NAMES
@@ -77,23 +77,17 @@ def move(sketch: Sketch, number: int, place: int) -> Sketch:
 
 def recolour(sketch: Sketch, number: int, dye: str) -> Sketch:
     """Give a stroke another dye. Raises DesignError."""
-    place = place_of(sketch, number)
-    layer = Layer(sketch.strokes[place].pattern, dye)
-    return _changed(sketch, place, replace(sketch.strokes[place], dye=layer.dye))
+    return _changed(sketch, number, dye=dye)
 
 
 def repattern(sketch: Sketch, number: int, pattern: str) -> Sketch:
     """Give a stroke another pattern. Raises DesignError."""
-    place = place_of(sketch, number)
-    layer = Layer(pattern, sketch.strokes[place].dye)
-    return _changed(sketch, place, replace(sketch.strokes[place], pattern=layer.pattern))
+    return _changed(sketch, number, pattern=pattern)
 
 
 def hide(sketch: Sketch, number: int) -> Sketch:
     """Hide a stroke, or show a hidden one. Raises DesignError."""
-    place = place_of(sketch, number)
-    stroke = sketch.strokes[place]
-    return _changed(sketch, place, replace(stroke, hidden=not stroke.hidden))
+    return _changed(sketch, number, hidden=not sketch.strokes[place_of(sketch, number)].hidden)
 
 
 def remove(sketch: Sketch, number: int) -> Sketch:
@@ -141,6 +135,10 @@ def _insert(sketch: Sketch, place: int, pattern: str, dye: str, hidden: bool = F
     return replace(sketch, strokes=(*sketch.strokes[:place], stroke, *sketch.strokes[place:]))
 
 
-def _changed(sketch: Sketch, place: int, stroke: Stroke) -> Sketch:
+def _changed(sketch: Sketch, number: int, **changes: Any) -> Sketch:
+    place = place_of(sketch, number)
+    stroke = replace(sketch.strokes[place], **changes)
+    layer = Layer(stroke.pattern, stroke.dye)  # whose names are checked
+    stroke = replace(stroke, pattern=layer.pattern, dye=layer.dye)
     strokes = (*sketch.strokes[:place], stroke, *sketch.strokes[place + 1 :])
     return replace(sketch, strokes=strokes)

@@ -122,7 +122,7 @@ def _player_words(player: PlayerSettings, called: Mapping[str, str]) -> dict[str
     """The options of a player that differ from their default, with the user's names of files."""
     words = {name: getattr(player, name) for name in ("skin", "wear", "head", "shield")}
     words["skin"] = called.get(player.skin, player.skin)
-    words["wear"] = _Listed(_garment_name(each, called) for each in player.wear)
+    words["wear"] = [_garment_name(each, called) for each in player.wear]
     return {name: value for name, value in words.items() if value}
 
 
@@ -181,21 +181,25 @@ def as_python(
         return _scene_python(request, scene, stem)
     found, out = drawn_garment(request), _text(file_name(request, stem))
     banner = [] if found is None and request.banner is None else ["banner"]
-    named = _named(request, called or {})
-    names, lines = _PYTHON.get(request.kind, _loop)(request, banner, named, out)
+    settings = _keywords(_changed(request, called or {}))
+    named = [*_keywords(_timing(request)), *settings]
+    imported, line = _PYTHON["loop" if request.kind in LOOPS else request.kind]
+    subject = banner or ["None"]
+    words = {"drawn": banner + named, "model": [*subject, out, *named], "settings": settings}
+    joined = {name: ", ".join(each) for name, each in words.items()}
+    names, lines = imported.split(), [line.format(out=out, subject=subject[0], **joined)]
     if player := _player(request):
-        given = _player_words(player, called or {}).items()
-        words = ", ".join(f"{name}={_text(value)}" for name, value in given)
-        names = [*names, "drapery.garments.PlayerSettings", "drapery.garments.player_of"]
-        lines = [f"banner = player_of(PlayerSettings({words}))", *lines]
+        given = ", ".join(_keywords(_player_words(player, called or {})))
+        names += ["drapery.garments.PlayerSettings", "drapery.garments.player_of"]
+        lines = [f"banner = player_of(PlayerSettings({given}))", *lines]
     elif found is not None:
         design = _design_on(request, found)
         text = "" if design is None else f".with_design({_text(write_banner(design, 'text'))})"
-        names = [*names, "drapery.garments.find_garment"]
+        names += ["drapery.garments.find_garment"]
         name = _garment_name(str(request.garment), called or {})
         lines = [f"banner = find_garment({_text(name)}){text}", *lines]
     elif request.banner is not None:
-        names = [*names, "drapery.Banner"]
+        names += ["drapery.Banner"]
         text = _text(write_banner(request.banner, "text"))
         lines = [f"banner = Banner.parse({text})", *lines]
     return "\n".join([*_imports(names), "", *lines, ""])
@@ -317,22 +321,14 @@ def _quoted(word: str) -> str:
 
 def _text(value: object) -> str:
     """The value as Python code; strings have double quotes."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(_text, value))}]"
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)
 
 
-def _named(request: ExportRequest, called: Mapping[str, str]) -> list[str]:
+def _keywords(values: Mapping[str, Any]) -> list[str]:
     """Keyword arguments as Python code, for example `view="iso"`."""
-    changed = _changed(request, called)
-    if "packs" in changed:
-        changed["packs"] = _Listed(changed["packs"])
-    return [f"{name}={_text(value)}" for name, value in changed.items()]
-
-
-class _Listed(list[str]):
-    """A list whose representation has its strings in double quotes."""
-
-    def __repr__(self) -> str:
-        return f"[{', '.join(map(_text, self))}]"
+    return [f"{name}={_text(value)}" for name, value in values.items()]
 
 
 def _imports(names: list[str]) -> list[str]:
@@ -344,45 +340,18 @@ def _imports(names: list[str]) -> list[str]:
     return [f"from {module} import {', '.join(modules[module])}" for module in modules]
 
 
-_Code = tuple[list[str], list[str]]
-"""The full names to import, and the lines that use them."""
-
-
-def _still(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
-    return ["drapery.draw"], [f"{_call('draw', banner, named)}.save({out})"]
-
-
-def _loop(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
-    return ["drapery.animate"], [f"{_call('animate', banner, _times(request) + named)}.save({out})"]
-
-
-def _face(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
-    drawn = _call("draw_face", banner, _times(request) + named)
-    return ["drapery.draw_face"], [f"{drawn}.save({out})"]
-
-
-def _design(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
-    names = ["drapery.banner.write_banner", "pathlib.Path"]
-    return names, [f'Path({out}).write_text(write_banner(banner) + "\\n")']
-
-
-def _model(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
-    arguments = [*(banner or ["None"]), out]
-    return ["drapery.save_model"], [_call("save_model", arguments, _times(request) + named)]
-
-
-def _times(request: ExportRequest) -> list[str]:
-    return [f"{name}={_text(value)}" for name, value in _timing(request).items()]
-
-
-def _call(function: str, arguments: list[str], named: list[str]) -> str:
-    return f"{function}({', '.join([*arguments, *named])})"
-
-
-def _page(request: ExportRequest, banner: list[str], named: list[str], out: str) -> _Code:
-    settings = f"Settings({', '.join(named)})"
-    lines = [f"write_page(Path({out}), {banner[0] if banner else None}, {settings})"]
-    return ["pathlib.Path", "drapery.Settings", "drapery.web.page.write_page"], lines
-
-
-_PYTHON = {"png": _still, "face": _face, "glb": _model, "html": _page, "json": _design}
+_PYTHON = {
+    "png": ("drapery.draw", "draw({drawn}).save({out})"),
+    "loop": ("drapery.animate", "animate({drawn}).save({out})"),
+    "face": ("drapery.draw_face", "draw_face({drawn}).save({out})"),
+    "glb": ("drapery.save_model", "save_model({model})"),
+    "html": (
+        "pathlib.Path drapery.Settings drapery.web.page.write_page",
+        "write_page(Path({out}), {subject}, Settings({settings}))",
+    ),
+    "json": (
+        "drapery.banner.write_banner pathlib.Path",
+        'Path({out}).write_text(write_banner(banner) + "\\n")',
+    ),
+}
+"""What each kind of file imports, and the line that writes it."""

@@ -8,7 +8,6 @@ JSON object; the server closes the connection if a message is not valid.
 import asyncio
 import json
 import math
-from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -49,9 +48,10 @@ class ViewerConnection:
     def receive(self, message: dict[str, Any]) -> None:
         """Handle one message of the viewer. Raises ValueError if it is not valid."""
         for name, value in message.items():
-            if name not in _HANDLERS:
+            handle = getattr(self, f"on_{name}", None)
+            if handle is None:
                 raise ValueError(name)
-            _HANDLERS[name](self, value)
+            handle(value)
         self._ready.set()
 
     async def send_moments(self, socket: WebSocket) -> None:
@@ -94,7 +94,7 @@ class ViewerConnection:
             self.viewport.fault = str(error)
             return []
 
-    def _drawn(self, value: Any) -> None:
+    def on_drawn(self, value: Any) -> None:
         self.drawn = min(self.sent, self.drawn + int(_number(value, 0, 16)))
 
     def leave(self) -> None:
@@ -103,50 +103,38 @@ class ViewerConnection:
             self.viewport.leave()
         self.hidden = True
 
-    def _hide(self, value: Any) -> None:
+    def on_hidden(self, value: Any) -> None:
         if value and not self.hidden:
             self.viewport.leave()
         elif self.hidden and not value:
             self.viewport.enter()
         self.hidden = bool(value)
 
-    def _shape(self, value: Any) -> None:
+    def on_shape(self, value: Any) -> None:
         columns, rows = (int(_number(side, 1, 16384)) for side in _list(value, 2))
         self.viewport.size = columns, rows
         self.encoder.reframe((columns, rows))
         self._shaped = True
         self.viewport.do(lambda live: None)  # draws it again, even while it is paused
 
-    def _press(self, value: Any) -> None:
+    def on_keys(self, value: Any) -> None:
         keys, azimuth = _list(value, 2)
         held = tuple(key for key in KEYS if key in str(keys))
         self.viewport.press(held, _number(azimuth, -1e4, 1e4))
 
-    def _switch(self, value: Any) -> None:
+    def on_switch(self, value: Any) -> None:
         self.viewport.switch()
 
-    def _grab(self, value: Any) -> None:
+    def on_grab(self, value: Any) -> None:
         ray = _ray(value)
         self.viewport.do(lambda live: live.grab(ray))
 
-    def _pull(self, value: Any) -> None:
+    def on_pull(self, value: Any) -> None:
         ray = _ray(value)
         self.viewport.do(lambda live: live.pull(ray))
 
-    def _drop(self, value: Any) -> None:
+    def on_drop(self, value: Any) -> None:
         self.viewport.do(lambda live: live.release())
-
-
-_HANDLERS: dict[str, Callable[[ViewerConnection, Any], None]] = {
-    "drawn": ViewerConnection._drawn,
-    "hidden": ViewerConnection._hide,
-    "shape": ViewerConnection._shape,
-    "keys": ViewerConnection._press,
-    "switch": ViewerConnection._switch,
-    "grab": ViewerConnection._grab,
-    "pull": ViewerConnection._pull,
-    "drop": ViewerConnection._drop,
-}
 
 
 def add_routes(app: FastAPI, sessions: Sessions) -> None:

@@ -11,26 +11,35 @@ const studio = (window.studio = {
   writeAddress,
 });
 
+// What this browser remembers. Without storage, it lasts as long as the page.
+const store = {
+  get(name) {
+    try {
+      return JSON.parse(localStorage.getItem(`drapery-${name}`));
+    } catch {
+      return null;
+    }
+  },
+  set(name, value) {
+    try {
+      localStorage.setItem(`drapery-${name}`, JSON.stringify(value));
+    } catch {
+      // There is no storage, or it is full.
+    }
+  },
+};
+
 // The latest designs of this browser, so that a closed tab loses none. name: one for each design.
-const RECENT = "drapery-recent";
 const MAX_RECENT = 12;
 
 function recent() {
-  try {
-    const found = JSON.parse(localStorage.getItem(RECENT));
-    return Array.isArray(found) ? found : [];
-  } catch {
-    return [];
-  }
+  const found = store.get("recent");
+  return Array.isArray(found) ? found : [];
 }
 
 function remember(name, link) {
   const others = recent().filter((each) => each.name !== name && each.link !== link);
-  try {
-    localStorage.setItem(RECENT, JSON.stringify([{ name, link }, ...others].slice(0, MAX_RECENT)));
-  } catch {
-    // Without storage there are none.
-  }
+  store.set("recent", [{ name, link }, ...others].slice(0, MAX_RECENT));
 }
 
 // The design in the address. Browsers limit the changes per second, so repeat the last one later.
@@ -67,19 +76,11 @@ WIDE.addEventListener("change", () => {
   if (!chosen?.offsetParent && visibleTabs().length) tab(visibleTabs()[0].dataset.panel);
 });
 
-// Theme: follows the system until the user chooses one.
-function theme(choice) {
-  window.Quasar?.Dark.set(choice === "dark" ? true : choice === "light" ? false : "auto");
-}
-
+// The theme follows the system until the user chooses one.
 function toggleTheme() {
-  const choice = document.body.classList.contains("body--dark") ? "light" : "dark";
-  try {
-    localStorage.setItem("drapery-theme", choice);
-  } catch {
-    // Without storage the choice lasts as long as the page.
-  }
-  theme(choice);
+  const isDark = !document.body.classList.contains("body--dark");
+  store.set("dark", isDark);
+  window.Quasar.Dark.set(isDark);
 }
 
 // Copying. Browsers provide the clipboard only over https or on localhost.
@@ -138,14 +139,20 @@ window.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 
+// Arrow keys walk among tabs, dyes and patterns. The next tab or dye is also chosen.
 document.addEventListener("keydown", (event) => {
-  const here = event.target.closest?.(".tab");
-  const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 1, ArrowUp: -1 }[event.key];
-  if (!here || !step) return;
-  const tabs = visibleTabs();
-  const next = tabs[(tabs.indexOf(here) + step + tabs.length) % tabs.length];
-  tab(next.dataset.panel);
-  next.focus();
+  const here = event.target.closest?.(".tab, .dye, .pattern");
+  if (!here || event.altKey || event.ctrlKey || event.metaKey) return;
+  const all = [...here.parentElement.children].filter((each) => each.offsetParent);
+  const columns = all.filter((each) => each.offsetTop === all[0].offsetTop).length;
+  const at = all.indexOf(here), last = all.length - 1;
+  const next = {
+    ArrowRight: at + 1, ArrowLeft: at - 1, ArrowDown: at + columns, ArrowUp: at - columns, Home: 0, End: last,
+  }[event.key];
+  if (next === undefined) return;
+  const found = all[next > last ? 0 : next < 0 ? last : next];
+  found.focus();
+  if (!found.matches(".pattern")) found.click();
   event.preventDefault();
   event.stopPropagation();
 });
@@ -160,27 +167,15 @@ document.addEventListener("click", (event) => {
   else if (pressed("#shortcuts .button") || event.target.id === "shortcuts") document.getElementById("shortcuts").close();
 });
 
-// A design pasted anywhere, or dropped as a file.
+// A design pasted anywhere.
 document.addEventListener("paste", (event) => {
   if (typing(event.target)) return;
   const text = event.clipboardData.getData("text/plain");
   if (text.trim()) root()?.dispatchEvent(new CustomEvent("pasted", { detail: text }));
 });
 
-async function send(file) {
-  const response = await fetch(`/designs/${root().dataset.token}?name=${encodeURIComponent(file.name.slice(-80))}`, { method: "POST", body: file });
-  if (!response.ok) throw new Error(await response.text());
-}
-
-studio.readFile = async (file) => {
-  try {
-    await send(file);
-  } catch {
-    window.Quasar?.Notify.create({ type: "negative", position: "bottom", message: `${file.name}: it could not be sent; check that the studio is running` });
-  }
-};
-
-const hasOwnField = (event) => event.target.closest?.(".file-field, .q-uploader");
+// Files may be dropped anywhere: their fields take them.
+const hasOwnField = (event) => event.target.closest?.(".file-field");
 const holdsFiles = (event) => event.dataTransfer?.types.includes("Files");
 
 document.addEventListener("dragover", (event) => {
@@ -191,31 +186,18 @@ document.addEventListener("dragover", (event) => {
 document.addEventListener("dragleave", (event) => {
   if (!event.relatedTarget) document.body.classList.remove("dropping");
 });
-document.addEventListener("drop", (event) => {
+window.addEventListener("drop", (event) => {
   document.body.classList.remove("dropping");
-  if (!holdsFiles(event) || hasOwnField(event)) return;
-  event.preventDefault();
-  const file = event.dataTransfer.files[0];
-  if (file) studio.readFile(file);
-});
-document.addEventListener("change", (event) => {
-  if (event.target.id !== "design-file" || !event.target.files[0]) return;
-  studio.readFile(event.target.files[0]);
-  event.target.value = "";
-});
+  if (holdsFiles(event)) event.preventDefault();
+}, true);
 
 // Wait for the page's elements: they are created shortly after this script runs.
 new MutationObserver((_, observer) => {
   if (!root() || !window.Quasar) return;
   observer.disconnect();
   if (root().dataset.language !== "en") document.documentElement.lang = root().dataset.language;
-  let stored = null;
-  try {
-    stored = localStorage.getItem("drapery-theme");
-  } catch {
-    // Without storage the system's theme is used.
-  }
-  if (stored) setTimeout(() => theme(stored));
+  const isDark = store.get("dark");
+  if (isDark !== null) setTimeout(() => window.Quasar.Dark.set(isDark));
   resume();
 }).observe(document.documentElement, { childList: true, subtree: true });
 

@@ -1,14 +1,14 @@
 """Designs that come from outside: pasted text, and files dropped on the page."""
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 from starlette.concurrency import run_in_threadpool
 
-from drapery import DesignError, DraperyError, FoundBanner, parse_banners, read_designs
+from drapery import DraperyError, FoundBanner, parse_banners, read_designs
+from drapery.studio.document import Document
 from drapery.studio.item_names import item_name
-from drapery.studio.uploads import Uploads, shown_name
+from drapery.studio.uploads import Uploads
 from drapery.studio.warning_log import collected_warnings
 
 MAX_FOUND = 200
@@ -26,7 +26,8 @@ class UploadQueue:
     title: the name of the item in a text, or "".
     """
 
-    def __init__(self, uploads: Uploads) -> None:
+    def __init__(self, document: Document, uploads: Uploads) -> None:
+        self._document = document
         self.found: tuple[FoundBanner, ...] = ()
         self.line = ""
         self.notes: tuple[str, ...] = ()
@@ -34,30 +35,19 @@ class UploadQueue:
         self.beside = False
         self.title = ""
         self._uploads = uploads
-        self._listeners: list[Callable[[], None]] = []
-
-    def listen(self, call: Callable[[], None]) -> None:
-        """Call this whenever something has been read."""
-        self._listeners.append(call)
 
     def read_text(self, text: str, *, beside: bool = False) -> None:
         """Read a text in any form; the text is never used as the path of a file."""
         self._finish("", *_read(lambda: parse_banners(text)), beside=beside, title=item_name(text))
 
-    async def receive(self, chunks: AsyncIterator[bytes], name: str) -> None:
-        """Read a file that the page sends under a name. Raises OSError if it cannot be stored."""
+    async def read_file(self, number: int) -> None:
+        """Read an uploaded file and remove it. Raises DesignError if there is none."""
+        upload = self._uploads.get(number, "design")
+        path, name = upload.path, upload.name
         try:
-            upload = await self._uploads.receive(chunks, "design", name)
-        except DesignError as error:
-            self._finish(shown_name(name), [], str(error), [])
-            return
-        try:
-            await self._read_file(upload.path, upload.name)
+            found, line, notes = await run_in_threadpool(_read, lambda: read_designs(path))
         finally:
-            self._uploads.remove(upload.number)
-
-    async def _read_file(self, path: Path, name: str) -> None:
-        found, line, notes = await run_in_threadpool(_read, lambda: read_designs(path))
+            self._uploads.remove(number)
         found = [replace(each, where=each.where.replace(path.name, name)) for each in found]
         self._finish(name, found, line.replace(str(path), name).replace(path.name, name), notes)
 
@@ -74,8 +64,7 @@ class UploadQueue:
         self.found, self.line, self.name = tuple(found), line, name
         self.title = title
         self.notes, self.beside = tuple(notes[:MAX_NOTES]), beside
-        for call in self._listeners:
-            call()
+        self._document.notify("read")
 
 
 def _read(read: Callable[[], list[FoundBanner]]) -> tuple[list[FoundBanner], str, list[str]]:

@@ -92,7 +92,6 @@ class Viewport:
         self._player: Player | None = None
         self._played: object = None  # what the player shows
         self._inputs: list[Input] = []
-        self._listeners: list[Callable[[], None]] = []
         self._stale = True
         self._keys: tuple[str, ...] = ()
         self._paused = False
@@ -104,8 +103,7 @@ class Viewport:
         self._swapping = threading.Lock()  # guards what both the event loop and the thread change
         self._picture: tuple[int, ViewerState | None] = (-1, None)
         self._beside: tuple[object, Packs] | None = None
-        for event in ("sketch", "settings", "packs"):
-            document.listen(event, self._mark_stale)
+        document.listen(self._mark_stale, "sketch", "settings", "packs")
         document.on_close(self.close)
 
     def update(self, **options: Any) -> None:
@@ -125,10 +123,6 @@ class Viewport:
             self._wake()
         if after != before:
             self._document.notify("scene")
-
-    def listen(self, call: Callable[[], None]) -> None:
-        """Call this whenever keys have changed the request, or a fault appears or disappears."""
-        self._listeners.append(call)
 
     def do(self, call: Input) -> None:
         """Queue an input; it is called before the next tick."""
@@ -173,7 +167,6 @@ class Viewport:
         self._wake()
         self._leave_player()
         self._live = None
-        self._listeners.clear()
 
     @property
     def moving(self) -> bool:
@@ -243,9 +236,8 @@ class Viewport:
             self.version += 1
 
     def _notify(self) -> None:
-        for call in [*self._listeners]:
-            with suppress(Exception):
-                call()
+        with suppress(Exception):
+            self._document.notify("steered")
 
     async def _run(self) -> None:
         try:

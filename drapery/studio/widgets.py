@@ -11,21 +11,29 @@ from drapery.studio.translation import translated
 Press = Callable[[], object]
 
 
-def button(label: str, press: Press, *, icon: str = "", text: str = "", key: str = "") -> Element:
+def button(
+    label: str, press: Press | None = None, *, icon: str = "", text: str = "", key: str = ""
+) -> Element:
     """A button. label: its accessible name; icon, text: what it shows; key: its shortcut.
 
-    Label and text are translated.
+    press: None for a button that `studio.js` serves. Label and text are translated.
     """
     label = translated(label)
-    element = ui.element("button").classes("button")
-    element.props("type=button")
+    element = ui.element("button").classes("button").props("type=button")
     element.props.update({"aria-label": label, "title": f"{label} ({key})" if key else label})
     with element:
         if icon:
             ui.icon(icon).props("aria-hidden=true")
         if text:
             translated_text(text)
-    return element.on("click", lambda: press())
+    return element if press is None else element.on("click", lambda: press())
+
+
+def set_props(element: Element, props: Mapping[str, Any]) -> None:
+    """Set properties of an element; it is only sent if one of them has changed."""
+    if any(element.props.get(name) != value for name, value in props.items()):
+        element.props.update(props)
+        element.update()
 
 
 def text_element(text: str, tag: str = "span") -> ui.label:
@@ -69,10 +77,8 @@ class SegmentedControl:
                 element.on("click", lambda name=name: choose(name))
                 self._buttons[name] = element
 
-    def show(self, chosen: str) -> None:
-        """Mark the chosen button."""
+    def show(self, chosen: str, *, enabled: bool = True) -> None:
+        """Mark the chosen button. enabled: whether another one can be pressed."""
         for name, element in self._buttons.items():
-            pressed = "true" if name == chosen else "false"
-            if element.props.get("aria-pressed") != pressed:
-                element.props["aria-pressed"] = pressed
-                element.update()
+            pressed = str(name == chosen).lower()
+            set_props(element, {"aria-pressed": pressed, "disabled": not enabled})

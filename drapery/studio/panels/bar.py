@@ -3,7 +3,6 @@
 import secrets
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from nicegui import ui
 
@@ -12,7 +11,7 @@ from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, Sketch, clear, random_sketch
 from drapery.studio.translation import translated
-from drapery.studio.widgets import SegmentedControl, button, text_element
+from drapery.studio.widgets import SegmentedControl, button, set_props, text_element
 
 _KINDS = {"banner": "Banner", "shield": "Shield"}
 _MODES = {"survival": "Survival", "commands": "Commands"}
@@ -39,33 +38,23 @@ def build(session: Session) -> None:
     kind = SegmentedControl("Banner or shield", _KINDS, choose_kind)
     mode = SegmentedControl("Layers allowed", _MODES, lambda name: set_mode(session, name))
     ui.element("div").classes("gap")
-    button("Light or dark", lambda: None, icon="contrast").classes("theme")
-    button("Keyboard shortcuts", lambda: None, icon="keyboard", key="?").classes("help")
+    button("Light or dark", icon="contrast").classes("theme")
+    button("Keyboard shortcuts", icon="keyboard", key="?").classes("help")
 
     def show() -> None:
         for element, there in ((undo, session.history.past), (redo, session.history.future)):
-            element.props["disabled"] = not there
-            element.update()
+            set_props(element, {"disabled": not there})
         kind.show(session.sketch.kind)
         mode.show("survival" if session.survival else "commands")
 
-    show()
-    session.selection.listen(show)
+    session.follow(show, "selection")
 
 
 def _title(session: Session) -> None:
-    def name(title: Any) -> None:
-        session.edit(replace(session.sketch, title=str(title)[:MAX_TITLE]))
-
-    field = FormField("text", lambda: session.sketch.title, name).classes("field title")
-    field.props.update(
-        {
-            "placeholder": translated("Untitled"),
-            "aria-label": translated("Title of the design"),
-            "maxlength": MAX_TITLE,
-        }
-    )
-    session.listen("sketch", field.refresh)
+    field = FormField("text", lambda: session.sketch.title, session.name).classes("field title")
+    title, untitled = translated("Title of the design"), translated("Untitled")
+    field.props.update({"placeholder": untitled, "aria-label": title, "maxlength": MAX_TITLE})
+    session.listen(field.refresh, "sketch")
 
 
 def start_anew(session: Session) -> None:

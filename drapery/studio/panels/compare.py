@@ -1,20 +1,16 @@
 """Two designs, one over the other, with a slider between them."""
 
-from itertools import count
-
 from nicegui import ui
 
 from drapery.studio.art import face_address
 from drapery.studio.descriptions import described
-from drapery.studio.form_field import FormField
 from drapery.studio.notices import errors_shown
+from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import Sketch, banner_of
 from drapery.studio.translation import translated
 from drapery.studio.widgets import button, translated_text, versus_slider
 
-SCALE = 8
-"""Pixels of a texel."""
 MAX_STEPS = 24
 """The most designs of the history that can be chosen."""
 
@@ -22,7 +18,6 @@ MAX_STEPS = 24
 def build(session: Session) -> None:
     """The choice of the other design, among those of the history, and the slider."""
     kept: Sketch | None = None
-    version = count()
     translated_text("Compare designs", "h2").classes("heading")
     translated_text(
         "Keep the design as it is now, or choose an earlier one. Then edit, or open another design:"
@@ -55,9 +50,7 @@ def build(session: Session) -> None:
 
     with ui.element("div").classes("line"):
         button("Keep this design to compare with", keep, icon="push_pin", text="Keep this design")
-    with ui.element("label").classes("option"):
-        translated_text("Compare with")
-        field = FormField("select", current, choose).classes("field")
+    field = Fields(session).choice("Compare with", {}, current, choose)
     place = ui.element("div")
 
     def show() -> None:
@@ -66,13 +59,10 @@ def build(session: Session) -> None:
         if kept is None:
             return
         with place, errors_shown():
-            other = face_address(session, banner_of(kept), SCALE)
-            now = f"/face/{session.token}.png?kind={session.sketch.kind}&v=c{next(version)}"
+            now, other = (face_address(session, banner_of(each)) for each in (session.sketch, kept))
             versus_slider(now, other, described(kept))
 
-    show()
-    session.listen("sketch", show)
-    session.listen("packs", show)
+    session.follow(show, "sketch", "packs")
 
 
 def _title(name: str, sketch: Sketch) -> str:

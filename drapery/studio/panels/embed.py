@@ -24,7 +24,7 @@ MAX_ADDRESS = 300
 def build(session: Session) -> None:
     """Where the user's page and server are, and what to copy."""
     places = EmbedPlaces()
-    fields = Fields()
+    fields = Fields(session)
 
     def field(label: str, name: str) -> None:
         def change(text: object) -> None:
@@ -63,6 +63,4 @@ def build(session: Session) -> None:
         address(picture_address(places, banner, settings))
         picture(picture_tag(places, banner, settings))
 
-    show()
-    session.listen("sketch", show)
-    session.listen("settings", show)
+    session.follow(show, "sketch", "settings")

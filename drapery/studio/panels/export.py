@@ -6,7 +6,6 @@ from dataclasses import replace
 from nicegui import ui
 
 from drapery import DraperyError
-from drapery.studio.document import Event
 from drapery.studio.exports import Export, stem_of
 from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.panels.fields import copy_field
@@ -19,7 +18,6 @@ from drapery.studio.widgets import button, text_element, translated_text
 
 TICK = 0.15
 """How often progress is shown [s]."""
-_CHANGES: tuple[Event, ...] = ("sketch", "settings", "packs", "scene")
 
 
 def build(session: Session) -> None:
@@ -35,35 +33,9 @@ def build(session: Session) -> None:
         fit()
         copy()
 
-    show()
     choice.changed.append(show)
-    session.listen("sketch", copy)
-    session.listen("settings", show)
-    session.listen("packs", copy)
-    session.listen("scene", show)
-
-
-class _ProgressRow:
-    """The progress of an export, and a button that stops it."""
-
-    def __init__(self, stop: Callable[[], None]) -> None:
-        with ui.element("div").classes("going") as self._row:
-            self._bar = ui.element("progress").props("max=1")
-            self._bar.props["aria-label"] = translated("Progress")
-            self._words = text_element("").classes("hint").props("role=status")
-            button("Stop the export", stop, text="Cancel")
-        self.hide()
-
-    def hide(self) -> None:
-        self._row.set_visibility(False)
-
-    def show(self, work: Export) -> None:
-        self._row.set_visibility(True)
-        self._bar.props["value"] = work.done / work.total
-        self._bar.update()
-        still = translated("drawing" if work.total == 1 else "moving the cloth")
-        frames = translated("{done} of {total} frames").format(done=work.done, total=work.total)
-        self._words.set_text(frames if work.done else still)
+    session.listen(copy, "sketch", "packs")
+    session.follow(show, "settings", "scene")
 
 
 class _ExportForm:
@@ -78,10 +50,14 @@ class _ExportForm:
             self._link = text_element("", "a").classes("export-link").props("download")
         self._link.set_visibility(False)
         self._warnings = ui.element("div").props("role=status")
-        self._progress = _ProgressRow(self._stop)
+        with ui.element("div").classes("going") as self._going:
+            self._bar = ui.element("progress").props("max=1")
+            self._bar.props["aria-label"] = translated("Progress")
+            self._words = text_element("").classes("hint").props("role=status")
+            button("Stop the export", self._stop, text="Cancel")
+        self._going.set_visibility(False)
         self._timer = ui.timer(TICK, self._follow, active=False)
-        for event in _CHANGES:
-            session.listen(event, self._hide_stale)
+        session.listen(self._hide_stale, "sketch", "settings", "packs", "scene")
         choice.changed.append(self._hide_stale)
 
     def _start(self) -> None:
@@ -120,13 +96,21 @@ class _ExportForm:
 
     def _follow(self) -> None:
         work = self._own.current
-        if work is not None and work.state == "running":
-            self._progress.show(work)
+        runs = work is not None and work.state == "running"
+        self._going.set_visibility(runs)
+        if work is not None and runs:
+            self._show_progress(work)
             return
-        self._progress.hide()
         self._timer.deactivate()
         if work is not None:
             self._finish(work)
+
+    def _show_progress(self, work: Export) -> None:
+        self._bar.props["value"] = work.done / work.total
+        self._bar.update()
+        still = translated("drawing" if work.total == 1 else "moving the cloth")
+        frames = translated("{done} of {total} frames").format(done=work.done, total=work.total)
+        self._words.set_text(frames if work.done else still)
 
     def _finish(self, work: Export) -> None:
         if work.state == "failed":

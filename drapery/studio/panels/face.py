@@ -1,18 +1,19 @@
 """The flat face: the design as banner websites show it, on a banner and on a shield."""
 
-from itertools import count
+from dataclasses import replace
 
 from nicegui import ui
 
+from drapery.studio.art import face_address
 from drapery.studio.descriptions import described
 from drapery.studio.selection import OTHER_KIND
 from drapery.studio.session import Session
-from drapery.studio.widgets import button, text_element
+from drapery.studio.sketch import banner_of
+from drapery.studio.widgets import button, set_props, text_element
 
 
 def build(session: Session) -> None:
     """The picture, which follows the design and the packs, and a small one of the other kind."""
-    version = count()
     picture = ui.element("img").classes("face")
     switch = button("Banner or shield", session.selection.switch_kind, key="B").classes(
         "face-other"
@@ -23,21 +24,15 @@ def build(session: Session) -> None:
     announced = text_element("").classes("sr").props("role=status")
 
     def show_picture() -> None:
-        # Each state has a new address, so the browser cannot show an old picture from its cache.
-        mark = next(version)
-        sketch = session.sketch
-        for element, kind in ((picture, sketch.kind), (other, OTHER_KIND[sketch.kind])):
-            element.props["src"] = f"/face/{session.token}.png?kind={kind}&v={mark}"
-            element.props["data-kind"] = kind
-        picture.props["alt"] = described(sketch)
-        for element in (picture, other):
-            element.update()
+        shown = session.selection.shown_sketch
+        set_props(picture, {"alt": described(session.sketch)})
+        for element, kind in ((picture, shown.kind), (other, OTHER_KIND[shown.kind])):
+            address = face_address(session, banner_of(replace(shown, kind=kind)))
+            set_props(element, {"src": address, "data-kind": kind})
 
     def show() -> None:
         show_picture()
         announced.set_text(described(session.sketch))
 
-    show()
-    session.listen("sketch", show)
-    session.listen("packs", show)
-    session.listen("preview", show_picture)
+    session.follow(show, "sketch", "packs")
+    session.listen(show_picture, "preview")

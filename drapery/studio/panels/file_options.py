@@ -1,18 +1,17 @@
 """The options of an export: the kind of file, and the options that this kind has."""
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Container
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
 from nicegui import ui
-from nicegui.element import Element
 
 from drapery.option import Option
 from drapery.settings import LOOP_OPTIONS, OPTIONS
 from drapery.studio.chosen_scene import scene_choice
-from drapery.studio.descriptions import view_title
+from drapery.studio.descriptions import choice_titles, view_title
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
@@ -81,33 +80,44 @@ BY_VIEW = {"": "by the view"}
 BLOCKS = ("none", "grass", "stone", "stone_bricks", "oak_planks", "sand")
 """Blocks of our own art that the page offers as ground."""
 
-Groups = list[tuple[Element, Callable[[], bool]]]
-
 
 def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
     """The kind of file and the options of this kind; returns a callable that updates them."""
-    fields, groups = Fields(), Groups()
+    fields = Fields(session)
+
+    def only(kinds: Container[str]) -> AbstractContextManager[None]:
+        return fields.only(lambda: choice.kind in kinds)
+
+    def number(label: str, option: Option) -> None:
+        """A number that affects only the file."""
+        get = partial(getattr, choice, option.name)
+        fields.number(label, option, get, lambda number: choice.set(**{option.name: number}))
+
     with ui.element("div").classes("options"):
         fields.choice("File", KINDS, lambda: choice.kind, lambda kind: choice.set(kind=kind))
-        with _only(groups, lambda: choice.kind in PICTURES | {"html"}):
+        with only(PICTURES | {"html"}):
             _sides(session, fields)
-        with _only(groups, lambda: choice.kind in MOVING):
-            _times(choice, fields)
-        with _only(groups, lambda: choice.kind in LOOPS and _can_turn(session)):
-            _tick(session, fields, "Turntable", "turntable")
-        with _only(groups, lambda: choice.kind == "face"):
-            _choice_number(fields, "Pixels a texel", choice, SCALE)
-        with _only(groups, lambda: choice.kind in PICTURES | {"glb", "html"}):
+        with only(MOVING):
+            number("Seconds", LOOP_OPTIONS["seconds"])
+            number("Frames/s", LOOP_OPTIONS["fps"])
+        with fields.only(lambda: choice.kind in LOOPS and _can_turn(session)):
+            fields.option("turntable", "Turntable")
+        with only("face"):
+            number("Pixels a texel", SCALE)
+        with only(PICTURES | {"glb", "html"}):
             views = {str(name): view_title(str(name)) for name in OPTIONS["view"].choices}
-            _pick(session, fields, "View", "view", views)
-            _number(session, fields, "Gusts (seed)", "seed")
-        with _only(groups, lambda: choice.kind == "png"):
-            _number(session, fields, "Seconds in the wind", "time")
-        with _only(groups, lambda: choice.kind in PICTURES):
-            samples = {str(name): str(name) for name in OPTIONS["samples"].choices}
-            _pick(session, fields, "Samples a pixel", "samples", BY_VIEW | samples)
-            _number(session, fields, "Enlarge pixels by", "pixel")
-        _ground(session, choice, fields, groups)
+            fields.option("view", "View", views)
+            fields.option("seed", "Gusts (seed)")
+        with only("png"):
+            fields.option("time", "Seconds in the wind")
+        with only(PICTURES):
+            fields.option("samples", "Samples a pixel", _by_view("samples"))
+            fields.option("pixel", "Enlarge pixels by")
+            _background(session, choice, fields)
+            grounds = {name: name.replace("_", " ") for name in BLOCKS}
+            fields.option("ground", "Ground", BY_VIEW | grounds)
+            fields.option("light", "Light", _by_view("light"))
+            fields.option("shadow", "Shadow")
 
     hint = text_element("", "p").classes("hint")
     differs = text_element("", "p").classes("warning")
@@ -115,66 +125,24 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
     def fit() -> None:
         fields.refresh()
         hint.set_text(translated(HINTS.get(choice.kind, "")))
-        line = difference(session.viewport.request, choice.kind)
-        differs.set_text(translated(line))
-        differs.set_visibility(bool(line))
-        for group, counts in groups:
-            group.set_visibility(counts())
+        differs.set_text(translated(difference(session.viewport.request, choice.kind)))
+        differs.set_visibility(bool(differs.text))
 
     return fit
 
 
-@contextmanager
-def _only(groups: Groups, counts: Callable[[], bool]) -> Iterator[None]:
-    """Within the block, add options that are visible only while `counts` returns true."""
-    with ui.element("div").classes("option-group") as group:
-        yield
-    groups.append((group, counts))
+def _by_view(name: str) -> dict[str, str]:
+    return choice_titles(OPTIONS[name]) | BY_VIEW
 
 
 def _sides(session: Session, fields: Fields) -> None:
-    def resize(place: int, side: float) -> None:
+    def resize(place: int, side: int) -> None:
         width, height = session.settings.size
-        session.adjust(size=(int(side), height) if place == 0 else (width, int(side)))
+        session.adjust(size=(side, height) if place == 0 else (width, side))
 
     for place, label in enumerate(("Width", "Height")):
         get = partial(lambda place: session.settings.size[place], place)
         fields.number(label, OPTIONS["size"], get, partial(resize, place))
-
-
-def _times(choice: FileChoice, fields: Fields) -> None:
-    _choice_number(fields, "Seconds", choice, LOOP_OPTIONS["seconds"])
-    _choice_number(fields, "Frames/s", choice, LOOP_OPTIONS["fps"])
-
-
-def _choice_number(fields: Fields, label: str, choice: FileChoice, option: Option) -> None:
-    """A field for a number that affects only the file."""
-    get = partial(getattr, choice, option.name)
-    fields.number(label, option, get, lambda number: choice.set(**{option.name: number}))
-
-
-def _number(session: Session, fields: Fields, label: str, name: str) -> None:
-    """A field for a numeric option of the picture."""
-    get = partial(_value, session, name)
-    fields.number(label, OPTIONS[name], get, lambda number: session.adjust(**{name: number}))
-
-
-def _pick(
-    session: Session, fields: Fields, label: str, name: str, titles: Mapping[str, str]
-) -> None:
-    """A field for an option of the picture that has a list of choices."""
-    fields.choice(
-        label,
-        titles,
-        lambda: "" if _value(session, name) is None else str(_value(session, name)),
-        lambda text: session.adjust(**{name: OPTIONS[name].parse(text) if text else None}),
-    )
-
-
-def _tick(session: Session, fields: Fields, label: str, name: str) -> None:
-    """A check box for an option of the picture that is on or off."""
-    get = partial(_value, session, name)
-    fields.tick(label, get, lambda on: session.adjust(**{name: bool(on)}))
 
 
 def _can_turn(session: Session) -> bool:
@@ -182,40 +150,24 @@ def _can_turn(session: Session) -> bool:
     return session.viewport.request.scene is None and session.settings.placement != "item"
 
 
-def _value(session: Session, name: str) -> Any:
-    return getattr(session.settings, name)
-
-
-def _ground(session: Session, choice: FileChoice, fields: Fields, groups: Groups) -> None:
-    """Background, ground, light and shadow."""
-
-    def plain() -> bool:
-        return session.settings.background == "transparent"
-
-    def choose(name: str) -> None:
-        session.adjust(background=choice.colour if name == "colour" else "transparent")
+def _background(session: Session, choice: FileChoice, fields: Fields) -> None:
+    def ground() -> str:
+        return "transparent" if session.settings.background == "transparent" else "colour"
 
     def paint(colour: str) -> None:
         session.adjust(background=colour)
         choice.colour = colour
 
-    def colour() -> str:
-        return choice.colour if plain() else "#" + session.settings.background.removeprefix("#")
+    def choose(name: str) -> None:
+        session.adjust(background=choice.colour if name == "colour" else name)
 
-    with _only(groups, lambda: choice.kind in PICTURES):
-        fields.choice("Background", GROUNDS, lambda: "transparent" if plain() else "colour", choose)
-        with _only(groups, lambda: not plain()):
-            fields.colour("Background colour", colour, paint)
-        _pick(
-            session,
-            fields,
-            "Ground",
-            "ground",
-            BY_VIEW | {name: name.replace("_", " ") for name in BLOCKS},
-        )
-        lights = {str(name): str(name) for name in OPTIONS["light"].choices}
-        _pick(session, fields, "Light", "light", BY_VIEW | lights)
-        _tick(session, fields, "Shadow", "shadow")
+    def colour() -> str:
+        shown = session.settings.background
+        return choice.colour if shown == "transparent" else "#" + shown.removeprefix("#")
+
+    fields.choice("Background", GROUNDS, ground, choose)
+    with fields.only(lambda: ground() == "colour"):
+        fields.colour("Background colour", colour, paint)
 
 
 def difference(request: ViewportRequest, kind: str) -> str:

@@ -6,13 +6,13 @@ from nicegui import ui
 
 from drapery.banner import DYES, LOOM_LAYERS, MAX_LAYERS, PATTERNS
 from drapery.studio.art import pattern_names, sheet_address
-from drapery.studio.components import LayerList, value_of
+from drapery.studio.components import LayerList
 from drapery.studio.descriptions import dye_colour, dye_title, layer_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import Stroke
 from drapery.studio.translation import translated
-from drapery.studio.widgets import translated_text
+from drapery.studio.widgets import set_props, translated_text
 
 
 def build(session: Session) -> None:
@@ -32,7 +32,7 @@ def build(session: Session) -> None:
         lines = [translated(_TOO_MANY)] * too_many + missing_patterns(session)
         warning.set_text(" ".join(lines))
         warning.set_visibility(bool(lines))
-        rows.show(**_shown(session))
+        set_props(rows, _shown(session))
 
     def act(event: Any) -> None:
         with errors_shown():
@@ -42,11 +42,9 @@ def build(session: Session) -> None:
     def choose(chosen: Any) -> None:
         session.selection.choose("field" if chosen == "field" else int(chosen))
 
-    rows.on("act", lambda event: act(value_of(event)))
-    rows.on("choose", lambda event: choose(value_of(event)))
-    show()
-    session.selection.listen(show)
-    session.listen("packs", show)
+    rows.on("act", lambda event: act(event.args))
+    rows.on("choose", lambda event: choose(event.args))
+    session.follow(show, "selection", "packs")
 
 
 _TOO_MANY = f"A loom makes at most {LOOM_LAYERS} layers. This needs a command."

@@ -37,7 +37,7 @@ class LetterChoice:
 def build(session: Session) -> None:
     """Fields for the word and its dyes, the row of letters, and the commands that give them."""
     chosen = LetterChoice()
-    fields = Fields()
+    fields = Fields(session)
     dyes = {name: dye_title(name) for name in DYE_NAMES}
     borders = {"": "Like the ground", "none": "None", **dyes}
 
@@ -74,5 +74,4 @@ def build(session: Session) -> None:
                 design_button(session, "found", banner, side=30)
         written("\n".join(write_banner(banner, "give") for banner in banners))
 
-    show()
-    session.listen("packs", show)
+    session.follow(show, "packs")

@@ -3,15 +3,14 @@
 from base64 import b64encode
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from nicegui import background_tasks, ui
 
-from drapery import DraperyError
-from drapery.studio.art import thumbnail
-from drapery.studio.components import value_of
+from drapery.studio.art import THUMBNAIL_SCALE, face_png
 from drapery.studio.file_field import FileField
-from drapery.studio.notices import ADDED, Tone, called_in_thread, show_notice
+from drapery.studio.notices import ADDED, called_in_thread, errors_shown, show_notice
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, banner_of
@@ -43,86 +42,70 @@ class LibraryPanel:
     def __init__(self, session: Session) -> None:
         self._session = session
         self._client = ui.context.client
-        self._title = session.sketch.title
-        self._words = ""
-        self._tag = ""
-        self._names: dict[str, int] = {}
+        self._words = self._tag = ""
         self._limit = PAGE
         # Searches started so far.
         self._asked = 0
         self._shown: list[Design] = []
+        self._fields = Fields(session)
         self._form()
         self._search()
         self._undo = ui.element("div").classes("line undo").props("role=status")
         self._undo.set_visibility(False)
-        self._found = (
-            ui.element("ul").classes("designs").props(f'aria-label="{translated("Designs")}"')
-        )
+        self._found = ui.element("ul").classes("designs")
+        self._found.props["aria-label"] = translated("Designs")
         self._count = text_element("", "p").classes("hint").props("role=status")
         self._more = button("More designs", self._show_more, text="More")
         self._more.set_visibility(False)
         self._whole_library()
-        session.listen("sketch", self._follow)
-        session.listen("library", lambda: background_tasks.create(self._refresh()))
+        session.follow(self._follow, "sketch")
+        session.listen(lambda: background_tasks.create(self._refresh()), "library")
         # Load the database after the first picture, which does not need it.
         ui.timer(LATER, self._refresh, once=True)
 
     def _form(self) -> None:
-        translated_text("Save this design", "h2").classes("heading")
-        self._fields = Fields()
+        session = self._session
+
+        def tag(tags: str) -> None:
+            session.tags[session.sketch.origin] = tags
+
+        translated_text("Save this design", "h2")
         with ui.element("div").classes("options"):
-            self._fields.line(
-                "Title",
-                lambda: self._title,
-                self._take_title,
-                maxlength=MAX_TITLE,
-            )
-            self._fields.line(
-                "Tags, with commas between",
-                lambda: self._session.tags.get(self._session.sketch.origin, ""),
-                self._take_tags,
-            )
+            title = "Title", lambda: session.sketch.title, session.name
+            self._fields.line(*title, maxlength=MAX_TITLE)
+            tags = lambda: session.tags.get(session.sketch.origin, "")  # noqa: E731
+            self._fields.line("Tags, with commas between", tags, tag)
         with ui.element("div").classes("line"):
             self._save = button("Save", self._save_new, icon="save", text="Save")
             self._over = button("Save changes", self._save_over, icon="save", text="Save changes")
             self._new = button("Save as a new design", self._save_new, text="Save as new")
         for each in (self._save, self._over):
             each.classes("primary")
-        self._show_buttons()
 
     @property
     def _open(self) -> int:
         """The number of the current design in the library; 0 if it is not saved yet."""
         return self._session.entries.get(self._session.sketch.origin, 0)
 
-    def _take_title(self, title: object) -> None:
-        self._title = str(title)
-
-    def _take_tags(self, tags: object) -> None:
-        self._session.tags[self._session.sketch.origin] = str(tags)
-
     def _search(self) -> None:
-        translated_text("Find", "h2").classes("heading")
+        translated_text("Find", "h2")
         with ui.element("div").classes("search"):
             field = ui.element("input").classes("field").props("type=search maxlength=200")
             label = translated("Title, tag, dye or pattern")
             field.props.update({"placeholder": label, "aria-label": label})
             field.on(
                 "input",
-                lambda event: self._search_for(words=str(value_of(event))),
+                lambda event: self._search_for(words=str(event.args)),
                 js_handler="(e) => emit(e.target.value)",
                 throttle=PAUSE,
                 leading_events=False,
             )
-            self._tag_choice()
-
-    @ui.refreshable_method
-    def _tag_choice(self) -> None:
-        names = {"": "all tags"} | {name: f"{name} ({n})" for name, n in self._names.items()}
-        Fields().choice("Tag", names, lambda: self._tag, lambda tag: self._later(tag=str(tag)))
-
-    def _later(self, **wanted: str) -> None:
-        background_tasks.create(self._search_for(**wanted))
+            self._tags = self._fields.choice(
+                "Tag",
+                {"": "all tags"},
+                lambda: self._tag,
+                lambda tag: background_tasks.create(self._search_for(tag=str(tag))),
+            )
 
     async def _search_for(self, *, words: str | None = None, tag: str | None = None) -> None:
         self._words = self._words if words is None else words
@@ -131,33 +114,23 @@ class LibraryPanel:
         await self._refresh()
 
     def _whole_library(self) -> None:
-        translated_text("The whole library", "h2").classes("heading")
+        translated_text("The whole library", "h2")
         with ui.element("div").classes("line"):
-            export = (
-                translated_text("Export it as a file", "a").props("download").classes("export-link")
-            )
-            export.props["href"] = f"/library/{self._session.token}"
-        FileField(
-            self._session,
-            "library",
-            "Drop an exported library here, or choose it (.json)",
-            self._import,
-            endings=".json,application/json",
-        )
+            export = translated_text("Export it as a file", "a").classes("export-link")
+            export.props("download").props["href"] = f"/library/{self._session.token}"
+        label = "Drop an exported library here, or choose it (.json)"
+        endings = ".json,application/json"
+        FileField(self._session, "library", label, self._import, endings=endings)
 
     def _follow(self) -> None:
-        self._title = self._session.sketch.title
         self._fields.refresh()
-        self._show_buttons()
-
-    def _notice(self, line: str, tone: Tone = "done") -> None:
-        # The pressed button may not exist any more, because the cards have been replaced.
-        with self._client:
-            show_notice(line, tone)
+        self._save.set_visibility(not self._open)
+        for each in (self._over, self._new):
+            each.set_visibility(bool(self._open))
 
     async def _do(self, act: "Callable[[Library], T]") -> T | None:
         """Call the library in a thread; after an error, notify the user and return None."""
-        return await called_in_thread(self._client, lambda: act(self._session.library.open()))
+        return await called_in_thread(self._client, lambda: act(self._session.library()))
 
     async def _refresh(self) -> None:
         self._asked += 1
@@ -172,18 +145,15 @@ class LibraryPanel:
         # this one may have read the library before the latest change.
         if answer is None or number != self._asked or self._session.closed:
             return
-        designs, count, names = answer
-        if tag is not None and tag not in names:
+        designs, count, tags = answer
+        if tag is not None and tag not in tags:
             # No design has this tag any more.
-            self._tag = ""
-            self._tag_choice.refresh()
-            await self._refresh()
+            await self._search_for(tag="")
             return
-        if names != self._names:
-            self._names = names
-            self._tag_choice.refresh()
-        self._show(designs)
         with self._client:  # says the language
+            names = {name: f"{name} ({count})" for name, count in tags.items()}
+            self._tags.set_choices({"": translated("all tags")} | names)
+            self._show(designs)
             self._count.set_text(_counted(count, bool(wanted or tag)))
         self._more.set_visibility(count > len(designs))
 
@@ -203,8 +173,7 @@ class LibraryPanel:
         opened = ui.element("button").classes("design-open").props("type=button")
         words = translated("Open {name}").format(name=name)
         opened.props.update({"aria-label": words, "title": words})
-        opened.on("click", lambda: self._open_design(design.number))
-        with opened:
+        with opened.on("click", lambda: self._open_design(design.number)):
             picture = ui.element("img").props('alt=""')
             picture.props["src"] = f"data:image/png;base64,{b64encode(design.thumbnail).decode()}"
         text_element(name).classes("design-title").props.update({"title": name})
@@ -212,10 +181,8 @@ class LibraryPanel:
         rename = translated("Rename or tag {name}").format(name=name)
         delete = translated("Delete {name}").format(name=name)
         with ui.element("div").classes("design-acts"):
-            edit = button(rename, lambda: self._edit(design), icon="edit")
-            gone = button(delete, lambda: self._remove(design.number), icon="delete")
-        edit.classes("small")
-        gone.classes("small")
+            button(rename, lambda: self._edit(design), icon="edit").classes("small")
+            button(delete, lambda: self._remove(design.number), icon="delete").classes("small")
 
     async def _save_over(self) -> None:
         await self._store(self._open)
@@ -224,14 +191,13 @@ class LibraryPanel:
         await self._store(0)
 
     async def _store(self, number: int) -> None:
-        session = self._session
-        sketch = replace(session.sketch, title=self._title.strip())
+        session, sketch = self._session, self._session.sketch
         settings, tags = session.settings, _split(session.tags.get(sketch.origin, ""))
 
         def store(library: "Library") -> "tuple[int, Design | None]":
             from drapery.studio.records import Design
 
-            picture = thumbnail(banner_of(sketch), session.packs())
+            picture = face_png(banner_of(sketch), session.packs(), THUMBNAIL_SCALE)
             design = Design(sketch, settings, tags, picture, number)
             if not number:
                 return library.add(design), None
@@ -242,39 +208,27 @@ class LibraryPanel:
         stored = await self._do(store)
         if stored is None:
             return
-        session.entries[sketch.origin] = stored[0]
-        # The design may have been edited since.
-        if session.sketch.origin == sketch.origin:
-            session.edit(replace(session.sketch, title=sketch.title))
-        self._show_buttons()
-        self._notice(_said("Saved {title}", sketch.title))
-        if stored[1] is not None:
-            self._offer(
-                _said("Changed {title}", stored[1].title), "Keep the old one too", stored[1]
-            )
+        session.entries[sketch.origin], before = stored
+        self._follow()
+        with self._client:
+            show_notice(_said("Saved {title}", sketch.title))
+            if before is not None:
+                line = _said("Changed {title}", before.title)
+                self._offer(line, "Keep the old one too", before)
         await self._refresh()
-
-    def _show_buttons(self) -> None:
-        saved = bool(self._open)
-        self._save.set_visibility(not saved)
-        for each in (self._over, self._new):
-            each.set_visibility(saved)
 
     async def _open_design(self, number: int) -> None:
         design = await self._do(lambda library: library.get(number))
         if design is None:
             return
         session = self._session
-        try:
+        with self._client, errors_shown():
             session.open(design.sketch, design.settings)
-        except DraperyError as error:
-            self._notice(str(error), "fault")
-            return
-        session.entries[session.sketch.origin] = number
-        session.tags[session.sketch.origin] = ", ".join(design.tags)
-        self._follow()
-        self._undo.set_visibility(False)
-        self._notice(_said("Opened {title}", design.title))
+            session.entries[session.sketch.origin] = number
+            session.tags[session.sketch.origin] = ", ".join(design.tags)
+            self._follow()
+            self._undo.set_visibility(False)
+            show_notice(_said("Opened {title}", design.title))
 
     def _edit(self, design: "Design") -> None:
         """A dialog for title and tags."""
@@ -291,14 +245,12 @@ class LibraryPanel:
                 await self._refresh()
 
         def line(label: str, name: str, maximum: int) -> None:
-            def take(text: object) -> None:
-                wanted[name] = str(text)
-
-            fields.line(label, lambda: wanted[name], take, maxlength=maximum)
+            get, change = partial(wanted.get, name), partial(wanted.__setitem__, name)
+            fields.line(label, get, change, maxlength=maximum)
 
         with ui.dialog() as dialog, ui.element("div").classes("studio-dialog"):
             translated_text("Rename or tag", "h2").classes("heading")
-            fields = Fields()
+            fields = Fields(self._session)
             line("Title", "title", MAX_TITLE)
             line("Tags, with commas between", "tags", 500)
             with ui.element("div").classes("line"):
@@ -313,8 +265,9 @@ class LibraryPanel:
             return
         entries = self._session.entries
         self._session.entries = {at: entry for at, entry in entries.items() if entry != number}
-        self._show_buttons()
-        self._offer(_said("Deleted {title}", gone.title), "Put it back", gone)
+        self._follow()
+        with self._client:
+            self._offer(_said("Deleted {title}", gone.title), "Put it back", gone)
         await self._refresh()
         # The pressed button no longer exists, so move the keyboard's focus to the undo button.
         self._client.run_javascript("document.querySelector('.undo button')?.focus()")
@@ -337,7 +290,8 @@ class LibraryPanel:
         counts = await self._do(lambda library: library.load(upload.path.read_bytes()))
         self._session.uploads.remove(number)
         if counts is not None:
-            self._notice(ADDED.format(*counts))
+            with self._client:
+                show_notice(ADDED.format(*counts))
             await self._refresh()
 
     async def _show_more(self) -> None:

@@ -11,13 +11,20 @@ from drapery.studio.chosen_scene import what_follows
 from drapery.studio.descriptions import named, view_title
 from drapery.studio.file_field import FileField
 from drapery.studio.live_threads import in_thread
-from drapery.studio.panels.controls import Controls
+from drapery.studio.notices import errors_shown
+from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import ExportRequest, drawn_garment
 from drapery.studio.translation import translated
 from drapery.studio.viewer import ViewerElement
-from drapery.studio.widgets import translated_text
+from drapery.studio.widgets import (
+    SegmentedControl,
+    button,
+    set_props,
+    text_element,
+    translated_text,
+)
 
 OWN = "your banner"
 """The choice that shows the design instead of a scene."""
@@ -33,59 +40,72 @@ LATER = 1.5
 
 def build(session: Session) -> None:
     """The viewer, the named views, pause, reset and the scenes."""
-    viewport = session.viewport
-    controls = Controls(session)
+    viewport, fields = session.viewport, Fields(session)
+
+    def choose_view(name: str) -> None:
+        with errors_shown():
+            session.adjust(view=name)
+            viewport.look_anew()
+
+    def pause() -> None:
+        with errors_shown():
+            viewport.update(paused=not viewport.request.paused)
+        fields.refresh()
+
+    def choose_scene(name: str) -> None:
+        viewport.update(scene=name or None, garment=None, skin=None)
+
     with ui.element("div").classes("live"):
         ViewerElement(session).classes("live-view")
         with ui.element("div").classes("live-bar"):
-            with ui.element("div").classes("live-views").props('role="group"') as views:
-                views.props["aria-label"] = translated("View")
-                for name in OPTIONS["view"].choices:
-                    _view(session, controls, str(name))
-            pause = controls.button(
-                "Pause", lambda: viewport.update(paused=not viewport.request.paused), icon="pause"
+            titles = {str(name): view_title(str(name)) for name in OPTIONS["view"].choices}
+            views = SegmentedControl("View", titles, choose_view)
+            paused = button("Pause", pause, icon="pause")
+            button("Back to rest", viewport.reset, icon="restart_alt")
+            scenes = fields.choice(
+                "Scene", {"": OWN}, lambda: viewport.request.scene or "", choose_scene
             )
-            controls.pressed(pause, lambda: viewport.request.paused)
-            controls.button("Back to rest", viewport.reset, icon="restart_alt")
-            scenes = controls.select(
-                "Scene",
-                {None: OWN},
-                lambda: viewport.request.scene,
-                lambda name: viewport.update(scene=name, garment=None, skin=None),
-            )
-            garments = controls.select(
+            garments = fields.choice(
                 "Garment",
-                {None: NONE},
-                lambda: viewport.request.garment,
-                lambda name: wear(session, name, viewport.request.skin),
+                {"": NONE},
+                lambda: viewport.request.garment or "",
+                lambda name: wear(session, name or None, viewport.request.skin),
             )
-            skins = controls.select(
+            skins = fields.choice(
                 "Skin",
                 _skins(session),
-                lambda: viewport.request.skin,
-                lambda name: wear(session, viewport.request.garment, name),
+                lambda: viewport.request.skin or "",
+                lambda name: wear(session, viewport.request.garment, name or None),
             )
-            controls.line(
-                lambda: translated(what_follows(shown)) if (shown := viewport.request.scene) else ""
-            )
+            follows = text_element("", "p").classes("hint").props("role=status")
         with ui.element("details").classes("advanced live-files"):
             translated_text("A garment or a skin of your own", "summary")
             label = "Drop a garment of your own here, or choose it (.toml)"
             FileField(session, "garment", label, lambda n: take(n), endings=".toml", zone=ZONE)
             label = "Drop a skin here to see its player, or choose it (.png)"
             FileField(session, "skin", label, lambda n: take_skin(n), endings=".png", zone=ZONE)
-    controls.follow()
+
+    def show() -> None:
+        scene = viewport.request.scene
+        # A scene has a camera of its own.
+        views.show(str(session.settings.view), enabled=scene is None)
+        set_props(paused, {"aria-pressed": str(viewport.request.paused).lower()})
+        follows.set_text(translated(what_follows(scene)) if scene else "")
+        follows.set_visibility(scene is not None)
+
+    fields.on_refresh(show)
+    session.follow(fields.refresh, "settings", "scene", "steered")
 
     async def take(number: int) -> None:
         path = await run.io_bound(session.garment_store.adopt, number)
         if path is not None and not session.closed:
-            garments.set_options(_choices(session), value=path)
+            garments.set_choices(_garments(session))
             wear(session, path, viewport.request.skin)
 
     async def take_skin(number: int) -> None:
         path = await run.io_bound(session.garment_store.adopt_skin, number)
         if path is not None and not session.closed:
-            skins.set_options(_skins(session), value=path)
+            skins.set_choices(_skins(session))
             wear(session, viewport.request.garment, path)
 
     async def list_scenes() -> None:
@@ -93,22 +113,10 @@ def build(session: Session) -> None:
         found, _ = await in_thread(lambda: (scene_summaries(), garment_descriptions()))
         if not session.closed:
             names = {name: named(name, summary) for name, summary in found.items()}
-            scenes.set_options({None: translated(OWN), **names}, value=viewport.request.scene)
-            garments.set_options(_choices(session), value=viewport.request.garment)
+            scenes.set_choices({"": translated(OWN)} | names)
+            garments.set_choices(_garments(session))
 
     ui.timer(LATER, list_scenes, once=True)
-
-
-def _view(session: Session, controls: Controls, name: str) -> None:
-    def choose() -> None:
-        session.adjust(view=name)
-        session.viewport.look_anew()
-
-    button = controls.button(view_title(name), choose)
-    button.props.update({"aria-label": f"{translated('View')}: {translated(view_title(name))}"})
-    controls.pressed(button, lambda: session.settings.view == name)
-    # A scene has a camera of its own.
-    controls.enabled(button, lambda: session.viewport.request.scene is None)
 
 
 def wear(session: Session, garment: str | None, skin: str | None = None) -> None:
@@ -125,22 +133,19 @@ def wear(session: Session, garment: str | None, skin: str | None = None) -> None
     session.viewport.update(scene=None, garment=garment, skin=skin)
 
 
-def _skins(session: Session) -> dict[str | None, str]:
+def _skins(session: Session) -> dict[str, str]:
     """The skins of players, by name or path."""
-    store = session.garment_store
-    choices: dict[str | None, str] = {None: translated(NONE)}
-    if store.skin is not None:
-        choices[str(store.skin)] = store.names[str(store.skin)]
-    return choices | {name: translated(name.capitalize()) for name in skin_names()}
+    own = session.garment_store
+    sent = {str(own.skin): own.names[str(own.skin)]} if own.skin else {}
+    return {"": translated(NONE)} | sent | {n: translated(n.capitalize()) for n in skin_names()}
 
 
-def _choices(session: Session) -> dict[str | None, str]:
+def _garments(session: Session) -> dict[str, str]:
     """What the viewer can show in place of the banner, by its name or path."""
     own = session.garment_store
-    choices: dict[str | None, str] = {None: translated(NONE)}
-    if own.path:
-        choices[str(own.path)] = own.title
-    return choices | {name: named(name, each) for name, each in garment_descriptions().items()}
+    sent = {str(own.path): own.title} if own.path else {}
+    known = {name: named(name, each) for name, each in garment_descriptions().items()}
+    return {"": translated(NONE)} | sent | known
 
 
 @cache

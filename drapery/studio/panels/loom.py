@@ -51,9 +51,7 @@ def build(session: Session) -> None:
         spare.set_visibility(unseen > 0)
         recipe.set_content(_recipe(session, banner))
 
-    show()
-    session.listen("sketch", show)
-    session.listen("packs", show)
+    session.follow(show, "sketch", "packs")
 
 
 def simplify_design(session: Session) -> None:
@@ -67,7 +65,7 @@ def _recipe(session: Session, banner: Banner) -> str:
     items = "".join(_item(one, session.packs()) for one in crafting_items(banner))
     rows = "".join(
         _row(
-            face_address(session, replace(banner, layers=banner.layers[:number])),
+            face_address(session, replace(banner, layers=banner.layers[:number]), 2),
             _step_title(step.layer.dye, step.layer.pattern),
             step.item,
         )

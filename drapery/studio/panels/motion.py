@@ -1,12 +1,13 @@
 """Controls of the live banner: wind, cloth, placement and light."""
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from nicegui import ui
 
 from drapery.settings import OPTIONS, ROTATIONS
-from drapery.studio.descriptions import option_help
-from drapery.studio.panels.controls import Controls
+from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.translation import translated
 from drapery.studio.widgets import translated_text
@@ -18,114 +19,111 @@ NOON = 12.0
 
 def build(session: Session) -> None:
     """Four groups of controls."""
-    controls = Controls(session)
+    fields = Fields(session)
     with ui.element("div").classes("motion"):
-        for title, draw in (
-            ("Wind", _wind),
-            ("Cloth", _cloth),
-            ("Placement", _placement),
-            ("Light", _light),
-        ):
-            with (
-                ui.element("div")
-                .classes("motion-group")
-                .props(f'role="group" aria-label="{translated(title)}"')
-            ):
-                ui.element("h3").add_slot("default", translated(title))
-                draw(session, controls)
-    controls.follow()
+        with _group("Wind"):
+            _wind(session, fields)
+        with _group("Cloth"):
+            fields.option("pins", "Held at")
+            fields.option("thickness", "Thickness", step=0.25)
+            with _advanced():
+                _simulation(session, fields)
+        with _group("Placement"):
+            _placement(session, fields)
+        with _group("Light"):
+            _light(session, fields)
+    session.follow(fields.refresh, "settings", "scene", "steered")
 
 
-def _wind(session: Session, controls: Controls) -> None:
-    controls.number("wind", "Speed", 0.1)
-    controls.slider(
-        "Direction",
-        (-180, 180, 1),
-        lambda: round(wind_controls_of(session.settings).heading),
-        lambda heading: session.adjust(direction=float(heading)),
-        "{:.0f}°".format,
-        option_help(OPTIONS["direction"]),
-    )
-    controls.number("gusts", "Gusts", 0.05)
-    viewport = session.viewport
-    controls.switch("Wind on", lambda: viewport.request.on, lambda on: viewport.update(on=bool(on)))
+@contextmanager
+def _group(title: str) -> Iterator[None]:
+    with ui.element("div").classes("motion-group").props("role=group") as group:
+        group.props["aria-label"] = translated(title)
+        translated_text(title, "h3")
+        yield
 
 
-def _cloth(session: Session, controls: Controls) -> None:
-    controls.choice("pins", "Held at")
-    controls.number("thickness", "Thickness", 0.25)
+@contextmanager
+def _advanced() -> Iterator[None]:
     with ui.element("details").classes("advanced"):
         translated_text("Advanced", "summary")
-        _simulation(session, controls)
+        yield
 
 
-def _simulation(session: Session, controls: Controls) -> None:
-    controls.choice("solver", "Solver")
+def _wind(session: Session, fields: Fields) -> None:
+    viewport = session.viewport
+    fields.option("wind", "Speed", step=0.1)
+    fields.slider(
+        "Direction",
+        OPTIONS["direction"],
+        1,
+        lambda: round(wind_controls_of(session.settings).heading),
+        lambda heading: session.adjust(direction=heading),
+        "{:.0f}°".format,
+        min=-180,
+        max=180,
+    )
+    fields.option("gusts", "Gusts", step=0.05)
+    fields.tick("Wind on", lambda: viewport.request.on, lambda on: viewport.update(on=bool(on)))
+
+
+def _simulation(session: Session, fields: Fields) -> None:
+    fields.option("solver", "Solver")
     # The list must contain the current grid, because a link can set any grid.
-    grids = dict.fromkeys((*GRIDS, tuple(session.settings.grid)))
-    option = OPTIONS["grid"]
-    controls.select(
-        "Grid",
-        {option.to_text(grid): " × ".join(map(str, grid)) for grid in sorted(grids)},
-        lambda: option.to_text(session.settings.grid),
-        lambda text: session.adjust(grid=option.parse(text)),
-    )
-    controls.choice("contact", "Contact")
+    grids = sorted({*GRIDS, tuple(session.settings.grid)})
+    titles = {OPTIONS["grid"].to_text(grid): " × ".join(map(str, grid)) for grid in grids}
+    fields.option("grid", "Grid", titles)
+    fields.option("contact", "Contact")
 
 
-def _placement(session: Session, controls: Controls) -> None:
-    controls.choice("placement", "Placement", rotation=0, facing=None, turntable=False)
-    controls.slider(
+def _placement(session: Session, fields: Fields) -> None:
+    def rotate(number: int) -> None:
+        """Turn the banner; a wall banner turns to the nearest of four sides."""
+        if session.settings.placement == "wall":
+            sides = OPTIONS["facing"].choices
+            session.adjust(facing=sides[round(number / 4) % len(sides)])
+        else:
+            session.adjust(rotation=number)
+
+    fields.option("placement", "Placement", rotation=0, facing=None, turntable=False)
+    fields.slider(
         "Rotation",
-        (0, ROTATIONS - 1, 1),
-        lambda: _rotation(session),
-        lambda number: _rotate(session, int(number)),
+        OPTIONS["rotation"],
+        1,
+        lambda: round(session.settings.turned * ROTATIONS / 360),
+        rotate,
         lambda number: f"{number * 360 / ROTATIONS:g}°",
-        option_help(OPTIONS["rotation"]),
     )
-    controls.choice("pose", "Flag")
-    controls.flag("shadow", "Shadow")
+    fields.option("pose", "Flag")
+    fields.option("shadow", "Shadow")
 
 
-def _rotation(session: Session) -> int:
-    """The rotation in sixteenths of a turn, for standing banners and wall banners."""
-    return round(session.settings.turned * ROTATIONS / 360)
-
-
-def _rotate(session: Session, number: int) -> None:
-    """Turn the banner; a wall banner turns to the nearest of four sides."""
-    if session.settings.placement == "wall":
-        sides = OPTIONS["facing"].choices
-        session.adjust(facing=sides[round(number / 4) % len(sides)])
-    else:
-        session.adjust(rotation=number)
-
-
-def _light(session: Session, controls: Controls) -> None:
-    chosen = [hour_of(session.settings.daylight)]
+def _light(session: Session, fields: Fields) -> None:
+    chosen = hour_of(session.settings.daylight)
 
     def hour() -> float:
         # Morning and evening have the same light: the chosen hour is stored beside it.
         daylight = session.settings.daylight
-        return chosen[0] if daylight_at(chosen[0]) == daylight else hour_of(daylight)
+        return chosen if daylight_at(chosen) == daylight else hour_of(daylight)
 
     def choose(value: float) -> None:
-        chosen[0] = float(value)
-        session.adjust(daylight=daylight_at(chosen[0]))
+        nonlocal chosen
+        chosen = value
+        session.adjust(daylight=daylight_at(chosen))
 
-    controls.slider(
+    fields.slider(
         "Time of day",
-        (0, 24, 0.25),
+        OPTIONS["daylight"],
+        0.25,
         hour,
         choose,
         lambda hour: f"{int(hour)}:{int(hour % 1 * 60):02d}",
-        option_help(OPTIONS["daylight"]),
+        max=24,
     )
-    controls.number("block_light", "Torch light", 1)
-    with ui.element("details").classes("advanced"):
-        translated_text("Advanced", "summary")
-        controls.number("sky_light", "Sky light", 1)
-        controls.switch(
+    fields.option("block_light", "Torch light", step=1)
+    with _advanced():
+        fields.option("sky_light", "Sky light", step=1)
+        fields.tick(
             "Shaded",
             lambda: session.settings.lighting == "game",
             lambda on: session.adjust(light="game" if on else "flat"),

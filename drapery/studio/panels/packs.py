@@ -1,16 +1,17 @@
 """Resource packs: add them, order them, switch them on or off, compare them."""
 
 from collections.abc import Callable
-from itertools import count
 
 from nicegui import Client, background_tasks, run, ui
 
 from drapery import DraperyError
+from drapery.studio.art import face_address, sheet_address
 from drapery.studio.file_field import FileField
 from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.pack_store import PackContents, PackEntry, PackStore
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
+from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
 from drapery.studio.widgets import button, text_element, translated_text, versus_slider
 
@@ -80,7 +81,7 @@ def _list(session: Session) -> None:
                 _name(translated(OWN_ART), "", "below all others")
 
     entries()
-    session.listen("packs", entries.refresh)
+    session.listen(entries.refresh, "packs")
 
 
 def _name(title: str, name: str, summary: str, warnings: tuple[str, ...] = ()) -> None:
@@ -119,12 +120,12 @@ def _format(session: Session, reading: ui.label) -> None:
         format = wanted[-1] if len(wanted) > read_count else session.settings.format
         return "" if format is None else str(format)
 
-    fields = Fields()
+    fields = Fields(session)
     formats = {"": "what each pack says"} | {number: _format_title(number) for number in FORMATS}
     formats.setdefault(current(), translated("pack format {number}").format(number=current()))
     with ui.element("div").classes("options"):
         fields.choice("Read packs as", formats, current, choose)
-    session.listen("settings", fields.refresh)
+    session.listen(fields.refresh, "settings")
     if pack_store.entries:  # those with which the studio was started
         ui.timer(LATER, lambda: None if wanted else read(session.settings.format), once=True)
 
@@ -174,11 +175,11 @@ def _focus(client: Client, selector: str) -> None:
 
 
 def _comparison(session: Session) -> None:
-    version, other, pack_store = count(), NO_PACK, session.pack_store
+    other, pack_store = NO_PACK, session.pack_store
 
     def choices() -> dict[str, str]:
         packs = {str(entry.number): entry.title for entry in reversed(pack_store.entries)}
-        return {NO_PACK: "nothing", "own": OWN_ART} | packs
+        return {NO_PACK: translated("nothing"), "own": translated(OWN_ART)} | packs
 
     def choose(name: str) -> None:
         nonlocal other
@@ -188,29 +189,25 @@ def _comparison(session: Session) -> None:
         pictures.refresh()
 
     @ui.refreshable
-    def chooser() -> None:
-        Fields().choice("Compare with", choices(), lambda: other, choose)
-
-    @ui.refreshable
     def pictures() -> None:
         if other != NO_PACK:
-            now, then = (f"/compare/{session.token}/{which}/face.png" for which in ("now", other))
-            mark = next(version)
-            versus_slider(f"{now}?v={mark}", f"{then}?v={mark}", choices()[other])
+            banner, title = banner_of(session.sketch), choices()[other]
+            now, then = (face_address(session, banner, pack=each) for each in ("now", other))
+            versus_slider(now, then, title)
             with ui.element("div").classes("versus"):
-                _side(session, "now", "Your packs in their order", next(version))
-                _side(session, other, choices()[other], next(version))
+                _side(session, "now", now, "Your packs in their order")
+                _side(session, other, then, title)
 
     def follow() -> None:
-        chooser.refresh()
+        chooser.set_choices(choices())
         # The pack on the other side may have been removed or replaced by another file.
         if other != NO_PACK:
             choose(other)
 
-    chooser()
+    chooser = Fields(session).choice("Compare with", choices(), lambda: other, choose)
     pictures()
-    session.listen("packs", follow)
-    session.listen("sketch", pictures.refresh)
+    session.listen(follow, "packs")
+    session.listen(pictures.refresh, "sketch")
 
 
 def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
@@ -220,17 +217,14 @@ def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
     return (str(pack_store.path_of(int(other))),) if other.isdigit() else None
 
 
-def _side(session: Session, which: str, caption: str, version: int) -> None:
-    """The design and all patterns, drawn from one stack of packs."""
+def _side(session: Session, pack: str, face: str, caption: str) -> None:
+    """The design and all patterns, drawn from one stack of packs. face: the design's address."""
     sketch = session.sketch
     dye = sketch.strokes[-1].dye if sketch.strokes else "black"
     field = next(each for each in (sketch.base, "white", "black") if each != dye)
-    address = f"/compare/{session.token}/{which}"
+    patterns = sheet_address(session, dye, field, pack, rows=True)
     with ui.element("figure").classes("versus-side"):
         translated_text(caption, "figcaption")
-        for what, query in (("face", ""), ("patterns", f"&base={field}&dye={dye}")):
-            picture = ui.element("img").classes(f"versus-{what}")
-            title = translated("Design" if what == "face" else "Patterns")
-            picture.props.update(
-                {"src": f"{address}/{what}.png?v={version}{query}", "alt": f"{title}: {caption}"}
-            )
+        for title, address in (("Design", face), ("Patterns", patterns)):
+            picture = ui.element("img").classes(f"versus-{title.lower()}")
+            picture.props.update({"src": address, "alt": f"{translated(title)}: {caption}"})

@@ -1,7 +1,7 @@
 """The sixteen dyes, for the chosen layer or for the next one."""
 
 from drapery.banner import DYES, Dye
-from drapery.studio.components import Palette, value_of
+from drapery.studio.components import Palette
 from drapery.studio.descriptions import (
     MIDDLE_LUMINANCE,
     dye_colour,
@@ -13,6 +13,7 @@ from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
 from drapery.studio.translation import translated
+from drapery.studio.widgets import set_props
 
 
 def build(session: Session) -> None:
@@ -20,16 +21,16 @@ def build(session: Session) -> None:
     palette = Palette()
 
     def show() -> None:
-        palette.show(chosen=session.selection.shown_dye, heading=_heading(session))
+        chosen = session.selection.shown_dye
+        set_props(palette, {"chosen": chosen, "heading": _heading(session)})
 
     def press(dye: object) -> None:
         with errors_shown():
             session.selection.press_dye(str(dye))
 
-    palette.show(dyes=[_swatch(dye) for dye in DYES.values()])
-    palette.on("dye", lambda event: press(value_of(event)))
-    show()
-    session.selection.listen(show)
+    palette.props["dyes"] = [_swatch(dye) for dye in DYES.values()]
+    palette.on("dye", lambda event: press(event.args))
+    session.follow(show, "selection")
 
 
 def _heading(session: Session) -> str:

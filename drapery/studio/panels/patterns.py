@@ -2,7 +2,7 @@
 
 from drapery import DraperyError
 from drapery.studio.art import pattern_names, sheet_address
-from drapery.studio.components import PatternGrid, value_of
+from drapery.studio.components import PatternGrid
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.notices import errors_shown
 from drapery.studio.panels.start import build_examples
@@ -10,6 +10,7 @@ from drapery.studio.pattern_words import search_words
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
 from drapery.studio.translation import translated
+from drapery.studio.widgets import set_props
 
 
 def build(session: Session) -> None:
@@ -19,13 +20,14 @@ def build(session: Session) -> None:
 
     def show() -> None:
         dye = session.selection.pattern_dye
-        grid.show(
-            sheet=sheet_address(session, dye),
-            label=translated("Patterns in {dye}").format(dye=dye_title(dye)),
-            swaps=session.selection.swaps,
-            canSwap=isinstance(session.selection.chosen, int),
-            current=_current(session),
-        )
+        shown = {
+            "sheet": sheet_address(session, dye),
+            "label": translated("Patterns in {dye}").format(dye=dye_title(dye)),
+            "swaps": session.selection.swaps,
+            "canSwap": isinstance(session.selection.chosen, int),
+            "current": _current(session),
+        }
+        set_props(grid, shown)
 
     def list_patterns() -> None:
         try:
@@ -33,26 +35,22 @@ def build(session: Session) -> None:
         except DraperyError:
             return
         words = search_words()
-        grid.show(
-            patterns=[
-                {"name": name, "title": pattern_title(name), "words": words.get(name, name)}
-                for name in names
-            ]
-        )
+        found = [
+            {"name": name, "title": pattern_title(name), "words": words.get(name, name)}
+            for name in names
+        ]
+        set_props(grid, {"patterns": found})
 
     def press(pattern: object) -> None:
         with errors_shown():
             session.selection.press_pattern(str(pattern))
 
-    grid.show(words={key: translated(text) for key, text in _WORDS.items()})
-    grid.on("pattern", lambda event: press(value_of(event)))
-    grid.on("preview", lambda event: session.selection.preview(str(value_of(event))))
-    grid.on("swaps", lambda event: session.selection.set_swaps(bool(value_of(event))))
-    list_patterns()
-    show()
-    session.selection.listen(show)
-    session.listen("packs", list_patterns)
-    session.listen("packs", show)
+    grid.props["words"] = {key: translated(text) for key, text in _WORDS.items()}
+    grid.on("pattern", lambda event: press(event.args))
+    grid.on("preview", lambda event: session.selection.preview(str(event.args)))
+    grid.on("swaps", lambda event: session.selection.set_swaps(bool(event.args)))
+    session.follow(list_patterns, "packs")
+    session.follow(show, "selection", "packs")
 
 
 _WORDS = {

@@ -28,7 +28,7 @@ EFFORT = 12
 
 def build(session: Session) -> None:
     """A field for a picture, and the candidates."""
-    client, fields = context.client, Fields()
+    client, fields = context.client, Fields(session)
     is_photo = False
     newest = 0
 

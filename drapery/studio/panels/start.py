@@ -52,8 +52,7 @@ def _recent(session: Session) -> None:
                 text = sketch.title or translated("Untitled")
                 design_button(session, "own-design", banner_of(sketch), press, text=text)
 
-    show()
-    session.listen("recent", show)
+    session.follow(show, "recent")
 
 
 def _open_again(session: Session, sketch: Sketch, settings: Settings) -> None:
@@ -74,8 +73,7 @@ def build_examples(session: Session) -> None:
     def show() -> None:
         welcome.set_visibility(session.sketch == Sketch() and not session.history.past)
 
-    show()
-    session.listen("sketch", show)
+    session.follow(show, "sketch")
 
 
 def _designs(session: Session, designs: Sequence[OwnDesign]) -> None:
@@ -89,5 +87,4 @@ def _designs(session: Session, designs: Sequence[OwnDesign]) -> None:
                 card = design_button(session, "own-design", each.banner, text=name, title=name)
                 card.props["data-own"] = name
 
-    show()
-    session.listen("packs", show)
+    session.follow(show, "packs")

@@ -34,6 +34,4 @@ def build(session: Session) -> None:
                 step = design_button(session, "step", banner, press, label=words, side=20)
                 step.props["aria-current"] = "step" if place == now else "false"
 
-    show()
-    session.listen("sketch", show)
-    session.listen("packs", show)
+    session.follow(show, "sketch", "packs")

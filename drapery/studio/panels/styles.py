@@ -7,7 +7,7 @@ from drapery.studio.art import style_address
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.translation import translated
-from drapery.studio.widgets import translated_text
+from drapery.studio.widgets import set_props, translated_text
 from drapery.styles import find_style, style_names
 
 
@@ -22,15 +22,12 @@ def build(session: Session) -> None:
 
     def show_pressed() -> None:
         for name, button in buttons.items():
-            pressed = str(session.settings.style == (name,)).lower()
-            if button.props.get("aria-pressed") != pressed:
-                button.props["aria-pressed"] = pressed
-                button.update()
+            pressed = session.settings.style == (name,)
+            set_props(button, {"aria-pressed": str(pressed).lower()})
 
     def show_pictures() -> None:
         for name, picture in pictures.items():
-            picture.props["src"] = style_address(session, name)
-            picture.update()
+            set_props(picture, {"src": style_address(session, name)})
 
     with ui.element("div").classes("styles").props('role="group"') as group:
         group.props["aria-label"] = translated("Styles")
@@ -47,8 +44,5 @@ def build(session: Session) -> None:
         " pixels are in the pictures that you export.",
         "p",
     ).classes("hint")
-    show_pressed()
-    show_pictures()
-    session.listen("settings", show_pressed)
-    session.listen("sketch", show_pictures)
-    session.listen("packs", show_pictures)
+    session.follow(show_pressed, "settings")
+    session.follow(show_pictures, "sketch", "packs")

@@ -5,8 +5,8 @@ from functools import partial
 from nicegui import context, ui
 
 from drapery import Banner
-from drapery.studio.components import value_of
 from drapery.studio.design_buttons import design_button
+from drapery.studio.file_field import FileField
 from drapery.studio.notices import ADDED, called_in_thread, show_notice
 from drapery.studio.panels.written import build_writer
 from drapery.studio.session import Session
@@ -38,20 +38,16 @@ def _reader(session: Session) -> None:
     text.props["aria-label"] = translated("A design in any form")
     fault = text_element("", "p").classes("fault").props('role="alert"')
     with ui.element("div").classes("line"):
-        press = button("Read this text", lambda: None, text="Read", key="Ctrl+Enter")
+        press = button("Read this text", text="Read", key="Ctrl+Enter")
         press.classes("primary").props('id="read-text"')
-        with ui.element("label").classes("button file"):
-            ui.icon("upload_file").props("aria-hidden=true")
-            translated_text("Choose a file")
-            chooser = ui.element("input").props('id="design-file" type="file"')
-            chooser.props.update({"aria-label": translated("A file of designs")})
+    FileField(session, "design", "Choose a file", upload_queue.read_file, zone="body")
     translated_text(
         "Or drop a file anywhere: schematics, structures, regions, saves, functions.", "p"
     ).classes("hint")
     listed = ui.element("div").classes("found-list")
     text.on(
         "read",
-        lambda event: upload_queue.read_text(str(value_of(event)), beside=True),
+        lambda event: upload_queue.read_text(str(event.args), beside=True),
         js_handler="(e) => emit(e.detail)",
     )
     client = context.client
@@ -66,7 +62,7 @@ def _reader(session: Session) -> None:
                 _choices(session, upload_queue)
 
     fault.set_visibility(False)
-    upload_queue.listen(arrive)
+    session.listen(arrive, "read")
 
 
 def _arrive(session: Session, upload_queue: UploadQueue) -> None:
@@ -112,7 +108,7 @@ async def save_all(session: Session) -> None:
         from drapery.studio.records import tagged_designs
 
         designs = tagged_designs(found, name, settings, session.packs())
-        return session.library.open().add_new(designs)
+        return session.library().add_new(designs)
 
     counts = await called_in_thread(client, save)
     if counts is not None and not session.closed:

@@ -12,7 +12,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, translated_text
+from drapery.studio.widgets import button, set_props, translated_text
 
 COUNT = Option("count", "How many items the command gives", int, 1, bounds=(1, 1600))
 MAX_LORE = 500
@@ -26,6 +26,11 @@ class WrittenForm:
     form: str = "give"
     details: ItemDetails = field(default_factory=ItemDetails)
 
+    @property
+    def is_named(self) -> bool:
+        """Whether a command says a name or lore."""
+        return bool(self.details.name or self.details.lore)
+
     def text(self, banner: Banner) -> str:
         """The design as text. Raises DesignError."""
         if self.form in GIVE_FORMS:
@@ -36,7 +41,7 @@ class WrittenForm:
 def build_writer(session: Session) -> None:
     """The choice of the form, what a command says beside the design, and the text to copy."""
     chosen = WrittenForm()
-    fields = Fields()
+    fields = Fields(session)
     translated_text("Write the design", "h2").classes("heading")
     forms = {name: f"{name}: {form.title}" for name, form in FORMS.items() if form.write}
 
@@ -50,16 +55,16 @@ def build_writer(session: Session) -> None:
 
     with ui.element("div").classes("options"):
         fields.choice("Form of the text", forms, lambda: chosen.form, choose)
-        with ui.element("div").classes("option-group") as item:
+        with fields.only(lambda: chosen.form in GIVE_FORMS):
             _item_fields(fields, chosen, change)
-        with ui.element("div").classes("option-group") as older:
+        with fields.only(lambda: chosen.form == "give" and chosen.is_named):
             fields.tick(
                 "Name and lore for 1.20.5 to 1.21.4",
                 lambda: chosen.details.json_text,
                 lambda on: change(json_text=bool(on)),
             )
     with ui.element("div").classes("line"):
-        copy = button("Copy the text", lambda: None, icon="content_copy").classes("primary")
+        copy = button("Copy the text", icon="content_copy").classes("primary")
         with copy:
             translated_text("Copy").classes("copy-label")
     copy.props('data-copy="written"')
@@ -71,24 +76,18 @@ def build_writer(session: Session) -> None:
             text, fault = chosen.text(banner_of(session.sketch)), False
         except DesignError as error:
             text, fault = str(error), True
-        written.props["value"] = text
         written.classes(add="is-fault" if fault else "", remove="" if fault else "is-fault")
-        copy.props["disabled"] = fault
-        for element in (written, copy):
-            element.update()
-        item.set_visibility(chosen.form in GIVE_FORMS)
-        named = bool(chosen.details.name or chosen.details.lore)
-        older.set_visibility(chosen.form == "give" and named)
+        set_props(written, {"value": text})
+        set_props(copy, {"disabled": fault})
+        fields.refresh()
 
     def keep_name() -> None:
         """The name of a pasted item."""
         if not session.upload_queue.line:
             change(name=session.upload_queue.title)
-            fields.refresh()
 
-    show()
-    session.listen("sketch", show)
-    session.upload_queue.listen(keep_name)
+    session.follow(show, "sketch")
+    session.listen(keep_name, "read")
 
 
 def _item_fields(fields: Fields, chosen: WrittenForm, change: Any) -> None:
