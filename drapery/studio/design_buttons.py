@@ -10,7 +10,7 @@ from drapery.studio.art import face_address
 from drapery.studio.descriptions import described
 from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
-from drapery.studio.widgets import text_element
+from drapery.studio.widgets import on, text_element
 
 
 def design_button(
@@ -39,7 +39,7 @@ def design_button(
         words = f"{text}: {words}"
     element = ui.element("button").classes(kind).props("type=button")
     element.props.update({"aria-label": words, "title": words})
-    with element.on("click", lambda: (press or open_design)()):
+    with on(element, "click", lambda _: (press or open_design)()):
         size = f"width={side} height={2 * side}"
         picture = ui.element("img").props(f'alt="" loading=lazy {size}')
         picture.props["src"] = face_address(session, banner, 3 if side > 40 else 2)

@@ -203,20 +203,15 @@ class ExportSlots:
 class Exports:
     """The exports of one tab: one at a time, and the file of the last one.
 
-    current: the export that was started last.
+    current: the export that was started last. number: identifies it.
     """
 
     def __init__(self, document: Document, slots: ExportSlots) -> None:
         self._document = document
         self._slots = slots
         self.current: Export | None = None
-        self._number = 0
+        self.number = 0
         document.on_close(self.clear)
-
-    @property
-    def number(self) -> int:
-        """Identifies the current export."""
-        return self._number
 
     def start(self, request: ExportRequest, stem: str = "banner") -> Export:
         """Start another export; stops the previous one and removes its file.
@@ -226,18 +221,18 @@ class Exports:
         check(request)
         # The request determines only the file name's ending.
         suffix = Path(file_name(request)).suffix
-        path = self._document.folder / f"export-{self._number + 1}{suffix}"
+        path = self._document.folder / f"export-{self.number + 1}{suffix}"
         export = Export(request, path, file_name(request, stem))
         self._slots.take(export, self.current)
         self.clear()
-        self.current, self._number = export, self._number + 1
+        self.current, self.number = export, self.number + 1
         export.start()
         return export
 
     def finished(self, number: int) -> Export | None:
         """The export with this number, if its file exists."""
         work = self.current
-        return work if work and number == self._number and work.state == "done" else None
+        return work if work and number == self.number and work.state == "done" else None
 
     def clear(self) -> None:
         """Stop the current export, if there is one, and remove its file."""

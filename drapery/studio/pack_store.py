@@ -1,6 +1,6 @@
 """The packs of a tab: the list, its order, and which packs are on."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -128,7 +128,9 @@ class PackStore:
 
     def switch(self, number: int) -> None:
         """Switch a pack on or off. Raises PackError, DesignError."""
-        self._change(number, lambda entry: replace(entry, on=not entry.on))
+        place = self._place(number)
+        entry = replace(self.entries[place], on=not self.entries[place].on)
+        self._replace((*self.entries[:place], entry, *self.entries[place + 1 :]))
 
     def move(self, number: int, by: int) -> None:
         """Move a pack up by some places, or down if negative. Raises PackError, DesignError."""
@@ -148,11 +150,6 @@ class PackStore:
     def path_of(self, number: int) -> Path:
         """The path of a pack. Raises DesignError."""
         return self.entries[self._place(number)].path
-
-    def _change(self, number: int, change: Callable[[PackEntry], PackEntry]) -> None:
-        place = self._place(number)
-        changed = change(self.entries[place])
-        self._replace((*self.entries[:place], changed, *self.entries[place + 1 :]))
 
     def _replace(self, entries: tuple[PackEntry, ...]) -> None:
         before, self.entries = self.entries, entries

@@ -12,14 +12,14 @@ from nicegui import Client, ui
 from drapery import DraperyError, Settings
 from drapery.banner import parse_banner
 from drapery.studio.descriptions import described
-from drapery.studio.notices import errors_shown, show_notice
+from drapery.studio.notices import show_notice
 from drapery.studio.panels import bar, shortcuts
 from drapery.studio.session import Session, Sessions
 from drapery.studio.share import opened_link, write_link
 from drapery.studio.sketch import Sketch, sketch_of
 from drapery.studio.translation import language, translated
 from drapery.studio.warning_log import collected_warnings
-from drapery.studio.widgets import translated_text
+from drapery.studio.widgets import on, translated_text
 
 Place = Literal["left", "viewport", "under", "side"]
 
@@ -123,7 +123,7 @@ def build(session: Session, sessions: Sessions) -> None:
         "pasted": lambda text: session.upload_queue.read_text(str(text)),
     }
     for name, handle in handlers.items():
-        root.on(name, lambda event, handle=handle: handle(event.args), js_handler=_DETAIL)
+        on(root, name, handle, js_handler=_DETAIL)
 
 
 def _resume(session: Session, sessions: Sessions, token: object) -> None:
@@ -131,8 +131,7 @@ def _resume(session: Session, sessions: Sessions, token: object) -> None:
     work = sessions.work(str(token))
     # The user may have begun to work here already.
     if work is not None and not session.history.past:
-        with errors_shown():
-            session.resume(work)
+        session.resume(work)
 
 
 def _write_into_address(session: Session) -> None:

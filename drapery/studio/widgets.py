@@ -1,14 +1,28 @@
 """Buttons and switches of the page: plain elements, each with its label."""
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from functools import partial
+from typing import Any, TypeVar
 
 from nicegui import ui
 from nicegui.element import Element
+from nicegui.events import GenericEventArguments
 
+from drapery.studio.notices import errors_shown
 from drapery.studio.translation import translated
 
 Press = Callable[[], object]
+ElementT = TypeVar("ElementT", bound=Element)
+
+
+def on(element: ElementT, event: str, call: Callable[[Any], object], **how: Any) -> ElementT:
+    """Call this with what an element emits; its user sees a DraperyError. how: as `Element.on`."""
+
+    def handle(emitted: GenericEventArguments) -> object:
+        with errors_shown():
+            return call(emitted.args)
+
+    return element.on(event, handle, **how)
 
 
 def button(
@@ -26,7 +40,12 @@ def button(
             ui.icon(icon).props("aria-hidden=true")
         if text:
             translated_text(text)
-    return element if press is None else element.on("click", lambda: press())
+    return element if press is None else on(element, "click", lambda _: press())
+
+
+def hint(text: str) -> ui.label:
+    """A paragraph that explains, in the user's language."""
+    return translated_text(text, "p").classes("hint")
 
 
 def set_props(element: Element, props: Mapping[str, Any]) -> None:
@@ -69,12 +88,15 @@ class SegmentedControl:
     """
 
     def __init__(self, label: str, options: Mapping[str, str], choose: Callable[[str], Any]):
+        def press(name: str, _: object) -> None:
+            choose(name)
+
         self._buttons: dict[str, Element] = {}
         with ui.element("div").classes("segments") as group:
             group.props("role=group").props.update({"aria-label": translated(label)})
             for name, title in options.items():
                 element = translated_text(title, "button").props("type=button")
-                element.on("click", lambda name=name: choose(name))
+                on(element, "click", partial(press, name))
                 self._buttons[name] = element
 
     def show(self, chosen: str, *, enabled: bool = True) -> None:

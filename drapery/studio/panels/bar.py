@@ -7,7 +7,6 @@ from dataclasses import replace
 from nicegui import ui
 
 from drapery.studio.form_field import FormField
-from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, Sketch, clear, random_sketch
 from drapery.studio.translation import translated
@@ -91,6 +90,5 @@ def act(session: Session, what: str) -> None:
         "remove": lambda: selection.act_on_chosen("remove"),
         "none": lambda: selection.choose(None),
     }
-    with errors_shown():
-        if what in actions:
-            actions[what]()
+    if what in actions:
+        actions[what]()

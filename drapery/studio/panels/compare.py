@@ -9,7 +9,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import Sketch, banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, translated_text, versus_slider
+from drapery.studio.widgets import button, hint, translated_text, versus_slider
 
 MAX_STEPS = 24
 """The most designs of the history that can be chosen."""
@@ -19,11 +19,10 @@ def build(session: Session) -> None:
     """The choice of the other design, among those of the history, and the slider."""
     kept: Sketch | None = None
     translated_text("Compare designs", "h2").classes("heading")
-    translated_text(
+    hint(
         "Keep the design as it is now, or choose an earlier one. Then edit, or open another design:"
-        " the slider shows both.",
-        "p",
-    ).classes("hint")
+        " the slider shows both."
+    )
 
     def states() -> dict[str, Sketch]:
         """The latest designs of the history by their names in the list, and the kept one."""

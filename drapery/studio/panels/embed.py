@@ -15,7 +15,7 @@ from drapery.studio.embeds import (
 from drapery.studio.panels.fields import Fields, copy_field
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
-from drapery.studio.widgets import translated_text
+from drapery.studio.widgets import hint, translated_text
 
 MAX_ADDRESS = 300
 """The most characters of an address that the user gives."""
@@ -36,11 +36,10 @@ def build(session: Session) -> None:
         fields.line(label, lambda: getattr(places, name), change, maxlength=MAX_ADDRESS)
 
     translated_text("Without a server", "h2").classes("heading")
-    translated_text(
+    hint(
         "Export a web page once and put it anywhere. Its address followed by # and a design shows"
-        " that design.",
-        "p",
-    ).classes("hint")
+        " that design."
+    )
     with ui.element("div").classes("options"):
         field("Your page", "page")
     link = copy_field("embed-link", "Link to the design on your page", 2)

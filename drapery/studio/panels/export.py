@@ -7,7 +7,7 @@ from nicegui import ui
 
 from drapery import DraperyError
 from drapery.studio.exports import Export, stem_of
-from drapery.studio.notices import errors_shown, show_notice
+from drapery.studio.notices import show_notice
 from drapery.studio.panels.fields import copy_field
 from drapery.studio.panels.file_options import FileChoice, build_options, request_of
 from drapery.studio.session import Session
@@ -61,12 +61,11 @@ class _ExportForm:
         choice.changed.append(self._hide_stale)
 
     def _start(self) -> None:
-        with errors_shown():
-            request = request_of(self._session, self._choice)
-            self._own.start(request, stem_of(self._session.sketch.title))
-            self._hide()
-            self._timer.activate()
-            self._follow()
+        request = request_of(self._session, self._choice)
+        self._own.start(request, stem_of(self._session.sketch.title))
+        self._hide()
+        self._timer.activate()
+        self._follow()
 
     def _hide(self) -> None:
         self._link.set_visibility(False)

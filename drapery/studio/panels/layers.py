@@ -8,11 +8,10 @@ from drapery.banner import DYES, LOOM_LAYERS, MAX_LAYERS, PATTERNS
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import LayerList
 from drapery.studio.descriptions import dye_colour, dye_title, layer_title, pattern_title
-from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import Stroke
 from drapery.studio.translation import translated
-from drapery.studio.widgets import set_props, translated_text
+from drapery.studio.widgets import on, set_props, translated_text
 
 
 def build(session: Session) -> None:
@@ -35,15 +34,14 @@ def build(session: Session) -> None:
         set_props(rows, _shown(session))
 
     def act(event: Any) -> None:
-        with errors_shown():
-            what, number = str(event["what"]), int(event["number"])
-            session.selection.act(what, number, int(event.get("place", 0)))
+        what, number = str(event["what"]), int(event["number"])
+        session.selection.act(what, number, int(event.get("place", 0)))
 
     def choose(chosen: Any) -> None:
         session.selection.choose("field" if chosen == "field" else int(chosen))
 
-    rows.on("act", lambda event: act(event.args))
-    rows.on("choose", lambda event: choose(event.args))
+    on(rows, "act", act)
+    on(rows, "choose", choose)
     session.follow(show, "selection", "packs")
 
 

@@ -1,11 +1,9 @@
 """Words as rows of banners: write, look, and open a letter as the design."""
 
-from dataclasses import dataclass, replace
 from typing import Any
 
 from nicegui import ui
 
-from drapery import Banner, DraperyError
 from drapery.banner import DYE_NAMES, letter_banners, write_banner
 from drapery.studio.descriptions import dye_title
 from drapery.studio.design_buttons import design_button
@@ -18,56 +16,37 @@ MAX_WORD = 40
 """The most characters of a word on the page."""
 
 
-@dataclass(frozen=True)
-class LetterChoice:
-    """The word and its dyes; border None is the ground's."""
-
-    text: str = "HELLO"
-    ink: str = "black"
-    ground: str = "white"
-    border: str | None = None
-
-    def banners(self) -> tuple[Banner, ...]:
-        """The banners. Raises DesignError."""
-        return letter_banners(
-            self.text[:MAX_WORD], ink=self.ink, ground=self.ground, border=self.border
-        )
-
-
 def build(session: Session) -> None:
     """Fields for the word and its dyes, the row of letters, and the commands that give them."""
-    chosen = LetterChoice()
+    # Without a border of its own a letter has the ground's.
+    chosen: dict[str, Any] = {"text": "HELLO", "ink": "black", "ground": "white", "border": None}
     fields = Fields(session)
     dyes = {name: dye_title(name) for name in DYE_NAMES}
     borders = {"": "Like the ground", "none": "None", **dyes}
 
     def change(**changes: Any) -> None:
-        nonlocal chosen
-        after = replace(chosen, **changes)
-        after.banners()
-        chosen = after
+        letter_banners(**chosen | changes)  # it checks them
+        chosen.update(changes)
         show()
+
+    def word(text: str) -> None:
+        change(text=text[:MAX_WORD])
+
+    def border(dye: str) -> None:
+        change(border=dye or None)
 
     translated_text("Letters", "h2").classes("heading")
     with ui.element("div").classes("options"):
-        fields.line("Word", lambda: chosen.text, lambda text: change(text=text), maxlength=MAX_WORD)
-        fields.choice("Ink", dyes, lambda: chosen.ink, lambda dye: change(ink=dye))
-        fields.choice("Ground", dyes, lambda: chosen.ground, lambda dye: change(ground=dye))
-        fields.choice(
-            "Border",
-            borders,
-            lambda: chosen.border or "",
-            lambda dye: change(border=dye or None),
-        )
+        fields.line("Word", lambda: chosen["text"], word, maxlength=MAX_WORD)
+        fields.choice("Ink", dyes, lambda: chosen["ink"], lambda dye: change(ink=dye))
+        fields.choice("Ground", dyes, lambda: chosen["ground"], lambda dye: change(ground=dye))
+        fields.choice("Border", borders, lambda: chosen["border"] or "", border)
     row = ui.element("div").classes("letters").props("role=group")
     row.props["aria-label"] = translated("Letters")
     written = copy_field("letters-text", "The commands of the letters", 4)
 
     def show() -> None:
-        try:
-            banners = chosen.banners()
-        except DraperyError:
-            return
+        banners = letter_banners(**chosen)
         row.clear()
         with row:
             for banner in banners:

@@ -11,7 +11,6 @@ from drapery.studio.chosen_scene import what_follows
 from drapery.studio.descriptions import named, view_title
 from drapery.studio.file_field import FileField
 from drapery.studio.live_threads import in_thread
-from drapery.studio.notices import errors_shown
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
@@ -43,14 +42,11 @@ def build(session: Session) -> None:
     viewport, fields = session.viewport, Fields(session)
 
     def choose_view(name: str) -> None:
-        with errors_shown():
-            session.adjust(view=name)
-            viewport.look_anew()
+        session.adjust(view=name)
+        viewport.look_anew()
 
     def pause() -> None:
-        with errors_shown():
-            viewport.update(paused=not viewport.request.paused)
-        fields.refresh()
+        viewport.update(paused=not viewport.request.paused)
 
     def choose_scene(name: str) -> None:
         viewport.update(scene=name or None, garment=None, skin=None)

@@ -18,7 +18,6 @@ from drapery.packs import Packs
 from drapery.studio.art import face_address
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.icons import icon_address
-from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of, sketch_of
 from drapery.studio.translation import translated
@@ -55,10 +54,9 @@ def build(session: Session) -> None:
 
 
 def simplify_design(session: Session) -> None:
-    """Leave out the layers that change no texel."""
-    with errors_shown():
-        banner = simplify(banner_of(session.sketch), session.packs())
-        session.selection.lay_out(sketch_of(banner, session.sketch.title), same=True)
+    """Leave out the layers that change no texel. Raises DesignError or PackError."""
+    banner = simplify(banner_of(session.sketch), session.packs())
+    session.selection.lay_out(sketch_of(banner, session.sketch.title), same=True)
 
 
 def _recipe(session: Session, banner: Banner) -> str:

@@ -13,7 +13,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, text_element, translated_text, versus_slider
+from drapery.studio.widgets import button, on, text_element, translated_text, versus_slider
 
 NO_PACK = "none"
 OWN_ART = "Drapery's own art"
@@ -142,7 +142,7 @@ def _row(session: Session, entry: PackEntry) -> None:
 
     def act(call: Callable[[], None]) -> None:
         before = session.settings.packs
-        with client, errors_shown():
+        with client:
             call()
         # A change among packs that are off changes no option, so it has not notified "packs".
         if session.settings.packs == before:
@@ -152,7 +152,7 @@ def _row(session: Session, entry: PackEntry) -> None:
     switch.props.update(
         {"checked": entry.on, "aria-label": translated("Use {name}").format(name=entry.title)}
     )
-    switch.on("change", lambda: act(lambda: pack_store.switch(entry.number)))
+    on(switch, "change", lambda _: act(lambda: pack_store.switch(entry.number)))
     _name(entry.title, entry.name, entry.contents.summary, entry.contents.warnings)
     acts: tuple[tuple[str, str, Callable[[], None]], ...] = (
         ("arrow_upward", "Higher: {name}", lambda: pack_store.move(entry.number, 1)),

@@ -9,11 +9,10 @@ from drapery.studio.descriptions import (
     luminance,
     pattern_title,
 )
-from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import set_props
+from drapery.studio.widgets import on, set_props
 
 
 def build(session: Session) -> None:
@@ -24,12 +23,8 @@ def build(session: Session) -> None:
         chosen = session.selection.shown_dye
         set_props(palette, {"chosen": chosen, "heading": _heading(session)})
 
-    def press(dye: object) -> None:
-        with errors_shown():
-            session.selection.press_dye(str(dye))
-
     palette.props["dyes"] = [_swatch(dye) for dye in DYES.values()]
-    palette.on("dye", lambda event: press(event.args))
+    on(palette, "dye", lambda dye: session.selection.press_dye(str(dye)))
     session.follow(show, "selection")
 
 

@@ -4,13 +4,12 @@ from drapery import DraperyError
 from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import PatternGrid
 from drapery.studio.descriptions import dye_title, pattern_title
-from drapery.studio.notices import errors_shown
 from drapery.studio.panels.start import build_examples
 from drapery.studio.pattern_words import search_words
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import set_props
+from drapery.studio.widgets import on, set_props
 
 
 def build(session: Session) -> None:
@@ -41,14 +40,10 @@ def build(session: Session) -> None:
         ]
         set_props(grid, {"patterns": found})
 
-    def press(pattern: object) -> None:
-        with errors_shown():
-            session.selection.press_pattern(str(pattern))
-
     grid.props["words"] = {key: translated(text) for key, text in _WORDS.items()}
-    grid.on("pattern", lambda event: press(event.args))
-    grid.on("preview", lambda event: session.selection.preview(str(event.args)))
-    grid.on("swaps", lambda event: session.selection.set_swaps(bool(event.args)))
+    on(grid, "pattern", lambda pattern: session.selection.press_pattern(str(pattern)))
+    on(grid, "preview", lambda pattern: session.selection.preview(str(pattern)))
+    on(grid, "swaps", lambda swaps: session.selection.set_swaps(bool(swaps)))
     session.follow(list_patterns, "packs")
     session.follow(show, "selection", "packs")
 

@@ -5,14 +5,13 @@ from functools import partial
 
 from nicegui import ui
 
-from drapery import Settings
 from drapery.studio.design_buttons import design_button
 from drapery.studio.design_catalogue import EXAMPLES, OwnDesign, groups, own_designs
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.sketch import Sketch, banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, translated_text
+from drapery.studio.widgets import button, hint, translated_text
 
 
 def build(session: Session) -> None:
@@ -25,9 +24,7 @@ def build(session: Session) -> None:
         for name, label in (("library", "Open from the library"), ("text", "Open a text or file")):
             button(label, partial(_show_tab, name), text=label)
     _recent(session)
-    translated_text("Or change one of these; Undo brings your own design back.", "p").classes(
-        "hint"
-    )
+    hint("Or change one of these; Undo brings your own design back.")
     for group in groups():
         translated_text(group.capitalize(), "h3")
         _designs(session, [design for design in own_designs() if design.group == group])
@@ -48,16 +45,11 @@ def _recent(session: Session) -> None:
         recent.set_visibility(bool(session.recent))
         with row, errors_shown():
             for sketch, settings in session.recent:
-                press = partial(_open_again, session, sketch, settings)
+                press = partial(session.open, sketch, settings)
                 text = sketch.title or translated("Untitled")
                 design_button(session, "own-design", banner_of(sketch), press, text=text)
 
     session.follow(show, "recent")
-
-
-def _open_again(session: Session, sketch: Sketch, settings: Settings) -> None:
-    with errors_shown():
-        session.open(sketch, settings)
 
 
 def build_examples(session: Session) -> None:

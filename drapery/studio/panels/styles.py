@@ -1,13 +1,14 @@
 """The design in every style; the browser asks for a picture when the panel shows it."""
 
+from functools import partial
+
 from nicegui import ui
 from nicegui.element import Element
 
 from drapery.studio.art import style_address
-from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.translation import translated
-from drapery.studio.widgets import set_props, translated_text
+from drapery.studio.widgets import hint, on, set_props, translated_text
 from drapery.styles import find_style, style_names
 
 
@@ -16,9 +17,8 @@ def build(session: Session) -> None:
     buttons: dict[str, Element] = {}
     pictures: dict[str, Element] = {}
 
-    def press(name: str) -> None:
-        with errors_shown():
-            session.adjust(style=() if session.settings.style == (name,) else (name,))
+    def press(name: str, _: object) -> None:
+        session.adjust(style=() if session.settings.style == (name,) else (name,))
 
     def show_pressed() -> None:
         for name, button in buttons.items():
@@ -38,11 +38,10 @@ def build(session: Session) -> None:
                 )
                 pictures[name] = ui.element("img").props('loading=lazy alt=""')
                 translated_text(name.replace("-", " "))
-            buttons[name] = button.on("click", lambda name=name: press(name))
-    translated_text(
+            buttons[name] = on(button, "click", partial(press, name))
+    hint(
         "The live banner has the shapes and the texture of a style. Its lines, tones and large"
-        " pixels are in the pictures that you export.",
-        "p",
-    ).classes("hint")
+        " pixels are in the pictures that you export."
+    )
     session.follow(show_pressed, "settings")
     session.follow(show_pictures, "sketch", "packs")

@@ -13,7 +13,7 @@ from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
 from drapery.studio.translation import translated
 from drapery.studio.upload_queue import MAX_FOUND, UploadQueue
-from drapery.studio.widgets import button, text_element, translated_text
+from drapery.studio.widgets import button, hint, on, text_element, translated_text
 
 MAX_PLACE = 60
 """The most characters shown of the place where a banner was found."""
@@ -41,15 +41,10 @@ def _reader(session: Session) -> None:
         press = button("Read this text", text="Read", key="Ctrl+Enter")
         press.classes("primary").props('id="read-text"')
     FileField(session, "design", "Choose a file", upload_queue.read_file, zone="body")
-    translated_text(
-        "Or drop a file anywhere: schematics, structures, regions, saves, functions.", "p"
-    ).classes("hint")
+    hint("Or drop a file anywhere: schematics, structures, regions, saves, functions.")
     listed = ui.element("div").classes("found-list")
-    text.on(
-        "read",
-        lambda event: upload_queue.read_text(str(event.args), beside=True),
-        js_handler="(e) => emit(e.detail)",
-    )
+    read = partial(upload_queue.read_text, beside=True)
+    on(text, "read", read, js_handler="(e) => emit(String(e.detail))")
     client = context.client
 
     def arrive() -> None:
@@ -96,7 +91,7 @@ def _choices(session: Session, upload_queue: UploadQueue) -> None:
         press = partial(_open, session, found.banner)
         design_button(session, "found", found.banner, press, text=place, side=30)
     if len(upload_queue.found) > MAX_FOUND:
-        translated_text(f"The first {MAX_FOUND} of {len(upload_queue.found)}.", "p").classes("hint")
+        hint(f"The first {MAX_FOUND} of {len(upload_queue.found)}.")
 
 
 async def save_all(session: Session) -> None:
