@@ -4,7 +4,7 @@ The bytes are the same on every run with the same Python: the times of all files
 SOURCE_DATE_EPOCH, by default the time of the last commit. With `--platform`, as
 manylinux_2_17_x86_64, only a wheel is built, which holds the kernels that `python -m
 release.kernels` and `python -m drapery.web.wasm.build` have compiled before; without it they are
-left out. A wheel that is over 1.4 MB without `drapery.web` is an error.
+left out. A wheel that is over 1.4 MB without them and `drapery.web` is an error.
 """
 
 import argparse
@@ -22,7 +22,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 MAX_WHEEL = 1_400_000
-"""The most bytes of a wheel without the package `drapery.web`; its modules alone take 1 MB."""
+"""The most bytes of a wheel, see `size_of_sources`; its modules alone take 1 MB."""
+LEFT_OUT = ("drapery/web/", "drapery/aot/kernels-")
 NOT_SOURCES = {
     "drapery/aot/kernels-*": "release.kernels",
     "drapery/web/wasm/*.wasm": "drapery.web.wasm.build",
@@ -53,17 +54,17 @@ def build(out: Path, platform: str | None) -> list[Path]:
         for archive in made.glob("*.tar.gz"):
             archive.write_bytes(same_times(archive.read_bytes(), time))
         for wheel in made.glob("*.whl"):
-            if (size := size_without_web(wheel)) > MAX_WHEEL:
-                raise SystemExit(f"{wheel.name} has {size} bytes without web: over {MAX_WHEEL}")
+            if (size := size_of_sources(wheel)) > MAX_WHEEL:
+                raise SystemExit(f"{wheel.name} has {size} bytes of sources: over {MAX_WHEEL}")
         out.mkdir(parents=True, exist_ok=True)
         return [Path(shutil.copy(path, out)) for path in sorted(made.iterdir())]
 
 
-def size_without_web(wheel: Path) -> int:
-    """The bytes of a wheel without those of `drapery.web`."""
+def size_of_sources(wheel: Path) -> int:
+    """The bytes of a wheel without those of `drapery.web` and of a platform's kernels."""
     with zipfile.ZipFile(wheel) as archive:
-        web = [each for each in archive.infolist() if each.filename.startswith("drapery/web/")]
-    return wheel.stat().st_size - sum(each.compress_size for each in web)
+        others = [each for each in archive.infolist() if each.filename.startswith(LEFT_OUT)]
+    return wheel.stat().st_size - sum(each.compress_size for each in others)
 
 
 def copy_sources(tree: Path, with_built: bool) -> None:
@@ -111,8 +112,8 @@ def main(words: Sequence[str] | None = None) -> None:
     parser.add_argument("--platform", metavar="TAG", help="as manylinux_2_17_x86_64")
     given = parser.parse_args(words)
     for path in build(given.out, given.platform):
-        web = f", {size_without_web(path)} without web" if path.suffix == ".whl" else ""
-        print(f"{path}: {path.stat().st_size} bytes{web}")
+        sources = f", {size_of_sources(path)} of sources" if path.suffix == ".whl" else ""
+        print(f"{path}: {path.stat().st_size} bytes{sources}")
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 from drapery.banner.packs import open_packs
+from release.build import MAX_WHEEL, size_of_sources
 
 ROOT = Path(__file__).parent.parent
 
@@ -57,6 +58,10 @@ def outside(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path
 
     (project / "test_banner.py").write_text(PROJECT_TEST)
     return project, run
+
+
+def test_a_wheel_is_as_small_as_a_release_wants_it(wheel: Path) -> None:
+    assert size_of_sources(wheel) <= MAX_WHEEL
 
 
 def test_create_pass_fail_report_update_pass(outside: tuple[Path, Pytest]) -> None:
