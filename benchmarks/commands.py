@@ -6,11 +6,11 @@ these, so both meet the same load of the machine. The ratio is that of the least
 leaves out the kernels that were compiled ahead of time, see `drapery.aot`. On two busy cores the
 first picture after an installation took 0.8 s of the processor with them and 36 s without.
 
-Later pictures take 0.50 s of the processor there (`--processor`, Python 3.13). Of that the imports
-of NumPy take 0.13, of typer 0.08, of Drapery's 190 modules 0.13 and of Pillow 0.03, the kernels
-0.05, the cloth's plan 0.04 and the PNG file 0.02. They took 0.80 s while typer read all options
-with pydantic (0.12), all forms of banners and NumPy's masked arrays were imported (0.05), and
-Python looked for garbage before it ended (0.1).
+Later pictures take 0.41 s of the processor (`--processor`, Python 3.13), on a slow machine 0.50 s.
+There the imports of NumPy take 0.13, of typer 0.08, of Drapery's 190 modules 0.13 and of Pillow
+0.03, the kernels 0.05, the cloth's plan 0.04 and the PNG file 0.02. They took 0.80 s while typer
+read all options with pydantic (0.12), all forms of banners and NumPy's masked arrays were imported
+(0.05), and Python looked for garbage before it ended (0.1).
 """
 
 import argparse
