@@ -28,6 +28,7 @@ from drapery.cloth.collisions import boxes_met, resolver
 from drapery.cloth.contact.box_data import bands_of
 from drapery.cloth.contact.box_depths import line_passes_by
 from drapery.cloth.contact.lanes_contact import contact_work, resolve
+from drapery.cloth.contact.self_contact_data import NOT_ITSELF
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array
 from drapery.settings import SolverName
@@ -112,7 +113,7 @@ def test_how_far_contact_looks_at_first_changes_no_bit() -> None:
         work.start[:] = cloth.rest_positions
         work.end[:] = cloth.rest_positions + noise - (0.02, 0.0, 0.03)
         work.near.longest[:] = far * contact.radius
-        assert resolve(work, contact, contact.ends[None], 0)
+        assert resolve(work, contact, NOT_ITSELF, contact.ends[None], 0)
         ends.append(work.end)
     assert all(np.array_equal(ends[0], end) for end in ends[1:])
 
