@@ -284,7 +284,7 @@ def near_plane(x0: Any, x: Any, extents: Any, sheet: Any) -> bool:
 def has_moved(work: Any, i: Any, solved: Any) -> bool:
     """Whether contact moved a particle from where its solver left it."""
     end = row(work.end, i)
-    return end[0] != solved[0] or end[1] != solved[1] or end[2] != solved[2]
+    return bool(end[0] != solved[0] or end[1] != solved[1] or end[2] != solved[2])
 
 
 @kernel
