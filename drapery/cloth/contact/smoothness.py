@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, row, scale, subtract
 from drapery.cloth.contact.geometry import higher, lower, put, read
 from drapery.cloth.contact.self_contact_data import SelfContact
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel, kernel
 from drapery.mesh import Array
 
 LEAST = 0.05
@@ -57,7 +57,7 @@ def smooth_windows(x: Array, contact: SelfContact) -> NDArray[np.uint8]:
     return smooth
 
 
-@kernel
+@borrowing_kernel
 def bound_tangents(x: Array, columns: int, i: int, j: int, tangents: Array, block: int) -> None:
     """The bounds of both derivatives in a cell: its edges along rows, then those along columns."""
     n = i * columns + j
@@ -70,7 +70,7 @@ def bound_tangents(x: Array, columns: int, i: int, j: int, tangents: Array, bloc
     put(tangents, block, 9, higher(down, beside))
 
 
-@kernel
+@borrowing_kernel
 def join_tangents(
     parts: Array, first: int, wide: int, low: bool, right: bool, joined: Array, number: int
 ) -> None:
@@ -85,7 +85,7 @@ def join_tangents(
         join_one(parts, first + wide + 1, joined, number)
 
 
-@kernel
+@borrowing_kernel
 def join_one(parts: Array, part: int, joined: Array, number: int) -> None:
     for value in (0, 6):
         put(joined, number, value, lower(read(joined, number, value), read(parts, part, value)))
@@ -93,7 +93,7 @@ def join_one(parts: Array, part: int, joined: Array, number: int) -> None:
         put(joined, number, top, higher(read(joined, number, top), read(parts, part, top)))
 
 
-@kernel
+@borrowing_kernel
 def is_smooth(bounds: Array) -> bool:
     """Whether derivatives within bounds, [1, 12], are those of a smooth window."""
     u, v = middle_of(bounds, 0), middle_of(bounds, 6)
@@ -109,12 +109,12 @@ def is_smooth(bounds: Array) -> bool:
     return first > 0.0 and second > 0.0 and first * second > mixed * mixed
 
 
-@kernel
+@borrowing_kernel
 def middle_of(bounds: Array, value: int) -> Vector:
     return scale(0.5, add_scaled(read(bounds, 0, value), 1.0, read(bounds, 0, value + 3)))
 
 
-@kernel
+@borrowing_kernel
 def spread(direction: Vector, bounds: Array, value: int) -> float:
     """How far vectors within bounds are from their middle along a direction, times its length."""
     size = subtract(read(bounds, 0, value + 3), read(bounds, 0, value))
@@ -122,7 +122,7 @@ def spread(direction: Vector, bounds: Array, value: int) -> float:
     return 0.5 * (a * size[0] + b * size[1] + c * size[2])
 
 
-@kernel
+@borrowing_kernel
 def share_smooth(
     nodes: NDArray[np.int32],
     levels: NDArray[np.int32],

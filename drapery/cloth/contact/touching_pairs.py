@@ -64,18 +64,50 @@ def find_pairs(
     smooth: the windows of which no pairs are wanted, see `smooth_windows`.
     stop: whether each particle may also stop anywhere on its way, so that others run into it.
     """
-    particles, triangles, edges = contact.particles, contact.triangles, contact.edges
-    begin = contact.begin
     bounds = particle_bounds(x0, x, 0.5 * limit, stop)
-    of_edges, of_faces = joined_bounds(bounds, edges), joined_bounds(bounds, triangles)
-    tree = tree_of(of_faces, begin)
-    leaves = len(tree) // 2
-    listed, waiting = np.empty((LISTED, 5), np.int32), 0
-    pairs, count = empty_pairs(8 * len(triangles) + LISTED), 0
-    # Both nodes of an entry are equally deep.
+    of_edges = joined_bounds(bounds, contact.edges)
+    of_faces = joined_bounds(bounds, contact.triangles)
+    tree = tree_of(of_faces, contact.begin)
+    listed = np.empty((LISTED, 5), np.int32)
+    pairs, count = empty_pairs(8 * len(of_faces) + LISTED), 0
     stack, depth = np.empty((DEEPEST, 2), np.int32), 1
     stack[0] = 1
+    # References are counted in this loop, as `pairs` is set in it, so it is left to do little.
     while depth > 0:
+        depth, waiting = list_pairs(
+            bounds, of_edges, of_faces, tree, contact, smooth, stack, depth, listed
+        )
+        if count + waiting > len(pairs.ends):
+            pairs = longer(pairs)
+        count = add_pairs(x0, x, limit, stop, listed, waiting, pairs, count)
+    return TouchingPairs(
+        pairs.ends[:count],
+        pairs.edges[:count],
+        pairs.normals[:count],
+        pairs.starts[:count],
+    )
+
+
+@borrowing_kernel
+def list_pairs(
+    bounds: Array,
+    of_edges: Array,
+    of_faces: Array,
+    tree: Array,
+    contact: SelfContact,
+    smooth: NDArray[np.uint8],
+    stack: NDArray[np.int32],
+    depth: int,
+    listed: NDArray[np.int32],
+) -> tuple[int, int]:
+    """List pairs whose bounds overlap until all are listed or the list is nearly full; returns the
+    new depth of the stack and the number of listed pairs.
+
+    stack: pairs of equally deep nodes that are still to be searched, [DEEPEST, 2].
+    """
+    particles, triangles, edges = contact.particles, contact.triangles, contact.edges
+    begin, leaves, waiting = contact.begin, len(tree) // 2, 0
+    while depth > 0 and waiting + MOST <= LISTED:
         depth -= 1
         m, n = stack[depth, 0], stack[depth, 1]
         if not overlap(row(tree, m), top(tree, m), row(tree, n), top(tree, n)):
@@ -92,23 +124,10 @@ def find_pairs(
                 bounds, of_faces, particles, triangles, begin, b, a, listed, waiting
             )
         waiting = list_edges(of_edges, edges, begin, a, b, listed, waiting)
-        if waiting + MOST > LISTED:
-            if count + waiting > len(pairs.ends):
-                pairs = longer(pairs)
-            count = add_pairs(x0, x, limit, stop, listed, waiting, pairs, count)
-            waiting = 0
-    if count + waiting > len(pairs.ends):
-        pairs = longer(pairs)
-    count = add_pairs(x0, x, limit, stop, listed, waiting, pairs, count)
-    return TouchingPairs(
-        pairs.ends[:count],
-        pairs.edges[:count],
-        pairs.normals[:count],
-        pairs.starts[:count],
-    )
+    return depth, waiting
 
 
-@kernel
+@borrowing_kernel
 def add_children(stack: NDArray[np.int32], depth: int, m: int, n: int) -> int:
     """Add the pairs of children of two nodes, or of one, to the stack; returns its new depth."""
     for a in range(2 * m, 2 * m + 2):
