@@ -241,18 +241,12 @@ def _set(visitor: Visitor) -> str:
 
 def _choose_show(visitor: Visitor) -> str:
     """A scene or a garment in the viewer, or the banner again."""
-    fields = visitor.find(".live-bar .q-select")
+    fields = visitor.find(".live-bar select")
     if not fields:
         return ""
-    visitor.random.choice(fields).click()
-    time.sleep(1)  # until the menu is open
-    options = visitor.find(".q-menu .q-item")
-    if not options:
-        return ""
-    chosen = visitor.random.choice([options[0], *options])
-    words = chosen.text
-    chosen.click()
-    return words
+    one = visitor.random.choice(fields)
+    visitor.page.execute_script(SET, one, visitor.random.choice([0.0, visitor.random.random()]))
+    return str(one.get_attribute("value"))
 
 
 def _viewer(visitor: Visitor) -> str:

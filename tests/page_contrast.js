@@ -20,7 +20,7 @@ const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
 for (let node; (node = walker.nextNode()); ) {
   const element = node.parentElement;
   if (!node.textContent.trim() || !element.checkVisibility({ visibilityProperty: true })) continue;
-  if (element.closest("script, style, [disabled], .disabled, option, .viewer, .material-icons, .q-icon, .q-notification, .q-tooltip, #popup, .nicegui-error-popup")) continue;
+  if (element.closest("script, style, [disabled], .disabled, option, .viewer, .material-icons, .q-icon, .q-notification, #popup, .nicegui-error-popup")) continue;
   const box = element.getBoundingClientRect();
   if (box.width < 2 || box.height < 2) continue;
   const style = getComputedStyle(element);

@@ -169,6 +169,7 @@ def test_the_page_speaks_the_language_of_the_browser(chromium: Any, studio: Stud
         assert is_shown(chromium, "button[aria-label='Rückgängig']")
         assert find(chromium, "[data-pattern=cross]").get_attribute("title") == "Andreaskreuz"
         assert find(chromium, "[data-dye=light_blue]").get_attribute("title") == "Hellblau"
+        assert chromium.execute_script(CUT) == []
         click(chromium, "[data-pattern=cross]")
         heading = ".panel-palette h2"
         wait_until(lambda: find(chromium, heading).text == "Farbe von Lage 1: Andreaskreuz")

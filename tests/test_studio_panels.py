@@ -12,8 +12,10 @@ from nicegui.page import page
 from pack_maker import META, mcmeta, plain, zip_pack
 
 from drapery import Banner, Settings
+from drapery.errors import PackError
 from drapery.studio.design_buttons import design_button
 from drapery.studio.library import Library
+from drapery.studio.pack_store import PackStore
 from drapery.studio.panels import file_options, motion, packs
 from drapery.studio.panels.library import LibraryPanel
 from drapery.studio.records import Design
@@ -98,6 +100,29 @@ def test_a_choice_of_the_format_says_in_german_what_is_read(
             while "" not in said:
                 await asyncio.sleep(0.01)
         assert said == ["Alle Muster werden gelesen …", ""]
+
+    pack = zip_pack(tmp_path / "pack.zip", {META: mcmeta()})
+    in_page(build, Settings(packs=(pack,)))
+
+
+def test_a_pack_that_cannot_be_switched_on_is_shown_as_it_is(
+    in_page: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise PackError("it is gone")
+
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            packs.build(session)
+        shown: list[str] = []
+        session.listen(lambda: shown.append("packs"), "packs")
+        monkeypatch.setattr(PackStore, "switch", refuse)
+        (box,) = [e for e in client.elements.values() if e.props.get("type") == "checkbox"][:1]
+        for listener in box._event_listeners.values():
+            if listener.type == "change":
+                box._handle_event({"listener_id": listener.id, "args": {}})
+        await asyncio.sleep(0)
+        assert shown == ["packs"]
 
     pack = zip_pack(tmp_path / "pack.zip", {META: mcmeta()})
     in_page(build, Settings(packs=(pack,)))

@@ -1,5 +1,6 @@
 """The viewport: what its event loop and its threads share is neither lost nor waited for."""
 
+import asyncio
 import subprocess
 import sys
 import threading
@@ -13,6 +14,7 @@ import pytest
 from drapery.garments import find_garment
 from drapery.packs import open_packs
 from drapery.scenes import Clip
+from drapery.studio.live_threads import THREADS, in_thread
 from drapery.studio.panels.live import wear
 from drapery.studio.player import Player, _ClosedError, garment_show
 from drapery.studio.session import Session
@@ -109,7 +111,31 @@ def test_a_process_ends_while_a_turn_is_made() -> None:
     endless += "turn = in_thread(threading.Event().wait)\n"
     endless += "asyncio.run(asyncio.wait_for(turn, 0.2))"
     run = subprocess.run([sys.executable, "-c", endless], timeout=100, stderr=subprocess.PIPE)
-    assert run.returncode == 1 and run.stderr.endswith(b"TimeoutError\n")
+    assert run.returncode == 1 and run.stderr.rstrip().endswith(b"TimeoutError")
+
+
+def test_a_turn_is_not_made_if_it_is_cancelled_before_a_thread_is_free() -> None:
+    begun, free, made = threading.Semaphore(0), threading.Event(), []
+
+    def hold() -> None:
+        begun.release()
+        free.wait(60)
+
+    async def ask() -> None:
+        held = [asyncio.ensure_future(in_thread(hold)) for _ in range(THREADS)]
+        for _ in held:
+            while not begun.acquire(blocking=False):
+                await asyncio.sleep(0.01)
+        late = asyncio.ensure_future(in_thread(lambda: made.append(1)))
+        await asyncio.sleep(0)
+        late.cancel()
+        await asyncio.gather(late, return_exceptions=True)
+        free.set()
+        await asyncio.gather(*held)
+        await in_thread(lambda: None)  # jobs are taken in turn
+
+    asyncio.run(asyncio.wait_for(ask(), 60))
+    assert made == []
 
 
 def test_no_version_is_counted_twice(session: Session) -> None:

@@ -52,8 +52,10 @@ export default {
       this.over = false;
       this.send([...event.dataTransfer.files]);
     },
-    async send(files) {
-      if (this.busy) return;
+    send(files) {
+      this.last = (this.last ?? Promise.resolve()).then(() => this.sendAll(files));
+    },
+    async sendAll(files) {
       this.busy = true;
       for (const file of this.multiple ? files : files.slice(0, 1)) this.$emit("sent", await this.post(file));
       this.busy = false;

@@ -3,6 +3,7 @@
 import shutil
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -54,8 +55,10 @@ class KeptWork:
 
     def add(self, token: str, work: Work, folder: Path | None) -> None:
         """Keep a tab's work. folder: of all its files; from now on they are removed from here."""
-        files = (path for path in folder.rglob("*") if path.is_file()) if folder else ()
-        size = sum(path.stat().st_size for path in files)
+        size = 0
+        for path in folder.rglob("*") if folder else ():
+            with suppress(OSError):  # the thread of an export may still remove its file
+                size += path.stat().st_size if path.is_file() else 0
         self._kept[token] = _Kept(work, self._clock() + KEEP, folder, size)
         self.prune()
 

@@ -184,7 +184,7 @@ class Library:
 
 @cache
 def opened(path: Path) -> Library:
-    """The library of a file; all callers get the same object. Raises OutputError."""
+    """The library of a file, opened once but by threads that ask at once. Raises OutputError."""
     return Library(path)
 
 

@@ -27,6 +27,8 @@ async def in_thread(call: Callable[[], T]) -> T:
             settled(value)
 
     def run() -> None:
+        if done.done():  # its caller was cancelled before a thread was free
+            return
         try:
             answer: tuple[Callable[[Any], None], object] = done.set_result, call()
         except Exception as error:

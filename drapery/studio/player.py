@@ -149,12 +149,13 @@ class Player:
 
 
 def _changing_bytes(picture: Picture) -> int:
-    """The size of what differs from moment to moment; textures are the same arrays [bytes]."""
+    """The size of what may differ from moment to moment; textures are the same arrays [bytes]."""
     if isinstance(picture, PictureGrid):
         return sum(map(_changing_bytes, picture.pictures))
     if isinstance(picture, Scene):
         meshes = [model.mesh for model in picture.models]
-        return sum(mesh.positions.nbytes + mesh.normals.nbytes for mesh in meshes)
+        arrays = ((m.positions, m.normals, m.triangles, m.uvs) for m in meshes)
+        return sum(each.nbytes for of_mesh in arrays for each in of_mesh)
     return picture.pixels.nbytes
 
 

@@ -74,7 +74,7 @@ class Session(Document):
     def library(self) -> "Library":
         """The saved designs, opened at first use: a database is slow to import. Raises OutputError.
 
-        All tabs and threads share it.
+        Tabs and threads share its file.
         """
         from drapery.studio.library import default_place, opened
 
@@ -153,9 +153,11 @@ class Sessions:
     def keep(self, session: Session) -> None:
         """End the session of a page that is gone; keep its work if it has any."""
         has_packs = any(entry.upload for entry in session.pack_store.entries)
-        if not session.closed and (session.history.past or has_packs):
-            self._kept.add(session.token, session.work, session.take_folder())
-        session.close()
+        keeps = not session.closed and bool(session.history.past or has_packs)
+        work, folder = session.work, session.take_folder() if keeps else None
+        session.close()  # first, since it removes what exports have written
+        if keeps:
+            self._kept.add(session.token, work, folder)
 
     def prune(self) -> None:
         """Drop work that was kept for long enough."""

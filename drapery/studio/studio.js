@@ -126,7 +126,7 @@ window.addEventListener("keydown", (event) => {
     }
     return;
   }
-  if (typing(event.target) || document.querySelector(".q-dialog, .q-menu")) return;
+  if (typing(event.target) || document.querySelector(".q-dialog")) return;
   const name =
     (event.ctrlKey || event.metaKey ? "ctrl+" : "") + (event.altKey ? "alt+" : "") +
     (event.shiftKey && event.ctrlKey ? "shift+" : "") + event.key.toLowerCase();
@@ -144,15 +144,16 @@ document.addEventListener("keydown", (event) => {
   const here = event.target.closest?.(".tab, .dye, .pattern");
   if (!here || event.altKey || event.ctrlKey || event.metaKey) return;
   const all = [...here.parentElement.children].filter((each) => each.offsetParent);
-  const columns = all.filter((each) => each.offsetTop === all[0].offsetTop).length;
+  const columns = here.matches(".tab") ? 1 : all.filter((each) => each.offsetTop === all[0].offsetTop).length;
   const at = all.indexOf(here), last = all.length - 1;
   const next = {
     ArrowRight: at + 1, ArrowLeft: at - 1, ArrowDown: at + columns, ArrowUp: at - columns, Home: 0, End: last,
   }[event.key];
   if (next === undefined) return;
-  const found = all[next > last ? 0 : next < 0 ? last : next];
+  const chooses = !here.matches(".pattern");
+  const found = all[chooses ? (next + all.length) % all.length : Math.min(Math.max(next, 0), last)];
   found.focus();
-  if (!found.matches(".pattern")) found.click();
+  if (chooses) found.click();
   event.preventDefault();
   event.stopPropagation();
 });

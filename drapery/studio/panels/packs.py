@@ -142,7 +142,7 @@ def _row(session: Session, entry: PackEntry) -> None:
 
     def act(call: Callable[[], None]) -> None:
         before = session.settings.packs
-        with client:
+        with client, errors_shown():
             call()
         # A change among packs that are off changes no option, so it has not notified "packs".
         if session.settings.packs == before:

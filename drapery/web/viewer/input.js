@@ -7,7 +7,7 @@ const STEERING = {
 const TEXT_FIELDS =
   "input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=''],"
   + " [contenteditable=true], [role=textbox], [role=combobox], [role=listbox]";
-const OVERLAYS = "dialog[open], .q-dialog, .q-menu"; // while one is open, it receives the keys
+const OVERLAYS = "dialog[open], .q-dialog"; // while one is open, it receives the keys
 
 const viewers = new Set();
 
