@@ -1,5 +1,6 @@
 """The pairs of parts of a cloth that may meet: none is missed, and far ones change no bit."""
 
+from dataclasses import replace
 from itertools import combinations, pairwise
 from typing import Any
 
@@ -204,3 +205,22 @@ def test_the_layers_of_a_stack_stay_apart_by_more_than_half_the_thickness() -> N
                 mesh = trimesh.Trimesh(surface, faces, process=False)
                 gaps = trimesh.proximity.closest_point_naive(mesh, points)[1]
                 assert gaps.min() > thickness / 2
+
+
+def test_a_row_without_faces_has_no_blocks() -> None:
+    cloth = grid(5, 5, 1.0, 1.0)
+    row = replace(cloth, grid_shape=(1, 25), triangles=cloth.triangles[:0])
+    assert make_self_contact(row, 0.01).columns == 0
+
+
+@pytest.mark.parametrize("shape", [None, (5, 5)], ids=["loose", "torn"])
+def test_grids_without_some_of_their_faces_are_stepped(shape: tuple[int, int] | None) -> None:
+    whole = grid(5, 5, 1.0, 1.0)
+    faces = whole.triangles[: -1 if shape == (5, 5) else 0]
+    cloth = replace(whole, grid_shape=shape, triangles=faces)
+    moved = []
+    for apart in (None, 0.01):
+        met = Collisions((), 0.01, apart=apart)
+        moving = MovingCloth.begin(cloth, SolverXPBD(), 1 / 60, collisions=met)
+        moved.append(moving.advance((Gravity(),), 3).state.positions)
+    assert np.array_equal(moved[0], moved[1])

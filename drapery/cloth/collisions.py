@@ -89,7 +89,7 @@ def met_inside(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
     """What a cloth meets inside the steps of its solver: boxes, and itself; None where it meets
     other shapes. Raises OptionError."""
     boxes = boxes_met(cloth, collisions)
-    if boxes is None or collisions.apart is None:
+    if boxes is None or collisions.apart is None or not len(cloth.triangles):
         return boxes
     return replace(boxes, itself=make_self_contact(cloth, collisions.apart))
 

@@ -111,7 +111,7 @@ def _blocks_of(
     """The columns, nodes and levels of a `SelfContact`. triangles: in the order of the leaves."""
     rows, columns = cloth.grid_shape or (0, 0)
     none = 0, np.zeros((0, 4), np.int32), np.zeros((0, 3), np.int32)
-    if not rows:
+    if min(rows, columns) < 2 or len(triangles) % LEAF:
         return none
     places = np.stack(np.divmod(triangles, columns), axis=-1)
     of_faces = places.min(axis=1).astype(np.int32)
