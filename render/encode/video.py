@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from functools import partial
+from functools import cache, partial
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -35,6 +35,8 @@ def write_video(
     first, frames = _peek(frames)
     alpha = kind == ".webm" and matte is None and bool((first.pixels[..., 3] < 255).any())
     codec, options = CODECS[kind]
+    if kind == ".mp4" and _has_avx512():
+        options = {**options, "x264-params": "asm=AVX2"}
     try:
         with av.open(str(path), "w", format=kind[1:], options={"fflags": "+bitexact"}) as container:
             stream = container.add_stream(codec, Fraction(fps).limit_denominator(1001), options)
@@ -45,6 +47,14 @@ def write_video(
             container.mux(stream.encode())
     except av.FFmpegError as error:
         raise OutputError(f"cannot write {path}: {error.strerror}") from error
+
+
+@cache
+def _has_avx512() -> bool:
+    """Whether this is Linux on a processor with AVX-512, with whose code x264 (core 165) gives
+    other bytes for the same frames in one of thirty short videos."""
+    file = Path("/proc/cpuinfo")
+    return file.exists() and "avx512f" in file.read_text(encoding="utf-8", errors="replace")
 
 
 def load_av() -> Any:
