@@ -26,7 +26,7 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 def png_bytes(pixels: Pixels, level: int = STILL_LEVEL) -> bytes:
     """A PNG file; the same pixels and level give the same bytes."""
     file = BytesIO()
-    file.name = "pixels.png"  # given a format, Pillow would import those of five formats
+    file.name = "pixels.png"  # given a format, newer Pillow would import five
     Image.fromarray(pixels).save(file, compress_level=level)
     return file.getvalue()
 
