@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.exact import inverse, sine_of_turns
+from drapery.cloth.exact import inverse
+from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
 
 MAX_MATRIX_NUMBERS = 1 << 20

@@ -3,8 +3,8 @@
 import numpy as np
 
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.exact import sine_of_turns
 from drapery.cloth.state import State, rest_state
+from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
 
 FOLD_COLUMNS = 5

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.cloth import exact
+from drapery import elementary
 from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
 from drapery.cloth.wind import CROSSWIND
 from drapery.jit import kernel, uses_numba
@@ -25,7 +25,7 @@ GUST_RMS = 0.1836
 ALONG, ACROSS, UP = CROSSWIND
 
 uses_numba("drapery.cloth.kernel_choices")
-sine_of_turns = kernel(exact.sine_of_turns)
+sine_of_turns = kernel(elementary.sine_of_turns)
 
 
 @kernel

@@ -20,9 +20,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.exact import sine_of_turns
 from drapery.cloth.wind import Gusts, Wind
-from drapery.elementary import cbrt, power
+from drapery.elementary import cbrt, power, sine_of_turns
 from drapery.mesh import Array, face_normals
 
 WAVES = 16

@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from drapery.cloth.colliders import rotation_about
-from drapery.cloth.exact import sine_of_turns
+from drapery.elementary import sine_of_turns
 from drapery.errors import OptionError
 from drapery.garments.model import Angle, GarmentTable, Length
 from drapery.mesh import Array

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth import Cloth, disc, from_triangles, grid, rotation_about
-from drapery.cloth.exact import sine_of_turns
-from drapery.elementary import power
+from drapery.elementary import power, sine_of_turns
 from drapery.errors import OptionError
 from drapery.garments.model import (
     MAX_PARTICLES,

@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from drapery.cloth.colliders import Box, Collider, Path, Pose
-from drapery.cloth.exact import sine_of_turn
+from drapery.elementary import sine_of_turn
 from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed
 from drapery.style.horse import HORSE_PARTS
 

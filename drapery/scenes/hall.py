@@ -9,7 +9,7 @@ from drapery.banner.packs import open_packs
 from drapery.cloth import Cloth, Gravity, State, Wind
 from drapery.cloth.colliders import Collider, Plane
 from drapery.cloth.collisions import Collisions
-from drapery.cloth.exact import sine_of_turns
+from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
 from drapery.render.camera import Camera
 from drapery.render.light import Light

@@ -12,8 +12,8 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from drapery.cloth import STRUCTURAL, Cloth, Gravity, State, grid, rest_state, simulate
-from drapery.cloth.exact import sine_of_turns
 from drapery.cloth.solvers.pbd import SolverPBD
+from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
 from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Clip

@@ -9,8 +9,8 @@ import numpy as np
 from drapery.banner.packs import open_packs
 from drapery.cloth import Drag, Force, Gravity, State, Wind
 from drapery.cloth.collisions import Collisions
-from drapery.cloth.exact import sine_of_turns
 from drapery.cloth.solvers.verlet import SolverVerlet
+from drapery.elementary import sine_of_turns
 from drapery.garments.catalogue import find_garment
 from drapery.mesh import Array
 from drapery.render.scene import Scene

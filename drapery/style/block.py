@@ -4,11 +4,11 @@ Model units are 1/16 block with y down and z towards the back; the transform of 
 them upright and scales them by 2/3.
 """
 
-import math
 from typing import Literal
 
 import numpy as np
 
+from drapery.elementary import cos, sin, sine_of_turn
 from drapery.mesh import Array, Mesh
 from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.body import Solid, half_space
@@ -71,8 +71,8 @@ def turn(mesh: Mesh, degrees: float) -> Mesh:
 def turn_matrix(degrees: float) -> Array:
     """The rotation of `turn`, shape [3, 3]."""
     angle = np.radians(-degrees)
-    cos, sin = math.cos(angle), math.sin(angle)
-    return np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
+    cosine, sine = cos(angle), sin(angle)
+    return np.array([[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]])
 
 
 def turn_centre() -> Array:
@@ -116,4 +116,4 @@ def stiff_flag(placement: Placement, phase: float, thickness: float = 1.0) -> Me
 
 def sway_angle(phase: float) -> float:
     """The flag's rotation about the model's x axis at its top edge [radians]."""
-    return float((-0.0125 + 0.01 * math.cos(2 * math.pi * phase)) * np.pi)
+    return float((-0.0125 + 0.01 * sine_of_turn(phase + 0.25)) * np.pi)

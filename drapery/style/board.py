@@ -1,9 +1,8 @@
 """Cloth as the game shows it: a stiff board below its top edge."""
 
-import math
-
 import numpy as np
 
+from drapery.elementary import cos, sin
 from drapery.mesh import Array, Mesh
 from drapery.style.extrusion import extrude
 from drapery.style.uv_mapping import UVMapping
@@ -25,8 +24,8 @@ def stiff_board(size: tuple[float, float], thickness: float, uv_mapping: UVMappi
 
 def tilted(mesh: Mesh, angle: float) -> Mesh:
     """The mesh turned about the x axis [radians]; a negative angle lifts its foot to the front."""
-    cos, sin = math.cos(angle), math.sin(angle)
-    matrix = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]])
+    cosine, sine = cos(angle), sin(angle)
+    matrix = np.array([[1, 0, 0], [0, cosine, -sine], [0, sine, cosine]])
     # einsum adds in a fixed order; BLAS may not.
     positions = np.einsum("ij,...j->...i", matrix, mesh.positions)
     normals = np.einsum("ij,...j->...i", matrix, mesh.normals)

@@ -1,9 +1,8 @@
 """How the game itself moves banners and capes: as stiff boards that sway and lag behind."""
 
-import math
-
 import numpy as np
 
+from drapery.elementary import sin
 from drapery.mesh import Mesh
 from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.figure import CAPE_SIZE, SKIN_SHEET, TEXEL, cape_mapping
@@ -32,7 +31,7 @@ def sway_phase(block: tuple[int, int, int], time: float) -> float:
 def cape_lean(speed: float, time: float) -> float:
     """Lean of a cape [degrees]. speed: of a steady walk [m/s]. time: [s]."""
     lag = LAG_TICKS * speed / TICKS_PER_SECOND
-    bob = BOB * min(1.0, speed / 2.0) * math.sin(BOB_PER_METRE * speed * time)
+    bob = BOB * min(1.0, speed / 2.0) * sin(BOB_PER_METRE * speed * time)
     return float(min(LEAN + LEAN_PER_LAG * lag, MAX_LEAN) + bob)
 
 

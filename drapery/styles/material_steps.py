@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.banner.dyes import DYES
-from drapery.elementary import cos, sin
+from drapery.elementary import cos, sin, sine_of_turns
 from drapery.mesh import Array
 from drapery.render.flatten import lay_over
 from drapery.render.scene import Material, Texels, TextureLayer
@@ -298,7 +298,7 @@ def _near(marks: NDArray[np.bool_], distance: int) -> NDArray[np.bool_]:
 
 def _bulge(place: Array | Numbers, width: int) -> Array:
     """The height 0..1 of a round thread at a place across its width."""
-    bulge: Array = sin(np.pi * (place + 0.5) / width)
+    bulge: Array = sine_of_turns((place + 0.5) / (2 * width))
     return np.clip(bulge, 0, 1)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from drapery.cloth.exact import sine_of_turns
+from drapery.elementary import sine_of_turns
 from drapery.errors import OptionError
 from drapery.mesh import Array
 

@@ -3,12 +3,11 @@
 The wings are rigid, so no wind moves them.
 """
 
-import math
-
 import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
+from drapery.elementary import cos, sin
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
@@ -44,9 +43,9 @@ def _left_wing() -> Mesh:
 
 def _folded(angle: float) -> Array:
     """The rotation of the left wing in the model: about x, then about -z, shape [3, 3]."""
-    cos, sin = math.cos(angle), math.sin(angle)
-    about_x = np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]])
-    about_z = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
+    cosine, sine = cos(angle), sin(angle)
+    about_x = np.array([[1, 0, 0], [0, cosine, -sine], [0, sine, cosine]])
+    about_z = np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]])
     matrix: Array = np.einsum("ij,jk->ik", about_z, about_x)
     return matrix
 
