@@ -180,6 +180,18 @@ def test_a_fast_box_takes_the_cloth_with_it() -> None:
     assert middle[2] > 0.3
 
 
+@pytest.mark.parametrize("apart", [None, 0.01], ids=["world", "all"])
+@pytest.mark.parametrize("method", [SolverDesbrun, SolverXPBD])
+def test_cloth_that_begins_in_a_box_comes_out(method: Any, apart: float | None) -> None:
+    block = Collider(Box(np.array([0.25, -1.2, 0.1]), np.array([0.5, 0.6, 0.4])))
+    cloth = flag((11, 21))
+    met = Collisions((block,), thickness=0.01, apart=apart)
+    moving = MovingCloth.begin(cloth, method(), collisions=met)
+    assert depth(moving.state.positions[0], block, cloth) > 0.09
+    moving = moving.advance((Gravity(), Wind((0.0, 0.0, 3.0))), 240)
+    assert depth(moving.state.positions[0], block, cloth) < 1e-4
+
+
 def test_thin_and_deep_cloth_passes_no_wall_at_any_speed() -> None:
     wall = Collider(Plane(np.array([0, 0, -0.1]), np.array([0, 0, 1.0])))
     cloth = flag((5, 9))

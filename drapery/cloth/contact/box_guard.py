@@ -82,6 +82,38 @@ def return_some(contact: BoxContact, k: int, frame: Array, near: Candidates) -> 
 
 
 @borrowing_kernel
+def begins_inside(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> bool:
+    """Whether a part of the cloth is in a box at the start of the step."""
+    for k in range(len(contact.halves)):
+        if near.counts[k, 0] > 0:
+            enter_frame(x0, x, contact, k, near, -1, 0)
+            half, frame = row(contact.halves, k), near.frames[k]
+            for n in range(near.counts[k, 0]):
+                i = near.particles[k, n]
+                put(frame, i, END, start_of(frame, i))
+                measure(half, frame, i)
+            if is_inside(contact, k, frame, near):
+                return True
+    return False
+
+
+@borrowing_kernel
+def is_inside(contact: BoxContact, k: int, frame: Array, near: Candidates) -> bool:
+    """Whether a free particle, or a part of an edge that no pin holds there, is in the box."""
+    half, w = row(contact.halves, k), contact.inv_mass
+    for n in range(near.counts[k, 0]):
+        i = near.particles[k, n]
+        if w[i] > 0.0 and frame[i, DISTANCE] < 0.0:
+            return True
+    for n in range(near.counts[k, 1]):
+        i, j = contact.edges[near.edges[k, n], 0], contact.edges[near.edges[k, n], 1]
+        _part, depth, _normal = edge_depth(half, edge_radius(w, 0.0, frame, i, j), frame, i, j)
+        if depth > 0.0:
+            return True
+    return False
+
+
+@borrowing_kernel
 def to_start(half: Vector, w: Array, frame: Array, i: int) -> bool:
     """Return a free particle to its start; whether that moved it."""
     start, end = start_of(frame, i), end_of(frame, i)

@@ -13,7 +13,7 @@ from drapery.cloth.colliders.vectors import add_scaled, dot, norm, row, scale, s
 from drapery.cloth.contact.box_contact import meet_boxes, meet_close_boxes
 from drapery.cloth.contact.box_data import BoxContact, Candidates, empty_candidates
 from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
-from drapery.cloth.contact.box_guard import guard_boxes
+from drapery.cloth.contact.box_guard import begins_inside, guard_boxes
 from drapery.cloth.contact.geometry import put
 from drapery.cloth.contact.near_boxes import find_boxes, whole_margin
 from drapery.cloth.contact.pair_distance import gap_along, nearest
@@ -103,7 +103,7 @@ def meet_itself(
         length, limit = norm(change), 0.5 * (REACH - 1.0) * contact.thickness
         if length > limit:
             put(x, i, 0, add_scaled(row(wanted, i), limit / length, change))
-    if not make_safe(x0, x, pairs, contact, boxes, near, pushed) and not pushed:
+    if not make_safe(x0, x, wanted, pairs, contact, boxes, near, pushed) and not pushed:
         return True
     stopped = farthest(x, wanted) >= 0.5 * REACH * contact.thickness
     if stopped or not stay_smooth(smooth, smooth_windows(x, contact)):
@@ -111,7 +111,7 @@ def meet_itself(
         # which no pair is known.
         smooth[:] = 0
         pairs = find_pairs(x0, x, contact, smooth, STOPPED * contact.thickness, True)
-        make_safe(x0, x, pairs, contact, boxes, near, True)
+        make_safe(x0, x, wanted, pairs, contact, boxes, near, True)
     return True
 
 
@@ -194,6 +194,7 @@ def push_pairs(
 def make_safe(
     x0: Array,
     x: Array,
+    wanted: Array,
     pairs: TouchingPairs,
     contact: SelfContact,
     boxes: BoxContact,
@@ -203,9 +204,11 @@ def make_safe(
     """Shorten displacements until no pair can have crossed and no part of the cloth is in a box;
     returns whether any was shortened.
 
-    pushed: whether the cloth was moved since it met the boxes.
+    pushed: whether the cloth was moved since it met the boxes. wanted: where these left it; cloth
+    that began the step in a box goes there, since it would not come out if it were held.
     """
-    w, changed, any_found = contact.inv_mass, np.full(len(x), -1, np.int32), False
+    w, changed = contact.inv_mass, np.full(len(x), -1, np.int32)
+    any_found = any_returned = False
     for turn in range(GUARDS):
         stop = turn >= GUARDS // 2
         found = shorten_unsafe(x0, x, pairs, w, contact.thickness, changed, turn, stop)
@@ -214,9 +217,14 @@ def make_safe(
                 find_boxes(x0, x, boxes, whole_margin(boxes), near)
             before = x.copy()
             guard_boxes(x0, x, boxes, near)
+            returned = False
             for i in range(len(x)):
                 if row(x, i) != row(before, i):
-                    found, changed[i] = True, turn
+                    returned, changed[i] = True, turn
+            if returned and not any_returned and begins_inside(x0, x, boxes, near):
+                x[:] = wanted
+                return True
+            found, any_returned = found or returned, any_returned or returned
         if not found:
             return any_found
         any_found = True
