@@ -250,7 +250,7 @@ class Settings:
         audience="anyone",
     )
     contact: Contact = _option(
-        "world",
+        "all",
         str,
         "What the cloth cannot pass through: nothing, the world around it, or all: itself too",
         choices=get_args(Contact),

@@ -86,7 +86,7 @@ def test_poses_repeat_to_the_bit_after_their_ramp() -> None:
     [
         (player("skirt"), "has sewn pieces"),
         (player(shown="head"), "has no cloth"),
-        (find_garment("cape").model_copy(update={"collisions": "all"}), "use contact world"),
+        (find_garment("cape").model_copy(update={"collisions": "all"}), "use collisions"),
     ],
 )
 def test_garments_that_cannot_be_played_are_refused(garment: Garment, reason: str) -> None:

@@ -122,11 +122,8 @@ def live_call(
     if type(plan) not in PLAYERS:
         name = type(moving.solver).__name__
         raise OptionError(f"solver {name} cannot be played without Python; use xpbd or desbrun")
-    meets_itself = moving.boxes is not None and len(moving.boxes.itself.triangles) > 0
-    if moving.resolve is not None or meets_itself:
-        raise OptionError(
-            "contact of the cloth with itself cannot be played without Python; use contact world"
-        )
+    if moving.resolve is not None:
+        raise OptionError("contact with shapes other than boxes cannot be played without Python")
     winds = [force for force in forces if isinstance(force, Wind)]
     if len(winds) != 1 or not all(isinstance(force, Gravity | Drag | Wind) for force in forces):
         raise OptionError("only gravity, drag and one wind can be played without Python")
@@ -164,7 +161,7 @@ def _narrowed(batch: Batch, lanes: int, wind: LiveWind) -> Batch:
         gusts=gusts,
         width=lanes,
         residuals=cut(batch.residuals),
-        work=_zeros(contact_work(batch.contact)),
+        work=_zeros(contact_work(batch.contact, batch.itself)),
     )
 
 

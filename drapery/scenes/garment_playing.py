@@ -105,6 +105,11 @@ def played_garment(garment: Garment, packs: Packs, settings: Settings) -> Played
         raise OptionError(
             "garments that meet each other cannot be played without Python; use only one of them"
         )
+    if garment.collisions == "all":
+        raise OptionError(
+            f"garment {garment.name} meets itself, which cloth that can be pulled does not;"
+            ' use collisions = "world"'
+        )
     if garment.mesh and garment.collisions != "none":
         raise OptionError(
             f"garment {garment.name} has 3-D files, which cannot be played without Python;"

@@ -74,7 +74,8 @@ def live_panels(
 ) -> list[LivePanel]:
     """The panels of a body, to be played in the wind of the settings.
 
-    lanes: of the arrays; by default a register of this processor.
+    lanes: of the arrays; by default a register of this processor. Cloth that is not for a picture
+    passes through itself, since a hand may pull it.
     picture: whether the call `draw` draws the picture of the settings, with the camera that frames
     the cloth at `settings.time`; only for bodies of one panel, without shadows. The header then has
     `picture`, its width and height; and `steps`, after which the cloth is that of the still. The
@@ -91,6 +92,7 @@ def live_panels(
     if stager.settings.pose != "cloth":
         raise OptionError(f"pose {stager.settings.pose} has no cloth to play; use pose cloth")
     if not picture:
+        stager = Stager(body, _pulled(settings), ())
         return [_live_panel(stager, panel, lanes) for panel in body.panels]
     if len(body.panels) != 1 or stager.settings.pixel != 1 or stager.style.has("picture"):
         raise OptionError(
@@ -98,6 +100,15 @@ def live_panels(
             "Python; leave out the picture"
         )
     return [_with_picture(stager, lanes)]
+
+
+def _pulled(settings: Settings) -> Settings:
+    """The settings of cloth that a hand may pull, which passes through itself.
+
+    A hand does not feel what is in its way, and cloth that it has pulled through itself could not
+    come back.
+    """
+    return replace(settings, contact="world") if settings.contact == "all" else settings
 
 
 def _with_picture(stager: Stager, lanes: int | None) -> LivePanel:
@@ -153,6 +164,7 @@ def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any])
     live, blown, plan, batch, substeps = call
     x, _, z = blown.velocity
     method = type(plan).__name__.removesuffix("Plan").lower()
+    resolve = lanes_contact.resolver(len(batch.itself.triangles) > 0)
     return LivePanel(
         {
             **header,
@@ -176,7 +188,7 @@ def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any])
             "wind": blown.velocity,
             **{name: getattr(shell, name) for name in ("vertices", "normals", "light")},
         },
-        {"resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE)},
+        {"resolve": (resolve, lanes_contact.EXAMPLE)},
     )
 
 

@@ -126,17 +126,19 @@ class LiveCloth(MovingCloth):
         A cloth that has fallen further from the new pins than its own length hangs at rest again.
         Raises OptionError.
         """
-        new = new_live_cloth(spec)
+        hung = new_live_cloth(spec)
         if self.spec.size != spec.size:
-            return new
+            return hung
+        new = replace(new_live_cloth(_free(spec)), spec=spec)
         state, pinned = _resampled(self, new), new.whole.inv_mass == 0
         away = _lengths(state.positions[0][pinned] - new.hung[pinned])
         if (away > max(spec.size)).any():
-            return new
+            return hung
         return replace(new, state=state)
 
     def _with_cloth(self, cloth: Cloth, grab: Grab | None) -> Self:
-        made = MovingCloth.begin(cloth, self.solver, STEP, collisions=self.spec.make_collisions())
+        met = _free(self.spec).make_collisions()
+        made = MovingCloth.begin(cloth, self.solver, STEP, collisions=met)
         changed = replace(self, cloth=cloth, solver_state=made.solver_state, grab=grab)
         return replace(changed, resolve=made.resolve, boxes=made.boxes)
 
@@ -152,6 +154,15 @@ class LiveCloth(MovingCloth):
             return None
         end = _nearer(start, goal)
         return lambda time: start + (end - start) * min(max((time - began) / STEP, 0.0), 1.0)
+
+
+def _free(spec: ClothSpec) -> ClothSpec:
+    """The spec of cloth that passes through itself.
+
+    A hand does not feel what is in its way, and cloth that it has pulled through itself, or that
+    continues on another grid, could not come back.
+    """
+    return replace(spec, itself=False)
 
 
 def new_live_cloth(spec: ClothSpec) -> LiveCloth:

@@ -98,10 +98,15 @@ EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NOT_ITSELF, NO_CONTACT.ends[Non
 _resolve_at = call_by_address(bool, EXAMPLE)
 
 
+def resolver(itself: bool) -> Any:
+    """`resolve`, or `resolve_itself`."""
+    return resolve_itself if itself else resolve
+
+
 @cache
 def resolve_address(itself: bool) -> int:
-    """Where `resolve`, or `resolve_itself`, is in memory."""
-    return address_of(resolve_itself if itself else resolve, EXAMPLE)
+    """Where `resolver` is in memory."""
+    return address_of(resolver(itself), EXAMPLE)
 
 
 @kernel

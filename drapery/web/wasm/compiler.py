@@ -110,12 +110,14 @@ def _typed_code(kernel: ExportedKernel) -> Any:
     code = _llvm.parse_assembly(re.sub(kinds, "= internal global", text))
     inner = code.get_function(name)
     parameters = [str(argument.type) for argument in inner.arguments]
-    lines = _address(kernel, name) if kernel.by_address else _call(kernel, name, parameters)
+    lines = (_address if kernel.by_address else _call)(kernel, name, parameters)
     head = [
         f'target triple = "{TRIPLE}"',
         f'target datalayout = "{LAYOUT}"',
         f'declare i32 @"{name}"({", ".join(parameters)})',
         "declare void @rewind()",
+        "declare i32 @mark()",
+        "declare void @release(i32)",
     ]
     wrapper = _llvm.parse_assembly("\n".join([*head, *lines]))
     inner.linkage = "external"
@@ -123,9 +125,24 @@ def _typed_code(kernel: ExportedKernel) -> Any:
     return code
 
 
-def _address(kernel: ExportedKernel, inner: str) -> list[str]:
-    """The function that returns the address of a kernel, as text."""
-    return [f'define i32 @"{kernel.name}"() {{', f'ret i32 ptrtoint (ptr @"{inner}" to i32)', "}"]
+def _address(kernel: ExportedKernel, inner: str, parameters: list[str]) -> list[str]:
+    """The function that returns the address of a kernel, as text.
+
+    What the kernel allocates is free again when it returns: it is called once for each step of a
+    call, and nothing that it makes is used after.
+    """
+    given = ", ".join(f"{kind} %a{number}" for number, kind in enumerate(parameters))
+    return [
+        f'define internal i32 @"{kernel.name}.freeing"({given}) {{',
+        "%top = call i32 @mark()",
+        f'%code = call i32 @"{inner}"({given})',
+        "call void @release(i32 %top)",
+        "ret i32 %code",
+        "}",
+        f'define i32 @"{kernel.name}"() {{',
+        f'ret i32 ptrtoint (ptr @"{kernel.name}.freeing" to i32)',
+        "}",
+    ]
 
 
 def _call(kernel: ExportedKernel, inner: str, parameters: list[str]) -> list[str]:

@@ -41,6 +41,20 @@ struct info *NRT_MemInfo_alloc_aligned(unsigned long long bytes, unsigned align)
 /* Kernels call this before they make arrays: none of the last call is in use. */
 void rewind(void) { top = reserved; }
 
+void *NRT_Allocate(unsigned long long bytes) {
+  size place = aligned(top);
+  if (!grown(place + (size)bytes + 64)) __builtin_trap();
+  top = place + (size)bytes;
+  return (void *)place;
+}
+
+/* All of a call is freed at once. */
+void NRT_Free(void *place) { (void)place; }
+
+/* What was made after a mark is no longer in use. */
+size mark(void) { return top; }
+void release(size place) { top = place; }
+
 /* Only rows that follow one another are reshaped. */
 int numba_attempt_nocopy_reshape(
     long long axes, const long long *shape, const long long *strides, long long new_axes,
