@@ -164,7 +164,6 @@ def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any])
     live, blown, plan, batch, substeps = call
     x, _, z = blown.velocity
     method = type(plan).__name__.removesuffix("Plan").lower()
-    resolve = lanes_contact.resolver(len(batch.itself.triangles) > 0)
     return LivePanel(
         {
             **header,
@@ -188,7 +187,7 @@ def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any])
             "wind": blown.velocity,
             **{name: getattr(shell, name) for name in ("vertices", "normals", "light")},
         },
-        {"resolve": (resolve, lanes_contact.EXAMPLE)},
+        {"resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE)},
     )
 
 

@@ -3,8 +3,8 @@
 A solver moves the cloth without regard to boxes. Then, still in the same compiled loop, registers
 of cloths, or of particles of one cloth, are compared with the bounds of the boxes. A cloth that may
 touch one, or that meets itself, is copied to an array [N, 3], its contacts are resolved, and the
-next step starts from there. The kernels call `resolve`, or `resolve_itself`, by its address,
-so it is compiled once for all of them.
+next step starts from there. The kernels call `resolve` by its address, so it is compiled once for
+all of them.
 """
 
 from functools import cache
@@ -14,7 +14,6 @@ import numpy as np
 
 from drapery.cloth import simd
 from drapery.cloth.colliders.vectors import Vector, norm, row, scale, subtract
-from drapery.cloth.contact.box_contact import meet_close_boxes
 from drapery.cloth.contact.box_data import (
     NO_CONTACT,
     TOUCH,
@@ -80,15 +79,8 @@ def contact_at(boxes: Any, poses: Any, turn: Any) -> BoxContact:
 
 @entry_point
 def resolve(work: Any, boxes: Any, itself: Any, poses: Any, turn: Any) -> bool:
-    """Resolve the contacts of a cloth with boxes in step number `turn`, which ends at work.end; see
-    `contact_at`. Returns whether it had any."""
-    contact = contact_at(boxes, poses, turn)
-    return bool(meet_close_boxes(work.start, work.end, contact, work.near))
-
-
-@entry_point
-def resolve_itself(work: Any, boxes: Any, itself: Any, poses: Any, turn: Any) -> bool:
-    """The same for contacts with boxes and with itself."""
+    """Resolve the contacts of a cloth with boxes and with itself in step number `turn`, which ends
+    at work.end; see `contact_at`. Returns whether it had any."""
     reset_tracks(work.near)
     contact = contact_at(boxes, poses, turn)
     return bool(meet_one(work.start, work.end, itself, contact, work.near))
@@ -98,15 +90,10 @@ EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NOT_ITSELF, NO_CONTACT.ends[Non
 _resolve_at = call_by_address(bool, EXAMPLE)
 
 
-def resolver(itself: bool) -> Any:
-    """`resolve`, or `resolve_itself`."""
-    return resolve_itself if itself else resolve
-
-
 @cache
-def resolve_address(itself: bool) -> int:
-    """Where `resolver` is in memory."""
-    return address_of(resolver(itself), EXAMPLE)
+def resolve_address() -> int:
+    """Where `resolve` is in memory."""
+    return address_of(resolve, EXAMPLE)
 
 
 @kernel

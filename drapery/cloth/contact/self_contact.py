@@ -72,6 +72,8 @@ def meet_one(
 ) -> bool:
     """The same for one cloth, [N, 3]; returns whether there may be any contact."""
     met = len(boxes.halves) > 0 and meet_close_boxes(x0, x, boxes, near)
+    if len(contact.triangles) == 0:
+        return met
     return meet_itself(x0, x, contact, boxes, near) or met
 
 

@@ -245,7 +245,7 @@ def batch_of(
         NO_CONTACT if boxes is None else boxes.contact,
         itself,
         _box_poses(boxes, state.time, solver_state, steps),
-        resolve_address(meets_itself) if meets_itself or (boxes and boxes.paths) else 0,
+        resolve_address() if meets_itself or (boxes and boxes.paths) else 0,
         contact_work(NO_CONTACT),
         solver_state.often,
         len(state.positions),

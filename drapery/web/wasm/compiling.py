@@ -13,7 +13,6 @@ jit.OUTER = jit.INNER
 vars(jit_cache)["cache_on_disk"] = lambda dispatcher: dispatcher
 
 from drapery import Banner, Settings  # noqa: E402
-from drapery.cloth.contact import lanes_contact  # noqa: E402
 from drapery.garments import find_garment  # noqa: E402
 from drapery.packs import open_packs  # noqa: E402
 from drapery.scenes import live_garment, live_panels, played_garment  # noqa: E402
@@ -42,9 +41,8 @@ def main(path: Path, methods: list[str]) -> None:
         for call in panel.calls.values():
             kernels[call.name] = ExportedKernel(call.name, call.function, types_of(call.arguments))
             hashes[call.name] = types_hash(call.arguments)
-    for function in (lanes_contact.resolve, lanes_contact.resolve_itself):
-        name, types = function.__name__, types_of(lanes_contact.EXAMPLE)
-        kernels[name] = ExportedKernel(name, function, types, by_address=True)
+        for name, (function, example) in panel.functions.items():
+            kernels[name] = ExportedKernel(name, function, types_of(example), by_address=True)
     info = {"sources": sources_hash(), "kernels": hashes}
     path.write_bytes(compile_module(list(kernels.values()), info, path.parent))
 

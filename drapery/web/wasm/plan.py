@@ -46,8 +46,7 @@ def plans_of_garment(played: PlayedGarment) -> list[bytes]:
 def write_plan(panel: LivePanel, info: dict[str, Any]) -> bytes:
     """A plan for the module with this `module_info`. Raises WasmBuildError if it has no kernels
     for the panel."""
-    image = Image()
-    addresses = {field: function.__name__ for field, (function, _) in panel.functions.items()}
+    image, addresses = Image(), {name: name for name in panel.functions}
     calls = {}
     for purpose, kernel in panel.calls.items():
         if info["kernels"].get(kernel.name) != types_hash(kernel.arguments):
