@@ -108,6 +108,9 @@ def _typed_code(kernel: ExportedKernel) -> Any:
     counting = r"(?ms)^define [^\n]*@(NRT_incref|NRT_decref)\(.*?^}"
     text = re.sub(counting, r"define internal void @\1(ptr) {\nret void\n}", text)
     code = _llvm.parse_assembly(re.sub(kinds, "= internal global", text))
+    if kernel.by_address:  # contact is seldom, and large
+        for each in code.functions:
+            each.add_function_attribute("optsize")
     inner = code.get_function(name)
     parameters = [str(argument.type) for argument in inner.arguments]
     lines = (_address if kernel.by_address else _call)(kernel, name, parameters)
