@@ -25,11 +25,13 @@ from drapery.cloth import (
 from drapery.cloth.colliders import straight
 from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.collisions import boxes_met, resolver
-from drapery.cloth.contact.box_data import bands_of
+from drapery.cloth.contact.box_data import COLUMNS, bands_of
 from drapery.cloth.contact.box_depths import line_passes_by
+from drapery.cloth.contact.box_guard import edge_enters
 from drapery.cloth.contact.lanes_contact import contact_work, resolve
 from drapery.cloth.contact.self_contact_data import NOT_ITSELF
 from drapery.cloth.solvers.registry import solver
+from drapery.jit import entry_point
 from drapery.mesh import Array
 from drapery.settings import SolverName
 
@@ -130,6 +132,40 @@ def test_a_line_that_passes_by_a_rectangle_keeps_its_distance() -> None:
         found.append(passes_by.py_func(*half, 0.3, *start, *along))
         assert distance >= 0.3 if found[-1] else distance < 0.3001
     assert any(found) and not all(found)
+
+
+@entry_point
+def first_edge_enters(half: Any, kept: Any, frame: Any) -> Any:
+    """Whether the edge from particle 0 to 1 of a frame enters a box."""
+    return edge_enters(half, kept, frame, 0, 1)
+
+
+def test_an_edge_that_is_micrometres_deep_is_found() -> None:
+    numbers, half = np.random.default_rng(5), np.array([0.04, 0.9, 0.04])
+    parts, tested = np.linspace(0, 1, 20001)[:, None], 0
+    for a, b in numbers.uniform(-1, 1, (300, 2, 3)) * (0.12, 0.3, 0.12):
+        normal = numbers.normal(size=3)
+        low, high = -0.5, 0.5  # how far along the normal 5 µm of the edge are in the box
+        for _ in range(40):
+            middle = (low + high) / 2
+            distance = distances(half, a + middle * normal + parts * (b - a)).min()
+            low, high = (low, middle) if distance > -5e-6 else (middle, high)
+        frame = np.zeros((2, COLUMNS))
+        frame[:, 3:6] = np.array([a, b]) + low * normal
+        frame[:, 0:3] = frame[:, 3:6] + (1, 1, 1)
+        ends = distances(half, frame[:, 3:6])
+        if not -6e-6 < distance < -4e-6 or ends.min() < 1e-4:
+            continue
+        tested += 1
+        assert first_edge_enters(tuple(half), 2e-5, frame)
+    assert tested > 30
+
+
+def distances(half: Array, places: Array) -> Array:
+    """From a box about the origin [m]; below 0 inside."""
+    away = np.abs(places) - half
+    outside: Array = np.sqrt(np.square(np.maximum(away, 0)).sum(axis=1))
+    return outside + np.minimum(away.max(axis=1), 0)
 
 
 def test_edges_and_faces_join_only_neighbouring_bands() -> None:

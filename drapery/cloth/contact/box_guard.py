@@ -15,6 +15,7 @@ from drapery.cloth.contact.box_depths import (
     face_of,
     face_radius,
     near_face,
+    passes,
 )
 from drapery.cloth.contact.box_frame import (
     DISTANCE,
@@ -64,7 +65,7 @@ def return_some(contact: BoxContact, k: int, frame: Array, near: Candidates) -> 
         i, j = contact.edges[near.edges[k, n], 0], contact.edges[near.edges[k, n], 1]
         kept = edge_radius(contact.inv_mass, skin, frame, i, j)
         _part, depth, _normal = edge_depth(half, kept, frame, i, j)
-        if depth > 0.0:
+        if depth > 0.0 or edge_enters(half, kept, frame, i, j):
             found = to_start(half, contact.inv_mass, frame, i) or found
             found = to_start(half, contact.inv_mass, frame, j) or found
     for n in range(near.counts[k, 2]):
@@ -111,6 +112,22 @@ def is_inside(contact: BoxContact, k: int, frame: Array, near: Candidates) -> bo
         if depth > 0.0:
             return True
     return False
+
+
+@borrowing_kernel
+def edge_enters(half: Vector, kept: float, frame: Array, i: int, j: int) -> bool:
+    """Whether an edge that began outside the box ends within it, with sides `kept` farther out [m].
+
+    That is exact, while the search for the nearest point of an edge ends within 0.1 mm of it. A
+    distance below 0 is never kept.
+    """
+    whole = (half[0] + kept, half[1] + kept, half[2] + kept)
+    start, end = start_of(frame, i), end_of(frame, i)
+    return (
+        kept >= 0.0
+        and passes(whole, end, subtract(end_of(frame, j), end))
+        and not passes(half, start, subtract(start_of(frame, j), start))
+    )
 
 
 @borrowing_kernel
