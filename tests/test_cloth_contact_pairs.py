@@ -24,7 +24,7 @@ from drapery.cloth import (
 )
 from drapery.cloth.contact.pair_distance import nearest
 from drapery.cloth.contact.self_contact_data import make_self_contact
-from drapery.cloth.contact.smoothness import smooth_windows
+from drapery.cloth.contact.smoothness import Windows, is_smooth, windows_of
 from drapery.cloth.contact.touching_pairs import (
     add_pairs,
     empty_pairs,
@@ -45,7 +45,7 @@ def searched(x0: Any, x: Any, contact: Any, stop: Any, every: Any) -> Any:
 
     every: all pairs and their kinds, [P, 5].
     """
-    none = np.zeros(len(smooth_windows(x, contact)), np.uint8)
+    none = Windows(np.empty((4, 0)), np.zeros(0, np.uint8))
     by_tree = find_pairs(x0, x, contact, none, LIMIT, stop)
     bounds = particle_bounds(x0, x, 0.5 * LIMIT, stop)
     listed, waiting, distances = np.empty_like(every), 0, np.empty((len(every), 2))
@@ -83,7 +83,15 @@ def all_pairs(contact: Any) -> Any:
 
 @numba.njit
 def windows(x: Any, contact: Any) -> Any:
-    return smooth_windows(x, contact)
+    """Whether each window is smooth."""
+    made, levels = windows_of(x, contact), contact.levels
+    smooth = np.zeros(len(made.known), np.bool_)
+    for level in range(len(levels)):
+        for i in range(levels[level, 1]):
+            for j in range(levels[level, 2]):
+                block = levels[level, 0] + i * levels[level, 2] + j
+                smooth[block] = is_smooth(made, levels, level, i, j)
+    return smooth
 
 
 def known(ends: Any, kinds: Any) -> set[tuple[int, ...]]:

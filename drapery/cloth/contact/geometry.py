@@ -40,14 +40,11 @@ def grown(a: Vector, length: float) -> Vector:
 @borrowing_kernel
 def overlap(low: Vector, high: Vector, first: Vector, last: Vector) -> bool:
     """Whether two upright boxes have a common point."""
-    return (
-        low[0] <= last[0]
-        and high[0] >= first[0]
-        and low[1] <= last[1]
-        and high[1] >= first[1]
-        and low[2] <= last[2]
-        and high[2] >= first[2]
-    )
+    # Which comparison fails first cannot be predicted, so no branch depends on one of them.
+    x = (low[0] <= last[0]) & (high[0] >= first[0])
+    y = (low[1] <= last[1]) & (high[1] >= first[1])
+    z = (low[2] <= last[2]) & (high[2] >= first[2])
+    return x & y & z
 
 
 @borrowing_kernel

@@ -19,7 +19,7 @@ from drapery.cloth.contact.near_boxes import find_boxes, whole_margin
 from drapery.cloth.contact.pair_distance import gap_along, nearest
 from drapery.cloth.contact.safe_steps import shorten_unsafe
 from drapery.cloth.contact.self_contact_data import SelfContact
-from drapery.cloth.contact.smoothness import smooth_windows
+from drapery.cloth.contact.smoothness import Windows, is_all_smooth, stay_smooth, windows_of
 from drapery.cloth.contact.touching_pairs import REACH, TouchingPairs, find_pairs, moved
 from drapery.jit import borrowing_kernel, entry_point, kernel
 from drapery.mesh import Array
@@ -83,10 +83,10 @@ def meet_itself(
 ) -> bool:
     """Resolve the contacts of one cloth with itself, after those with boxes; returns whether there
     may be any. If not, nothing is changed."""
-    smooth = smooth_windows(x, contact)
-    if len(smooth) > 0 and smooth[-1]:
+    windows = windows_of(x, contact)
+    if is_all_smooth(windows, contact.levels):
         return False
-    pairs = find_pairs(x0, x, contact, smooth, REACH * contact.thickness, False)
+    pairs = find_pairs(x0, x, contact, windows, REACH * contact.thickness, False)
     if len(pairs.ends) == 0:
         return False
     wanted, meets_boxes = x.copy(), len(boxes.halves) > 0
@@ -108,22 +108,13 @@ def meet_itself(
     if not make_safe(x0, x, wanted, pairs, contact, boxes, near, pushed) and not pushed:
         return True
     stopped = farthest(x, wanted) >= 0.5 * REACH * contact.thickness
-    if stopped or not stay_smooth(smooth, smooth_windows(x, contact)):
+    if stopped or not stay_smooth(windows, windows_of(x, contact), contact.levels):
         # Parts that were stopped may be in the way of others, or out of place beside others, of
         # which no pair is known.
-        smooth[:] = 0
-        pairs = find_pairs(x0, x, contact, smooth, STOPPED * contact.thickness, True)
+        every = Windows(windows.tangents, windows.known[:0])
+        pairs = find_pairs(x0, x, contact, every, STOPPED * contact.thickness, True)
         make_safe(x0, x, wanted, pairs, contact, boxes, near, True)
     return True
-
-
-@kernel
-def stay_smooth(before: NDArray[np.uint8], after: NDArray[np.uint8]) -> bool:
-    """Whether all windows that were smooth are."""
-    changed = 0
-    for n in range(len(before)):
-        changed += before[n] > after[n]
-    return changed == 0
 
 
 @borrowing_kernel

@@ -30,7 +30,7 @@ class SelfContact(NamedTuple):
     [L + 1, 3].
     columns: particles of a row of a grid. nodes: the rectangle of cells
     of each node of the tree of `face_tree`: first row and column, then the last ones, [2 L, 4].
-    levels: of the blocks of cells of `smooth_windows`, the number of the first one and how many
+    levels: of the blocks of cells of `smoothness`, the number of the first one and how many
     there are down and across, [K, 3]; the last one is a block of all cells. These three are 0 or
     empty for other cloths.
     """

@@ -21,7 +21,7 @@ from drapery.cloth.contact.face_tree import joined_bounds, top, tree_of
 from drapery.cloth.contact.geometry import UP, grown, higher, lower, overlap, put
 from drapery.cloth.contact.pair_distance import gap_of, nearest
 from drapery.cloth.contact.self_contact_data import LEAF, SelfContact
-from drapery.cloth.contact.smoothness import share_smooth
+from drapery.cloth.contact.smoothness import Windows, share_smooth
 from drapery.jit import borrowing_kernel, kernel
 from drapery.mesh import Array
 
@@ -54,14 +54,14 @@ def find_pairs(
     x0: Array,
     x: Array,
     contact: SelfContact,
-    smooth: NDArray[np.uint8],
+    windows: Windows,
     limit: float,
     stop: bool,
 ) -> TouchingPairs:
     """All pairs that may come within a limit [m] in this step, in an order that depends on the
     cloth alone.
 
-    smooth: the windows of which no pairs are wanted, see `smooth_windows`.
+    windows: no pairs are wanted in those that are smooth; none if all pairs are.
     stop: whether each particle may also stop anywhere on its way, so that others run into it.
     """
     bounds = particle_bounds(x0, x, 0.5 * limit, stop)
@@ -75,7 +75,7 @@ def find_pairs(
     # References are counted in this loop, as `pairs` is set in it, so it is left to do little.
     while depth > 0:
         depth, waiting = list_pairs(
-            bounds, of_edges, of_faces, tree, contact, smooth, stack, depth, listed
+            bounds, of_edges, of_faces, tree, contact, windows, stack, depth, listed
         )
         if count + waiting > len(pairs.ends):
             pairs = longer(pairs)
@@ -95,7 +95,7 @@ def list_pairs(
     of_faces: Array,
     tree: Array,
     contact: SelfContact,
-    smooth: NDArray[np.uint8],
+    windows: Windows,
     stack: NDArray[np.int32],
     depth: int,
     listed: NDArray[np.int32],
@@ -112,7 +112,7 @@ def list_pairs(
         m, n = stack[depth, 0], stack[depth, 1]
         if not overlap(row(tree, m), top(tree, m), row(tree, n), top(tree, n)):
             continue
-        if share_smooth(contact.nodes, contact.levels, smooth, m, n):
+        if share_smooth(contact.nodes, contact.levels, windows, m, n):
             continue
         if m < leaves:
             depth = add_children(stack, depth, m, n)
