@@ -7,7 +7,7 @@ to its place when it is drawn.
 
 import math
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain, islice
@@ -173,14 +173,20 @@ class Stager:
 
     cloths: one for each panel; at rest unless given, none for the game's own stiff pose.
     wind: the wind from now on. steps: how many time steps have been made.
+    cover: makes the thick cloth of a shell, a sheet [m], [N, 3], and a thickness [m].
     style: the styles of the settings as one, which also gives the settings light and samples.
     Raises OptionError.
     """
 
     def __init__(
-        self, body: Body, settings: Settings, cloths: Sequence[MovingCloth] | None = None
+        self,
+        body: Body,
+        settings: Settings,
+        cloths: Sequence[MovingCloth] | None = None,
+        cover: Callable[[Shell, Array, float], Mesh] = thicken,
     ) -> None:
         self.body = body
+        self._cover = cover
         self.style = combined_style(settings.style)
         self.settings = settings = self.style.settle(settings)
         self.wind = wind_of(settings)
@@ -312,7 +318,7 @@ class Stager:
             return self.turned(self.style.mesh(self._sheet(panel, sheet + panel.origin)))
         shell = grid_shell(self.settings.grid, panel.uv_mapping)
         thickness = self.settings.thickness * panel.texel
-        return self.turned(thicken(shell, sheet + panel.origin, thickness))
+        return self.turned(self._cover(shell, sheet + panel.origin, thickness))
 
     def _grounded(self, part: Part) -> Model:
         """A part of the ground: a wall turns with its banner, the block below does not."""

@@ -6,7 +6,7 @@ as in pictures: after three seconds the cloth has the positions of a picture of 
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -26,7 +26,7 @@ from drapery.studio.wind_controls import (
     wind_controls_of,
     wind_of,
 )
-from drapery.style import Body, body_of, turn
+from drapery.style import Body, Shell, body_of, cover_crowd, turn
 from drapery.web.panes import Pane, ViewerState
 
 SHADOW_STEPS = 6
@@ -64,7 +64,7 @@ class Live:
         self._captions: tuple[str, ...] = ("",)
         self._held: int | None = None
         self._shadow: tuple[int, Model] | None = None
-        self._stager = Stager(body_of(design, packs, settings), settings, ())
+        self._stager = Stager(body_of(design, packs, settings), settings, (), _thicken)
         self._stager.cloths = [*self._cloths_for(self._stager.body, settings)]
 
     @property
@@ -94,7 +94,7 @@ class Live:
         before = self._stager
         body = body_of(design, packs, settings)
         other = None if beside is None else body_of(design, beside, settings)
-        stager = Stager(body, settings, self._cloths_for(body, settings))
+        stager = Stager(body, settings, self._cloths_for(body, settings), _thicken)
         stager.wind, stager.steps = before.wind, before.steps
         self._stager, self._other = stager, other
         self._captions = captions if other is not None else ("",)
@@ -250,6 +250,12 @@ class Live:
     def _from_world(self, number: int, points: Array) -> Array:
         origin = self._stager.body.panels[number].origin
         return _turned_points(points, -self._stager.settings.turned) - origin
+
+
+def _thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
+    """The shell around a sheet [m], [N, 3], by a kernel: it is shown again and again."""
+    mesh = cover_crowd(shell, sheet[None], thickness)
+    return replace(mesh, positions=mesh.positions[0], normals=mesh.normals[0])
 
 
 def _to_world(stager: Stager, number: int, points: Array) -> Array:

@@ -66,6 +66,14 @@ class Shell:
         """The triangles at each vertex of the thin sheet; see `faces_around`."""
         return faces_around(self.sheet, self.count)
 
+    @cached_property
+    def runs_around(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The same as runs: the faces at vertex i are faces[starts[i] : starts[i + 1]]."""
+        corners = self.sheet.T.reshape(-1)
+        order = np.argsort(corners, kind="stable")
+        starts = np.concatenate([[0], np.cumsum(np.bincount(corners, minlength=self.count))])
+        return starts, order % max(1, len(self.sheet))
+
     def cover(self, positions: Array, normals: Array, thickness: float) -> Mesh:
         """The shells around thin sheets: each vertex moves half the thickness along its normal.
 
@@ -125,7 +133,8 @@ def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING)
 def _interleave(corners: Sequence[Array]) -> Array:
     """[..., E, 3] for each of four corners -> [..., 4 E, 3], an edge's corners together."""
     stacked = np.stack(corners, axis=-2)
-    return stacked.reshape(*stacked.shape[:-3], -1, 3)
+    *batch, edges, count, _ = stacked.shape
+    return stacked.reshape(*batch, edges * count, 3)
 
 
 def _unit(vectors: Array) -> Array:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array, Triangles
 from drapery.render.light import Light
-from drapery.style.crowds import cover_sheets, faces_around, least_lengths
+from drapery.style.crowds import cover_sheets, least_lengths
 from drapery.style.extrusion import THINNEST, Shell
 
 __all__ = ["LiveShell", "cover", "make_live_shell", "show"]
@@ -53,7 +53,7 @@ def make_live_shell(
     flat, tiny = least_lengths(np.float64)
     return LiveShell(
         np.ascontiguousarray(shell.sheet),
-        *faces_around(shell),
+        *shell.runs_around,
         np.ascontiguousarray(shell.rim),
         max(thickness, THINNEST) / 2.0,
         float(flat),
