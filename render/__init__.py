@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     )
     from drapery.render.encode.output import check_writable, make_folder, replacing
     from drapery.render.encode.png import apng_bytes, png_bytes
+    from drapery.render.encode.webp import webp_bytes
     from drapery.render.export import MODEL_ENDINGS, check_model_target, save_model
     from drapery.render.flatten import composite_layers
     from drapery.render.frame import Animation, Frame, Pixels
@@ -132,6 +133,7 @@ __all__ = [
     "turntable",
     "vertex_normals",
     "view_matrix",
+    "webp_bytes",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -162,6 +164,7 @@ __getattr__, __dir__ = lazy_names(
         ),
         "render.encode.output": ("check_writable", "make_folder", "replacing"),
         "render.encode.png": ("apng_bytes", "png_bytes"),
+        "render.encode.webp": ("webp_bytes",),
         "render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
         "render.flatten": ("composite_layers",),
         "render.frame": ("Animation", "Frame", "Pixels"),

@@ -92,7 +92,7 @@ def test_a_page_has_all_that_it_needs(playable: Playable) -> None:
     assert len(text) < 300_000
     assert set(files_of(text)) == {"standing.bin", "cloth.bin"}
     assert 'design="white creeper:lime border:black"' in text
-    assert re.findall(r'(?:src|href)="([^"]{,22})', text) == ["data:image/png;base64,"]
+    assert re.findall(r'(?:src|href)="([^"]{,22})', text) == ["data:image/webp;base64"]
     assert page.page_text(DESIGN, playable(size=SIZE)) == text
 
 

@@ -20,7 +20,7 @@ from drapery.garments import (
     make_wearer,
 )
 from drapery.packs import Packs, open_packs
-from drapery.render import make_folder, png_bytes, replacing
+from drapery.render import make_folder, replacing, webp_bytes
 from drapery.settings import Placement, Settings
 from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module
@@ -90,7 +90,7 @@ def render_template(name: str, *, files: Mapping[str, bytes], **values: object) 
 
 def picture_of(design: Banner | Garment | None, settings: Settings) -> str:
     """The picture for browsers that cannot play the cloth, as the address of an image."""
-    return "data:image/png;base64," + _base64(png_bytes(draw(design, settings).pixels))
+    return "data:image/webp;base64," + _base64(webp_bytes(draw(design, settings).pixels, 6))
 
 
 def kernel_file() -> dict[str, bytes]:
