@@ -27,6 +27,10 @@ void *NRT_MemInfo_alloc_aligned(size_t size, unsigned align) {
 
 void NRT_MemInfo_call_dtor(struct MemInfo *block) { free(block); }
 
+void *NRT_Allocate(size_t size) { return malloc(size ? size : 1); }
+
+void NRT_Free(void *block) { free(block); }
+
 /* Whether an array can be reshaped without a copy, and its new strides. Only contiguous arrays in
    the order of C can; kernels reshape no others. */
 int numba_attempt_nocopy_reshape(ptrdiff_t axes, const ptrdiff_t *shape, const ptrdiff_t *strides,
