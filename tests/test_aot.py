@@ -1,6 +1,7 @@
 """Kernels that were compiled ahead of time: their arguments, their library, and their bits."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -190,3 +191,21 @@ def test_a_command_with_plain_options_imports_what_it_needs(tmp_path):
     command = [sys.executable, "-c", program, str(tmp_path)]
     run = subprocess.run(command, capture_output=True, check=True, cwd=tmp_path)
     assert run.stdout.split() == [b"[]"]
+
+
+def test_cloth_of_a_picture_is_made_without_scipy():
+    """Its import would take half the time of a later picture; numba imports it too."""
+    program = "import sys; from drapery.scenes import ClothSpec, cloth_at_rest\n"
+    program += (
+        "cloth_at_rest(ClothSpec((5, 9), (1.0, 2.0), 'top', 'xpbd', itself=True, thickness=0.1))\n"
+    )
+    program += "print('scipy' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
+    assert run.stdout.split() == [b"False"]
+
+
+def test_a_library_has_the_memory_that_kernels_in_pages_have():
+    """The module of pages is linked in every run of the tests; the library only in a release."""
+    sources = (RELEASE / "runtime.c", Path(library.__file__).parents[1] / "web/wasm/runtime.c")
+    ours, theirs = (set(re.findall(r"\b(?:NRT|numba)_\w+(?=\()", p.read_text())) for p in sources)
+    assert theirs and theirs <= ours
