@@ -62,6 +62,24 @@ STROUHAL = 0.2, 0.4
 (Shelley, Vandenberghe, Zhang, PRL 94, 2005; Taylor, Nudds, Thomas, Nature 425, 2003)."""
 AIR_DENSITY = 1.2
 """[kg/m³]"""
+PAPER = replace(FABRICS["cotton"], density=0.080, bending=1.315e-4)
+"""Paper of 80 g/m², of which the measured flags were made [N m]."""
+PAPER_AIR = 1.089
+"""Where they were measured, 800 m above the sea [kg/m³]."""
+ONSETS: dict[float, tuple[float, float]] = {
+    0.06: (9.1, 17.5),
+    0.08: (7.0, 8.9),
+    0.10: (6.0, 8.3),
+    0.13: (6.5, 7.0),
+    0.16: (4.4, 7.0),
+}
+"""Length of a flag [m], and the least and the highest speed [m/s] at which it began to flap in 3 to
+6 runs (J. D'Adamo, tables datos_flutter_uonset.csv and caracteriza_papel.ipynb of the public
+repository juandadamo/2024_flags, wind tunnel of the Instituto Balseiro, 2024). The flags stood at
+the edge of the tunnel's jet, in still air on one side, so the speed is the mean of both sides, as
+in the tables' own evaluation."""
+BEGUN = 0.02
+"""A flag flaps if its free end moves this part of its length to each side."""
 
 SHOWN = ("silk", "wool", "leather")
 LOOK: dict[str, Any] = {"view": "hero", "size": (250, 310), "samples": 4, "time": 4.0}
@@ -170,6 +188,42 @@ def flap(fabric: str, speed: float, pressure: float, *, seconds: float = 12.0) -
     return Flapping(float(np.ptp(late)) / 2 / length, frequency)
 
 
+def paper_swing(length: float, speed: float, *, columns: int = 17, dt: float = 1 / 600) -> float:
+    """How far the free end of a square flag of paper swings over its length, after a second of
+    wind along it in the pressure of a slender wing.
+
+    length: [m]. speed: [m/s]. Its height was not published; half of it changes little.
+    """
+    step = length / (columns - 1)
+    cloth = grid(
+        columns,
+        columns,
+        length,
+        length,
+        pins=lambda rest: rest[:, 0] <= rest[:, 0].min() + 1.5 * step,  # clamped
+        fabric=PAPER,
+    )
+    start, along = rest_state(cloth, dtype=np.float64), cloth.rest_positions[:, 0]
+    start.positions[0, :, 2] += 0.02 / length * np.maximum(along - along.min() - step, 0) ** 2
+    wind = Wind((speed, 0, 0), gusts=0, sine=0, pressure=PAPER_AIR / 2 * np.pi / 2 * speed)
+    moving = MovingCloth.begin(cloth, SolverXPBD(), dt, start=start)
+    moving, tip = moving.advance([wind], round(1.1 / dt)), []
+    for _ in range(round(0.4 / dt)):
+        moving = moving.advance([wind])
+        tip.append(moving.state.positions[0, columns // 2 * columns + columns - 1, 2])
+    return float(np.ptp(tip)) / 2 / length
+
+
+def onset(length: float) -> float:
+    """The speed at which a flag of paper begins to flap [m/s], within 3 %. length: [m]."""
+    low, high = 1.0, 24.0
+    while high > 1.06 * low:
+        middle = np.sqrt(low * high)
+        flaps = paper_swing(length, middle) > BEGUN
+        low, high = (low, middle) if flaps else (middle, high)
+    return float(np.sqrt(low * high))
+
+
 def sheet() -> Frame:
     """Banners of three fabrics in the hero view, in several winds and places."""
     design, packs = read_design("white creeper:lime border:black"), open_packs()
@@ -208,6 +262,9 @@ def main() -> None:
                 ("slender wing", slender_pressure(speed)),
             ):
                 print(f"  {name:8} {speed:4} m/s, {kind}: {_flapping(name, speed, pressure)}")
+    print("flags of paper begin to flap at [m/s]")
+    for length, (low, high) in ONSETS.items():
+        print(f"  {100 * length:3.0f} cm: {onset(length):.1f} (measured: {low} to {high})")
 
 
 def _published(name: str) -> str:
