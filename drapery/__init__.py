@@ -12,9 +12,15 @@ and list pictures, `drapery.testing` checks them against golden ones. Names are 
 are first used.
 """
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drapery.lazy import lazy_names
+
+if not Path(__path__[0], "render").is_dir():
+    # In a checkout `assets` and `render` lie beside this package, and Python that is started there
+    # finds it before the package that is installed.
+    __path__.append(str(Path(__path__[0]).parent))
 
 if TYPE_CHECKING:
     from drapery.banner.design import Banner, Layer

@@ -28,6 +28,7 @@ from drapery import (
 pytestmark = pytest.mark.usefixtures("untraced_processes")
 
 DESIGN = Banner.parse("white creeper:lime")
+ROOT = Path(__file__).parents[1]
 SMALL = Settings(size=(24, 32), time=0.1)
 PUBLIC = ("drapery", "drapery.cloth", "drapery.render", "drapery.packs")
 
@@ -112,3 +113,15 @@ def test_two_designs_are_compared_layer_by_layer() -> None:
     assert found.line().startswith("the first and the second: ")
     assert isinstance(found.sheet(), Frame)
     assert compare(draw(DESIGN, SMALL), draw(DESIGN, SMALL)).difference.same
+
+
+def test_a_checkout_is_a_package_without_an_installation() -> None:
+    """Python that is started in a checkout finds it before the package that is installed."""
+    program = "import sys\n"
+    program += "sys.meta_path[:] = [f for f in sys.meta_path if 'editable' not in str(f).lower()]\n"
+    program += (
+        "from drapery import Banner, assets, render\nprint(*assets.__path__, *render.__path__)"
+    )
+    command = [sys.executable, "-c", program]
+    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert run.stdout.split() == [str(ROOT / "assets"), str(ROOT / "render")]
