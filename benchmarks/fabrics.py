@@ -63,7 +63,7 @@ STROUHAL = 0.2, 0.4
 AIR_DENSITY = 1.2
 """[kg/m³]"""
 PAPER = replace(FABRICS["cotton"], density=0.080, bending=1.315e-4)
-"""Paper of 80 g/m², of which the measured flags were made [N m]."""
+"""Paper of 0.080 kg/m² and 1.315e-4 N m, of which the measured flags were made."""
 PAPER_AIR = 1.089
 """Where they were measured, 800 m above the sea [kg/m³]."""
 ONSETS: dict[float, tuple[float, float]] = {
@@ -192,7 +192,8 @@ def paper_swing(length: float, speed: float, *, columns: int = 17, dt: float = 1
     """How far the free end of a square flag of paper swings over its length, after a second of
     wind along it in the pressure of a slender wing.
 
-    length: [m]. speed: [m/s]. Its height was not published; half of it changes little.
+    length: [m]. speed: [m/s]. Its height was not published; with half of it
+    flags of all lengths begin to flap at 4 to 14 m/s.
     """
     step = length / (columns - 1)
     cloth = grid(

@@ -64,7 +64,7 @@ class Live:
         self._captions: tuple[str, ...] = ("",)
         self._held: int | None = None
         self._shadow: tuple[int, Model] | None = None
-        self._stager = Stager(body_of(design, packs, settings), settings, (), _thicken)
+        self._stager = Stager(body_of(design, packs, settings), settings, (), cover=_thicken)
         self._stager.cloths = [*self._cloths_for(self._stager.body, settings)]
 
     @property
@@ -94,7 +94,7 @@ class Live:
         before = self._stager
         body = body_of(design, packs, settings)
         other = None if beside is None else body_of(design, beside, settings)
-        stager = Stager(body, settings, self._cloths_for(body, settings), _thicken)
+        stager = Stager(body, settings, self._cloths_for(body, settings), cover=_thicken)
         stager.wind, stager.steps = before.wind, before.steps
         self._stager, self._other = stager, other
         self._captions = captions if other is not None else ("",)

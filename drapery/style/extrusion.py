@@ -68,7 +68,7 @@ class Shell:
 
     @cached_property
     def runs_around(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """The same as runs: the faces at vertex i are faces[starts[i] : starts[i + 1]]."""
+        """starts [N + 1] and triangles [3 T]: those at vertex i are starts[i] to starts[i + 1]."""
         corners = self.sheet.T.reshape(-1)
         order = np.argsort(corners, kind="stable")
         starts = np.concatenate([[0], np.cumsum(np.bincount(corners, minlength=self.count))])

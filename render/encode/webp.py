@@ -23,7 +23,8 @@ DO_NOT_BLEND = 0x02
 def webp_bytes(pixels: Pixels, method: int = 4) -> bytes:
     """A lossless WebP file, exact also where the picture is transparent.
 
-    method: 0 (fast) to 6 (small)."""
+    method: 0 (fast) to 6 (small).
+    """
     file = BytesIO()
     Image.fromarray(pixels).save(
         file, "WEBP", lossless=True, exact=True, method=method, quality=75 if method else 20
