@@ -176,7 +176,7 @@ def call_by_address(result: type, example: tuple[Any, ...]) -> Any:
     """A function (address, arguments) that kernels call; see `address_of`.
 
     What a kernel calls so is compiled once, not again as part of each of its callers.
-    result: such as bool. example: arguments; those of a call must be of the same types.
+    result: int. example: arguments; those of a call must be of the same types.
     """
 
     def make() -> Any:

@@ -15,7 +15,7 @@ _types: Any = types
 _intrinsic: Any = intrinsic
 _if_unlikely: Any = if_unlikely
 _event: Any = event
-_RESULTS: dict[type, Any] = {bool: _types.boolean}
+_RESULTS: dict[type, Any] = {int: _types.int64}
 
 
 def address_caller(result: type, example: tuple[Any, ...]) -> Any:

@@ -115,7 +115,8 @@ def test_how_far_contact_looks_at_first_changes_no_bit() -> None:
         work.start[:] = cloth.rest_positions
         work.end[:] = cloth.rest_positions + noise - (0.02, 0.0, 0.03)
         work.near.longest[:] = far * contact.radius
-        assert resolve(work, contact, NOT_ITSELF, contact.ends[None], 0)
+        work.starts[:] = work.ends[:] = contact.ends
+        assert resolve(work, contact, NOT_ITSELF)
         ends.append(work.end)
     assert all(np.array_equal(ends[0], end) for end in ends[1:])
 

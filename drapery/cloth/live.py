@@ -203,9 +203,9 @@ def play(live: Any, plan: Any, batch: Any, substeps: Any) -> Any:
     """Make live.clock[1] time steps of one cloth; returns 1 if it has blown up, otherwise 0."""
     for _ in range(live.clock[1]):
         rows = pull(live, batch)
-        row, often = live.row[0], substeps if batch.often else 1
+        row = live.row[0]
         # Boxes that do not move have only one pose.
-        begin = min(row * often, batch.poses.shape[0] - 1)
+        begin = min(row, batch.poses.shape[0] - 1)
         # The time as a call of the solver for all steps since the start would have it.
         batch.numbers[2] = live.clock[0] * substeps * batch.numbers[0]
         here = Batch(
@@ -221,7 +221,7 @@ def play(live: Any, plan: Any, batch: Any, substeps: Any) -> Any:
             batch.residuals,
             batch.contact,
             batch.itself,
-            batch.poses[begin : begin + often + 1],
+            batch.poses[begin : begin + 2],
             batch.resolve,
             batch.work,
             batch.often,

@@ -407,15 +407,15 @@ def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
 
 
 @kernel
-def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, substep: Any) -> None:
-    """Move y as in the last substep (in the first one with v) and by gravity; old is y before."""
+def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, moves_by_v: Any) -> None:
+    """Move y by v, or else as in the last substep, and by gravity; old is y before."""
     F = y.dtype.type
     h = F(numbers[0])
     for axis in range(3):
         gain = F(numbers[0] * numbers[0] * numbers[3 + axis])
         for lane in range(0, sheet.size, lane_count(y)):
             here = load(y, axis, lane)
-            motion = h * load(v, axis, lane) if substep == 0 else here - load(old, axis, lane)
+            motion = h * load(v, axis, lane) if moves_by_v else here - load(old, axis, lane)
             store(y, axis, lane, here + (motion + gain) * load(sheet.free, 0, lane))
             store(old, axis, lane, here)
 

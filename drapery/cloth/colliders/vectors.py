@@ -35,6 +35,15 @@ def dot(a: Vector, b: Vector) -> float:
 
 
 @borrowing_kernel
+def cross(a: Vector, b: Vector) -> Vector:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+@borrowing_kernel
 def norm(a: Vector) -> float:
     return float(np.sqrt(dot(a, a)))
 

@@ -7,7 +7,7 @@ contacts repeat; what they leave in a box, `box_guard` takes out.
 """
 
 from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, row, scale, subtract
-from drapery.cloth.contact.box_data import TOUCH, BoxContact, Candidates
+from drapery.cloth.contact.box_data import HELD, MET, TOUCH, BoxContact, Candidates
 from drapery.cloth.contact.box_depths import (
     corner_of,
     edge_depth,
@@ -53,8 +53,9 @@ AMPLIFIED = 4.0
 
 
 @borrowing_kernel
-def meet_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> bool:
-    """Resolve the contacts of one cloth in one step; returns whether there was any.
+def meet_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> int:
+    """Resolve the contacts of one cloth in one step; returns whether there was any: 0, `MET`, or
+    `HELD` where particles returned to their start.
 
     x0, x: places at the start and the end of the step [m], [N, 3]; x is changed.
     near: arrays to work in.
@@ -65,7 +66,7 @@ def meet_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> bo
 
 
 @borrowing_kernel
-def meet_close_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> bool:
+def meet_close_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> int:
     """`meet_boxes`, which first looks only at what is close to a box.
 
     If contact moves a particle farther than that, it starts again and looks farther. So the result
@@ -76,7 +77,7 @@ def meet_close_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates)
     while margin < whole:
         reset_tracks(near)
         if not find_boxes(x0, x, contact, margin, near):
-            return False
+            return 0
         met, near.longest[0] = solve_boxes(x0, x, contact, near)
         if near.longest[0] < margin:
             return met
@@ -90,13 +91,13 @@ def meet_close_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates)
 
 
 @borrowing_kernel
-def solve_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> tuple[bool, float]:
-    """Resolve the contacts with what was found near; whether there was any, and the longest path of
-    a particle [m].
+def solve_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> tuple[int, float]:
+    """Resolve the contacts with what was found near; whether there was any, see `meet_boxes`, and
+    the longest path of a particle [m].
 
     After the first pass, what did not change since it was last tested is not tested again.
     """
-    met, deepest, longest, boxes = False, 0.0, 0.0, len(contact.halves)
+    met, deepest, longest, boxes = 0, 0.0, 0.0, len(contact.halves)
     for number in range(PASSES):
         deepest = 0.0
         for k in range(boxes):
@@ -105,11 +106,12 @@ def solve_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> t
                 enter_frame(x0, x, contact, k, near, max(1, turn - boxes), turn)
                 deepest = max(deepest, solve_box(contact, k, near, turn if number > 0 else 0))
                 longest = max(longest, leave_frame(x, contact, k, near, turn))
-        met = met or deepest > 0.0
+        met = MET if deepest > 0.0 else met
         if deepest <= TOLERANCE * contact.radius:
             break
     if deepest > GUARDED * contact.radius:
-        longest = max(longest, guard_boxes(x0, x, contact, near))
+        returned = guard_boxes(x0, x, contact, near)
+        longest, met = max(longest, returned), HELD if returned > 0.0 else met
     return met, longest
 
 

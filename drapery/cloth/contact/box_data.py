@@ -20,6 +20,9 @@ FAR = 1e3
 """Half the size of the box that stands for a plane [m]."""
 COLUMNS, TRACK = 12, 6
 """Numbers of a particle in the frame of a box and in its track; see `box_frame`."""
+MET, HELD = 1, 2
+"""What contact did to a cloth in a step: moved parts of it at most, or kept parts where they were,
+since they would have crossed a box or other parts."""
 TOUCH = 1e-7
 """Distances [m] below which a contact is exact."""
 

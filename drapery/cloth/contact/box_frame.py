@@ -11,14 +11,17 @@ from drapery.cloth.colliders.primitives import cuboid_distance
 from drapery.cloth.colliders.vectors import (
     Vector,
     add_scaled,
+    cross,
+    dot,
     norm,
     rotated,
     rotated_back,
     row,
+    scale,
     subtract,
 )
 from drapery.cloth.contact.box_data import BoxContact, Candidates
-from drapery.cloth.contact.geometry import put
+from drapery.cloth.contact.geometry import put, read
 from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
@@ -30,6 +33,8 @@ CARRIED, SOLVED, TRAVEL, TURN = 0, 1, 4, 5
 """The columns of a particle's track, [N, TRACK]: how far the boxes that moved it moved there [m],
 where its solver left it, in the world [m], the length of its path since then [m], and the turn in
 which a box last moved it. A turn is one pass over the contacts with one box."""
+SMALL = 1e-6
+"""Shorter rows of a blended rotation have no direction."""
 NOW = np.inf
 """CHANGED of a particle that is being moved."""
 
@@ -39,6 +44,37 @@ def reset_tracks(near: Candidates) -> None:
     """Prepare for a step: no particle was moved."""
     for i in range(len(near.tracks)):
         near.tracks[i, CARRIED] = 0.0
+
+
+@borrowing_kernel
+def set_pose(out: Array, first: Array, second: Array, k: int, part: float) -> None:
+    """Set the pose of box k at a part of a step, from 0 to 1, between two poses, all [K, 12].
+
+    The rows of the rotation are blended and made orthonormal again. Where that is impossible, since
+    a box makes half a turn in the step, it makes it at the end.
+    """
+    for n in range(12):
+        out[k, n] = second[k, n] if part == 1.0 else first[k, n]
+    if part == 0.0 or part == 1.0:
+        return
+    put(out, k, 0, blended(first, second, k, 0, part))
+    x, y = blended(first, second, k, 3, part), blended(first, second, k, 6, part)
+    along = norm(x)
+    x = scale(1.0 / max(along, SMALL), x)
+    y = add_scaled(y, -dot(x, y), x)
+    across = norm(y)
+    y = scale(1.0 / max(across, SMALL), y)
+    if min(along, across) > SMALL:
+        put(out, k, 3, x)
+        put(out, k, 6, y)
+        put(out, k, 9, cross(x, y))
+
+
+@borrowing_kernel
+def blended(first: Array, second: Array, k: int, at: int, part: float) -> Vector:
+    """Three numbers of a row at a part of the way between two arrays."""
+    a = read(first, k, at)
+    return add_scaled(a, part, subtract(read(second, k, at), a))
 
 
 @borrowing_kernel

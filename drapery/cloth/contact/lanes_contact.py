@@ -13,15 +13,17 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drapery.cloth import simd
-from drapery.cloth.colliders.vectors import Vector, norm, row, scale, subtract
+from drapery.cloth.colliders.vectors import Vector, dot, norm, row, scale, subtract
 from drapery.cloth.contact.box_data import (
+    HELD,
+    MET,
     NO_CONTACT,
     TOUCH,
     BoxContact,
     Candidates,
     candidate_arrays,
 )
-from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
+from drapery.cloth.contact.box_frame import CARRIED, reset_tracks, set_pose
 from drapery.cloth.contact.geometry import grown, put
 from drapery.cloth.contact.near_boxes import swept_extent
 from drapery.cloth.contact.self_contact import meet_one
@@ -34,15 +36,26 @@ from drapery.mesh import Array
 
 ROUNDING = 2.0**-22
 """More than the relative error of a number in single precision."""
+STRETCH = 1.25
+"""A step in which contact makes an edge longer than its solver left it by this factor, or keeps
+parts of the cloth where they were, is made again with more contacts: the solver would tear at what
+contact holds, more from step to step."""
+MOST_CONTACTS = 32
+"""Then contacts are resolved in every substep, or in some of them, so many times at most. (Those of
+`xpbd` are in every substep.)"""
 
 
 class ContactWork(NamedTuple):
     """start, end: places of one cloth at the start and the end of a step [m], [N, 3]; N is 0
-    without contact. extents: the lowest and the highest coordinates of what each box keeps free
-    [m], [K, 6]. near: see `Candidates`."""
+    without contact. solved: where its solver left it at the end, [N, 3]. starts, ends: poses of the
+    boxes, [K, 12]. extents: the lowest and the highest coordinates of what each box keeps free [m],
+    [K, 6]. near: see `Candidates`."""
 
     start: Array
     end: Array
+    solved: Array
+    starts: Array
+    ends: Array
     extents: Array
     near: Candidates
 
@@ -53,19 +66,20 @@ def contact_work(contact: BoxContact, itself: SelfContact = NOT_ITSELF) -> Conta
     return ContactWork(
         np.empty((particles, 3)),
         np.empty((particles, 3)),
+        np.empty((particles, 3)),
+        np.empty((len(contact.halves), 12)),
+        np.empty((len(contact.halves), 12)),
         np.empty((len(contact.halves), 6)),
         candidate_arrays(contact),
     )
 
 
 @kernel
-def contact_at(boxes: Any, poses: Any, turn: Any) -> BoxContact:
-    """The contact in step number `turn`. poses: of the boxes before the first step and after each,
-    [T, K, 12]."""
-    last = len(poses) - 1
+def contact_of(boxes: Any, work: Any) -> BoxContact:
+    """The contact with boxes at the poses in `work`."""
     return BoxContact(
-        poses[min(turn, last)],
-        poses[min(turn + 1, last)],
+        work.starts,
+        work.ends,
         boxes.halves,
         boxes.friction,
         boxes.radius,
@@ -78,16 +92,15 @@ def contact_at(boxes: Any, poses: Any, turn: Any) -> BoxContact:
 
 
 @entry_point
-def resolve(work: Any, boxes: Any, itself: Any, poses: Any, turn: Any) -> bool:
-    """Resolve the contacts of a cloth with boxes and with itself in step number `turn`, which ends
-    at work.end; see `contact_at`. Returns whether it had any."""
+def resolve(work: Any, boxes: Any, itself: Any) -> int:
+    """Resolve the contacts of a cloth with boxes and with itself between work.start and work.end.
+    Returns whether it had any, see `meet_one`."""
     reset_tracks(work.near)
-    contact = contact_at(boxes, poses, turn)
-    return bool(meet_one(work.start, work.end, itself, contact, work.near))
+    return meet_one(work.start, work.end, itself, contact_of(boxes, work), work.near)
 
 
-EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NOT_ITSELF, NO_CONTACT.ends[None], 0)
-_resolve_at = call_by_address(bool, EXAMPLE)
+EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NOT_ITSELF)
+_resolve_at = call_by_address(int, EXAMPLE)
 
 
 @cache
@@ -103,87 +116,204 @@ def meets_itself(batch: Any) -> bool:
 
 
 @kernel
-def begin_lanes(y: Any, batch: Any) -> Any:
-    """The places of a block of lanes y [3N, L] before the first step; empty without contact."""
-    before = simd.empty_lanes(y.shape[0] if batch.work.end.shape[0] > 0 else 0, y.shape[1], y)
-    load_lanes(before, y, 0)
+def begin_lanes(y: Any, u: Any, batch: Any, substeps: Any) -> Any:
+    """What contact keeps of a block of lanes y, u [3N, L], [3N, L]: the places at the start of a
+    step. A step of several substeps may be made again, so then these rows follow: the velocities
+    at its start, 3N; the places and velocities at its end in lanes whose step is not made again,
+    6N; 1 in lanes whose step is, 0 in others. Empty without contact."""
+    rows = 4 * y.shape[0] + 1 if substeps > 1 else y.shape[0]
+    before = simd.empty_lanes(rows if batch.work.end.shape[0] > 0 else 0, y.shape[1], y)
+    for row_of in range(4 * y.shape[0], before.shape[0]):
+        for lane in range(y.shape[1]):
+            before[row_of, lane] = 1
+    keep_lanes(before, y, u)
     return before
 
 
 @kernel
-def meet_lanes(y: Any, u: Any, before: Any, batch: Any, start: Any, turn: Any, dt: Any) -> None:
-    """Resolve the contacts of a block y, u [3N, L] at the end of step number `turn` of dt [s].
+def keep_lanes(before: Any, y: Any, u: Any) -> None:
+    """Keep the places and, if there is room, the velocities at the start of a step."""
+    rows = y.shape[0]
+    load_lanes(before[:rows], y, 0)
+    load_lanes(before[rows : 2 * rows], u, 0)
 
-    before: the places at its start, which become those at its end.
+
+@kernel
+def meet_lanes(
+    y: Any, u: Any, before: Any, batch: Any, start: Any, when: Any, dt: Any, careful: Any
+) -> Any:
+    """Resolve the contacts of a block y, u [3N, L] that moved for dt [s]; returns whether the whole
+    step shall be made again, with more contacts. Then y and u are at its start again.
+
+    before: see `begin_lanes`. when: see `place_boxes`. careful: the step is not made again, since
+    that is being done, in lanes with a 1, or since it has no substeps.
     """
     if before.shape[0] == 0:
-        return
-    work, lanes = batch.work, lane_count(y)
-    set_extents(batch, turn)
+        return False
+    rows, lanes, again = y.shape[0], lane_count(y), False
+    repeats = before.shape[0] > rows
+    place_boxes(batch, when)
     gaps = simd.empty_lanes(1, lanes, y)
     for first in range(0, min(y.shape[1], batch.cloths - start), lanes):
         if not meets_itself(batch):
-            store(gaps, 0, 0, gap_of_lanes(before, y, work.extents, batch.contact.bands, first))
+            extents, bands = batch.work.extents, batch.contact.bands
+            store(gaps, 0, 0, gap_of_lanes(before, y, extents, bands, first))
         for cloth in range(first, min(first + lanes, batch.cloths - start)):
-            if meets_itself(batch) or gaps[0, cloth - first] < 0:
-                for i in range(work.end.shape[0]):
-                    for axis in range(3):
-                        work.start[i, axis] = before[3 * i + axis, cloth]
-                        work.end[i, axis] = y[3 * i + axis, cloth]
-                met = work, batch.contact, batch.itself, batch.poses, turn
-                if _resolve_at(batch.resolve, met):
-                    for i in range(work.end.shape[0]):
-                        place = y[3 * i, cloth], y[3 * i + 1, cloth], y[3 * i + 2, cloth]
-                        if has_moved(work, i, place):
-                            solved = u[3 * i, cloth], u[3 * i + 1, cloth], u[3 * i + 2, cloth]
-                            speed = limited_speed(work, i, solved, dt)
-                            for axis in range(3):
-                                y[3 * i + axis, cloth] = work.end[i, axis]
-                                u[3 * i + axis, cloth] = speed[axis]
-    load_lanes(before, y, 0)
+            near = meets_itself(batch) or gaps[0, cloth - first] < 0
+            if careful:
+                if near and (not repeats or before[4 * rows, cloth] > 0):
+                    meet_lane(y, u, before, batch, cloth, dt, True)
+            else:
+                held = near and meet_lane(y, u, before, batch, cloth, dt, False)
+                before[4 * rows, cloth] = held
+                again = again or held
+    if again:
+        for row in range(rows):
+            for lane in range(y.shape[1]):
+                before[2 * rows + row, lane] = y[row, lane]
+                before[3 * rows + row, lane] = u[row, lane]
+                y[row, lane] = before[row, lane]
+                u[row, lane] = before[rows + row, lane]
+        return True
+    if careful and repeats and when[2] == 1.0:
+        for row in range(rows):
+            for lane in range(y.shape[1]):
+                if before[4 * rows, lane] == 0:
+                    y[row, lane] = before[2 * rows + row, lane]
+                    u[row, lane] = before[3 * rows + row, lane]
+    keep_lanes(before, y, u)
+    return False
 
 
 @kernel
-def begin_plane(y: Any, batch: Any, sheet: Any) -> Any:
-    """The same for one cloth as a plane of lanes, y [3, lanes]."""
-    before = simd.empty_lanes(3, sheet.plane if batch.work.end.shape[0] > 0 else 0, y)
-    load_lanes(before, y, 0)
+def meet_substep(
+    y: Any,
+    u: Any,
+    before: Any,
+    batch: Any,
+    start: Any,
+    turn: Any,
+    substeps: Any,
+    h: Any,
+    again: Any,
+) -> Any:
+    """Resolve the contacts of a block after substep number `turn` of h [s], counted over all steps,
+    if any are due: at the end of a step, and in between where it is made again. Returns the number
+    of the next substep, and whether its step is being made again."""
+    step, done = turn // substeps, turn % substeps + 1
+    each = -(-substeps // MOST_CONTACTS) if again else substeps
+    if done % each > 0 and done < substeps:
+        return turn + 1, again
+    since = (done - 1) // each * each
+    when = step, since / substeps, done / substeps
+    # A step of one substep cannot have more contacts.
+    careful = again or substeps == 1
+    if meet_lanes(y, u, before, batch, start, when, h * (done - since), careful):
+        return step * substeps, True
+    return turn + 1, again and done < substeps
+
+
+@kernel
+def meet_lane(y: Any, u: Any, before: Any, batch: Any, cloth: Any, dt: Any, careful: Any) -> Any:
+    """Resolve the contacts of one lane; returns whether its step shall be made again instead."""
+    work = batch.work
+    for i in range(work.end.shape[0]):
+        for axis in range(3):
+            work.start[i, axis] = before[3 * i + axis, cloth]
+            work.end[i, axis] = work.solved[i, axis] = y[3 * i + axis, cloth]
+    met = _resolve_at(batch.resolve, (work, batch.contact, batch.itself))
+    if not careful and is_torn(work, batch, met):
+        return True
+    for i in range(work.end.shape[0] if met else 0):
+        if row(work.end, i) != row(work.solved, i):
+            solved = u[3 * i, cloth], u[3 * i + 1, cloth], u[3 * i + 2, cloth]
+            speed = limited_speed(work, i, solved, dt)
+            for axis in range(3):
+                y[3 * i + axis, cloth] = work.end[i, axis]
+                u[3 * i + axis, cloth] = speed[axis]
+    return False
+
+
+@kernel
+def begin_plane(y: Any, u: Any, batch: Any, sheet: Any) -> Any:
+    """What contact keeps of one cloth as a plane of lanes: its places and velocities before the
+    first step, [6, lanes]."""
+    before = simd.empty_lanes(6, sheet.plane if batch.work.end.shape[0] > 0 else 0, y)
+    keep_plane(before, y, u)
     return before
 
 
 @kernel
-def meet_plane(y: Any, u: Any, before: Any, batch: Any, turn: Any, dt: Any, sheet: Any) -> None:
-    """Resolve the contacts of a plane y, u [3, lanes] at the end of step `turn` of dt [s]."""
+def keep_plane(before: Any, y: Any, u: Any) -> None:
+    """Keep the places and velocities at the start of a step."""
+    load_lanes(before[:3], y, 0)
+    load_lanes(before[3:], u, 0)
+
+
+@kernel
+def meet_plane(
+    y: Any, u: Any, before: Any, batch: Any, when: Any, dt: Any, sheet: Any, careful: Any
+) -> Any:
+    """The same as `meet_lanes` for a plane y, u [3, lanes]."""
     work = batch.work
     if before.shape[1] == 0:
-        return
-    set_extents(batch, turn)
+        return False
+    place_boxes(batch, when)
     if meets_itself(batch) or near_plane(before, y, work.extents, sheet):
         for r in range(sheet.rows):
             for c in range(sheet.columns):
                 i, lane = r * sheet.columns + c, r * sheet.width + c
                 for axis in range(3):
                     work.start[i, axis] = before[axis, lane]
-                    work.end[i, axis] = y[axis, lane]
-        if _resolve_at(batch.resolve, (work, batch.contact, batch.itself, batch.poses, turn)):
-            for i in range(work.end.shape[0]):
-                lane = lane_of(i, sheet)
-                if has_moved(work, i, (y[0, lane], y[1, lane], y[2, lane])):
-                    speed = limited_speed(work, i, (u[0, lane], u[1, lane], u[2, lane]), dt)
-                    for axis in range(3):
-                        y[axis, lane] = work.end[i, axis]
-                        u[axis, lane] = speed[axis]
-    load_lanes(before, y, 0)
+                    work.end[i, axis] = work.solved[i, axis] = y[axis, lane]
+        met = _resolve_at(batch.resolve, (work, batch.contact, batch.itself))
+        if not careful and is_torn(work, batch, met):
+            for axis in range(3):
+                for lane in range(before.shape[1]):
+                    y[axis, lane] = before[axis, lane]
+                    u[axis, lane] = before[3 + axis, lane]
+            return True
+        for i in range(work.end.shape[0] if met else 0):
+            lane = lane_of(i, sheet)
+            if row(work.end, i) != row(work.solved, i):
+                speed = limited_speed(work, i, (u[0, lane], u[1, lane], u[2, lane]), dt)
+                for axis in range(3):
+                    y[axis, lane] = work.end[i, axis]
+                    u[axis, lane] = speed[axis]
+    keep_plane(before, y, u)
+    return False
 
 
 @kernel
-def set_extents(batch: Any, turn: Any) -> None:
-    """Set the bounds of the boxes in step number `turn`, less what is not yet a contact."""
-    contact = contact_at(batch.contact, batch.poses, turn)
+def is_torn(work: Any, batch: Any, met: Any) -> bool:
+    """Whether contact held parts of the cloth or stretched it, see STRETCH. met: of `resolve`."""
+    if met == MET:
+        edges = batch.itself.edges if meets_itself(batch) else batch.contact.edges
+        for n in range(len(edges)):
+            i, j = edges[n, 0], edges[n, 1]
+            solved = subtract(row(work.solved, i), row(work.solved, j))
+            offset = subtract(row(work.end, i), row(work.end, j))
+            if dot(offset, offset) > STRETCH * STRETCH * dot(solved, solved):
+                return True
+    return bool(met == HELD)
+
+
+@kernel
+def place_boxes(batch: Any, when: Any) -> None:
+    """Set the poses of the boxes, and the bounds of what they keep free, less what is not yet a
+    contact. when: the number of a step, and the parts of it at which the cloth moves on from a
+    contact and at which it meets the next, from 0 to 1."""
+    step, begin, end = when
+    work, last = batch.work, len(batch.poses) - 1
+    first, second = batch.poses[min(step, last)], batch.poses[min(step + 1, last)]
+    for k in range(len(batch.contact.halves)):
+        set_pose(work.starts, first, second, k, begin)
+        set_pose(work.ends, first, second, k, end)
+    contact = contact_of(batch.contact, work)
     for k in range(len(contact.halves)):
         low, high = swept_extent(contact, k)
-        put(batch.work.extents, k, 0, grown(low, 0.5 * TOUCH))
-        put(batch.work.extents, k, 3, grown(high, -0.5 * TOUCH))
+        put(work.extents, k, 0, grown(low, 0.5 * TOUCH))
+        put(work.extents, k, 3, grown(high, -0.5 * TOUCH))
 
 
 @kernel
@@ -270,13 +400,6 @@ def near_plane(x0: Any, x: Any, extents: Any, sheet: Any) -> bool:
         if not apart:
             return True
     return False
-
-
-@kernel
-def has_moved(work: Any, i: Any, solved: Any) -> bool:
-    """Whether contact moved a particle from where its solver left it."""
-    end = row(work.end, i)
-    return bool(end[0] != solved[0] or end[1] != solved[1] or end[2] != solved[2])
 
 
 @kernel

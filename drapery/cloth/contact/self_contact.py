@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth.colliders.vectors import add_scaled, dot, norm, row, scale, subtract
 from drapery.cloth.contact.box_contact import meet_boxes, meet_close_boxes
-from drapery.cloth.contact.box_data import BoxContact, Candidates, empty_candidates
+from drapery.cloth.contact.box_data import HELD, MET, BoxContact, Candidates, empty_candidates
 from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
 from drapery.cloth.contact.box_guard import begins_inside, guard_boxes
 from drapery.cloth.contact.geometry import put
@@ -67,29 +67,27 @@ def meet_all(
 
 
 @kernel
-def meet_one(
-    x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates
-) -> bool:
-    """The same for one cloth, [N, 3]; returns whether there may be any contact."""
-    met = len(boxes.halves) > 0 and meet_close_boxes(x0, x, boxes, near)
+def meet_one(x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates) -> int:
+    """The same for one cloth, [N, 3]; returns 0, `MET` or `HELD`, see `box_data`."""
+    met = meet_close_boxes(x0, x, boxes, near) if len(boxes.halves) > 0 else 0
     if len(contact.triangles) == 0:
         return met
-    return meet_itself(x0, x, contact, boxes, near) or met
+    return max(meet_itself(x0, x, contact, boxes, near), met)
 
 
 @kernel
 def meet_itself(
     x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates
-) -> bool:
-    """Resolve the contacts of one cloth with itself, after those with boxes; returns whether there
-    may be any. If not, nothing is changed."""
+) -> int:
+    """Resolve the contacts of one cloth with itself, after those with boxes; returns the same as
+    `meet_one`. If there is none, nothing is changed."""
     windows = windows_of(x, contact)
     if is_all_smooth(windows, contact.levels):
-        return False
+        return 0
     pairs = find_pairs(x0, x, contact, windows, REACH * contact.thickness, False)
     if len(pairs.ends) == 0:
-        return False
-    wanted, meets_boxes = x.copy(), len(boxes.halves) > 0
+        return 0
+    wanted, meets_boxes, met = x.copy(), len(boxes.halves) > 0, MET
     active, pushed = np.empty(len(pairs.ends), np.int32), False
     for _ in range(ROUNDS):
         count = list_near(x, pairs, NEAR * contact.thickness, active)
@@ -98,23 +96,28 @@ def meet_itself(
             pushed = pushed or deepest > 0.0
             if deepest < TOLERANCE * contact.thickness:
                 break
-        if not pushed or not meets_boxes or not meet_boxes(x0, x, boxes, near):
+        again = meet_boxes(x0, x, boxes, near) if pushed and meets_boxes else 0
+        met = max(met, again)
+        if not again:
             break
     for i in range(len(x)):
         change = subtract(row(x, i), row(wanted, i))
         length, limit = norm(change), 0.5 * (REACH - 1.0) * contact.thickness
         if length > limit:
             put(x, i, 0, add_scaled(row(wanted, i), limit / length, change))
-    if not make_safe(x0, x, wanted, pairs, contact, boxes, near, pushed) and not pushed:
-        return True
+    if make_safe(x0, x, wanted, pairs, contact, boxes, near, pushed):
+        met = HELD
+    elif not pushed:
+        return met
     stopped = farthest(x, wanted) >= 0.5 * REACH * contact.thickness
     if stopped or not stay_smooth(windows, windows_of(x, contact), contact.levels):
         # Parts that were stopped may be in the way of others, or out of place beside others, of
         # which no pair is known.
         every = Windows(windows.tangents, windows.known[:0])
         pairs = find_pairs(x0, x, contact, every, STOPPED * contact.thickness, True)
-        make_safe(x0, x, wanted, pairs, contact, boxes, near, True)
-    return True
+        if make_safe(x0, x, wanted, pairs, contact, boxes, near, True):
+            met = HELD
+    return met
 
 
 @borrowing_kernel

@@ -145,8 +145,9 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
-        before = lanes_contact.begin_lanes(y, batch)
-        for step in range(steps * substeps):
+        before = lanes_contact.begin_lanes(y, u, batch, substeps)
+        step, again = 0, False
+        while step < steps * substeps:
             time = batch.numbers[2] + step * batch.numbers[0]
             kernels.frame_velocity(mean, u, body.pins)
             kernels.subtract_frame(both[0], u, mean)
@@ -162,10 +163,9 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, dt)
-            if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(
-                    y, u, before, batch, start, step // substeps, dt * substeps
-                )
+            step, again = lanes_contact.meet_substep(
+                y, u, before, batch, start, step, substeps, dt, again
+            )
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -182,7 +182,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
-        before = lanes_contact.begin_plane(y, batch, sheet)
+        before = lanes_contact.begin_plane(y, u, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
         for step in range(steps * substeps):
             time = batch.numbers[2] + step * batch.numbers[0]
@@ -203,7 +203,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             )
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
             if (step + 1) % substeps == 0:
-                turn = step // substeps
-                lanes_contact.meet_plane(y, u, before, batch, turn, dt * substeps, sheet)
+                when = step // substeps, 0.0, 1.0
+                lanes_contact.meet_plane(y, u, before, batch, when, dt * substeps, sheet, True)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

@@ -65,7 +65,7 @@ class Batch(NamedTuple):
     numbers: the substep [s], drag [1/s], time [s], gravity [m/s²] (3).
     targets: positions of the pins after each substep. push: accelerations by user-defined forces.
     contact: the boxes that the cloths meet. itself: what their contact with themselves needs.
-        poses: of the boxes before the first contact and at each, [T, K, 12]; one entry where no
+        poses: of the boxes before the first step and after each, [T, K, 12]; one entry where no
         box moves. resolve: address of the function that resolves it; 0 without contact. work:
         arrays for it, which no other thread uses.
     often: see `SolverState`. cloths: their number, B.
@@ -244,7 +244,7 @@ def batch_of(
         np.zeros(x.shape[1]),
         NO_CONTACT if boxes is None else boxes.contact,
         itself,
-        _box_poses(boxes, state.time, solver_state, steps),
+        _box_poses(boxes, state.time, solver_state.dt, steps),
         resolve_address() if meets_itself or (boxes and boxes.paths) else 0,
         contact_work(NO_CONTACT),
         solver_state.often,
@@ -252,15 +252,11 @@ def batch_of(
     )
 
 
-def _box_poses(
-    boxes: BoxColliders | None, time: float, solver_state: SolverState, steps: int
-) -> Array:
+def _box_poses(boxes: BoxColliders | None, time: float, dt: float, steps: int) -> Array:
     """The poses of a `Batch` that starts at a time [s]."""
     if boxes is None:
         return NO_CONTACT.ends[None]
-    each = solver_state.substeps if solver_state.often else 1
-    dt = solver_state.dt / each
-    return boxes.poses([time + number * dt for number in range(steps * each + 1)])
+    return boxes.poses([time + number * dt for number in range(steps + 1)])
 
 
 def explicit_substeps(cloth: Cloth, dt: float) -> int:

@@ -356,13 +356,14 @@ def _advance(
     rows, springs, bends = batch.x.shape[0], plan.body.springs, plan.bends
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        before = lanes_contact.begin_lanes(y, batch)
+        before = lanes_contact.begin_lanes(y, u, batch, substeps)
         lanes = y.shape[1]
         residuals = batch.residuals[start : start + lanes]
         b, dv = simd.empty_lanes(rows, lanes, batch.x), simd.empty_lanes(rows, lanes, batch.x)
         scratch = simd.empty_lanes(4 * rows, lanes, batch.x).reshape((4, rows, lanes))
         blocks = simd.empty_lanes(5 * springs.rest.size, lanes, batch.x)
-        for step in range(steps * substeps):
+        step, again = 0, False
+        while step < steps * substeps:
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
                 blow_all(wind, y, body, batch, start, time, work)
@@ -385,6 +386,7 @@ def _advance(
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             kernels.shorten(y, plan.attachments)
             kernels.set_velocities(u, y, old, h)
-            if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, before, batch, start, step // substeps, h * substeps)
+            step, again = lanes_contact.meet_substep(
+                y, u, before, batch, start, step, substeps, h, again
+            )
         store_block(batch, y, u, start)

@@ -281,8 +281,9 @@ def _advance(
     h = dtype.type(batch.numbers[0])
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        before = lanes_contact.begin_lanes(y, batch)
-        for step in range(steps * substeps):
+        before = lanes_contact.begin_lanes(y, u, batch, substeps)
+        step, again = 0, False
+        while step < steps * substeps:
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
                 blow_all(wind, y, body, batch, start, time, work)
@@ -298,6 +299,7 @@ def _advance(
             kernels.shorten(y, plan.attachments)
             shorten_too_long(y, plan.springs, sweeps, work)
             kernels.set_velocities(u, y, old, h)
-            if (step + 1) % substeps == 0:
-                lanes_contact.meet_lanes(y, u, before, batch, start, step // substeps, h * substeps)
+            step, again = lanes_contact.meet_substep(
+                y, u, before, batch, start, step, substeps, h, again
+            )
         store_block(batch, y, u, start)

@@ -326,8 +326,8 @@ def apply_attachments(x: Any, attachments: Any) -> None:
 
 
 @kernel
-def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -> None:
-    """New positions, into old: x moves as in the last substep (at first by v) and by gravity.
+def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, moves_by_v: Any) -> None:
+    """New positions, into old: x moves by v, or else as in the last substep, and by gravity.
 
     The old positions are overwritten; the caller swaps the two arrays. Pins: see `place_pins`.
     """
@@ -339,7 +339,7 @@ def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, substep: Any) -
         fall = F(numbers[0] * numbers[0] * numbers[3 + row % 3])
         for lane in range(0, x.shape[1], lane_count(x)):
             here = load(x, row, lane)
-            motion = h * load(v, row, lane) if substep == 0 else here - load(old, row, lane)
+            motion = h * load(v, row, lane) if moves_by_v else here - load(old, row, lane)
             store(old, row, lane, here + (motion + fall))
 
 
@@ -386,32 +386,40 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
-        before = lanes_contact.begin_lanes(y, batch)
-        for step in range(steps):
+        before = lanes_contact.begin_lanes(y, u, batch, substeps)
+        step, careful = 0, batch.often
+        while step < steps:
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(batch.gusts.seeds.size):
                 kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
                 kernels.add_wind_velocities(u, y, u, body, wind, batch.gusts, number, dt)
             add_pushes(u, body.inv_mass, batch.numbers, batch.push, dt, start)
             for substep in range(substeps):
-                if substep == 0:
+                # After contact the cloth moves on more slowly than contact moved it.
+                moves_by_u = substep == 0 or (careful and not batch.often)
+                if moves_by_u and substep % plan.every == 0:
                     kernels.bend(u, y, u, body.stencils, bend_time, none, damping)
                 elif substep % plan.every == 0:
                     # The motion of a substep is y - old.
                     rate = damping / h
                     kernels.bend(old, y, old, body.stencils, -h * bend_time, rate, -rate)
-                drift(y, old, u, body.inv_mass, batch.numbers, substep)
+                drift(y, old, u, body.inv_mass, batch.numbers, moves_by_u)
                 y, old = old, y
                 turn = step * substeps + substep
                 kernels.place_pins(y, old, body.pins, batch.targets, turn, start)
                 solve(y, plan.constraints, substep)
                 if (substeps - substep) % INTERVAL == 1:
                     apply_attachments(y, plan.attachments)
-                if batch.often:
-                    lanes_contact.meet_lanes(y, u, before, batch, start, turn, h)
+                if careful and substep + 1 < substeps:
+                    kernels.set_velocities(u, y, old, h)
+                    when = step, substep / substeps, (substep + 1) / substeps
+                    lanes_contact.meet_lanes(y, u, before, batch, start, when, h, True)
             kernels.set_velocities(u, y, old, h)
-            if not batch.often:
-                lanes_contact.meet_lanes(y, u, before, batch, start, step, dt)
+            when = step, (substeps - 1) / substeps if careful else 0.0, 1.0
+            moved = h if careful else dt
+            again = lanes_contact.meet_lanes(y, u, before, batch, start, when, moved, careful)
+            careful = again or batch.often
+            step += not again
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
 
@@ -436,22 +444,25 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
     for cloth in range(first, last):
         sheet_kernels.load_plane(y, batch.x, cloth, sheet)
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
-        before = lanes_contact.begin_plane(y, batch, sheet)
+        before = lanes_contact.begin_plane(y, u, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
-        for step in range(steps):
+        step, careful = 0, batch.often
+        while step < steps:
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(gusts.seeds.size):
                 sheet_kernels.add_wind(u, y, u, sheet, gusts, number, time, dt, scratch)
             sheet_kernels.add_push(u, sheet, batch.push, dt, cloth)
             sheet_kernels.slow_down(u, sheet, batch.numbers, dt)
             for substep in range(substeps):
-                if substep == 0:
+                # After contact the cloth moves on more slowly than contact moved it.
+                moves_by_u = substep == 0 or (careful and not batch.often)
+                if moves_by_u and substep % plan.every == 0:
                     bend(u, y, u, plan.bending, sheet, bend_time, none, damping, work)
                 elif substep % plan.every == 0:
                     # The motion of a substep is y - old.
                     rate, back = damping / h, -h * bend_time
                     bend(old, y, old, plan.bending, sheet, back, rate, -rate, work)
-                sheet_kernels.drift(y, old, u, sheet, batch.numbers, substep)
+                sheet_kernels.drift(y, old, u, sheet, batch.numbers, moves_by_u)
                 turn = step * substeps + substep
                 sheet_kernels.place(y, sheet, batch.targets, turn, cloth)
                 begin, end = plan.begin[substep], plan.begin[substep + 1]
@@ -463,8 +474,10 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                     sheet_kernels.solve_batches(
                         y, plan.attachments, 0, last, sheet_kernels.LIMIT, work
                     )
-                if batch.often:
-                    lanes_contact.meet_plane(y, u, before, batch, turn, h, sheet)
+                if careful and substep + 1 < substeps:
+                    sheet_kernels.set_velocities(u, y, old, h, sheet)
+                    when = step, substep / substeps, (substep + 1) / substeps
+                    lanes_contact.meet_plane(y, u, before, batch, when, h, sheet, True)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
@@ -473,7 +486,10 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                     y, plan.limits, 0, last_limit, sheet_kernels.LIMIT, work
                 )
                 sheet_kernels.add_velocities(u, y, old, dt, sheet)
-            if not batch.often:
-                lanes_contact.meet_plane(y, u, before, batch, step, dt, sheet)
+            when = step, (substeps - 1) / substeps if careful else 0.0, 1.0
+            moved = h if careful else dt
+            again = lanes_contact.meet_plane(y, u, before, batch, when, moved, sheet, careful)
+            careful = again or batch.often
+            step += not again
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)
