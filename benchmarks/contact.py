@@ -105,12 +105,14 @@ def winds(number: int) -> list[Force]:
     return [Gravity(), Wind((speed * sin(angle), 0.0, speed * cos(angle)), gusts=0.4)]
 
 
-def banner(placement: str, shape: tuple[int, int], contact: str = "world") -> Case:
+def banner(
+    placement: str, shape: tuple[int, int], contact: str = "world", method: str = "desbrun"
+) -> Case:
     cloth, met = grid(*shape, 20 * UNIT, 40 * UNIT), frame_of(placement)
     collisions = Collisions(met, UNIT, apart=UNIT if contact == "all" else None)
-    moving = MovingCloth.begin(cloth, collisions=collisions)
+    moving = MovingCloth.begin(cloth, solver(method), collisions=collisions)
     name = f"banner, {placement}, {shape[0]} x {shape[1]}, {contact}"
-    return Case(name, moving, winds, met)
+    return Case(name if method == "desbrun" else f"{name}, {method}", moving, winds, met)
 
 
 def storm() -> Case:
@@ -175,6 +177,8 @@ def cases() -> Iterator[Callable[[], Case]]:
         for placement in ("standing", "wall"):
             for shape in GRIDS:
                 yield partial(banner, placement, shape, contact)
+    for placement in ("standing", "wall"):
+        yield partial(banner, placement, (16, 31), "all", "xpbd")
     yield storm
     yield heap
     yield stack
