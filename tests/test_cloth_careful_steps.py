@@ -28,11 +28,8 @@ from drapery.cloth.contact.lanes_contact import contact_work, resolve
 from drapery.cloth.contact.self_contact_data import make_self_contact
 from drapery.jit import entry_point
 from drapery.mesh import Array
+from tests.test_cloth_contact import BAR, POLE, UNIT, flag
 
-UNIT = 1 / 24
-"""A texel of a banner [m]."""
-POLE = Collider(Box(np.array([0, -23, -1.5]) * UNIT, np.array([2, 42, 2]) * UNIT))
-BAR = Collider(Box(np.array([0, -1, -1.5]) * UNIT, np.array([20, 2, 2]) * UNIT))
 APART = Collisions(apart=UNIT)
 
 
@@ -40,7 +37,7 @@ APART = Collisions(apart=UNIT)
 def test_a_storm_does_not_tear_a_fine_banner(speed: float, apart: float | None) -> None:
     """Where contact held cloth once a step, the solver tore at its neighbours: edges became ten
     times as long as at rest, and the banner a heap."""
-    cloth = grid(33, 65, 20 * UNIT, 40 * UNIT)
+    cloth = flag((33, 65))
     met = Collisions((POLE, BAR), UNIT, apart=apart)
     forces = Gravity(), Wind((0.0, 0.0, speed), gusts=0.4)
     states = simulate(cloth, SolverXPBD(), forces, every=10, collisions=met)
@@ -53,7 +50,7 @@ def test_cloths_whose_step_is_made_again_equal_those_that_are_alone(
     method: Any, columns: int
 ) -> None:
     """columns: 9 are stepped as lanes of one register, 17 as a plane of lanes."""
-    cloth = grid(columns, 17, 20 * UNIT, 40 * UNIT)
+    cloth = flag((columns, 17))
     origins = np.arange(18.0).reshape(6, 3)
     crowd = MovingCloth.begin(cloth, method(), count=6, collisions=APART)
     some, each = 0, [MovingCloth.begin(cloth, method(), collisions=APART) for _ in origins]
