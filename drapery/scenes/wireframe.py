@@ -51,7 +51,7 @@ def play(parameters: WireframeParameters, clip: Clip) -> Iterator[Scene]:
     ]
     motions = [_waving(parameters, cloth, clip) for cloth in cloths]
     room = np.array(
-        [[x, y, z] for x in (-0.6, 1.5) for y in (0.05, -FLAG_SIZE[1]) for z in (0, 0.75)]
+        [[x, y, z] for x in (-0.45, 1.56) for y in (0.06, -FLAG_SIZE[1]) for z in (0, 0.6)]
     )
     camera = frame_points(SIDE_ON, room, clip.size[0] / clip.size[1], margin=0.04)
     for states in zip(*motions, strict=True):
