@@ -51,6 +51,15 @@ def test_a_report_says_what_a_pack_has_lacks_and_overrides(tmp_path: Path) -> No
     assert "flower.png is not a PNG file" in problem
 
 
+def test_wrong_checksums_are_one_note_for_a_pack(tmp_path: Path) -> None:
+    wrong = bytearray(plain(1, 1, 1, 90))
+    wrong[-13] ^= 1
+    files = {f"{BANNER}{name}.png": bytes(wrong) for name in PATTERN_NAMES}
+    (report,) = describe_packs([folder_pack(tmp_path / "a", files)])
+    (note,) = (line for line in report.notes if "checksum" in line)
+    assert "border.png (IDAT)" in note and "and 38 more" in note and not report.problems
+
+
 MEASURED = """
 import sys, time
 from pathlib import Path

@@ -144,14 +144,15 @@ def test_errors_and_warnings_of_the_other_files_are_short(tmp_path: Path) -> Non
     animation = {"animation": {"frames": [LONG], "frametime": 1}}
     source = {"type": LONG[:400_000]}
     atlas = "assets/minecraft/atlases/banner_patterns.json"
+    for number, wrong in enumerate((animation, {"animation": {"width": LONG}})):
+        files = {CREEPER: plain(1, 1, 1, 1), CREEPER + ".mcmeta": json.dumps(wrong)}
+        path = folder_pack(tmp_path / f"frames{number}", files)
+        packs = open_packs([path])
+        packs.sheet("creeper")
+        assert all(len(line) < 400 + len(str(path)) for line in packs.warnings())
     for name, files in {
         "overlay": {META: mcmeta(overlays=overlays)},
-        "frames": {CREEPER: plain(1, 1, 1, 1), CREEPER + ".mcmeta": json.dumps(animation)},
         "asset": {"data/minecraft/banner_pattern/creeper.json": json.dumps({"asset_id": LONG})},
-        "width": {
-            CREEPER: plain(1, 1, 1, 1),
-            CREEPER + ".mcmeta": json.dumps({"animation": {"width": LONG}}),
-        },
     }.items():
         path = folder_pack(tmp_path / name, {"assets/x": "", **files})
         with pytest.raises(PackError) as caught:

@@ -82,16 +82,25 @@ def test_frames_may_lie_side_by_side(tmp_path: Path) -> None:
         '{"animation": 3}',
         '{"animation": {"frames": [3]}}',
         '{"animation": {"frametime": 0}}',
+        '{"animation": {"frametime": 1, "frames": [{"index": 1, "time": -2}]}}',
         '{"animation": {"height": 7}}',
         '{"animation": {"frames": [true]}}',
         "{",
     ],
 )
-def test_broken_animations_are_named(tmp_path: Path, meta: str) -> None:
+def test_broken_animations_are_named_and_drawn_as_stills(tmp_path: Path, meta: str) -> None:
     files = {CREEPER: strip(1, 2, 3), CREEPER + ".mcmeta": meta}
     packs = open_packs([folder_pack(tmp_path, files)])
-    with pytest.raises(PackError, match=r"creeper\.png\.mcmeta"):
-        packs.sheet("creeper")
+    assert red(packs, time=1.0) == 1 and packs.sheet("creeper").shape == (8, 8, 4)
+    assert packs.period("creeper") == 0
+    (note,) = packs.notes()
+    assert "creeper.png.mcmeta" in note and note.endswith("it is drawn as a still")
+
+
+def test_a_picture_that_is_no_strip_is_a_still_as_a_whole(tmp_path: Path) -> None:
+    texels = np.full((12, 8, 4), (9, 9, 9, 255), np.uint8)
+    files = {CREEPER: png(texels), CREEPER + ".mcmeta": '{"animation": {"frametime": 0}}'}
+    assert open_packs([folder_pack(tmp_path, files)]).sheet("creeper").shape == (24, 24, 4)
 
 
 def test_masks_of_old_packs_show_the_base_in_the_dye(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from pack_maker import noise, png
 from PIL import Image
 
 from drapery.banner.packs.png import MAX_SIDE, png_size, read_png
+from drapery.banner.packs.png_chunks import MAX_CHUNKS, wrong_checksums
 from drapery.errors import PackError
 
 GREY, GREY_ALPHA, COLOUR, PALETTE, COLOUR_ALPHA = 0, 4, 2, 3, 6
@@ -155,3 +156,42 @@ def test_damaged_files_are_an_error_of_one_line() -> None:
                 read_png(data, "x.png")
             except PackError as error:
                 assert "x.png" in str(error) and "\n" not in str(error)
+
+
+def with_chunk(kind: bytes, data: bytes, at: int = 33) -> bytes:
+    """A file with one more chunk, after IHDR unless `at` is given, whose checksum is wrong."""
+    whole = png(noise(7, 8))
+    wrong = bytearray(chunk(kind, data))
+    wrong[-1] ^= 1
+    return whole[:at] + bytes(wrong) + whole[at:]
+
+
+@pytest.mark.parametrize(
+    "kind", [b"iCCP", b"tEXt", b"iTXt", b"zTXt", b"gAMA", b"eXIf", b"acTL", b"pHYs", b"quIl"]
+)
+@pytest.mark.parametrize("data", [b"", b"x", b"a\0\0" + b"\xff" * 40])
+@pytest.mark.parametrize("at", [33, -12])
+def test_damage_in_chunks_without_texels_costs_nothing(kind: bytes, data: bytes, at: int) -> None:
+    file = with_chunk(kind, data, at)
+    assert (read_png(file, "x") == noise(7, 8)).all()
+    assert wrong_checksums(file, "x") == (kind.decode(),)
+
+
+def test_wrong_checksums_of_texels_are_told_and_those_of_headers_refused() -> None:
+    whole = png(noise(7, 8))
+    assert wrong_checksums(whole, "x") == ()
+    damaged = bytearray(whole)
+    damaged[-13] ^= 1  # the last byte of IDAT's
+    assert wrong_checksums(bytes(damaged), "x") == ("IDAT",)
+    assert (read_png(bytes(damaged), "x") == noise(7, 8)).all()
+    damaged = bytearray(whole)
+    damaged[32] ^= 1
+    with pytest.raises(PackError, match="x is a broken PNG file"):
+        read_png(bytes(damaged), "x")
+
+
+def test_a_file_of_many_chunks_is_refused() -> None:
+    whole = png(noise(7, 8))
+    many = whole[:33] + chunk(b"tEXt", b"") * MAX_CHUNKS + whole[33:]
+    with pytest.raises(PackError, match=f"x has over {MAX_CHUNKS} chunks"):
+        read_png(many, "x")

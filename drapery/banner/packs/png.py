@@ -3,11 +3,11 @@
 import struct
 from io import BytesIO
 from typing import TYPE_CHECKING
-from warnings import catch_warnings
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.banner.packs.png_chunks import texel_chunks
 from drapery.errors import PackError
 
 if TYPE_CHECKING:
@@ -41,16 +41,17 @@ def png_size(data: bytes, name: str) -> tuple[int, int]:
 def read_png(data: bytes, name: str) -> Texels:
     """The texels of a PNG file of any mode, shape [H, W, 4].
 
-    Only the upper eight of 16 bits a channel are used, as in the game.
+    Only the upper eight of 16 bits a channel are used, as in the game. Chunks that say nothing
+    about the texels are not read, whatever is wrong with them.
     name: the file's name in errors. Raises PackError.
     """
     png_size(data, name)
     # Only this plug-in: PIL.Image.open would load those of all common formats first.
     from PIL.PngImagePlugin import PngImageFile
 
+    file = BytesIO(texel_chunks(data, name))
     try:
-        # Pillow warns of broken animation chunks, which are not read here.
-        with catch_warnings(action="ignore"), PngImageFile(BytesIO(data)) as image:
+        with PngImageFile(file) as image:
             image.load()
             texels = _rgba(image, depth=data[24])
     except (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error) as error:

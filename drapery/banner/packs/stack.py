@@ -18,6 +18,7 @@ from drapery.banner.packs.memory import MemoryPack
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, extra_sprites, open_pack
 from drapery.banner.packs.png import MAX_PIXELS, Texels, png_size, read_png
+from drapery.banner.packs.png_chunks import wrong_checksums
 from drapery.banner.packs.resampling import squared
 from drapery.banner.packs.sources import PackSource
 from drapery.banner.packs.sprite_sources import SpriteFolder, SpriteSource, parse_atlas, textures_of
@@ -31,6 +32,7 @@ from drapery.banner.packs.textures import (
     checker,
     cut_frames,
     frame_layout,
+    still_layout,
 )
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
@@ -78,6 +80,7 @@ class Packs:
     _missing: dict[str, None] = field(default_factory=dict, init=False, repr=False)
     _black: dict[str, None] = field(default_factory=dict, init=False, repr=False)
     _notes: dict[str, None] = field(default_factory=dict, init=False, repr=False)
+    _unchecked: dict[tuple[int, str], str] = field(default_factory=dict, init=False, repr=False)
 
     def sheet(self, pattern: str, kind: Kind = "banner", time: float = 0.0) -> Texels:
         """The sheet of a pattern, shape [H, H, 4], at a time [s] of its animation.
@@ -188,11 +191,11 @@ class Packs:
 
     def notes(self) -> tuple[str, ...]:
         """What was read otherwise than it lies in the packs, or not at all, one line each."""
-        return tuple(self._notes)
+        return (*self._notes, *self._wrong_checksums())
 
     def warnings(self) -> tuple[str, ...]:
         """Warnings about the textures read so far, one line each; they name the packs."""
-        lines = list(self._notes)
+        lines = list(self.notes())
         labels = listed(pack.label for pack in self.packs[1:])
         if self._missing:
             names, where = ", ".join(self._missing), labels or "our own art"
@@ -208,6 +211,16 @@ class Packs:
         if (self._ours or self._missing) and labels and not self._used:
             lines.append(f"no texture comes from {labels}: the textures needed are not in it")
         return tuple(lines)
+
+    def _wrong_checksums(self) -> Iterator[str]:
+        """One line for each pack that has PNG files with wrong checksums."""
+        for level in sorted({level for level, _ in self._unchecked}):
+            files = {name: kinds for (at, name), kinds in self._unchecked.items() if at == level}
+            yield (
+                f"{self.packs[level].label}: wrong checksums, which the game does not check, in"
+                f" {listed(f'{name} ({kinds})' for name, kinds in files.items())}:"
+                " save these files again"
+            )
 
     def _all_in_memory(self) -> bool:
         """Whether all packs are made of arrays, which hold only what they replace."""
@@ -272,13 +285,30 @@ class Packs:
                     f"{place} is {layout.width} x {layout.height} px: it is stretched to a square,"
                     " as in the game"
                 ] = None
-        return replace(cut_frames(read_png(found.data, place), layout), is_sheet=is_sheet)
+        return replace(cut_frames(self._decoded(found), layout), is_sheet=is_sheet)
+
+    def _decoded(self, found: PackFile) -> Texels:
+        """The texels of a file. Notes its wrong checksums. Raises PackError."""
+        place = self._place(found)
+        texels = read_png(found.data, place)
+        wrong = wrong_checksums(found.data, place)
+        if wrong:
+            self._unchecked[found.level, found.name] = ", ".join(wrong)
+        return texels
 
     def _layout(self, found: PackFile) -> FrameLayout:
-        """The frames of a picture. Raises PackError."""
+        """The frames of a picture, one where its animation is wrong, with a note.
+
+        Raises PackError.
+        """
         place = self._place(found)
+        size = png_size(found.data, place)
         mcmeta = self.packs[found.level].read(f"{found.name}.mcmeta", MAX_JSON)
-        return frame_layout(*png_size(found.data, place), mcmeta, f"{place}.mcmeta")
+        try:
+            return frame_layout(*size, mcmeta, f"{place}.mcmeta")
+        except PackError as error:
+            self._notes[f"{error}; it is drawn as a still"] = None
+            return still_layout(*size)
 
     def _map(self, found: PackFile | None, ending: str) -> Texels | None:
         """The map beside a texture, from its pack or one above. Maps of lower packs belong to
@@ -286,7 +316,7 @@ class Packs:
         beside = self._find_map(found, ending)
         if found is None or beside is None:
             return None
-        texels = read_png(beside.data, self._place(beside))
+        texels = self._decoded(beside)
         layout = self._layout(found)
         height, width = texels.shape[:2]
         # A map that is stretched like its sheet; else what is tall is a strip of frames.

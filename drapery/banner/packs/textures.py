@@ -109,6 +109,16 @@ def frame_layout(width: int, height: int, mcmeta: bytes | None, name: str) -> Fr
     return FrameLayout(*size, _order(animation, count, name))
 
 
+def still_layout(width: int, height: int) -> FrameLayout:
+    """One frame of a picture of this size [px] whose animation cannot be used.
+
+    It is the first square of a strip, else the whole picture.
+    """
+    side = min(width, height)
+    is_strip = max(width, height) % side == 0
+    return FrameLayout(side, side) if is_strip else FrameLayout(width, height)
+
+
 def cut_frames(texels: Texels, layout: FrameLayout) -> Texture:
     """The texture of a picture that is cut into frames."""
     width, height = layout.width, layout.height
