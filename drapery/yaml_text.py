@@ -1,11 +1,13 @@
 """YAML from users: one safe loader with bounds on depth, on aliases and on numbers.
 
 The caller limits the length of the text. PyYAML composes recursively and expands aliases, so the
-stream of events is checked before any value is built from it.
+stream of events is checked before any value is built from it. Only for a fault of the syntax does
+a message quote PyYAML; its limits and its other texts differ between versions.
 """
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from typing import Any, NoReturn
 
 import yaml
 
@@ -36,23 +38,35 @@ def load_yaml(text: str, where: object) -> Any:
     a document, that repeats a key, or that exceeds MAX_DEPTH, MAX_REPEATED or MAX_NUMBER.
     """
     try:
-        _check_events(text)
+        _check(text)
         return yaml.load(text, _Loader)
+    except _YamlFaultError as fault:
+        place, reason = _at(fault.mark), fault.reason
     except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        place = "" if mark is None else f", line {mark.line + 1}, column {mark.column + 1}"
+        place = _at(error.problem_mark or error.context_mark)
         reason = ", ".join(filter(None, (error.context, error.problem))) or "not YAML"
     except yaml.reader.ReaderError as error:
         place, reason = (
             _place(text, error.position),
             f"character {error.character!r} is not allowed",
         )
-    except (yaml.YAMLError, ValueError, OverflowError) as error:
+    except yaml.YAMLError as error:
         place, reason = "", str(error)
     reason = " ".join(reason.split())
     if len(reason) > MAX_REASON:
         reason = reason[:MAX_REASON] + " ..."
     raise OptionError(f"{where}{place}: {reason}; correct the YAML there")
+
+
+class _YamlFaultError(Exception):
+    """What this module refuses. mark: PyYAML's mark of the place."""
+
+    def __init__(self, reason: str, mark: Any) -> None:
+        self.reason, self.mark = reason, mark
+
+
+def _at(mark: Any) -> str:
+    return "" if mark is None else f", line {mark.line + 1}, column {mark.column + 1}"
 
 
 def _place(text: str, position: int) -> str:
@@ -61,17 +75,38 @@ def _place(text: str, position: int) -> str:
     return f", line {before.count(chr(10)) + 1}, column {column}"
 
 
+def _check(text: str) -> None:
+    """Raise _YamlFaultError for what is not one document, nests too deeply, or has faulty aliases.
+
+    PyYAML reads up to 1,024 characters of a line ahead of its events, since a bracket may begin a
+    key, and some versions refuse the depth that they see there. Which depth is allowed is said
+    here, so the events of the text before such a place are looked at first.
+    """
+    try:
+        _check_events(text)
+    except yaml.MarkedYAMLError as error:
+        if error.problem_mark is not None:
+            with suppress(yaml.YAMLError):  # that the text ends, for example
+                _check_events(text[: error.problem_mark.index])
+        raise
+
+
 def _check_events(text: str) -> None:
-    """Raise MarkedYAMLError for a document that nests too deeply or that aliases make too large."""
-    depth = repeated = count = 0
+    depth = repeated = count = documents = 0
     sizes: dict[str, int] = {}
     open_nodes: list[tuple[str | None, int]] = []
     for event in yaml.parse(text, _BASE):
-        if isinstance(event, yaml.AliasEvent):
-            if any(anchor == event.anchor for anchor, _ in open_nodes):
-                _refuse(f"*{event.anchor} repeats a value inside itself", event)
-            size = sizes.get(event.anchor or "", 0)
-            repeated, count = repeated + size, count + size
+        if isinstance(event, yaml.DocumentStartEvent):
+            documents += 1
+            if documents > 1:
+                _refuse("a second document begins", event)
+        elif isinstance(event, yaml.AliasEvent):
+            name = event.anchor or ""
+            if any(anchor == name for anchor, _ in open_nodes):
+                _refuse(f"*{name} repeats a value inside itself", event)
+            if name not in sizes:
+                _refuse(f"*{name} repeats nothing: no &{name} stands before it", event)
+            repeated, count = repeated + sizes[name], count + sizes[name]
             if repeated > MAX_REPEATED:
                 _refuse(f"aliases repeat more than {MAX_REPEATED} values", event)
         elif isinstance(event, yaml.ScalarEvent):
@@ -90,8 +125,9 @@ def _check_events(text: str) -> None:
                 sizes[anchor] = count - start + 1
 
 
-def _refuse(reason: str, event: Any) -> None:
-    raise yaml.MarkedYAMLError(problem=reason, problem_mark=event.start_mark)
+def _refuse(reason: str, place: Any) -> NoReturn:
+    """Raise _YamlFaultError. place: an event or a node."""
+    raise _YamlFaultError(reason, place.start_mark)
 
 
 _BASE: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -112,32 +148,37 @@ def _mapping(loader: Any, node: yaml.MappingNode) -> Iterator[dict[Any, Any]]:
     seen: set[tuple[str, str]] = set()
     for key, _ in node.value:
         if not isinstance(key, yaml.ScalarNode):
-            continue
+            _refuse("a list or a mapping is no key", key)
         if (key.tag, key.value) in seen:
-            raise yaml.MarkedYAMLError(
-                problem=f"the key {key.value!r} is given twice", problem_mark=key.start_mark
-            )
+            _refuse(f"the key {key.value!r} is given twice", key)
         seen.add((key.tag, key.value))
     values: dict[Any, Any] = {}
     yield values
     values.update(loader.construct_mapping(node))
 
 
-def _number(tag: str) -> Any:
+def _scalar(tag: str) -> Callable[[Any, Any], Any]:
+    """PyYAML's reader of such values, whose faults get a place and a text of ours."""
+    name = tag.rpartition(":")[2]
     construct = _BASE.yaml_constructors[tag]
 
-    def short(loader: Any, node: yaml.ScalarNode) -> Any:
-        if len(node.value) > MAX_NUMBER:
-            raise yaml.MarkedYAMLError(
-                problem=f"a number has more than {MAX_NUMBER} characters",
-                problem_mark=node.start_mark,
-            )
-        return construct(loader, node)
+    def read(loader: Any, node: Any) -> Any:
+        if name in ("int", "float") and len(node.value) > MAX_NUMBER:
+            _refuse(f"a number has more than {MAX_NUMBER} characters", node)
+        try:
+            return construct(loader, node)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
+            _refuse(f"{str(node.value)[:40]!r} is not of the type {name}", node)
 
-    return short
+    return read
+
+
+def _unknown(_: Any, node: yaml.Node) -> NoReturn:
+    _refuse(f"the tag {node.tag[:60]} is not read", node)
 
 
 _Loader.add_constructor("tag:yaml.org,2002:seq", _sequence)
 _Loader.add_constructor("tag:yaml.org,2002:map", _mapping)
-for _tag in ("tag:yaml.org,2002:int", "tag:yaml.org,2002:float"):
-    _Loader.add_constructor(_tag, _number(_tag))
+for _name in ("null", "bool", "int", "float", "binary", "timestamp"):
+    _Loader.add_constructor(f"tag:yaml.org,2002:{_name}", _scalar(f"tag:yaml.org,2002:{_name}"))
+_Loader.add_constructor(None, _unknown)

@@ -7,8 +7,9 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from drapery import yaml_text
 from drapery.errors import OptionError
-from drapery.yaml_text import MAX_REASON, MAX_REPEATED, load_yaml
+from drapery.yaml_text import MAX_DEPTH, MAX_REASON, MAX_REPEATED, load_yaml
 
 TEXTS = st.text(st.characters(min_codepoint=32, max_codepoint=126), max_size=20)
 VALUES = st.recursive(
@@ -16,6 +17,10 @@ VALUES = st.recursive(
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(TEXTS, inner, max_size=4),
     max_leaves=20,
 )
+
+
+STAIRS = "".join(" " * step + "a:\n" for step in range(1000))
+"""Each line is a mapping inside that of the line before."""
 
 
 def bomb(levels: int) -> str:
@@ -47,22 +52,30 @@ def test_anchors_and_merges_are_read() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("a: 1\nb: [", "did not find expected node content"),
+        ("a: 1\nb: [", "x.yaml, line "),
         ("[" * 30_000, "x.yaml, line 1, column 65: lists and mappings nest more than 64 deep"),
-        ("{a: " * 30_000, "nest more than 64 deep"),
+        ("{a: " * 30_000, "x.yaml, line 1, column 257: lists and mappings nest more than 64 deep"),
+        ("- " * 30_000, "x.yaml, line 1, column 129: lists and mappings nest more than 64 deep"),
+        ("? " * 30_000, "x.yaml, line 1, column 129: lists and mappings nest more than 64 deep"),
+        (STAIRS, "x.yaml, line 65, column 65: lists and mappings nest more than 64 deep"),
+        ("- [" * 65, "x.yaml, "),
         (bomb(9), f"aliases repeat more than {MAX_REPEATED} values"),
-        ("a: &a {x: 1}\nb: *c\n", "x.yaml, line 2, column 4: found undefined alias"),
+        ("a: &a {x: 1}\nb: *c\n", "x.yaml, line 2, column 4: *c repeats nothing: no &c stands"),
         ("a: &a [*a]\n", "x.yaml, line 1, column 8: *a repeats a value inside itself"),
-        (
-            "? [a, b]\n: 1\n",
-            "x.yaml, line 1, column 3: while constructing a mapping, found unhashable key",
-        ),
+        ("? [a, b]\n: 1\n", "x.yaml, line 1, column 3: a list or a mapping is no key"),
+        ("- {x: 1, {}: 2}", "x.yaml, line 1, column 10: a list or a mapping is no key"),
         ("- a: 1\n  a: 2\n", "x.yaml, line 2, column 3: the key 'a' is given twice"),
         (f"a: {'9' * 5000}", "x.yaml, line 1, column 4: a number has more than 100 characters"),
         (f"a: 1{':59' * 5000}", "a number has more than 100 characters"),
-        ("a: 2020-13-45", "x.yaml: month must be in 1..12"),
-        ("a: 1\n---\nb: 2\n", "expected a single document"),
-        ("a: !!python/object:os.system x", "could not determine a constructor for the tag"),
+        ("a: 2020-13-45", "x.yaml, line 1, column 4: '2020-13-45' is not of the type timestamp"),
+        ("a: !!int x", "x.yaml, line 1, column 4: 'x' is not of the type int"),
+        ("a: !!bool x", "x.yaml, line 1, column 4: 'x' is not of the type bool"),
+        ("a: !!timestamp x", "x.yaml, line 1, column 4: 'x' is not of the type timestamp"),
+        ("a: 1\n---\nb: 2\n", "x.yaml, line 2, column 1: a second document begins"),
+        (
+            "a: !!python/object:os.system x",
+            "line 1, column 4: the tag tag:yaml.org,2002:python/object:os.system is not read",
+        ),
         ("a: ok\nb: \x00", "x.yaml, line 2, column 4: character"),
     ],
 )
@@ -73,6 +86,30 @@ def test_a_fault_names_the_file_the_line_and_the_remedy(text: str, message: str)
     assert message in said
     assert said.endswith("; correct the YAML there")
     assert len(said) < MAX_REASON + 100 and "\n" not in said
+
+
+@pytest.mark.parametrize("loader", ["CSafeLoader", "SafeLoader"])
+@pytest.mark.parametrize("before", ["", f"- '{'[' * 70}'\n", f"# {'{' * 70}\n"])
+@pytest.mark.parametrize(
+    ("opening", "middle", "closing"), [("[", "", "]"), ("{a: ", "1", "}"), ("- ", "1", "")]
+)
+def test_64_levels_are_read_and_one_more_is_refused(
+    monkeypatch: pytest.MonkeyPatch,
+    loader: str,
+    before: str,
+    opening: str,
+    middle: str,
+    closing: str,
+) -> None:
+    """Of all loaders of PyYAML, whose own limits differ; brackets in texts count for nothing."""
+    monkeypatch.setattr(yaml_text, "_BASE", getattr(yaml, loader))
+    for depth in (MAX_DEPTH, MAX_DEPTH + 1, 1100):
+        text = before + "- " + opening * (depth - 1) + middle + closing * (depth - 1)
+        if depth == MAX_DEPTH:
+            load_yaml(text, "x.yaml")
+        else:
+            with pytest.raises(OptionError, match=f"nest more than {MAX_DEPTH} deep"):
+                load_yaml(text, "x.yaml")
 
 
 def test_a_bomb_of_aliases_takes_no_memory() -> None:
