@@ -51,7 +51,7 @@ CASES = {
     "yaml": "defaults: {size: 32x32}\ncase:\n- {name: a, design: red, wind: 5}\n",
 }
 COMMANDS = {
-    "show": [GIVE, "white creeper:lime\n--as\njson", "red\n--number\n1\n--from\ntext"],
+    "show": [GIVE, "white creeper:lime\n--as\njson", "red\n--number\n1\n--from\nshorthand"],
     "render": [
         "white\n--size\n32x32\n--wind\n5\n--seed\n3\n--view\niso\n--background\n#aabbcc",
         f"{GIVE}\n--grid\n9x9\n--pixel\n4\n--layers\nflat\n--rotation\n3\n--format\n75",

@@ -99,14 +99,14 @@ def test_a_form_that_is_forced_must_fit():
 @pytest.mark.parametrize("name", ["a.nbt", "a.schem", "a.mcstructure", "a.dat", "a.json"])
 def test_show_writes_a_file_by_its_ending(drapery: Run, tmp_path: Path, name: str):
     assert drapery("show", "white creeper:lime", "-o", tmp_path / name)[0] == 0
-    assert drapery("show", tmp_path / name, "--as", "text") == (0, "white creeper:lime\n", "")
+    assert drapery("show", tmp_path / name, "--as", "shorthand") == (0, "white creeper:lime\n", "")
 
 
 def test_show_writes_and_reads_a_form_of_bytes_by_its_name(drapery: Run, tmp_path: Path):
     (tmp_path / "empty").mkdir()
     path = tmp_path / "banner"
     assert drapery("show", "red border:black", "-o", path, "--as", "schem")[0] == 0
-    assert drapery("show", path, "--from", "schem", "--as", "text")[1] == "red border:black\n"
+    assert drapery("show", path, "--from", "schem", "--as", "shorthand")[1] == "red border:black\n"
     for words, fault in (
         ((path, "--from", "litematic"), "the file is NBT but not a Litematica schematic"),
         ((path, "--from", "give"), "a binary file, which cannot be read as the form 'give'"),

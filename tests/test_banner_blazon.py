@@ -159,7 +159,7 @@ def test_at_least_95_percent_of_the_blazons_are_read() -> None:
 
 @pytest.mark.parametrize("text", BLAZONS[:-9:9])
 def test_banner_parse_takes_a_blazon(text: str) -> None:
-    assert recognise(text).name in ("blazon", "text")
+    assert recognise(text).name in ("blazon", "shorthand")
     assert Banner.parse(text) == parse_blazon(text)
 
 
@@ -176,14 +176,14 @@ def test_banner_parse_takes_a_blazon(text: str) -> None:
     ],
 )
 def test_typed_texts_keep_their_form(text: str) -> None:
-    assert recognise(text).name == "text"
+    assert recognise(text).name == "shorthand"
 
 
 def test_one_blazon_on_each_line() -> None:
     from drapery import parse_banners
 
     found = parse_banners("Azure, a bend Or\nGules, a chief Argent\nred creeper:lime\n")
-    assert [write_banner(one.banner, "text") for one in found] == [
+    assert [write_banner(one.banner, "shorthand") for one in found] == [
         "blue stripe_downright:yellow",
         "red stripe_top:white",
         "red creeper:lime",

@@ -18,7 +18,7 @@ from drapery.errors import DesignError
 
 
 def shorthand(text: str) -> Banner:
-    return parse_banner(text, form="text")
+    return parse_banner(text, form="shorthand")
 
 
 PATHS = st.lists(st.text("abz059_-.", min_size=1, max_size=5), min_size=1, max_size=3).map("/".join)

@@ -313,7 +313,7 @@ WRAPPED = [
 
 @pytest.mark.parametrize("wrapping", WRAPPED)
 @pytest.mark.parametrize(
-    "form", ["give-legacy", "text", "planet-minecraft", "needcoolshoes", "gamergeeks", "item"]
+    "form", ["give-legacy", "shorthand", "planet-minecraft", "needcoolshoes", "gamergeeks", "item"]
 )
 def test_what_surrounds_a_copied_text_is_removed(form: str, wrapping: str):
     text = write_banner(CREEPER, form)
@@ -350,11 +350,11 @@ def test_an_amount_after_a_plain_item_is_removed():
         ("color_id_0=4&shape_id_1=28&color_id_1=15", "minecraft-tools"),
         ("?color_id_0=4", "minecraft-tools"),
         ("a15bs0", "gamergeeks"),
-        ("beige", "text"),
-        ("cafe", "text"),
-        ("Beige", "text"),
-        ("lime", "text"),
-        ("123", "text"),
+        ("beige", "shorthand"),
+        ("cafe", "shorthand"),
+        ("Beige", "shorthand"),
+        ("lime", "shorthand"),
+        ("123", "shorthand"),
     ],
 )
 def test_the_code_of_an_editor_is_known_without_its_address(text: str, form: str):

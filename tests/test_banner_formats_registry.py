@@ -6,16 +6,19 @@ import sys
 from pathlib import Path
 
 import pytest
+from conftest import Run
 
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.formats import (
+    FORMS,
     FoundBanner,
     find_banners,
     parse_banner,
     parse_banners,
     read_designs,
     recognise,
+    write_banner,
 )
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.plain import plain_design, read_design
@@ -177,7 +180,7 @@ def test_a_plain_design_is_what_the_forms_read():
     ]
     for text in (*DYE_NAMES, *texts, " ".join(["white", *["border:lime"] * 16])):
         assert plain_design(text) == parse_banner(text), text
-        assert recognise(text).name == "text", text
+        assert recognise(text).name == "shorthand", text
 
 
 @pytest.mark.parametrize(
@@ -208,3 +211,16 @@ def test_a_plain_design_is_the_file_of_that_name_if_there_is_one(
     assert (
         len(read_design(" ".join(["white", *["square_bottom_left:light_blue"] * 16])).layers) == 16
     )
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_text_without_a_design_is_refused_in_every_form(form: str, drapery: Run) -> None:
+    code, out, err = drapery("show", "hello world", "--from", form)
+    assert (code, out) == (2, "") and len(err.splitlines()) == 1
+
+
+def test_the_former_name_of_shorthand_is_known(tmp_path: Path) -> None:
+    assert write_banner(RED, "text") == write_banner(RED, "shorthand") == "red"
+    file = tmp_path / "a.txt"
+    file.write_text("red", "utf-8")
+    assert read_designs(file, form="text") == parse_banners("red", form="text")

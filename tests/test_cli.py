@@ -83,7 +83,7 @@ def test_flat_is_the_plain_face(drapery: Run, tmp_path: Path) -> None:
     assert (texels[..., 3] == 255).all()
 
 
-@pytest.mark.parametrize("form", ["json", "give", "give-legacy", "text"])
+@pytest.mark.parametrize("form", ["json", "give", "give-legacy", "shorthand"])
 def test_show_converts_to_a_form_that_reads_back(drapery: Run, form: str) -> None:
     code, out, _ = drapery("show", GIVE, "--as", form)
     assert code == 0
@@ -101,9 +101,9 @@ def test_a_design_is_read_from_a_file_and_from_standard_input(
 ) -> None:
     design = tmp_path / "banner.txt"
     design.write_text(GIVE)
-    from_file = drapery("show", design, "--as", "text")
+    from_file = drapery("show", design, "--as", "shorthand")
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(GIVE.encode()), encoding="utf-8"))
-    assert from_file == drapery("show", "-", "--as", "text") != (0, "", "")
+    assert from_file == drapery("show", "-", "--as", "shorthand") != (0, "", "")
 
 
 def bad_packs(folder: Path) -> dict[str, Path]:

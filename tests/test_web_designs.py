@@ -14,7 +14,16 @@ from drapery.web import tables
 
 COMPONENT = tables.PATH.parent
 FORMS_OF_PAGES = (
-    *("text", "json", "give", "give-legacy", "give-1.12", "item", "setblock", "loom-assistant"),
+    *(
+        "shorthand",
+        "json",
+        "give",
+        "give-legacy",
+        "give-1.12",
+        "item",
+        "setblock",
+        "loom-assistant",
+    ),
     *("planet-minecraft", "needcoolshoes", "minecraft-tools", "gamergeeks"),
 )
 """The forms that pages read too."""

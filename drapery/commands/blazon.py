@@ -13,8 +13,9 @@ def run(
         str, typer.Argument(metavar="BLAZON", help="Such as 'Azure, a bend Or'; - reads input.")
     ],
     written: Annotated[
-        str, typer.Option("--as", metavar="FORM", help="The form to print: text, give, json, ...")
-    ] = "text",
+        str,
+        typer.Option("--as", metavar="FORM", help="The form to print: shorthand, give, json, ..."),
+    ] = "shorthand",
     out: Annotated[
         Path | None,
         typer.Option("-o", "--out", metavar="FILE", help="Draw the flat face, as a picture."),

@@ -119,4 +119,4 @@ def _print_hidden(banner: "Banner", packs: "Packs") -> None:
     fewer = simplify(banner, packs)
     if fewer != banner:
         spared = len(banner.layers) - len(fewer.layers)
-        print(f"the same picture with {spared} fewer: {write_banner(fewer, 'text')}")
+        print(f"the same picture with {spared} fewer: {write_banner(fewer, 'shorthand')}")

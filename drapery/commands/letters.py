@@ -31,7 +31,7 @@ def run(
         typer.Option(
             "--as",
             metavar="FORM",
-            help="The form to print: text, give, json, ...",
+            help="The form to print: shorthand, give, json, ...",
             show_default="text, or nothing with -o",
         ),
     ] = None,
@@ -74,7 +74,7 @@ def run(
         backend=backend,
     )
     if out is None or written is not None:
-        print("\n".join(write_banner(banner, written or "text") for banner in banners))
+        print("\n".join(write_banner(banner, written or "shorthand") for banner in banners))
     if out is not None and not _wrote_blocks(banners, out):
         if cloth:
             with compile_notice():

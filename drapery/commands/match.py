@@ -230,7 +230,7 @@ def _print_matches(found: "tuple[Match, ...]", form: str | None, as_json: bool) 
         print(json.dumps([_fields(one) for one in found], indent=1))
     else:
         for one in found:
-            print(f"{one.error:.4f}\t{write_banner(one.banner, 'text')}")
+            print(f"{one.error:.4f}\t{write_banner(one.banner, 'shorthand')}")
 
 
 def _save_sheets(
@@ -293,7 +293,7 @@ def _fields(one: "Match") -> dict[str, Any]:
 
     return {
         "error": round(one.error, 6),
-        "text": write_banner(one.banner, "text"),
+        "text": write_banner(one.banner, "shorthand"),
         "base": one.banner.base,
         "layers": [{"pattern": each.pattern, "dye": each.dye} for each in one.banner.layers],
         "fits_loom": fits_loom(one.banner),

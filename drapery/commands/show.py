@@ -15,7 +15,9 @@ def run(
     design: o.DesignArgument,
     written: Annotated[
         str | None,
-        typer.Option("--as", metavar="FORM", help="Write it as json, give, give-legacy, text, ..."),
+        typer.Option(
+            "--as", metavar="FORM", help="Write it as json, give, give-legacy, shorthand, ..."
+        ),
     ] = None,
     out: Annotated[
         Path | None,
@@ -33,7 +35,7 @@ def run(
     found = read_designs(design, form=form)
     if show_list:
         for count, one in enumerate(found, 1):
-            print(f"{count}\t{one.where}\t{write_banner(one.banner, 'text')}")
+            print(f"{count}\t{one.where}\t{write_banner(one.banner, 'shorthand')}")
         return
     if out is not None:
         _write(choose_banner(found, number), out, written)

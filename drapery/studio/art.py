@@ -54,7 +54,7 @@ def face_address(
 
     pack: the tab's packs as they are `now`, its `own` art alone, or the number of one of its packs.
     """
-    words = {"design": write_banner(banner, "text"), "kind": banner.kind, "scale": scale}
+    words = {"design": write_banner(banner, "shorthand"), "kind": banner.kind, "scale": scale}
     return f"/design/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 

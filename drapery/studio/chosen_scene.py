@@ -28,7 +28,7 @@ def scene_choice(name: str, banner: Banner | None, settings: Settings) -> SceneC
     words = {}
     for parameter in _parameters(find_scene(name)):
         if parameter in DESIGN_PARAMETERS and banner is not None:
-            words[parameter] = write_banner(replace(banner, kind="banner"), "text")
+            words[parameter] = write_banner(replace(banner, kind="banner"), "shorthand")
         elif parameter in WIND_PARAMETERS:
             words[parameter] = f"{min(wind_controls_of(settings).speed, MAX_WIND):g}"
     return SceneChoice(name, tuple(words.items()))

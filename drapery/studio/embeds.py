@@ -27,12 +27,12 @@ class EmbedPlaces:
 
 def page_link(places: EmbedPlaces, banner: Banner) -> str:
     """The address of the page with the design, which needs no server."""
-    return f"{places.page.partition('#')[0]}#{quote(write_banner(banner, 'text'), safe=':')}"
+    return f"{places.page.partition('#')[0]}#{quote(write_banner(banner, 'shorthand'), safe=':')}"
 
 
 def picture_address(places: EmbedPlaces, banner: Banner, settings: Settings) -> str:
     """The address at which `drapery serve` draws the design with these settings."""
-    query = {"design": write_banner(banner, "text")}
+    query = {"design": write_banner(banner, "shorthand")}
     for name, value in options_of(settings).items():
         option = NAMED_OPTIONS[name]
         if option.public:
@@ -52,7 +52,7 @@ def component_tag(places: EmbedPlaces, banner: Banner, settings: Settings) -> st
     """The design as `<drapery-banner>`, and the line that loads the component."""
     wind = wind_controls_of(settings)
     attributes = {
-        "design": write_banner(banner, "text"),
+        "design": write_banner(banner, "shorthand"),
         "kind": "wall" if settings.placement == "wall" else "standing",
         "wind": plain(round(wind.speed, 1)),
         "direction": plain(round(wind.heading, 1)),

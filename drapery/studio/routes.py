@@ -64,7 +64,7 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
         session = session_of(token)
 
         def draw() -> bytes:
-            banner = replace(parse_banner(design, form="text"), kind=kind)
+            banner = replace(parse_banner(design, form="shorthand"), kind=kind)
             return face_png(banner, _packs(session, pack), scale)
 
         return _picture(session, draw)

@@ -112,7 +112,7 @@ def _player(request: ExportRequest) -> PlayerSettings | None:
     wear = () if request.garment is None else (request.garment,)
     if request.banner is None:
         return PlayerSettings(skin=request.skin, wear=wear)
-    text = write_banner(request.banner, "text")
+    text = write_banner(request.banner, "shorthand")
     if request.banner.kind == "shield":
         return PlayerSettings(skin=request.skin, wear=wear, shield=text)
     return PlayerSettings(skin=request.skin, wear=wear, head=text)
@@ -158,7 +158,7 @@ def as_command(
         return _scene_command(request, scene, stem)
     found, player = drawn_garment(request), _player(request)
     banner = request.banner if found is None else _design_on(request, found)
-    design = [] if banner is None else [_quoted(write_banner(banner, "text"))]
+    design = [] if banner is None else [_quoted(write_banner(banner, "shorthand"))]
     out = _quoted(file_name(request, stem))
     if request.kind == "json":
         return " ".join(["drapery show", *design, "--as json", ">", out])
@@ -194,13 +194,13 @@ def as_python(
         lines = [f"banner = player_of(PlayerSettings({given}))", *lines]
     elif found is not None:
         design = _design_on(request, found)
-        text = "" if design is None else f".with_design({_text(write_banner(design, 'text'))})"
+        text = "" if design is None else f".with_design({_text(write_banner(design, 'shorthand'))})"
         names += ["drapery.garments.find_garment"]
         name = _garment_name(str(request.garment), called or {})
         lines = [f"banner = find_garment({_text(name)}){text}", *lines]
     elif request.banner is not None:
         names += ["drapery.Banner"]
-        text = _text(write_banner(request.banner, "text"))
+        text = _text(write_banner(request.banner, "shorthand"))
         lines = [f"banner = Banner.parse({text})", *lines]
     return "\n".join([*_imports(names), "", *lines, ""])
 

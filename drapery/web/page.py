@@ -115,7 +115,7 @@ def _banner_shown(design: Banner | None, settings: Settings) -> _Shown:
     kind = settings.placement if design else settings.kind
     attributes = {"kind": kind, "alt": alt_text(design) if design else kind.title()}
     if design:
-        attributes["design"] = write_banner(design, "text")
+        attributes["design"] = write_banner(design, "shorthand")
     return _Shown("drapery-banner", attributes, {f"{kind}.bin": _scene(design, packs, settings)})
 
 

@@ -12,6 +12,7 @@ from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.registry import (
     FORMS,
     binary_forms,
+    named_now,
     parse_all,
     parse_banners,
     some_of,
@@ -54,6 +55,7 @@ def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBa
     Raises DesignError as `parse_banners` does, for files that cannot be read, and for a folder
     without a design or with over 100,000 files.
     """
+    form = named_now(form)
     if source == "-":
         return parse_banners(_decoded(_read_stdin(), "-"), form=form)
     path = _as_path(source)

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from itertools import islice
 from types import ModuleType
+from typing import TypeVar
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import (
@@ -57,6 +58,8 @@ from drapery.banner.names import shown
 from drapery.errors import DesignError
 
 _MOST_WARNINGS = 5
+
+FormName = TypeVar("FormName", str, str | None)
 
 
 def _form(module: ModuleType, read: Callable[[str], list[FoundBanner]]) -> Form:
@@ -169,7 +172,12 @@ def parse_all(text: str, form: str | None, errors: list[DesignError]) -> list[Fo
             found, own = (lines, faults) if lines is not found else (found, own)
         errors += own
         return found
-    return _any_form(unwrap(text), errors) if form is None else _named(form).read(text)
+    return _any_form(unwrap(text), errors) if form is None else _read_as(_named(form), text)
+
+
+def _read_as(form: Form, text: str) -> list[FoundBanner]:
+    nothing = f"no banner in the text in the form {form.name!r}; it is written as {form.example}"
+    return some_of(form.read(text), [], " ".join(nothing.split()))
 
 
 def _is_function(text: str) -> bool:
@@ -268,7 +276,16 @@ def choose_banner(found: list[FoundBanner], number: int | None = None) -> Banner
     return found[number - 1].banner
 
 
+_FORMER_NAMES = {"text": shorthand.NAME}
+
+
+def named_now(form: FormName) -> FormName:
+    """The name of a form, in place of a former one."""
+    return _FORMER_NAMES.get(form, form) if form is not None else form
+
+
 def _named(form: str) -> Form:
+    form = named_now(form)
     if form in FORMS:
         return FORMS[form]
     if form in binary_forms():

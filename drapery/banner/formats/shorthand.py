@@ -12,8 +12,8 @@ from drapery.banner.formats.tree import OMINOUS, base_of, check_count
 from drapery.banner.names import dye_name, is_dye, is_pattern, pattern_id, plain, shown
 from drapery.errors import DesignError
 
-NAME = "text"
-TITLE = "shorthand, typed by hand"
+NAME = "shorthand"
+TITLE = "typed by hand"
 EXAMPLE = "white creeper:lime border:black"
 SOURCE = "our own, and the game's tooltip"
 
