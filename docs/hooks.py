@@ -14,6 +14,7 @@ import typer.main
 
 from drapery.cli import command_line
 from drapery.option import Option
+from drapery.packs import PACK_FORMATS
 from drapery.player_settings import PLAYER_OPTIONS
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 from drapery.web.wasm.module import module_places
@@ -158,6 +159,15 @@ def _row(parameter: Any) -> str:
     return f"| {name} | {_cell(parameter.help or '')} |"
 
 
+def _pack_formats() -> str:
+    """A table of the formats of packs, the newest first."""
+    lines = ["| format | game | since | what changed |", "|---|---|---|---|"]
+    for each in reversed(PACK_FORMATS):
+        number = f"{each.number}.{each.minor}" if each.minor else str(each.number)
+        lines.append(f"| {number} | {each.game} | {each.date} | {_cell(each.changed)} |")
+    return "\n".join(lines) + "\n"
+
+
 def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
@@ -175,4 +185,5 @@ TABLES: dict[str, Callable[[], str]] = {
     "commands": commands,
     "garments": _garments,
     "live-gallery": _live_gallery,
+    "pack-formats": _pack_formats,
 }

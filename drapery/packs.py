@@ -15,10 +15,14 @@ from drapery.banner.packs.pack import Pack, open_pack
 from drapery.banner.packs.png import Texels, png_size, read_png
 from drapery.banner.packs.sources import PackSource
 from drapery.banner.packs.stack import PackLike
+from drapery.banner.packs.versions import LAST_MASK_FORMAT, PACK_FORMATS, PackFormat
 
 __all__ = [
+    "LAST_MASK_FORMAT",
+    "PACK_FORMATS",
     "MemoryPack",
     "Pack",
+    "PackFormat",
     "PackLike",
     "PackReport",
     "PackSource",

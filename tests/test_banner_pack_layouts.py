@@ -27,6 +27,7 @@ from drapery.banner.packs.contents import describe_packs
 from drapery.banner.packs.png import read_png
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.sprites import composite, shield_layers
+from drapery.packs import PACK_FORMATS
 from drapery.pictures import draw
 from drapery.studio.art import pattern_names, pattern_sheet
 
@@ -89,11 +90,12 @@ def test_the_commands_draw_extra_sprites_too(
 @pytest.mark.parametrize(
     ("pack", "read", "words"),
     [
-        ({"min_format": 85, "max_format": 88}, 85, "85 to 88, read as 85"),
+        ({"min_format": [98, 1], "max_format": [110, 3]}, 97, "98 to 110, read as 97"),
         ({"min_format": 69, "max_format": [75, 3]}, 75, "69 to 75, read as 75"),
-        ({"pack_format": 34, "supported_formats": [18, 9999]}, 84, "18 to 9999, read as 84"),
+        ({"pack_format": 34, "supported_formats": [18, 9999]}, 97, "18 to 9999, read as 97"),
         ({"pack_format": 34, "supported_formats": 34}, 34, "34"),
-        ({"pack_format": 99}, 99, "99"),
+        ({"pack_format": 99}, 97, "99, read as 97"),
+        ({"min_format": 97, "max_format": [97, 1]}, 97, "97"),
         ({"pack_format": 15}, 15, "15"),
     ],
 )
@@ -105,7 +107,78 @@ def test_a_range_of_formats_is_shown_with_the_one_that_was_used(
     code, out, _ = drapery("packs", path)
     (line,) = (line for line in out.splitlines() if line.startswith("  format "))
     assert code == 0 and line.split(maxsplit=1)[1] == words
-    assert ("only for formats after 84" in out) == (read > 84)
+    is_newer = words[:2] in ("98", "99")
+    assert out.count(
+        "only for formats after 97, the newest known here, and is read as that one"
+    ) == (is_newer)
+    noted = [line for line in open_packs([path]).warnings() if "only for formats after" in line]
+    assert len(noted) == is_newer
+
+
+def test_a_given_format_after_the_newest_is_said_once(tmp_path: Path) -> None:
+    path = folder_pack(tmp_path, {META: mcmeta(46), CREEPER: plain(1, 0, 0, 255)})
+    (line,) = open_packs([path, path], format=120).warnings()
+    assert line == "format 120 is after 97, the newest known here, and is read as that one"
+
+
+def test_overlays_of_a_pack_of_data_count_by_formats_of_data(tmp_path: Path) -> None:
+    entry = {"directory": "newer", "min_format": 110, "max_format": 130}
+    meta = {"pack": {"min_format": 94, "max_format": 130}, "overlays": {"entries": [entry]}}
+    files = {
+        META: json.dumps(meta),
+        "data/g/banner_pattern/owl.json": '{"asset_id": "g:owl"}',
+        "newer/data/g/banner_pattern/owl.json": '{"asset_id": "skull"}',
+    }
+    packs = open_packs([folder_pack(tmp_path, files)])
+    assert (packs.sheet("g:owl") == packs.sheet("skull")).all() and packs.notes() == ()
+
+
+OLD_SHIELD = ENTITY + "shield_base.png"
+NEW_SHIELD = ENTITY + "shield/shield_base.png"
+
+
+@pytest.mark.parametrize(
+    ("format", "files", "red", "wrong"),
+    [
+        (46, {OLD_SHIELD: 1, NEW_SHIELD: 2}, 1, None),
+        (84, {OLD_SHIELD: 1, NEW_SHIELD: 2}, 2, None),
+        (46, {NEW_SHIELD: 2}, 2, NEW_SHIELD),
+        (84, {OLD_SHIELD: 1}, 1, OLD_SHIELD),
+        (None, {OLD_SHIELD: 1}, 1, None),
+    ],
+)
+def test_a_pack_is_read_at_the_places_of_its_own_format(
+    tmp_path: Path, format: int | None, files: dict[str, int], red: int, wrong: str | None
+) -> None:
+    meta = {} if format is None else {META: mcmeta(format)}
+    sheets = {name: plain(number, 0, 0, 255) for name, number in files.items()}
+    packs = open_packs([folder_pack(tmp_path, {**meta, **sheets})])
+    assert packs.base("shield_base")[0, 0, 0] == red
+    right = ({OLD_SHIELD, NEW_SHIELD} - {wrong}).pop()
+    assert [wrong in line and right in line for line in packs.notes()] == [True] * bool(wrong)
+
+
+def test_fields_of_formats_that_the_game_refuses_are_noted(tmp_path: Path) -> None:
+    for number, (fields, word) in enumerate(
+        (
+            ({"min_format": 69, "max_format": 84, "supported_formats": [69, 84]}, "leave it out"),
+            ({"min_format": 69}, "min_format stands alone"),
+            ({"min_format": 34, "max_format": 84, "supported_formats": [34, 64]}, None),
+        )
+    ):
+        path = tmp_path / str(number)
+        files = {META: json.dumps({"pack": fields}), CREEPER: plain(1, 0, 0, 255)}
+        lines = open_packs([folder_pack(path, files)]).notes()
+        assert [word in line for line in lines if word] == [True] * (word is not None)
+
+
+def test_the_table_of_formats_is_in_order() -> None:
+    numbers = [each.number for each in PACK_FORMATS]
+    dates = [each.date for each in PACK_FORMATS]
+    assert numbers == sorted(set(numbers)) and dates == sorted(dates)
+    assert {46: "1.21.4", 84: "26.1", 97: "26.3"}.items() <= {
+        each.number: each.game for each in PACK_FORMATS
+    }.items()
 
 
 def test_a_given_format_is_shown_beside_the_packs_own(drapery: Run, tmp_path: Path) -> None:

@@ -63,7 +63,7 @@ def test_later_overlays_lie_over_earlier_ones(tmp_path: Path) -> None:
     [
         ({"pack_format": 18}, 18),
         ({"pack_format": 18, "supported_formats": [18, 46]}, 46),
-        ({"pack_format": 18, "supported_formats": {"min_inclusive": 4, "max_inclusive": 9999}}, 84),
+        ({"pack_format": 18, "supported_formats": {"min_inclusive": 4, "max_inclusive": 9999}}, 97),
         ({"min_format": 69, "max_format": [75, 3]}, 75),
     ],
 )

@@ -4,7 +4,6 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from drapery.banner.packs.meta import NEWEST_FORMAT
 from drapery.banner.packs.pack import Pack, added_patterns, extra_sprites
 from drapery.banner.packs.png import png_size
 from drapery.banner.packs.stack import Base, Kind, PackFile, PackLike, Packs, open_packs
@@ -99,15 +98,8 @@ def _report(pack: Pack, alone: Packs, lower: Sequence[Packs]) -> PackReport:
         unchecked,
         pack.meta.supported(),
         extra,
-        (*_newer(pack), *alone.notes()),
+        alone.notes(),
     )
-
-
-def _newer(pack: Pack) -> list[str]:
-    formats = pack.meta.supported()
-    if formats is None or formats[0] <= NEWEST_FORMAT:
-        return []
-    return [f"{pack.label} is only for formats after {NEWEST_FORMAT}, the newest known here"]
 
 
 @dataclass(frozen=True)

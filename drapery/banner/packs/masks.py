@@ -13,9 +13,6 @@ import numpy as np
 from drapery.banner.packs.png import Texels
 from drapery.banner.packs.resampling import common_side, resize
 
-LAST_MASK_FORMAT = 4
-"""The last pack format (1.14) whose sheets are masks."""
-
 MIN_SHARE = 32
 """A sheet votes if at least one in this many texels is black, or translucent."""
 

@@ -1,22 +1,21 @@
 """`pack.mcmeta`: which versions of the game a pack is for, and its overlays and filters.
 
-Format numbers count resource-pack formats (1.21.4 is 46) and gained a minor part with 65.0.
+`drapery.banner.packs.versions` lists the formats.
 """
 
 import json
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from drapery.banner.names import shown
 from drapery.banner.packs.filters import IdFilter, parse_filter
+from drapery.banner.packs.versions import LAST_WITHOUT_MINOR, NEWEST_DATA_FORMAT, NEWEST_FORMAT
 from drapery.errors import PackError
 
 Format = tuple[float, float]
 """Major and minor format number."""
-
-NEWEST_FORMAT = 84
-"""The newest resource format known here; packs only for newer ones are read as their lowest."""
 
 MAX_JSON = 1 << 20
 """Largest JSON file that is read [bytes]."""
@@ -51,6 +50,7 @@ class PackMeta:
 
     format: the declared format, or None. formats: all that it claims to support, or None.
     overlays: lowest first. filters: files of the packs below that are hidden.
+    notes: what the game refuses although it can be read.
     """
 
     format: int | None = None
@@ -58,13 +58,19 @@ class PackMeta:
     overlays: tuple[Overlay, ...] = ()
     filters: tuple[IdFilter, ...] = ()
     description: str = ""
+    notes: tuple[str, ...] = ()
 
     def newest(self) -> int | None:
-        """The newest known format that the pack claims to support, or else its lowest."""
+        """The newest known format that the pack claims to support, or the newest known at all."""
+        own = self._own_newest(NEWEST_FORMAT)
+        return None if own is None else min(own, NEWEST_FORMAT)
+
+    def _own_newest(self, known: int) -> int | None:
+        """The newest format up to a known one that the pack claims to support, or its lowest."""
         if self.formats is None:
             return self.format
         highest = max(self.formats.highest[0], self.format or 0)
-        return int(min(highest, max(self.formats.lowest[0], NEWEST_FORMAT)))
+        return int(min(highest, max(self.formats.lowest[0], known)))
 
     def supported(self) -> tuple[int, int] | None:
         """The lowest and the highest format that the pack claims to support."""
@@ -72,9 +78,13 @@ class PackMeta:
             return int(self.formats.lowest[0]), int(self.formats.highest[0])
         return None if self.format is None else (self.format, self.format)
 
-    def directories(self, wanted: int | None) -> tuple[str, ...]:
-        """The folders of the overlays for a format, topmost first; None is the pack's newest."""
-        target = self.newest() if wanted is None else wanted
+    def directories(self, wanted: int | None, *, of_data: bool = False) -> tuple[str, ...]:
+        """The folders of the overlays for a format, topmost first; None is the pack's newest.
+
+        of_data: whether its formats are those of data packs.
+        """
+        known = NEWEST_DATA_FORMAT if of_data else NEWEST_FORMAT
+        target = self._own_newest(known) if wanted is None else wanted
         if target is None:
             return ()
         chosen = [o.directory for o in self.overlays if target in o.formats]
@@ -112,7 +122,21 @@ def parse_meta(data: bytes, name: str) -> PackMeta:
         _overlays(root, name),
         _filters(root, name),
         _one_line(_plain_text(pack.get("description", ""))),
+        tuple(_refused(pack, formats, name)),
     )
+
+
+def _refused(pack: dict[str, Any], formats: FormatRange | None, name: str) -> Iterator[str]:
+    """What the game refuses in a pack of these fields although it can be read."""
+    ends = [key for key in ("min_format", "max_format") if key in pack]
+    if len(ends) == 1:
+        yield f"{name}: {ends[0]} stands alone, which the game refuses: give min_format, max_format"
+    is_new = bool(ends) and formats is not None and formats.lowest[0] > LAST_WITHOUT_MINOR
+    if is_new and "supported_formats" in pack:
+        yield (
+            f"{name}: supported_formats stands in a pack only for formats after"
+            f" {LAST_WITHOUT_MINOR}, which the game refuses: leave it out"
+        )
 
 
 def parse_version(data: bytes, name: str) -> PackMeta:

@@ -8,6 +8,7 @@ from drapery.banner.names import is_custom
 from drapery.banner.packs.meta import MAX_JSON, PackMeta, parse_meta, parse_version
 from drapery.banner.packs.sources import PackSource, open_source
 from drapery.banner.packs.texture_ids import is_id
+from drapery.banner.packs.versions import NEWEST_FORMAT
 from drapery.banner.patterns import PATTERN_NAMES
 
 
@@ -36,6 +37,18 @@ class Pack:
             if data is not None:
                 return data
         return None
+
+    def notes(self) -> tuple[str, ...]:
+        """What is to be said about its `pack.mcmeta`, one line each."""
+        formats = self.meta.supported()
+        is_newer = formats is not None and formats[0] > NEWEST_FORMAT
+        if not is_newer or not self.source.folders("assets"):
+            return self.meta.notes
+        line = (
+            f"{self.label} is only for formats after {NEWEST_FORMAT}, the newest known here,"
+            " and is read as that one"
+        )
+        return (*self.meta.notes, line)
 
     def hides(self, name: str) -> bool:
         """Whether its filters hide this file in the packs below."""
@@ -66,8 +79,9 @@ def open_pack(path: str | Path | PackSource, format: int | None = None) -> Pack:
     source = open_source(path)
     meta = _read_meta(source)
     # Data packs use other format numbers, so a resource format does not apply to them.
-    wanted = format if source.folders("assets") else None
-    roots = (*(f"{name}/" for name in meta.directories(wanted)), "")
+    has_assets = bool(source.folders("assets"))
+    names = meta.directories(format if has_assets else None, of_data=not has_assets)
+    roots = (*(f"{name}/" for name in names), "")
     return Pack(source, meta, roots, meta.newest() if format is None else format)
 
 

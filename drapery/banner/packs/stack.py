@@ -4,7 +4,7 @@ A pack is a folder, a zip, a client jar or a pack in memory. A later pack overri
 earlier ones. The overlays of a pack, named in its `pack.mcmeta`, override its other files.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -13,10 +13,11 @@ from typing import Literal
 from drapery.banner.names import shown
 from drapery.banner.packs.checks import listed
 from drapery.banner.packs.folders import OwnArt
-from drapery.banner.packs.masks import LAST_MASK_FORMAT, are_masks, looks_like_mask
+from drapery.banner.packs.masks import are_masks, looks_like_mask
 from drapery.banner.packs.memory import MemoryPack
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, extra_sprites, open_pack
+from drapery.banner.packs.places import Place, base_places, in_order, wings_places
 from drapery.banner.packs.png import MAX_PIXELS, Texels, png_size, read_png
 from drapery.banner.packs.png_chunks import wrong_checksums
 from drapery.banner.packs.resampling import squared
@@ -34,6 +35,7 @@ from drapery.banner.packs.textures import (
     frame_layout,
     still_layout,
 )
+from drapery.banner.packs.versions import LAST_MASK_FORMAT, NEWEST_FORMAT
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
 
@@ -42,12 +44,6 @@ Base = Literal["banner_base", "shield_base", "shield_base_nopattern"]
 
 MAX_PNG = 32 << 20
 """Largest PNG file that is read [bytes]."""
-
-LAST_OLD_FORMAT = 75
-"""Last format (1.21.11) in which bases were beside `entity/banner` and `entity/shield`."""
-
-LAST_OLD_WINGS_FORMAT = 41
-"""Last format before 1.21.2, which moved the texture of elytra to `entity/equipment`."""
 
 
 @dataclass(frozen=True)
@@ -119,15 +115,19 @@ class Packs:
 
         Raises PackError.
         """
-        old, new = (
-            f"assets/minecraft/textures/entity/{name}.png"
-            for name in ("elytra", "equipment/wings/elytra")
-        )
-        is_old = self.format is not None and self.format <= LAST_OLD_WINGS_FORMAT
-        found = self._find([old, new] if is_old else [new, old])
+        return self.placed(wings_places())
+
+    def placed(self, places: Sequence[Place]) -> Texels | None:
+        """The texture at the first of some places that a pack has, shape [H, W, 4], or None.
+
+        The topmost pack that has one counts, and in it the place where the game of its format
+        looks. Raises PackError.
+        """
+        found = self._find_placed(places)
         if found is None:
             return None
-        return self._textures.get("elytra", lambda: self._read(found, "elytra")).at(0.0)
+        key = ("placed", found.level, found.name)
+        return self._textures.get(key, lambda: self._read(found, found.name)).at(0.0)
 
     def period(self, pattern: str, kind: Kind = "banner") -> float:
         """The length of the animation of a pattern's sheet [s]; 0 if it is still."""
@@ -191,7 +191,8 @@ class Packs:
 
     def notes(self) -> tuple[str, ...]:
         """What was read otherwise than it lies in the packs, or not at all, one line each."""
-        return (*self._notes, *self._wrong_checksums())
+        own = (line for pack in self.packs for line in pack.notes())
+        return (*dict.fromkeys((*own, *self._notes, *self._wrong_checksums())),)
 
     def warnings(self) -> tuple[str, ...]:
         """Warnings about the textures read so far, one line each; they name the packs."""
@@ -341,22 +342,41 @@ class Packs:
 
     def _find_base(self, base: Base) -> PackFile | None:
         """The file of a base, at its place before or since 26.1."""
-        folder = base.split("_", 1)[0]
-        old = f"assets/minecraft/textures/entity/{base}.png"
-        new = f"assets/minecraft/textures/entity/{folder}/{base}.png"
-        is_old = self.format is not None and self.format <= LAST_OLD_FORMAT
-        return self._find([old, new] if is_old else [new, old])
+        return self._find_placed(base_places(base))
+
+    def _find_placed(self, places: Sequence[Place]) -> PackFile | None:
+        """The file at one of some places, with a note if the game would not look there."""
+        at = {place.file: place for place in places}
+        found = self._find(
+            [*at], lambda pack: [each.file for each in in_order(places, pack.format)]
+        )
+        if found is None:
+            return None
+        pack, place = self.packs[found.level], at[found.name]
+        if not place.is_for(pack.format):
+            right = next(each.file for each in places if each.is_for(pack.format))
+            self._notes[
+                f"{self._place(found)} is not where the game of format {pack.format} looks;"
+                f" it is read all the same: move it to {right}"
+            ] = None
+        return found
 
     def _find(
-        self, names: Sequence[str], *, lowest: int = 0, limit: int = MAX_PNG
+        self,
+        names: Sequence[str],
+        order: Callable[[Pack], Sequence[str]] | None = None,
+        *,
+        lowest: int = 0,
+        limit: int = MAX_PNG,
     ) -> PackFile | None:
         """The topmost pack's file of one of these names, the first that it has.
 
-        None where no pack from `lowest` up has one, or a pack above it hides it.
+        order: of the names in a pack, if packs differ. None where no pack from `lowest` up has
+        one, or a pack above it hides it.
         """
         for level in reversed(range(lowest, len(self.packs))):
             pack = self.packs[level]
-            for name in names:
+            for name in (name for name in (order(pack) if order else names) if name in names):
                 data = pack.read(name, limit)
                 if data is not None:
                     return PackFile(level, name, data)
@@ -440,7 +460,13 @@ def open_packs(packs: PackLike | Sequence[PackLike] = (), *, format: int | None 
     if not isinstance(packs, Iterable):
         raise PackError(f"packs is {shown(packs)}: give a path, a pack or a list of them")
     chosen = (pack for each in packs for pack in _opened(each, format))
-    return Packs((Pack(OwnArt()), *chosen), format)
+    opened = Packs((Pack(OwnArt()), *chosen), format)
+    if format is not None and format > NEWEST_FORMAT:
+        opened._notes[
+            f"format {format} is after {NEWEST_FORMAT}, the newest known here, and is read as that"
+            " one"
+        ] = None
+    return opened
 
 
 def _opened(pack: PackLike, format: int | None) -> tuple[Pack, ...]:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from nicegui import Client, background_tasks, run, ui
 
 from drapery import DraperyError
+from drapery.packs import LAST_MASK_FORMAT, PACK_FORMATS
 from drapery.studio.art import face_address, sheet_address
 from drapery.studio.file_field import FileField
 from drapery.studio.notices import errors_shown, show_notice
@@ -20,23 +21,8 @@ OWN_ART = "Drapery's own art"
 READING = "Reading all its patterns …"
 LATER = 1.5
 """The delay between building the page and reading what its packs have [s]."""
-FORMATS = {
-    "75": "1.21.11",
-    "46": "1.21.4",
-    "34": "1.21",
-    "15": "1.20",
-    "8": "1.18",
-    "6": "1.16.2 - 1.16.5",
-    "4": "1.13 - 1.14",
-    "3": "1.11 - 1.12",
-    "1": "1.8",
-}
-"""Pack formats that the page offers, with the versions of the game that use them.
-
-https://minecraft.wiki/w/Pack_format
-"""
-MASKED = frozenset({"4", "3", "1"})
-"""Formats whose sheets are masks."""
+GAMES = {str(each.number): each.game for each in reversed(PACK_FORMATS)}
+"""Pack formats that the page offers, with the versions of the game that have them."""
 
 
 def build(session: Session) -> None:
@@ -121,7 +107,7 @@ def _format(session: Session, reading: ui.label) -> None:
         return "" if format is None else str(format)
 
     fields = Fields(session)
-    formats = {"": "what each pack says"} | {number: _format_title(number) for number in FORMATS}
+    formats = {"": "what each pack says"} | {number: _format_title(number) for number in GAMES}
     formats.setdefault(current(), translated("pack format {number}").format(number=current()))
     with ui.element("div").classes("options"):
         fields.choice("Read packs as", formats, current, choose)
@@ -132,9 +118,11 @@ def _format(session: Session, reading: ui.label) -> None:
 
 def _format_title(number: str) -> str:
     words = (
-        "{game}, with masks (format {number})" if number in MASKED else "{game} (format {number})"
+        "{game}, with masks (format {number})"
+        if int(number) <= LAST_MASK_FORMAT
+        else "{game} (format {number})"
     )
-    return translated(words).format(game=FORMATS[number], number=number)
+    return translated(words).format(game=GAMES[number], number=number)
 
 
 def _row(session: Session, entry: PackEntry) -> None:
