@@ -1,11 +1,13 @@
 """What players hold and wear beside cloth: a banner on the head, a shield, armour with trims."""
 
+import json
+
 import numpy as np
 import pytest
 
 from drapery import Banner, draw
 from drapery.cloth import Box
-from drapery.errors import OptionError
+from drapery.errors import OptionError, PackError
 from drapery.garments import dressed_player, make_wearer, tailor
 from drapery.packs import MemoryPack, open_packs
 from drapery.scenes import Dressed
@@ -205,3 +207,92 @@ def test_a_cape_hangs_behind_a_chestplate(armor: str, moved: tuple[float, float]
         for fields in ({}, {"armor": armor})
     )
     np.testing.assert_allclose(armed - plain, np.tile([0, *moved], (len(plain), 1)), atol=1e-9)
+
+
+def palette(*tones: tuple[int, int, int]) -> np.ndarray:
+    return np.array([[(*tone, 255) for tone in tones]], np.uint8)
+
+
+LIGHT, DARK = (200, 200, 200), (100, 100, 100)
+
+
+def trimmed(
+    more: dict[str, np.ndarray], contents: dict[str, bytes], armor: str = "iron"
+) -> list[tuple[int, ...]]:
+    """The colours of the two tones of a trim on a helmet, with the palettes of 26.3."""
+    trim = plain(0, 0, 0, 0)
+    trim[0, 0], trim[1, 1] = (*LIGHT, 255), (*DARK, 255)
+    textures = {
+        f"minecraft:entity/equipment/humanoid/{armor}": plain(9, 9, 9, 255),
+        "minecraft:trims/entity/humanoid/coast": trim,
+        "minecraft:trims/entity/humanoid/odd": plain(*LIGHT, 255),
+        "minecraft:palettes/trim_base": palette(LIGHT, DARK),
+        "minecraft:palettes/trim/gold": palette((250, 220, 80), (180, 130, 20)),
+        "minecraft:palettes/trim/gold_darker": palette((90, 80, 30), (40, 30, 10)),
+        "acme:palettes/blue": palette((0, 0, 250), (0, 0, 90)),
+        **more,
+    }
+    packs = open_packs(MemoryPack(textures=textures, contents=contents))
+    worn = armor_on(f"helmet:{armor}", "coast:gold", packs, PARTS)[0].material.layers[0].texels
+    return [tuple(int(v) for v in worn[n, n, :3]) for n in (0, 1)]
+
+
+def overrides(*entries: object, format: int = 97) -> dict[str, bytes]:
+    equipment = {"layers": {}, "trim_overrides": entries}
+    return {
+        "assets/minecraft/equipment/iron.json": json.dumps(equipment).encode(),
+        "pack.mcmeta": json.dumps({"pack": {"min_format": format, "max_format": format}}).encode(),
+    }
+
+
+BLUE = {"palette": "acme:blue"}
+
+
+def test_palettes_are_found_where_26_3_has_them() -> None:
+    assert trimmed({}, {}) == [(250, 220, 80), (180, 130, 20)]
+    assert trimmed({}, {}, armor="gold") == [(90, 80, 30), (40, 30, 10)]
+
+
+@pytest.mark.parametrize(
+    ("entries", "format", "seen"),
+    [
+        ([{"when": {}, **BLUE}], 97, (0, 0, 250)),
+        ([{"when": {"material": "gold"}, **BLUE}], 97, (0, 0, 250)),
+        ([{"when": {"material": "minecraft:gold", "pattern": "coast"}, **BLUE}], 97, (0, 0, 250)),
+        ([{"when": {"pattern": "wild"}, **BLUE}], 97, (250, 220, 80)),
+        ([{"when": {"pattern": "coast"}}, {"when": {}, **BLUE}], 97, (250, 220, 80)),
+        ([{"when": {}, **BLUE}], 88, (250, 220, 80)),
+    ],
+)
+def test_equipment_overrides_the_palette_of_a_trim(
+    entries: list[object], format: int, seen: tuple[int, int, int]
+) -> None:
+    assert trimmed({}, overrides(*entries, format=format))[0] == seen
+
+
+def test_equipment_overrides_the_texture_of_a_trim() -> None:
+    assert trimmed({}, overrides({"when": {}, "texture": "odd"}))[1] == (250, 220, 80)
+
+
+def test_a_trim_names_its_key_palette() -> None:
+    key = {"acme:palettes/key": palette(DARK, LIGHT)}
+    meta = json.dumps({"palette": {"base_palette": "acme:key"}}).encode()
+    named = {"assets/minecraft/textures/trims/entity/humanoid/coast.png.mcmeta": meta}
+    assert trimmed(key, named) == [(180, 130, 20), (250, 220, 80)]
+
+
+def test_wrong_palettes_and_overrides_name_their_files() -> None:
+    short = {"minecraft:palettes/trim/gold": palette(LIGHT)}
+    with pytest.raises(
+        PackError, match=r"trim/gold\.png: its palette has 1 colours, the key has 2"
+    ):
+        trimmed(short, {})
+    for wrong in (3, {"when": 3}, {"when": {"pattern": 4}}, {"palette": "A b"}):
+        with pytest.raises(PackError, match=r"equipment/iron\.json: trim_overrides 0"):
+            trimmed({}, overrides(wrong))
+
+
+@pytest.mark.parametrize("size", [(48, 24), (100, 64), (64, 64), (1, 1)])
+def test_armour_and_trims_of_any_sizes_meet(size: tuple[int, int]) -> None:
+    odd = plain(7, 7, 7, 255, width=size[0], height=size[1])
+    assert len(trimmed({"minecraft:entity/equipment/humanoid/iron": odd}, {})) == 2

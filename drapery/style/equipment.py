@@ -11,7 +11,9 @@ import numpy as np
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
+from drapery.banner.packs.equipment import MATERIALS, armor_places, needed, trim_texels
 from drapery.banner.packs.png import Texels
+from drapery.banner.packs.resampling import nearest_texels
 from drapery.banner.sprites import tint
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
@@ -50,11 +52,6 @@ PIECES: Mapping[str, tuple[tuple[str, float], ...]] = {
 """The boxes of each piece of armour, and how far they stand off [texels]."""
 _OFFSETS = {"head": (0, 0), "hat": (32, 0), "body": (16, 16), "arm": (40, 16), "leg": (0, 16)}
 """Where the boxes lie on a texture of armour; those of the left are mirrored."""
-ARMOR_MATERIALS = (
-    *("leather", "chainmail", "copper", "iron", "gold", "diamond", "netherite", "turtle_scute"),
-)
-DARKER = frozenset({"iron", "gold", "diamond", "netherite", "copper"})
-"""Trims of these are darker on armour of the same material."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,8 +145,8 @@ def parse_armor(text: str) -> dict[str, str]:
                 f"armor {shown(piece)} is not a piece; use some of: {', '.join(PIECES)},"
                 " such as helmet:iron,boots:gold"
             )
-        if material not in ARMOR_MATERIALS:
-            known = ", ".join(ARMOR_MATERIALS)
+        if material not in MATERIALS:
+            known = ", ".join(MATERIALS)
             raise OptionError(f"armor {shown(material)} is not known; use one of: {known}")
     return found
 
@@ -175,7 +172,8 @@ def armor_on(
     for piece, material in parse_armor(armor).items():
         texels = _armor_texels(piece, material, packs)
         if trim is not None:
-            texels = _over(texels, _trim_texels(piece, material, *parse_trim(trim), packs))
+            dyed = trim_texels(_layer(piece), material, *parse_trim(trim), packs)
+            texels = _over(texels, dyed)
         drawn = Material((TextureLayer(texels),), "cutout")
         made += [Equipment(bone, mesh, drawn) for bone, mesh in _armor_meshes(piece, parts)]
     return tuple(made)
@@ -220,64 +218,27 @@ def _mirrored(mesh: Mesh) -> Mesh:
 
 def _armor_texels(piece: str, material: str, packs: Packs) -> Texels:
     """The texture of a piece, shape [32 n, 64 n, 4]; leather is dyed and has a second layer."""
-    texels = _texture(_armor_names(piece, material), packs, f"armor {material}")
+    what = f"armor {material}"
+    texels = packs.texels(needed(armor_places(_layer(piece), material), packs, what))
     if material != "leather":
         return texels
-    over = _texture(_armor_names(piece, "leather", "_overlay"), packs, "armor leather")
-    return _over(tint(texels, LEATHER), over)
+    over = needed(armor_places(_layer(piece), material, "_overlay"), packs, what)
+    return _over(tint(texels, LEATHER), packs.texels(over))
 
 
-def _armor_names(piece: str, material: str, more: str = "") -> tuple[str, str]:
-    """The ids of a texture of armour since 1.21.2, and before."""
-    legs = piece == "leggings"
-    folder = "humanoid_leggings" if legs else "humanoid"
-    old = {"turtle_scute": "turtle"}.get(material, material)
-    return (
-        f"minecraft:entity/equipment/{folder}/{material}{more}",
-        f"minecraft:models/armor/{old}_layer_{2 if legs else 1}{more}",
-    )
-
-
-def _trim_texels(piece: str, worn: str, pattern: str, material: str, packs: Packs) -> Texels:
-    """A trim in the colours of its material: a palette gives a colour for each tone of a key."""
-    legs = piece == "leggings"
-    texels = _texture(
-        (
-            f"minecraft:trims/entity/{'humanoid_leggings' if legs else 'humanoid'}/{pattern}",
-            f"minecraft:trims/models/armor/{pattern}{'_leggings' if legs else ''}",
-        ),
-        packs,
-        f"trim {pattern}",
-    )
-    palettes = "minecraft:trims/color_palettes"
-    key = _texture((f"{palettes}/trim_palette",), packs, f"trim {material}")[0]
-    name = f"{material}_darker" if worn == material and material in DARKER else material
-    colours = _texture((f"{palettes}/{name}",), packs, f"trim {material}")[0]
-    if len(key) != len(colours):
-        raise OptionError(
-            f"trim {material}: its palette has {len(colours)} colours, the key has {len(key)};"
-            " give a pack with palettes of one length"
-        )
-    dyed = texels.copy()
-    for tone, colour in zip(key, colours, strict=True):
-        dyed[(texels[..., :3] == tone[:3]).all(axis=-1), :3] = colour[:3]
-    return dyed
-
-
-def _texture(names: tuple[str, ...], packs: Packs, what: str) -> Texels:
-    """The first texture of these ids that the packs have. Raises OptionError."""
-    for name in names:
-        if packs.has_texture(name):
-            return packs.texture(name)
-    files = " or ".join(f"textures/{name.partition(':')[2]}.png" for name in names)
-    raise OptionError(f"{what}: no pack has {files}; give one that has it, by --pack")
+def _layer(piece: str) -> str:
+    """The layer of equipment that a piece is drawn from."""
+    return "humanoid_leggings" if piece == "leggings" else "humanoid"
 
 
 def _over(lower: Texels, upper: Texels) -> Texels:
     """One texture over another, at the finer size of both."""
-    height = max(len(lower), len(upper))
+    height, width = np.maximum(lower.shape[:2], upper.shape[:2])
     below, above = (
-        np.kron(each, np.ones((height // len(each),) * 2 + (1,), np.uint8))
+        each[
+            nearest_texels(each.shape[0], int(height))[:, None],
+            nearest_texels(each.shape[1], int(width)),
+        ]
         for each in (lower, upper)
     )
     alpha = above[..., 3:].astype(np.uint16)

@@ -120,14 +120,44 @@ class Packs:
     def placed(self, places: Sequence[Place]) -> Texels | None:
         """The texture at the first of some places that a pack has, shape [H, W, 4], or None.
 
+        See `find`. Raises PackError.
+        """
+        found = self.find(places)
+        return None if found is None else self.texels(found)
+
+    def find(self, places: Sequence[Place]) -> PackFile | None:
+        """The file at the first of some places that a pack has, or None.
+
         The topmost pack that has one counts, and in it the place where the game of its format
         looks. Raises PackError.
         """
-        found = self._find_placed(places)
+        at = {place.file: place for place in places}
+        found = self._find(
+            [*at], lambda pack: [each.file for each in in_order(places, pack.format)]
+        )
         if found is None:
             return None
-        key = ("placed", found.level, found.name)
-        return self._textures.get(key, lambda: self._read(found, found.name)).at(0.0)
+        pack, place = self.packs[found.level], at[found.name]
+        if not place.is_for(pack.format):
+            right = next(each.file for each in places if each.is_for(pack.format))
+            self._notes[
+                f"{self.place(found)} is not where the game of format {pack.format} looks;"
+                f" it is read all the same: move it to {right}"
+            ] = None
+        return found
+
+    def file(self, name: str, limit: int) -> PackFile | None:
+        """The topmost pack's file of a name, or None. limit: its most bytes. Raises PackError."""
+        return self._find([name], limit=limit)
+
+    def texels(self, file: PackFile, time: float = 0.0) -> Texels:
+        """The texture of a file that `find` gave, shape [H, W, 4]. Raises PackError."""
+        key = ("file", file.level, file.name)
+        return self._textures.get(key, lambda: self._read(file, file.name)).at(time)
+
+    def place(self, file: PackFile) -> str:
+        """The pack and the name of a file, for messages."""
+        return f"{self.packs[file.level].label}: {file.name}"
 
     def period(self, pattern: str, kind: Kind = "banner") -> float:
         """The length of the animation of a pattern's sheet [s]; 0 if it is still."""
@@ -278,7 +308,7 @@ class Packs:
             self._used.add(found.level)
         elif is_sheet and len(self.packs) > 1:
             self._ours[name] = None
-        place, layout = self._place(found), self._layout(found)
+        place, layout = self.place(found), self._layout(found)
         if is_sheet:
             check_sheet(layout, place)
             if layout.width != layout.height:
@@ -290,7 +320,7 @@ class Packs:
 
     def _decoded(self, found: PackFile) -> Texels:
         """The texels of a file. Notes its wrong checksums. Raises PackError."""
-        place = self._place(found)
+        place = self.place(found)
         texels = read_png(found.data, place)
         wrong = wrong_checksums(found.data, place)
         if wrong:
@@ -302,7 +332,7 @@ class Packs:
 
         Raises PackError.
         """
-        place = self._place(found)
+        place = self.place(found)
         size = png_size(found.data, place)
         mcmeta = self.packs[found.level].read(f"{found.name}.mcmeta", MAX_JSON)
         try:
@@ -342,24 +372,7 @@ class Packs:
 
     def _find_base(self, base: Base) -> PackFile | None:
         """The file of a base, at its place before or since 26.1."""
-        return self._find_placed(base_places(base))
-
-    def _find_placed(self, places: Sequence[Place]) -> PackFile | None:
-        """The file at one of some places, with a note if the game would not look there."""
-        at = {place.file: place for place in places}
-        found = self._find(
-            [*at], lambda pack: [each.file for each in in_order(places, pack.format)]
-        )
-        if found is None:
-            return None
-        pack, place = self.packs[found.level], at[found.name]
-        if not place.is_for(pack.format):
-            right = next(each.file for each in places if each.is_for(pack.format))
-            self._notes[
-                f"{self._place(found)} is not where the game of format {pack.format} looks;"
-                f" it is read all the same: move it to {right}"
-            ] = None
-        return found
+        return self.find(base_places(base))
 
     def _find(
         self,
@@ -389,7 +402,7 @@ class Packs:
         found = self._find([f"data/{namespace}/banner_pattern/{path}.json"], limit=MAX_JSON)
         if found is None:
             return pattern
-        place = self._place(found)
+        place = self.place(found)
         definition = read_json(found.data, place)
         asset = definition.get("asset_id") if isinstance(definition, dict) else None
         if not isinstance(asset, str):
@@ -412,9 +425,6 @@ class Packs:
                 if unknown:
                     self._notes[f"{place}: sources of type {listed(unknown)} are not read"] = None
                 yield from sources
-
-    def _place(self, found: PackFile) -> str:
-        return f"{self.packs[found.level].label}: {found.name}"
 
 
 def _voters(pack: Pack, kind: Kind) -> Iterator[Texels]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
+from drapery.banner.packs.equipment import fits_wings
 from drapery.banner.packs.png import Texels
 from drapery.banner.packs.png_file import read_png_file
 from drapery.errors import OptionError
@@ -16,8 +17,6 @@ SHOULDERS = (0.5, 24 * TEXEL, 0.5)
 """The middle between the shoulders [m], above the middle of a block."""
 
 SHEET = (64, 32)
-_SHAPES = (SHEET, (46, 22), (22, 17))
-"""Sizes of a sheet [texels], or its multiples: whole, cut after the wings, after the cape."""
 
 
 def back_texture(settings: Settings, packs: Packs, least: tuple[int, int]) -> Texels:
@@ -27,11 +26,9 @@ def back_texture(settings: Settings, packs: Packs, least: tuple[int, int]) -> Te
     """
     name, texels = _texels(settings, packs)
     height, width = texels.shape[:2]
-    for across, down in _SHAPES:
-        times = width // across
-        fits = (width, height) == (across * times, down * times)
-        if fits and across >= least[0] and down >= least[1]:
-            return _widened(texels, times)
+    times = fits_wings(width, height, least)
+    if times:
+        return _widened(texels, times)
     raise OptionError(
         f"{name} is {width} x {height} px, which does not fit a {settings.kind};"
         " use 64 x 32 px, or a multiple of it"
