@@ -7,22 +7,24 @@ import os
 import random
 import sys
 import tempfile
+import warnings
 import zipfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 from unittest import mock
-from urllib.parse import urlencode
+from urllib.parse import quote, urlencode
 
 import fuzzing
 import numpy as np
 import pack_maker
+import page_reader
 
 from drapery import Banner, cli
-from drapery.banner.formats import FORMS, datapack, structure
+from drapery.banner.formats import FORMS, datapack, parse_banner, structure
 from drapery.batch.manifest import ManifestError, read_manifest
-from drapery.errors import DesignError, OptionError
+from drapery.errors import DesignError, DraperyError, OptionError
 from drapery.packs import open_packs
 from drapery.testing.cases import read_cases
 
@@ -97,7 +99,48 @@ def other_targets() -> dict[str, Target]:
             "design=red&wind=9&time=1",
         ]
         found["query"] = Target(_query_reader(), queries, fuzzing.mutate_text)
+    if page_reader.NODE is not None:
+        found["page"] = page_target()
     return found
+
+
+def page_target() -> Target:
+    """The component's reader: of designs, hashes and attributes, each text after what it is."""
+    designs = [GIVE, *(FORMS[form].example for form in PAGE_FORMS)]
+    samples = [
+        *(f"design {text}" for text in designs),
+        *(f"hash #{quote(each)}" for each in designs),
+    ]
+    samples += ["kind wall", "wind 4.5", "direction -90"]
+    return Target(_read_in_page, samples, _mutate_for_page)
+
+
+PAGE_FORMS = (
+    *("shorthand", "json", "give", "give-legacy", "give-1.12", "item", "setblock"),
+    "loom-assistant",
+    *("planet-minecraft", "needcoolshoes", "minecraft-tools", "gamergeeks"),
+)
+"""The forms that pages read."""
+
+
+def _mutate_for_page(rng: random.Random, samples: Sequence[str]) -> str:
+    what, _, text = rng.choice(samples).partition(" ")
+    same = [other.partition(" ")[2] for other in samples if other.startswith(what)]
+    return f"{what} {fuzzing.mutate_text(rng, [text, *same] if rng.random() < 0.5 else [text], 2)}"
+
+
+def _read_in_page(given: str) -> Iterable[Any]:
+    """What the page reads, which is what Python reads where both read something."""
+    what, _, text = given.partition(" ")
+    answer = page_reader.read_in_page(what, text)
+    assert answer.seconds < 1, f"{answer.seconds:.2f} s in the page"
+    if answer.error:
+        assert answer.error == ("DesignError" if what in ("design", "hash") else "Error"), answer
+        raise DesignError(answer.message)
+    if what == "design":
+        with contextlib.suppress(DraperyError), warnings.catch_warnings(action="ignore"):
+            assert page_reader.plain(parse_banner(text)) == answer.found, answer
+    return [answer.found]
 
 
 def _folder() -> Path:

@@ -301,10 +301,10 @@ _EXTREMES = [
 _BYTE_CHANGES = [_flip, _flip, _overwrite, _overwrite, _insert, _cut, _repeat, _splice]
 
 
-def mutate_text(rng: random.Random, samples: Sequence[str]) -> str:
-    """A sample with one to eight changes."""
+def mutate_text(rng: random.Random, samples: Sequence[str], most: int = 8) -> str:
+    """A sample with one to `most` changes."""
     text = rng.choice(samples)
-    for _ in range(rng.randint(1, 8)):
+    for _ in range(rng.randint(1, most)):
         text = rng.choice(_TEXT_CHANGES)(rng, text, samples)
     return text
 

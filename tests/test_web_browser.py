@@ -2,6 +2,7 @@
 
 import base64
 import io
+import shutil
 import threading
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -56,12 +57,14 @@ MANY = """<!doctype html><html lang="en"><title>Many</title>
 """
 PIXEL = "R0lGODlhAQABAIAAAP///wAAACwAAAAAAQABAAACAkQBADs="
 """A GIF of one pixel."""
-LOST = f"""<!doctype html><html lang="en"><title>Lost</title>
+LOST = """<!doctype html><html lang="en"><title>Lost</title>
 <script type="module" src="drapery-banner.js"></script>
-<drapery-banner kind="lost">
-<img alt="A banner" src="data:image/gif;base64,{PIXEL}"></drapery-banner>
+<drapery-banner kind="{kind}">
+<img alt="A banner" src="data:image/gif;base64,{pixel}"></drapery-banner>
 </html>
 """
+KINDS = "wall", "lost", "../wall", "https://example.com/wall", "constructor"
+"""The first is a kind of the component."""
 
 
 def batched_layers() -> list[list[str]]:
@@ -94,7 +97,12 @@ def site(
         patched.setattr(page, "POSES", {})
         write_component(folder, playable(size=(320, 480)))
     (folder / "many.html").write_text(MANY, encoding="utf-8")
-    (folder / "lost.html").write_text(LOST, encoding="utf-8")
+    bare = folder / "bare"  # with the module and no other file of the package
+    bare.mkdir()
+    shutil.copy(folder / page.MODULE, bare)
+    for number, kind in enumerate(KINDS):
+        text = LOST.format(kind=kind, pixel=PIXEL)
+        (bare / f"lost{number}.html").write_text(text, encoding="utf-8")
     yield from served(folder)
 
 
@@ -350,10 +358,15 @@ def test_where_it_cannot_play_its_picture_is_shown(
 def test_a_file_that_cannot_be_loaded_shows_what_the_page_put_there(
     chromium: Any, site: str
 ) -> None:
-    open_site(chromium, f"{site}/lost.html", ready=False)
-    (line,) = wait_until(lambda: warnings(chromium))
-    assert line.startswith("lost.bin: the server answers 404")
-    assert is_fallback(chromium)
+    for number in range(len(KINDS)):
+        open_site(chromium, f"{site}/bare/lost{number}.html", ready=False)
+        (line,) = wait_until(lambda: warnings(chromium))
+        if number:
+            # Nothing is fetched: no other site, and no file of another name.
+            assert "kind=" in line and "is not known; use standing, wall" in line
+        else:
+            assert line.startswith("wall.bin: the server answers 404; put the files of the package")
+        assert is_fallback(chromium)
 
 
 def test_an_unknown_design_shows_what_the_page_put_there(chromium: Any, site: str) -> None:

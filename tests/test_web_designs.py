@@ -1,32 +1,17 @@
 """Pages read designs as Python does: the same texts give the same banners, or both refuse them."""
 
-import json
 import random
 from collections.abc import Iterator
-from pathlib import Path
 
+import fuzz_targets
+import fuzzing
 import pytest
-from test_javascript import NODE, run_node
+from page_reader import COMPONENT, NODE, Answer, plain, read_in_page
 
 from drapery import Banner, DesignError, Layer
 from drapery.banner import DYE_NAMES, FORMS, PATTERN_NAMES, write_banner
+from drapery.banner.tables import MAX_TEXT
 from drapery.web import tables
-
-COMPONENT = tables.PATH.parent
-FORMS_OF_PAGES = (
-    *(
-        "shorthand",
-        "json",
-        "give",
-        "give-legacy",
-        "give-1.12",
-        "item",
-        "setblock",
-        "loom-assistant",
-    ),
-    *("planet-minecraft", "needcoolshoes", "minecraft-tools", "gamergeeks"),
-)
-"""The forms that pages read too."""
 
 TYPED = (
     "red",
@@ -113,11 +98,6 @@ REFUSED = (
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
 
 
-def plain(banner: Banner) -> dict[str, object]:
-    layers = [{"pattern": layer.pattern, "dye": layer.dye} for layer in banner.layers]
-    return {"base": banner.base, "layers": layers, "kind": banner.kind}
-
-
 def some_banners() -> Iterator[Banner]:
     """Every pattern and dye, and designs of any number of layers."""
     for start in range(0, len(PATTERN_NAMES), 8):
@@ -137,7 +117,7 @@ def some_banners() -> Iterator[Banner]:
 def texts() -> Iterator[str]:
     yield from TYPED
     yield from WRITTEN
-    for form in FORMS_OF_PAGES:
+    for form in fuzz_targets.PAGE_FORMS:
         yield FORMS[form].example
         for banner in some_banners():
             try:
@@ -146,42 +126,115 @@ def texts() -> Iterator[str]:
                 continue
 
 
-READ = """
-import { readDesign } from "component/design.js";
-let text = "";
-for await (const chunk of process.stdin) text += chunk;
-const read = (each) => {
-  try {
-    return readDesign(each);
-  } catch (error) {
-    return error.constructor.name;
-  }
-};
-console.log(JSON.stringify(JSON.parse(text).map(read)));
-"""
-
-
-def read_in_page(given: list[str], folder: Path) -> list[object]:
-    """What the page makes of texts; the name of its error for those that it refuses."""
-    script = folder / "read.mjs"
-    script.write_text(READ.replace("component/", f"{COMPONENT.as_uri()}/"), encoding="utf-8")
-    found: list[object] = json.loads(run_node(script, stdin=json.dumps(given)))
-    return found
-
-
 def test_the_tables_are_those_of_python() -> None:
+    assert tables.PATH.parent == COMPONENT
     assert tables.PATH.read_text(encoding="utf-8") == tables.tables_module()
 
 
-def test_pages_read_what_python_reads(tmp_path: Path) -> None:
+def test_pages_read_what_python_reads() -> None:
     given = [*texts()]
     assert len(given) > 200
-    for text, found in zip(given, read_in_page(given, tmp_path), strict=True):
-        assert found == plain(Banner.parse(text)), text
+    for text in given:
+        assert read_in_page("design", text).found == plain(Banner.parse(text)), text
 
 
-def test_pages_refuse_what_python_refuses(tmp_path: Path) -> None:
+def test_pages_refuse_what_python_refuses() -> None:
     for text in REFUSED:
         with pytest.raises(DesignError):
             print(Banner.parse(text), repr(text))
-    assert read_in_page([*REFUSED], tmp_path) == ["DesignError"] * len(REFUSED)
+        assert read_in_page("design", text).error == "DesignError", text
+
+
+INHERITED = ("length", "constructor", "__proto__", "toString", "hasOwnProperty", "valueOf")
+PLACES = (
+    *("{}", "white {}:red", "white creeper:{}", "shield {}", "base:[{}]", "[{}]", "{{base:[{}]}}"),
+    *("{{base:{}}}", '{{"base":["{}"],"layers":[]}}', "{{base:red,kind:{}}}", "{{id:{}}}"),
+    "{{base:red,layers:[{{pattern:{},color:red}}]}}",
+    "{{base:red,layers:[{{pattern:creeper,color:{}}}]}}",
+    "{{base:red,layers:[{{pattern:creeper,color:[{}]}}]}}",
+    *("{}[banner_patterns=[]]", "give @s {}", "{{components:{{{}:1}}}}", '{{"{}":{{base:red}}}}'),
+    *("https://planetminecraft.com/banner/?{}=2c7", "https://www.needcoolshoes.com/?banner={}"),
+    "https://minecraft.tools/en/banner.php?color_id_0={}",
+)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_what_objects_inherit_is_no_name_of_a_design(place: str) -> None:
+    for name in INHERITED:
+        answer = read_in_page("design", place.format(name))
+        assert answer.error == "DesignError", (name, answer)
+
+
+@pytest.mark.parametrize("key", INHERITED)
+def test_keys_that_objects_inherit_change_nothing(key: str) -> None:
+    text = f'{{"id":"red_banner","components":{{"{key}":{{"banner_patterns":[]}}}}}}'
+    assert read_in_page("design", text).found == {"base": "red", "layers": [], "kind": "banner"}
+
+
+HEADS = (
+    *("", "white ", "white creeper", "white creeper:", "{", '{"', "{a:", "{a:'", "[", "[I;", "@"),
+    *("/give @p white_banner", "/give @p white_banner[", "https://minecraft.tools/?", "a.", "a=1"),
+    *("https://www.planetminecraft.com/banner/?b=", "https://www.needcoolshoes.com/?", "minecraft"),
+)
+UNITS = (
+    *(" ", "\t", "\n", ",", ";", ":", "::", " : ", "a", "a:", "a ", "a.", "a-", "-_", "light "),
+    *('"', "'", "\\", '\\"', "\\'", "1", "1_", "1.", "1e", "[", "{", "]", "}", "{a:", "=", "&a="),
+    *("colour", "colour ", "a_id_1", "a_id_1=&", "&b=", "?b", "/", "/a", "#", "@", "é", "\ud800"),
+    *("creeper:red ", "minecraft:", "white_banner", "base_", "%", "\0"),
+)
+
+
+@pytest.mark.parametrize("head", HEADS)
+def test_no_design_of_a_page_takes_long(head: str) -> None:
+    """A pattern that reads a character again for each other one takes seconds for one of these."""
+    for unit in UNITS:
+        times = (MAX_TEXT - len(head) - 1) // len(unit)
+        answer = read_in_page("design", head + unit * times + "x")
+        assert answer.error in ("", "DesignError"), answer
+        assert answer.seconds < 0.5, (head, unit, answer)
+
+
+def test_a_design_of_a_page_has_a_largest_length() -> None:
+    for length in (MAX_TEXT + 1, 80_000):
+        answer = read_in_page("design", "white" + " " * (length - 5))
+        assert answer.error == "DesignError"
+        assert answer.message == f"the design has {length} characters; use at most {MAX_TEXT}"
+    assert read_in_page("design", "white" + " " * (MAX_TEXT - 5)).found["base"] == "white"
+
+
+@pytest.mark.parametrize(
+    ("what", "text", "found"),
+    [
+        ("kind", "wall", "wall"),
+        ("kind", "../secret", ""),
+        ("kind", "https://example.com/standing", ""),
+        ("kind", "//example.com/standing", ""),
+        ("kind", "constructor", ""),
+        ("kind", "", ""),
+        ("wind", " 4.5 ", 4.5),
+        ("wind", "", None),
+        ("wind", "1e3", ""),
+        ("wind", "-1", ""),
+        ("wind", "Infinity", ""),
+        ("wind", "NaN", ""),
+        ("wind", "4 m/s", ""),
+        ("direction", "-90", -90),
+        ("direction", "9" * 60_000, ""),
+    ],
+)
+def test_attributes_have_values_of_a_list_or_within_bounds(
+    what: str, text: str, found: object
+) -> None:
+    answer = read_in_page(what, text)
+    if found == "":
+        assert answer.error == "Error" and answer.message.startswith(f'{what}="'), answer
+        assert len(answer.message) < 200 and "; " in answer.message
+    else:
+        assert answer == Answer(answer.seconds, found)
+
+
+def test_changed_designs_are_read_alike_or_refused() -> None:
+    target = fuzz_targets.page_target()
+    report = fuzzing.fuzz(target.read, target.samples, target.mutate, 600, seed=8)
+    assert not report.failures, report.failures[0]
+    assert report.count == 600 and report.outcomes["a banner"] > 20

@@ -10,13 +10,19 @@ from drapery.banner.formats import (
     minecraft_tools,
     needcoolshoes,
     planet_minecraft,
+    snbt,
     urls,
 )
 from drapery.banner.formats.tree import OLD_BANNERS, OMINOUS, base_of
 from drapery.banner.names import dye_aliases, pattern_aliases
 from drapery.banner.patterns import BY_CODE
 
+MAX_TEXT = 32_768
+"""Most characters of a design that a page reads; the game's command blocks hold 32,500."""
+
 _Names = Iterable[tuple[str, str]]
+_FIRST = r"^[^?#]*\?(?:[^#]*?&)??"
+"""What stands before the first parameter of a link that fits; it reads each character once."""
 
 
 def reader_tables() -> dict[str, Any]:
@@ -25,8 +31,9 @@ def reader_tables() -> dict[str, Any]:
     dyes: the names by number. rgb: of each dye, 8-bit sRGB. items: from every id of an item or
     block to the kind of its design and its base dye, which old ids and shields do not name.
     dyeNames, patterns: from every name, spelt as ids are, to the id. bukkit: names of the server
-    API that are read only in capitals. ominous: the illagers' banner. sites: how the links of
-    editors are read, see `_site`.
+    API that are read only in capitals. ominous: the illagers' banner. maxLayers, maxText, maxLink,
+    maxDepth: of a design, its text [characters], a link [characters] and brackets inside each
+    other. sites: how the links of editors are read, see `_site`.
     """
     return {
         "dyes": list(DYE_NAMES),
@@ -37,6 +44,9 @@ def reader_tables() -> dict[str, Any]:
         "bukkit": {"DIAGONAL_RIGHT": "diagonal_up_right"},
         "ominous": _plain(OMINOUS),
         "maxLayers": MAX_LAYERS,
+        "maxText": MAX_TEXT,
+        "maxLink": urls.MAX_ADDRESS,
+        "maxDepth": snbt.MAX_DEPTH,
         "sites": [_planet_minecraft(), _needcoolshoes(), _minecraft_tools(), _gamergeeks()],
     }
 
@@ -63,7 +73,7 @@ def _planet_minecraft() -> dict[str, Any]:
     site = planet_minecraft
     dyes = zip(site.ALPHABET, urls.COLOURS, strict=False)
     patterns = zip(site.ALPHABET[site.FIRST_PATTERN :], site.PATTERN_ORDER, strict=False)
-    code = "[?&][be]=([^&#]+)"
+    code = _FIRST + "[be]=([^&#]+)"
     return _site([site.HOST], code, "(?<dye>.)", "(?<dye>.)(?<pattern>.)", dyes, patterns)
 
 
@@ -71,7 +81,7 @@ def _needcoolshoes() -> dict[str, Any]:
     site = needcoolshoes
     dyes = ((letter, urls.COLOURS[n % 16]) for n, letter in enumerate(site.ALPHABET))
     patterns = zip(site.ALPHABET, site.PATTERN_ORDER, strict=False)
-    code = "[?&](?:b|banner)?=([^&#]+)"
+    code = _FIRST + "(?:b|banner)?=([^&#]+)"
     base, layer = "(?<dye>[\\w+/])[\\w+/]", "(?<dye>[a-p])(?<pattern>.)"
     return _site(site.HOSTS, code, base, layer, dyes, patterns)
 
@@ -90,7 +100,9 @@ def _gamergeeks() -> dict[str, Any]:
     dyes = ((str(n), dye) for n, dye in enumerate(DYE_NAMES))
     patterns = ((code, pattern.name) for code, pattern in BY_CODE.items())
     base, dye = "(?<dye>\\d{1,2})(?!\\d)", "(?<dye>\\d{1,2})(?!\\d)"
-    return _site(site.HOSTS, "#mcb=a(.+)", base, f"(?<pattern>[a-z]{{1,3}}){dye}", dyes, patterns)
+    return _site(
+        site.HOSTS, "^[^#]*#mcb=a(.+)", base, f"(?<pattern>[a-z]{{1,3}}){dye}", dyes, patterns
+    )
 
 
 def _plain(banner: Banner) -> dict[str, Any]:

@@ -33,6 +33,8 @@ PLACEMENTS: tuple[Placement, ...] = ("standing", "wall")
 """The kinds of banner that the component shows."""
 Arms = Literal["classic", "slim"]
 ARMS: tuple[Arms, ...] = ("classic", "slim")
+WORN = ("cape", "elytra")
+"""What players of the component wear."""
 POSES = {"walk": 1.5, "stand": 0.0, "run": 4.0, "sneak": 0.0}
 """The poses of players that the component shows, with a cape or elytra; how fast they go [m/s]."""
 SIZE = (320, 480)
@@ -160,7 +162,7 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     for placement in PLACEMENTS:
         placed = replace(settings, placement=placement)
         yield f"{placement}.bin", scene_bytes(Banner(), packs, placed)
-    for worn, pose, arms in product(("cape", "elytra"), POSES, ARMS):
+    for worn, pose, arms in product(WORN, POSES, ARMS):
         garment = posed_player(worn, pose, arms, overlay="whole")  # its skin can be replaced
         name = f"{worn}-{pose}{'-slim' if arms == 'slim' else ''}"
         yield f"{name}.bin", garment_scene_bytes(garment, packs, seen_settings(garment, settings))

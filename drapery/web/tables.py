@@ -7,7 +7,9 @@ import json
 from pathlib import Path
 
 from drapery.banner import reader_tables
+from drapery.settings import OPTIONS
 from drapery.style import skin_tables
+from drapery.web.page import PLACEMENTS, POSES, WORN
 
 PATH = Path(__file__).parent / "component" / "tables.js"
 
@@ -15,7 +17,15 @@ PATH = Path(__file__).parent / "component" / "tables.js"
 def tables_module() -> str:
     """The text of `tables.js`."""
     styles = PATH.with_name("element.css").read_text(encoding="utf-8").splitlines()[1:]
-    tables = {**reader_tables(), "skin": skin_tables(), "styles": " ".join(styles)}
+    tables = {
+        **reader_tables(),
+        "skin": skin_tables(),
+        "placements": PLACEMENTS,
+        "worn": WORN,
+        "poses": list(POSES),
+        "bounds": {name: OPTIONS[name].bounds for name in ("wind", "direction")},
+        "styles": " ".join(styles),
+    }
     rows = (f"  {json.dumps(key)}: {json.dumps(value)}," for key, value in tables.items())
     table = "\n".join(rows)
     return (

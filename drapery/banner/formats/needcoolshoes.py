@@ -100,8 +100,8 @@ def _code(text: str) -> str:
 
 def _query_code(address: Address) -> str:
     """The value of the parameter without a name; some pages call it `b` or `banner`."""
-    named = dict(reversed(address.pairs()))
-    return named.get("") or named.get("b") or named.get("banner") or ""
+    given = (value for name, value in address.pairs() if name in ("", "b", "banner"))
+    return next(filter(None, given), "")
 
 
 def _layer(text: str, code: str, place: int) -> Layer:

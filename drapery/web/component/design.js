@@ -1,6 +1,7 @@
 // Reads a banner's design as drapery.banner does: shorthand, commands and items of every version,
 // JSON, and links of editors.
 
+import { short } from "./attributes.js";
 import { TABLES } from "./tables.js";
 
 export class DesignError extends Error {}
@@ -19,12 +20,13 @@ const CUSTOM = /^(?!minecraft:)(?!.{257})(?!(.*[:/])?\.{0,2}([:/]|$))[a-z0-9_.-]
 // The design of a text: { base, layers: [{ pattern, dye }], kind }, lowest layer first. Throws
 // DesignError.
 export function readDesign(text) {
+  if (text.length > TABLES.maxText) fail(`the design has ${text.length} characters; use at most ${TABLES.maxText}`);
   const trimmed = text.trim();
   const [, read] = FORMS.find(([form]) => form.test(trimmed));
   const design = { kind: "banner", ...read(trimmed) };
   // A misspelt key would leave its layers out.
-  const hasColours = /(?<!base_|banner_)colou?r["']?\s*[:=]/i.test(trimmed);
-  if (hasColours && !design.layers.length) fail("the text has layers, but not where a design has them; check its keys");
+  const hasLayers = /(?<!base_|banner_)(colou?r|pattern)["']?\s*[:=]/i.test(trimmed);
+  if (hasLayers && !design.layers.length) fail("the text has layers, but not where a design has them; check its keys");
   if (design.layers.length > TABLES.maxLayers) fail(`${design.layers.length} layers; use at most ${TABLES.maxLayers}`);
   return design;
 }
@@ -33,7 +35,7 @@ function fail(message) {
   throw new DesignError(message);
 }
 
-const quoted = (value) => `'${String(value && typeof value === "object" ? JSON.stringify(value) : value).slice(0, 40)}'`;
+const quoted = (value) => `'${short(String(value && typeof value === "object" ? JSON.stringify(value) : value), 40)}'`;
 
 // Names
 
@@ -54,7 +56,8 @@ function patternOf(value) {
 
 // inverted: whether numbers count from black, as they did up to Java 1.12.
 function dyeOf(value, inverted = false) {
-  const name = typeof value === "string" ? lookUp(TABLES.dyeNames, plain(value)) : TABLES.dyes[inverted ? 15 - value : value];
+  const number = Number.isInteger(value) ? value : undefined; // nothing else is a place in the list
+  const name = typeof value === "string" ? lookUp(TABLES.dyeNames, plain(value)) : TABLES.dyes[inverted ? 15 - number : number];
   return name ?? fail(`unknown dye ${quoted(value)}; use ${TABLES.dyes.join(", ")}`);
 }
 
@@ -73,7 +76,8 @@ function fromShorthand(text) {
 
 // The words of a line; `a : b` and `light blue` become one word each.
 function wordsOf(line) {
-  const joined = line.replace(/\s*:\s*/g, ":").replace(/(light)\s+(?=(blue|gray|grey)(\s|:|$))/gi, "$1_");
+  const parts = line.split(":").map((each) => each.trim());
+  const joined = parts.join(":").replace(/(light)\s+(?=(blue|gray|grey)(\s|:|$))/gi, "$1_");
   return joined.split(/\s+/).filter(Boolean);
 }
 
@@ -87,16 +91,19 @@ function layerOf(phrase) {
 
 // SNBT and JSON: objects, arrays, strings and numbers
 
-const TOKEN = /"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|[{}[\],:;=]|[^\s{}[\]"',:;=]+/gs;
-const NUMBER = /^[+-]?(\d[\d_]*\.?\d*|\.\d+)(e[+-]?\d+)?([us]?[bsil]|[fd])?$/i;
+// Strings that nothing closes are tokens too, so that each character is read once.
+const TOKEN = /"(?:[^"\\]|\\.)*(?:"|\\?$)|'(?:[^'\\]|\\.)*(?:'|\\?$)|[{}[\],:;=]|[^\s{}[\]"',:;=]+/gs;
+const CLOSED = /^(["'])(?:[^\\]|\\.)*\1$/s;
+const NUMBER = /^[+-]?(\d[\d_]*(\.\d*)?|\.\d+)(e[+-]?\d+)?([us]?[bsil]|[fd])?$/i;
 const ESCAPE = /\\(?:x([\da-f]{2})|u([\da-f]{4})|(.))/gis;
 const ESCAPED = { b: "\b", s: " ", t: "\t", n: "\n", f: "\f", r: "\r" };
 
 // The parts of a text, each after its first token: compounds, components in brackets, and words.
 function partsOf(text) {
   const tokens = text.match(TOKEN) ?? [];
-  if (text.replace(TOKEN, "").trim()) fail("a quote is not closed; close it");
+  if (tokens.some((token) => /^["']/.test(token) && !CLOSED.test(token))) fail("a quote is not closed; close it");
   let at = 0;
+  let depth = 0;
   const take = (mark) => tokens[at] === mark && ++at > 0;
 
   function part() {
@@ -109,7 +116,8 @@ function partsOf(text) {
   // Names and values up to a bracket: `a:1,b:c:d}`, `a:b=1,!c]`, and of lists `1,2]`, `I;1]`, `0:{}]`.
   function entries(close) {
     const found = [];
-    if (tokens[at + 1] === ";") at += 2;
+    if (++depth > TABLES.maxDepth) fail(`over ${TABLES.maxDepth} brackets inside each other; no banner needs that`);
+    if (close === "]" && /^[BIL]$/.test(tokens[at]) && tokens[at + 1] === ";") at += 2;
     while (!take(close)) {
       const parts = [part()];
       let end = 0; // of the parts of the name
@@ -122,6 +130,7 @@ function partsOf(text) {
       found.push([parts.slice(0, end).join(":"), parts.length > end + 1 ? parts.slice(end).join(":") : parts[end]]);
       if (tokens[at] !== close && !take(",")) fail(`expected ',' or '${close}' at word ${at + 1}`);
     }
+    depth--;
     return found;
   }
 
@@ -211,7 +220,8 @@ function fromCommand(text) {
 // Links of editors
 
 function fromLink(link) {
-  const host = /^(?:https?:\/\/)?([^/?#]+)/i.exec(link)[1].toLowerCase();
+  if (link.length > TABLES.maxLink) fail(`the link has ${link.length} characters; use at most ${TABLES.maxLink}`);
+  const [, host = "", path] = /^(?:https?:\/\/)?([\w.-]+)(?::\d+)?(?![^/?#])([^?#]*)/i.exec(link.toLowerCase()) ?? [];
   const site = TABLES.sites.find(({ hosts }) => hosts.some((each) => `.${host}`.endsWith(`.${each}`)));
   if (!site) fail(`${quoted(link)}: not a link of a known banner editor; copy the banner's /give command`);
   const code = site.code ? new RegExp(site.code).exec(link)?.[1] : inOrder(link);
@@ -222,13 +232,15 @@ function fromLink(link) {
   const named = (table, token) => lookUp(table, token) ?? fail(`${quoted(token)} is not in the codes of the editor`);
   const dyes = parts.map(({ groups }) => named(site.dyes, groups.dye));
   const layers = parts.slice(1).map(({ groups }, number) => ({ pattern: named(site.patterns, groups.pattern), dye: dyes[number + 1] }));
-  return { base: dyes[0], layers, kind: /\/shield\.php/.test(link) ? "shield" : "banner" };
+  return { base: dyes[0], layers, kind: !site.code && path.includes("shield") ? "shield" : "banner" };
 }
 
 // The parameters `shape_id_2=1&color_id_2=3&color_id_0=4` as `4;1:3;`.
 function inOrder(link) {
-  const numbers = new Map([...link.matchAll(/(\w+_id_\d+)=([^&#]*)/g)].map(([, name, value]) => [name, value]));
-  const shapes = [...Array(100).keys()].filter((n) => n && Number(numbers.get(`shape_id_${n}`) ?? 0) !== 0);
+  const [, query = ""] = /^[^?#]*\?([^#]*)/.exec(link) ?? [];
+  const pairs = query.split("&").map((each) => each.split(/=(.*)/s));
+  const numbers = new Map(pairs.filter(([name]) => /^(color|shape)_id_\d+$/.test(name)).map(([name, value = ""]) => [name, value]));
+  const shapes = [...Array(100).keys()].filter((n) => !/^0+$/.test(numbers.get(`shape_id_${n}`) ?? "0"));
   const layers = shapes.map((n) => `${numbers.get(`shape_id_${n}`)}:${numbers.get(`color_id_${n}`)};`);
   return numbers.size && [`${numbers.get("color_id_0")};`, ...layers].join("");
 }

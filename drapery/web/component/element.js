@@ -1,7 +1,8 @@
 // <drapery-banner design="white creeper:lime" wind="4">: a banner of live cloth.
 
+import { nameOf, numberOf } from "./attributes.js";
 import { Player } from "./player.js";
-import { wake } from "./shared.js";
+import { scenesInPage, wake } from "./shared.js";
 import { TABLES } from "./tables.js";
 import { isSlim, readTexture, wholeSkin } from "./textures.js";
 
@@ -76,7 +77,7 @@ export class DraperyBanner extends HTMLElement {
 
   // The name of its scene, and the textures that replace those of the scene.
   async source() {
-    return [this.getAttribute("kind") ?? "standing", {}];
+    return [nameOf("kind", this.getAttribute("kind") ?? "standing", [...TABLES.placements, ...scenesInPage()]), {}];
   }
 
   // What a design looks like, in words.
@@ -118,7 +119,7 @@ export class DraperyBanner extends HTMLElement {
     for (const name of names)
       this.#try((player) => {
         if (name === "design") player.setDesign(this.getAttribute(name));
-        else if (name in this.#wind) this.#wind[name] = this.#number(name);
+        else if (name in this.#wind) this.#wind[name] = numberOf(name, this.getAttribute(name));
       });
     this.#try((player) => this.#blow(player));
     this.#canvas.setAttribute("aria-label", this.getAttribute("alt") ?? this.words(this.#player.design));
@@ -146,13 +147,6 @@ export class DraperyBanner extends HTMLElement {
     if (!this.#told.has(line)) console.warn(line);
     this.#told.add(line);
     this.dispatchEvent(new CustomEvent("drapery-error", { detail: line, bubbles: true }));
-  }
-
-  #number(name) {
-    const text = this.getAttribute(name)?.trim();
-    const number = text ? Number(text) : undefined;
-    if (Number.isNaN(number)) throw new Error(`${name}="${text}" is not a number; write ${name}="4"`);
-    return number;
   }
 
   #play(seen = this.#seen) {
@@ -197,11 +191,12 @@ export class DraperyPlayer extends DraperyBanner {
   static kind = "cape";
 
   async source() {
+    const kind = nameOf("kind", this.getAttribute("kind") ?? this.constructor.kind, [...TABLES.worn, ...scenesInPage()]);
+    const pose = nameOf("pose", this.getAttribute("pose") ?? "walk", TABLES.poses);
     const [skin, cape] = await Promise.all(["skin", "cape"].map((name) => readTexture(name, this.getAttribute(name))));
-    const [kind, pose] = [this.getAttribute("kind") ?? this.constructor.kind, this.getAttribute("pose")];
     const shape = skin && isSlim(skin) ? "-slim" : "";
     const textures = { ...(skin && { skin: wholeSkin(skin) }), ...(cape && { cape }) };
-    return [kind === "player" ? kind : `${kind}-${pose ?? "walk"}${shape}`, textures];
+    return [TABLES.worn.includes(kind) ? `${kind}-${pose}${shape}` : kind, textures];
   }
 
   words() {

@@ -58,6 +58,12 @@ function tick(now) {
   draw(moved.filter((player) => players.has(player)));
 }
 
+// The names of the scenes that the page holds itself.
+export function scenesInPage() {
+  const names = [...document.querySelectorAll("script[data-drapery]")].map(({ dataset }) => dataset.drapery);
+  return names.map((name) => name.replace(/\.bin$/, ""));
+}
+
 // The bytes of a script of the page with this name, or of a file beside this module, which are
 // compressed there; the same object for the same name.
 export function fileBytes(name) {
@@ -74,7 +80,7 @@ async function readFile(name) {
   const answer = inPage
     ? new Response(Uint8Array.from(atob(inPage.textContent.trim()), (each) => each.charCodeAt(0)))
     : await fetch(new URL(name, import.meta.url));
-  if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status}; check kind and pose, and the files beside the module`);
+  if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status}; put the files of the package beside the module`);
   const plain = answer.body.pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(plain).arrayBuffer());
 }

@@ -1,5 +1,6 @@
 // Textures of players from other addresses, in place of those of a scene.
 
+import { short } from "./attributes.js";
 import { TABLES } from "./tables.js";
 
 const { side: SIDE, base: FIRST_LAYER, hat: HAT, emptyOfSlim: EMPTY_OF_SLIM, moved: MOVED } = TABLES.skin;
@@ -9,7 +10,7 @@ export async function readTexture(name, address) {
   if (!address) return null;
   const image = new Image();
   Object.assign(image, { crossOrigin: "anonymous", src: address });
-  const shown = `${name}="${address.length > 60 ? `${address.slice(0, 60)}…` : address}"`;
+  const shown = `${name}="${short(address)}"`;
   await image.decode().catch(() => {
     throw new Error(`${shown} cannot be loaded; use a PNG file that this page may read`);
   });

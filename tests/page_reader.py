@@ -1,0 +1,89 @@
+"""The component's reader of designs under node, which reads one text after another."""
+
+import json
+import shutil
+import subprocess
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from drapery.banner import Banner
+
+NODE = shutil.which("node")
+COMPONENT = Path(__file__).parents[1] / "drapery" / "web" / "component"
+_SCRIPT = """
+import { createInterface } from "node:readline";
+import { nameOf, numberOf } from "component/attributes.js";
+import { readDesign } from "component/design.js";
+import { TABLES } from "component/tables.js";
+
+// As the page that `drapery web` writes reads its address.
+function readHash(hash) {
+  try {
+    return readDesign(decodeURIComponent(hash.slice(1)));
+  } catch (error) {
+    if (error instanceof URIError) return readDesign(hash.slice(1));
+    throw error;
+  }
+}
+const READERS = {
+  design: readDesign,
+  hash: readHash,
+  kind: (text) => nameOf("kind", text, TABLES.placements),
+  wind: (text) => numberOf("wind", text) ?? null,
+  direction: (text) => numberOf("direction", text) ?? null,
+};
+const now = () => Object.values(process.cpuUsage()).reduce((a, b) => a + b) / 1e6;
+for await (const line of createInterface({ input: process.stdin })) {
+  const [what, text] = JSON.parse(line);
+  const start = now();
+  const answer = {};
+  try {
+    answer.found = READERS[what](text);
+  } catch (error) {
+    Object.assign(answer, { error: error.constructor.name, message: error.message });
+  }
+  console.log(JSON.stringify({ ...answer, seconds: now() - start }));
+}
+"""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What the component makes of a text.
+
+    found: a design or value, or None. error, message: of the error that it throws, or "".
+    seconds: of processor time.
+    """
+
+    seconds: float
+    found: Any = None
+    error: str = ""
+    message: str = ""
+
+
+@cache
+def _process() -> "subprocess.Popen[str]":
+    script = _SCRIPT.replace("component/", f"{COMPONENT.as_uri()}/")
+    command = [str(NODE), "--input-type=module", "-e", script]
+    pipe = subprocess.PIPE
+    return subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, encoding="utf-8")
+
+
+def read_in_page(what: str, text: str) -> Answer:
+    """Read a text as a `design`, a `hash`, or the attribute `kind`, `wind` or `direction`.
+
+    The process ends with this one, whose end closes its input.
+    """
+    node = _process()
+    assert node.stdin is not None and node.stdout is not None
+    node.stdin.write(json.dumps([what, text]) + "\n")
+    node.stdin.flush()
+    return Answer(**json.loads(node.stdout.readline()))
+
+
+def plain(banner: Banner) -> dict[str, object]:
+    """A banner as the component's designs are."""
+    layers = [{"pattern": layer.pattern, "dye": layer.dye} for layer in banner.layers]
+    return {"base": banner.base, "layers": layers, "kind": banner.kind}
