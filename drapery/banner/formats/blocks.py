@@ -9,7 +9,13 @@ from numpy.typing import NDArray
 from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.nbt import Numbers
 from drapery.banner.formats.rows import Rows
-from drapery.banner.formats.tree import DataTree, banner_from_block_entity, base_of, is_banner_id
+from drapery.banner.formats.tree import (
+    DataTree,
+    banner_from_block_entity,
+    base_of,
+    is_banner_id,
+    state_id,
+)
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
@@ -51,6 +57,27 @@ def compound(tree: dict[str, DataTree], where: str, key: str) -> dict[str, DataT
     return value
 
 
+def palette_ids(tree: dict[str, DataTree], where: str, *keys: str) -> list[str]:
+    """The ids of a palette of block states, under the first of the keys that exists.
+
+    Raises DesignError for an entry that is not a block's state.
+    """
+    key = next((key for key in keys if key in tree), None)
+    states = [] if key is None else tree[key]
+    if not isinstance(states, list):
+        raise DesignError(f"{where}: {key} is not a list of block states; save the file again")
+    ids: list[str] = []
+    for number, state in enumerate(states):
+        name = state_id(state)
+        if name is None:
+            raise DesignError(
+                f"{where}: {key}[{number}] is {shown(state)}, not a block's state such as"
+                ' {Name:"minecraft:stone"}; save the file again'
+            )
+        ids.append(name)
+    return ids
+
+
 def spot(value: DataTree, where: str) -> Spot:
     """A position [blocks] from three numbers, or from a compound with x, y and z.
 
@@ -79,12 +106,6 @@ def longs(value: DataTree, where: str) -> NDArray[np.int64]:
 def at_block(where: str, place: Spot) -> str:
     """`hill.nbt block 48,71,-9`."""
     return f"{where} block {place[0]},{place[1]},{place[2]}"
-
-
-def state_name(state: DataTree) -> str | None:
-    """A block's id from a palette's entry: `{Name: …}`, or `id[key=value]`."""
-    name = state.get("Name") if isinstance(state, dict) else state
-    return name.partition("[")[0] if isinstance(name, str) else None
 
 
 def banners_of_block(
@@ -118,7 +139,7 @@ def banners_of_entities(
     for entity in entities:
         inner = entity.get("nbt", entity.get("Data", entity))
         inner = inner if isinstance(inner, dict) else entity
-        name = state_name(inner.get("id", entity.get("Id"))) or "entity"
+        name = state_id(inner.get("id", entity.get("Id"))) or "entity"
         position = entity.get("Pos", inner.get("Pos", entity.get("pos")))
         yield from find_banners(inner, _at_entity(where, name, position), on_error=on_error)
 

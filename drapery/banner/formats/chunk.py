@@ -20,9 +20,9 @@ from drapery.banner.formats.blocks import (
     compound,
     compounds,
     longs,
+    palette_ids,
     raise_error,
     spot,
-    state_name,
 )
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import bits_for, longs_needed, unpack
@@ -68,7 +68,7 @@ def _block(section: dict[str, DataTree] | None, place: Spot, where: str) -> str 
     states = (section or {}).get("block_states", section)
     if not isinstance(states, dict):
         return None
-    names = [state_name(state) for state in compounds(states, where, "palette", "Palette")]
+    names = palette_ids(states, where, "palette", "Palette")
     if len(names) < 2:
         return names[0] if names else None
     x, y, z = (axis & 15 for axis in place)

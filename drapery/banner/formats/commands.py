@@ -287,7 +287,6 @@ def _in_tree(tree: DataTree, command: str, old: bool) -> Iterator[FoundBanner]:
         _parse_tags(tree)
         yield from find_banners(tree)
         yield from _in_strings(tree)
-        yield from _in_states(tree)
 
 
 def _parse_tags(tree: DataTree) -> None:
@@ -296,17 +295,6 @@ def _parse_tags(tree: DataTree) -> None:
         tag = node.get("tag")
         if isinstance(tag, str) and (is_banner_id(node.get("id")) or is_shield_id(node.get("id"))):
             node["tag"] = parse_snbt(tag)
-
-
-def _in_states(tree: DataTree) -> Iterator[FoundBanner]:
-    """The banners that fall as blocks or are shown as blocks."""
-    for node in _compounds(tree):
-        for key in ("BlockState", "block_state", "Block"):
-            state = node.get(key)
-            name = state.get("Name") if isinstance(state, dict) else state
-            if is_banner_id(name):
-                entity = node.get("TileEntityData")
-                yield FoundBanner(banner_from_block_entity(entity, key, block=name), key)
 
 
 def _in_strings(tree: DataTree) -> Iterator[FoundBanner]:

@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path, PurePosixPath
 
-from drapery.banner.formats import files, functions, loot
+from drapery.banner.formats import files, functions, loot, structure
 from drapery.banner.formats.blocks import OnError
 from drapery.banner.formats.compression import MAX_BYTES, inflate
 from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.leftovers import looks_like_design
 from drapery.banner.formats.snbt import parse_snbt
+from drapery.banner.formats.tree import DataTree
 from drapery.banner.formats.trees import read_text
 from drapery.banner.packs.zips import ZipSource, open_zip
 from drapery.errors import DesignError, PackError
@@ -196,6 +197,13 @@ def _in_file(
         report(error)
 
 
+def _in_snbt(tree: DataTree, name: str, report: OnError) -> Iterator[FoundBanner]:
+    """The banners of a structure in SNBT, or of any other tree."""
+    is_structure = isinstance(tree, dict) and structure.recognises(tree)
+    find = structure.find if is_structure else find_banners
+    return find(tree, name, on_error=report)
+
+
 def _in_text(name: str, text: str, report: OnError) -> Iterator[FoundBanner]:
     if name.lower().endswith(".mcfunction"):
         for one in functions.find(text, report):
@@ -203,7 +211,7 @@ def _in_text(name: str, text: str, report: OnError) -> Iterator[FoundBanner]:
         return
     errors: list[DesignError] = []
     if name.lower().endswith(".snbt"):
-        found = [*find_banners(parse_snbt(text), name, on_error=errors.append)]
+        found = [*_in_snbt(parse_snbt(text), name, errors.append)]
     else:
         found = [*loot.find(read_text(text), name, errors.append)]
     yield from found

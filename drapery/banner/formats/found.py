@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from typing import TypeAlias
 
 from drapery.banner.design import Banner
@@ -16,6 +16,7 @@ from drapery.banner.formats.tree import (
     get,
     is_banner_id,
     is_shield_id,
+    state_id,
     under,
 )
 from drapery.errors import DesignError
@@ -69,7 +70,9 @@ def find_banners(
         read = reader_of(node, block_of)
         if read is None:
             open_nodes.append(children_of(path, node))
-            continue
+            if (key := shown_block(node)) is None:
+                continue
+            path, read = (path, key), partial(read_shown, key)
         at = path_text(path)
         try:
             yield FoundBanner(read(node, at), at)
@@ -79,9 +82,36 @@ def find_banners(
             on_error(error)
 
 
+_STATES = frozenset(
+    {"Block", "BlockState", "DisplayState", "blockState", "block_state", "carriedBlockState"}
+)
+"""Keys of the state of a block that an entity shows, carries or falls as."""
+
+_ENTITY_DATA = "TileEntityData"
+"""The key of the block entity of a falling block."""
+
+
+def shown_block(node: DataTree) -> str | None:
+    """The key of the state of a banner that an entity shows, carries or falls as, or None."""
+    if not isinstance(node, dict) or _STATES.isdisjoint(node):
+        return None
+    keys = sorted(_STATES.intersection(node))
+    return next((key for key in keys if is_banner_id(state_id(node[key]))), None)
+
+
+def read_shown(key: str, node: dict[str, DataTree], at: str) -> Banner:
+    """The banner that is shown as a block, whose state is under the key."""
+    return banner_from_block_entity(node.get(_ENTITY_DATA), at, block=state_id(node[key]))
+
+
 def children_of(path: Path, node: DataTree) -> Iterator[tuple[Path, DataTree]]:
-    """The compounds and lists in a compound or list, each with its path."""
+    """The compounds and lists in a compound or list, each with its path.
+
+    A banner that is shown as a block, and its block entity, are left out: `read_shown` reads them.
+    """
     pairs = node.items() if isinstance(node, dict) else _numbered(node)
+    if (state := shown_block(node)) is not None:
+        pairs = ((key, child) for key, child in pairs if key not in (state, _ENTITY_DATA))
     return (
         ((path, key), child) for key, child in pairs if isinstance(child, (dict, list)) and child
     )
@@ -135,12 +165,14 @@ _ITEM_KEYS = frozenset({"count", "Count", "Damage", "components", "tag"})
 def _is_item(node: dict[str, DataTree]) -> bool:
     identifier = node.get("id")
     if identifier is None and _ITEM_KEYS.intersection(node):
-        identifier = node.get("Name")  # Bedrock; in Java a block state of a palette has a Name too
+        # Bedrock's key, which a state of a palette in Java has too; that of icons and of mods.
+        identifier = node.get("Name", node.get("item") if "components" in node else None)
     if is_shield_id(identifier):
         return _is_patterned_shield(node)
     if not isinstance(identifier, str) or not is_banner_id(identifier):
         return _has_layers(node)
-    return base_of(identifier) is not None or bool(_ITEM_KEYS.intersection(node))
+    is_item = bool(_ITEM_KEYS.intersection(node))
+    return is_item or (base_of(identifier) is not None and "properties" not in node)
 
 
 def _has_layers(node: dict[str, DataTree]) -> bool:

@@ -15,10 +15,10 @@ from drapery.banner.formats.blocks import (
     compound,
     compounds,
     longs,
+    palette_ids,
     plain_banners,
     raise_error,
     spot,
-    state_name,
 )
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import bits_for, longs_needed, names_in_box, packed_pieces
@@ -70,7 +70,7 @@ def _names(
     region: dict[str, DataTree], size: Spot, places: dict[Spot, dict[str, DataTree]], where: str
 ) -> dict[Spot, str]:
     """The ids of the blocks at these places and of all banners."""
-    states = [state_name(state) for state in compounds(region, where, "BlockStatePalette")]
+    states = palette_ids(region, where, "BlockStatePalette")
     box = abs(size[0]), abs(size[1]), abs(size[2])
     count, bits = box[0] * box[1] * box[2], bits_for(len(states), LEAST_BITS)
     packed = longs(region.get("BlockStates"), where)
@@ -78,8 +78,8 @@ def _names(
         raise DesignError(
             f"{where}: BlockStates holds fewer than {count} blocks; save the file again"
         )
-    palette = {number: name for number, name in enumerate(states) if name}
-    return names_in_box(packed_pieces(packed, bits, count), palette, box, places, where)
+    pieces = packed_pieces(packed, bits, count)
+    return names_in_box(pieces, dict(enumerate(states)), box, places, where)
 
 
 def _corner(position: Spot, size: Spot) -> Spot:

@@ -19,11 +19,10 @@ from drapery.banner.formats.blocks import (
     plain_banners,
     raise_error,
     spot,
-    state_name,
 )
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import names_in_box, varint_pieces
-from drapery.banner.formats.tree import DataTree
+from drapery.banner.formats.tree import DataTree, state_id
 from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode, placeable
 from drapery.errors import DesignError
 
@@ -75,7 +74,7 @@ def _names(
     palette = {
         number: name
         for state, number in compound(blocks, where, "Palette").items()
-        if isinstance(number, int) and (name := state_name(state))
+        if isinstance(number, int) and (name := state_id(state))
     }
     data = blocks.get("BlockData", blocks.get("Data"))
     if not palette or not isinstance(data, bytes):

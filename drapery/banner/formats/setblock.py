@@ -29,4 +29,5 @@ def write(banner: Banner) -> str:
     if banner.kind != "banner":
         raise DesignError("a shield is not a block and cannot be placed: write the form 'give'")
     entity = write_snbt({"patterns": names(banner.layers)}) if banner.layers else ""
-    return f"/setblock ~ ~ ~ minecraft:{banner.base}_banner{entity}"
+    # The rotation that a block has by default went from 0 to 8 in 26.1.
+    return f"/setblock ~ ~ ~ minecraft:{banner.base}_banner[rotation=0]{entity}"

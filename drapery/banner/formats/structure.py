@@ -1,4 +1,7 @@
-"""Java's structure files (`.nbt`): a palette of block states, and blocks that point into it."""
+"""Java's structure files (`.nbt`): a palette of block states, and blocks that point into it.
+
+In SNBT the game writes the blocks as `data`, each with its state as a text.
+"""
 
 from collections.abc import Iterator, Sequence
 
@@ -12,14 +15,14 @@ from drapery.banner.formats.blocks import (
     banners_of_block,
     banners_of_entities,
     compounds,
+    palette_ids,
     plain_banners,
     raise_error,
     spot,
-    state_name,
 )
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.rows import Rows
-from drapery.banner.formats.tree import DataTree, is_banner_id
+from drapery.banner.formats.tree import DataTree, is_banner_id, state_id
 from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode, placeable
 
 NAME = "structure"
@@ -27,7 +30,8 @@ NAME = "structure"
 
 def recognises(tree: dict[str, DataTree]) -> bool:
     """Whether an NBT file's tree is a structure."""
-    return "blocks" in tree and ("palette" in tree or "palettes" in tree)
+    has_palette = "palette" in tree or "palettes" in tree
+    return has_palette and ("blocks" in tree or ("data" in tree and "size" in tree))
 
 
 def find(
@@ -40,13 +44,14 @@ def find(
     """
     names = _palette(tree, where)
     bare_blocks: dict[Spot, str] = {}
-    compounds(tree, where, "blocks")
-    for block in tree["blocks"]:
+    key = "blocks" if "blocks" in tree else "data"
+    compounds(tree, where, key)
+    for block in tree[key]:
         if isinstance(block, Rows):
             bare_blocks |= _banners_of_rows(block, names, where)
             continue
         state, entity = block.get("state"), block.get("nbt")
-        name = names.get(state) if isinstance(state, int) else None
+        name = names.get(state) if isinstance(state, int) else state_id(state)
         if isinstance(entity, dict):
             at = at_block(where, spot(block.get("pos"), where))
             yield from banners_of_block(entity, name, at, on_error)
@@ -70,8 +75,7 @@ def _palette(tree: dict[str, DataTree], where: str) -> dict[int, str]:
     """The ids of the states. Files of ships have several palettes, of which the first counts."""
     if isinstance(several := tree.get("palettes"), list):
         tree = {"palette": several[0] if several else []}
-    states = enumerate(compounds(tree, where, "palette"))
-    return {number: name for number, state in states if (name := state_name(state))}
+    return dict(enumerate(palette_ids(tree, where, "palette")))
 
 
 def write(banners: Sequence[Banner]) -> bytes:

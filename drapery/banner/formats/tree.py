@@ -4,6 +4,7 @@ Mappings may be any `dict` and sequences any `list`, so nbtlib's tags fit. Every
 with the path of its place in the tree, such as `components.banner_patterns[2].color`.
 """
 
+import re
 from collections.abc import Iterable
 from typing import Any, TypeAlias
 
@@ -57,6 +58,20 @@ def is_banner_id(identifier: object) -> bool:
     return isinstance(identifier, str) and (
         bare(identifier) in OLD_BANNERS or base_of(identifier) is not None
     )
+
+
+def state_id(state: DataTree) -> str | None:
+    """The id of a block, from its state in any form; None for what is not a state.
+
+    Until 26.2 a state is `{Name, Properties}`. Since 26.3 it may also be the id alone, `{"": id}`,
+    as a text is kept in a list of compounds, or `{id, properties}`. Schematics write an id with
+    its properties, `id[facing=north]`, and structures in SNBT `id{facing:north}`.
+    """
+    while isinstance(state, dict) and len(state) == 1 and "" in state:
+        state = state[""]
+    if isinstance(state, dict):
+        state = state.get("Name", state.get("id"))
+    return re.split(r"[\[{]", state, maxsplit=1)[0] if isinstance(state, str) else None
 
 
 def is_shield_id(identifier: object) -> bool:
@@ -143,11 +158,11 @@ def banner_from_item(item: DataTree, at: str = "") -> Banner:
     """A banner or shield from an item object of any version.
 
     `{id, count, components}` (1.20.5+), `{id, Count, tag}` (1.13), with `Damage` (to 1.12), or
-    Bedrock's `{Name, Damage, Count, tag}`.
+    Bedrock's `{Name, Damage, Count, tag}`. Icons may have `item` for `id`.
     """
     if not isinstance(item, dict):
         raise DesignError(f"{at or 'item'}: {shown(item)} is not an item: write {{id:…, …}}")
-    _, identifier = get(item, "id", "Name")
+    _, identifier = get(item, "id", "Name", "item")
     if not is_banner_id(identifier) and not is_shield_id(identifier):
         check_literal(identifier, under(at, "id"), "base dye")
         raise DesignError(

@@ -40,7 +40,8 @@ def read_wynncraft(text: str) -> list[FoundBanner]:
 
 
 def _all(tree: DataTree) -> list[FoundBanner]:
-    found = list(_found(tree))
+    # What no form recognises may still hold parts of a data pack, such as an advancement's icon.
+    found = list(_found(tree)) or list(loot.find(tree))
     if found:
         return found
     if isinstance(tree, dict) and isinstance(tree.get("elements"), list):
@@ -107,10 +108,21 @@ def _found(tree: DataTree) -> Iterator[FoundBanner]:
         yield FoundBanner(wynncraft.from_tree(tree))
     elif own_json.matches(tree):
         yield FoundBanner(own_json.from_tree(tree))
+    elif isinstance(tree, dict) and "palette" in tree:
+        yield from _in_structure(tree)
     elif isinstance(tree, dict) and (banner := _without_id(tree)):
         yield FoundBanner(banner)
     else:
         yield from find_banners(tree)
+
+
+def _in_structure(tree: dict[str, DataTree]) -> Iterator[FoundBanner]:
+    """The banners of a structure in SNBT. Its reader loads numpy, which other texts do not need."""
+    from drapery.banner.formats import structure
+
+    yield from (
+        structure.find(tree, "structure") if structure.recognises(tree) else find_banners(tree)
+    )
 
 
 def _without_id(tree: dict[str, DataTree]) -> Banner | None:
