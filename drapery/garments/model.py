@@ -34,6 +34,7 @@ from drapery.options import unknown_names
 from drapery.player_settings import MAX_SPEED
 from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings
 from drapery.style.equipment import SOLIDS, parse_armor, parse_trim
+from drapery.style.figure import WING_JOINTS
 from drapery.toml_text import Place
 
 MAX_LENGTH = 1024
@@ -58,6 +59,8 @@ BONES = {
     "horse": ("head", "body", "right_arm", "left_arm", "right_leg", "left_leg"),
 }
 """The bones of each wearer. The arms of a horse are its front legs."""
+PIN_BONES = {"player": (*BONES["player"], *WING_JOINTS), "horse": BONES["horse"]}
+"""What pins may be fastened to on each wearer; nothing but pins has the wings of a player."""
 
 Length = Annotated[float, Field(strict=True, ge=-MAX_LENGTH, le=MAX_LENGTH)]
 Extent = Annotated[float, Field(strict=True, ge=0.01, le=MAX_LENGTH)]
@@ -504,7 +507,7 @@ class Garment(GarmentTable):
     @property
     def bones(self) -> tuple[str, ...]:
         """What pins may be fastened to."""
-        return (NO_BONE, *(BONES[self.wearer.kind] if self.wearer else ()))
+        return (NO_BONE, *(PIN_BONES[self.wearer.kind] if self.wearer else ()))
 
     @classmethod
     def load(cls, path: str | Path) -> "Garment":

@@ -16,7 +16,7 @@ from drapery.errors import OptionError
 from drapery.garments.model import Angle, GarmentTable, Length
 from drapery.mesh import Array
 from drapery.option import shown
-from drapery.style.figure import TEXEL, FigurePart, Placed, to_metres
+from drapery.style.figure import TEXEL, WING_JOINTS, FigurePart, Placed, to_metres
 from drapery.toml_text import read_toml
 
 MAX_BYTES = 1 << 16
@@ -32,7 +32,8 @@ NO_TURN: Turns = (0.0, 0.0, 0.0)
 class KeyPose(GarmentTable):
     """A pose: how far each bone is turned about x, then y, then z at its joint [degrees].
 
-    root: turns everything about the hips. shift: moves everything [texels].
+    root: turns everything about the hips. shift: moves everything [texels]. Wings turn from where
+    they are folded on the back, which they follow.
     """
 
     root: Turns = NO_TURN
@@ -42,6 +43,8 @@ class KeyPose(GarmentTable):
     left_arm: Turns = NO_TURN
     right_leg: Turns = NO_TURN
     left_leg: Turns = NO_TURN
+    right_wing: Turns = NO_TURN
+    left_wing: Turns = NO_TURN
     shift: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
 
     def mixed(self, other: "KeyPose", share: float) -> "KeyPose":
@@ -131,6 +134,11 @@ def bone_poses(pose: KeyPose, parts: Mapping[str, FigurePart], grounded: bool) -
         offset = joint - _applied(turn, joint)
         rotation = np.einsum("ij,jk->ik", root, turn)
         placed[name] = _applied(root, offset - HIPS) + HIPS + shift, rotation
+    body, back = placed["body"]
+    for name, joint_texels in WING_JOINTS.items():
+        turn, joint = _rotation(getattr(pose, name)), to_metres(np.array(joint_texels))
+        place = _applied(back, joint - _applied(turn, joint)) + body
+        placed[name] = place, np.einsum("ij,jk->ik", back, turn)
     if grounded:
         rise = np.array([0.0, -_lowest(placed, parts), 0.0])
         placed = {name: (place + rise, turn) for name, (place, turn) in placed.items()}

@@ -13,7 +13,7 @@ import numpy as np
 
 from drapery.cloth.colliders import Box, Collider, Path, Pose
 from drapery.elementary import sine_of_turn
-from drapery.style.figure import PARTS, TEXEL, FigurePart, Placed
+from drapery.style.figure import PARTS, TEXEL, WING_JOINTS, FigurePart, Placed
 from drapery.style.horse import HORSE_PARTS
 
 MAX_WALK = 10.0
@@ -94,7 +94,9 @@ class WalkPoses(Mapping[str, Placed]):
     def __getitem__(self, name: str) -> Placed:
         if name not in self._found:
             turned = self.angles[name]
-            self._found[name] = _about_joint(self.parts[name], turned, self.lift)
+            # Wings follow the body.
+            part = self.parts["body" if name in WING_JOINTS else name]
+            self._found[name] = _about_joint(part, turned, self.lift)
         return self._found[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -117,6 +119,8 @@ def _poses(gait: Gait, time: float) -> WalkPoses:
         "right_arm": -arms * angle,
         "left_arm": arms * angle,
     }
+    if gait.figure == "player":
+        angles |= dict.fromkeys(WING_JOINTS, 0.0)
     return WalkPoses(gait.parts, angles, gait.lift(time))
 
 

@@ -74,6 +74,9 @@ PARTS: dict[str, FigurePart] = {
     "left_leg": FigurePart(ModelBox((0, -12, -2), (4, 12, 4), (16, 48)), (2, -12, 0)),
 }
 
+WING_JOINTS = {"right_wing": (-5, -24, 2), "left_wing": (5, -24, 2)}
+"""Where wings turn on the back, as the game's do [texels, y down]. Nothing else has these bones."""
+
 
 def figure_mesh(poses: Mapping[str, Placed]) -> Mesh:
     """The figure with each part in its pose; a part without one is at rest."""

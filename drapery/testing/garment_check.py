@@ -25,7 +25,7 @@ def check_garment(garment: Garment, seconds: float = SECONDS) -> None:
 
     - two motions of the same garment differ, or are not finite;
     - a spring becomes longer than at rest by over a quarter;
-    - its cloth enters its wearer, a pole or a block by over 1 mm.
+    - its cloth begins in its wearer, a pole or a block, or enters one, by over 1 mm.
     """
     packs, settings = open_packs(()), garment.settings()
     times = [frame / FPS for frame in range(round(seconds * FPS) + 1)]
@@ -37,23 +37,33 @@ def check_garment(garment: Garment, seconds: float = SECONDS) -> None:
         pieces = ", ".join(piece.name for piece in sewn.pieces)
         if not (np.isfinite(sheet).all() and np.array_equal(sheet[:3], other)):
             raise OptionError(f"{name}: two motions of {pieces} differ; report this as a fault")
+        # Cloth that begins inside is thrown out, and stretched by it.
+        _check_depths(f"{name}: {pieces} begins", dressed, sewn, sheet[:1], times[:1])
         stretch = max_stretch(sheet[1:], sewn.cloth)
         if stretch > STRETCH:
             raise OptionError(
                 f"{name}: {pieces} stretches by {stretch:.0%}; use a stiffer fabric, less wind,"
                 " or pins that are nearer to each other"
             )
-        if garment.collisions == "none":
-            continue
-        depth = max(
-            deepest(sewn, positions, dressed.colliders(sewn), time)
-            for time, positions in zip(times[1:], sheet[1:], strict=True)
+        _check_depths(f"{name}: {pieces} is", dressed, sewn, sheet[1:], times[1:])
+
+
+def _check_depths(
+    what: str, dressed: Dressed, sewn: SewnCloth, sheet: Points, times: Sequence[float]
+) -> None:
+    """Raise OptionError for a cloth in what it meets. sheet: its positions at some times [s]."""
+    if dressed.garment.collisions == "none":
+        return
+    colliders = dressed.colliders(sewn)
+    depth = max(
+        deepest(sewn, positions, colliders, time)
+        for time, positions in zip(times, sheet, strict=True)
+    )
+    if depth > DEPTH:
+        raise OptionError(
+            f"{what} {depth * 1000:.1f} mm inside what it meets; pin it farther"
+            " outside, or leave a part of the wearer out of `solid`"
         )
-        if depth > DEPTH:
-            raise OptionError(
-                f"{name}: {pieces} is {depth * 1000:.1f} mm inside what it meets; pin it farther"
-                " outside, or leave a part of the wearer out of `solid`"
-            )
 
 
 def deepest(
