@@ -43,18 +43,20 @@ def run(
 
 def _lines(report: "PackReport") -> list[str]:
     """The report as lines of text, one for each fact."""
-    sizes = ", ".join(f"{count} of {side} x {side} px" for side, count in report.sides)
+    total = len(report.has) + len(report.lacks)
     facts = {
         "description": report.description,
         "format": _format(report),
         "overlays": ", ".join(report.overlays),
-        "patterns": f"{len(report.has)} of {len(report.has) + len(report.lacks)}",
+        "patterns": f"{len(report.has)} of {total}",
         "lacks": ", ".join(report.lacks) if report.has else "",
         "adds": ", ".join(report.added),
         "extra": ", ".join(report.extra),
-        "for shields": f"{len(report.shields)} patterns" if report.shields else "",
+        "for shields": f"{len(report.shields)} of {total}" if report.shield_sides else "",
+        "shields lack": ", ".join(report.lacks_for_shields),
         "bases": ", ".join(report.bases) or "none",
-        "sheets": sizes,
+        "sheets": _sizes(report.sides),
+        "shield sheets": _sizes(report.shield_sides),
         "animated": ", ".join(report.animated),
         "normal maps": ", ".join(report.normal_maps),
         "specular maps": ", ".join(report.specular_maps),
@@ -73,6 +75,10 @@ def _format(report: "PackReport") -> str:
     if lowest != highest:
         own = f"{lowest} to {highest}"
     return own if lowest == highest == report.format else f"{own}, read as {report.format}"
+
+
+def _sizes(sides: "tuple[tuple[int, int], ...]") -> str:
+    return ", ".join(f"{count} of {side} x {side} px" for side, count in sides)
 
 
 def _too_many(names: "tuple[str, ...]") -> str:

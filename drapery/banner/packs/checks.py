@@ -21,10 +21,17 @@ def within(data: bytes, limit: int, place: str) -> bytes:
     return data
 
 
-def listed(names: Iterable[str]) -> str:
-    """The first five names, sorted, in one short line, whatever is in them."""
+MAX_PATH = 200
+"""The longest path of a file that a line of several shows."""
+
+
+def listed(names: Iterable[str], longest: int = 80) -> str:
+    """The first five names, sorted, in one short line, whatever is in them.
+
+    longest: so many characters of each are shown.
+    """
     all_names = sorted(names)
-    short = [name[:80] for name in all_names[:5]]
+    short = [name[:longest] for name in all_names[:5]]
     words = [name if name.isprintable() else ascii(name) for name in short]
     more = [f"and {len(all_names) - 5} more"] if len(all_names) > 5 else []
     return ", ".join(words + more)

@@ -1,17 +1,19 @@
-"""Reports on packs: what they have, lack and override."""
+"""Reports on packs: what they have, lack and override, and what is wrong or odd in them."""
 
-from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from drapery.banner.packs.pack import Pack, added_patterns, extra_sprites
-from drapery.banner.packs.png import png_size
-from drapery.banner.packs.stack import Base, Kind, PackFile, PackLike, Packs, open_packs
+from drapery.banner.packs.sheet_checks import Budget, check_sheets, sheet_notes, sides
+from drapery.banner.packs.slips import likely_slips, near
+from drapery.banner.packs.stack import Base, Kind, PackLike, Packs, open_packs, sheet_name
+from drapery.banner.packs.texture_checks import check_equipment, check_textures
+from drapery.banner.packs.texture_ids import split_id
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
 
 MAX_CHECKED_BYTES = 512 << 20
-"""Most bytes, of files and of decoded texels, that are read to check the sheets of one pack."""
+"""Most bytes, of files and of decoded texels, that are read to check the textures of one pack."""
 
 
 @dataclass(frozen=True)
@@ -26,11 +28,15 @@ class PackReport:
     bases: which of banner_base, shield_base and shield_base_nopattern it has.
     overrides: pairs of a pattern and the pack below whose sheet it overrides.
     sides: pairs of a sheet's side [px] and how many have it, small ones first.
-    normal_maps, specular_maps: patterns with LabPBR maps. animated: patterns with frames.
-    problems: the errors of files that cannot be read.
-    notes: what was read otherwise than it lies in the files, or not at all.
+    normal_maps, specular_maps: patterns with LabPBR maps. animated: patterns with frames. A sheet
+        for shields is called `creeper (shield)`.
+    problems: the errors of files that cannot be drawn: sheets, bases, and all other textures.
+    notes: what was read otherwise than it lies in the files, or not at all, and what the author
+        may not have meant.
     unchecked: patterns beyond MAX_CHECKED_BYTES; their sheets and maps are not decoded, and are
         not among the sides, maps, animations and problems.
+    lacks_for_shields: patterns, of the 43 and of those that it adds, that have no sheet for
+        shields; empty if none has one. shield_sides: as `sides`, of the sheets for shields.
     """
 
     label: str
@@ -52,6 +58,8 @@ class PackReport:
     formats: tuple[int, int] | None = None
     extra: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    lacks_for_shields: tuple[str, ...] = ()
+    shield_sides: tuple[tuple[int, int], ...] = ()
 
 
 def describe_packs(
@@ -67,18 +75,32 @@ def describe_packs(
     reports = []
     for number, pack in enumerate(chosen):
         lower = [Packs((ours, below), format) for below in chosen[:number][::-1]]
-        reports.append(_report(pack, Packs((ours, pack), format), lower))
+        reports.append(_report(pack, Packs((ours, pack), format), lower, opened))
     return tuple(reports)
 
 
-def _report(pack: Pack, alone: Packs, lower: Sequence[Packs]) -> PackReport:
+def _report(pack: Pack, alone: Packs, lower: Sequence[Packs], whole: Packs) -> PackReport:
     problems: list[str] = []
     added, extra = added_patterns(pack), extra_sprites(pack)
     has = _had(alone, PATTERN_NAMES, "banner", problems)
     shields = _had(alone, PATTERN_NAMES, "shield", problems)
-    mine = (*has, *_had(alone, (*added, *extra), "banner", problems))
+    more = (*added, *extra)
+    mine = (*has, *_had(alone, more, "banner", problems))
+    mine_for_shields = (*shields, *_had(alone, more, "shield", problems))
+    budget = Budget(MAX_CHECKED_BYTES)
+    sheets = check_sheets(alone, mine, "banner", budget, problems)
+    plates = check_sheets(alone, mine_for_shields, "shield", budget, problems)
+    facts = sheets | {sheet_name(name, "shield"): each for name, each in plates.items()}
     bases = _bases(alone, problems)
-    sheets, unchecked = _decoded_sheets(alone, mine, problems)
+    check_textures(alone, budget, problems)
+    notes = (
+        *check_equipment(alone, whole, problems),
+        *sheet_notes(sheets, "banner"),
+        *sheet_notes(plates, "shield"),
+        *_without_texture(more, pack, whole),
+        *likely_slips(pack),
+    )
+    lacking = [name for name in (*PATTERN_NAMES, *added) if name not in mine_for_shields]
     return PackReport(
         pack.label,
         pack.meta.description,
@@ -90,55 +112,39 @@ def _report(pack: Pack, alone: Packs, lower: Sequence[Packs]) -> PackReport:
         shields,
         bases,
         tuple(pair for name in mine for pair in _hidden(name, lower)),
-        tuple(sorted(Counter(sheet.side for sheet in sheets.values()).items())),
-        tuple(name for name, sheet in sheets.items() if sheet.has_normal),
-        tuple(name for name, sheet in sheets.items() if sheet.has_specular),
-        tuple(name for name, sheet in sheets.items() if sheet.is_animated),
+        sides(sheets),
+        tuple(name for name, sheet in facts.items() if sheet.has_normal),
+        tuple(name for name, sheet in facts.items() if sheet.has_specular),
+        tuple(name for name, sheet in facts.items() if sheet.is_animated),
         tuple(dict.fromkeys(problems)),
-        unchecked,
+        budget.unchecked(),
         pack.meta.supported(),
         extra,
-        alone.notes(),
+        (*alone.notes(), *notes),
+        tuple(lacking) if mine_for_shields else (),
+        sides(plates),
     )
 
 
-@dataclass(frozen=True)
-class _SheetFacts:
-    side: int
-    is_animated: bool
-    has_normal: bool
-    has_specular: bool
-
-
-def _decoded_sheets(
-    alone: Packs, names: Sequence[str], problems: list[str]
-) -> tuple[dict[str, _SheetFacts], tuple[str, ...]]:
-    """The sheets that are sound, by pattern, and the patterns beyond the limit."""
-    sheets: dict[str, _SheetFacts] = {}
-    unchecked = []
-    left = MAX_CHECKED_BYTES
+def _without_texture(names: Sequence[str], pack: Pack, whole: Packs) -> Iterator[str]:
+    """Patterns that a pack defines, but whose texture is in no pack of the stack."""
     for name in names:
-        try:
-            cost = sum(_cost(file, alone) for file in alone.files(name))
-            if cost > left:
-                unchecked.append(name)
-                continue
-            left -= cost
-            sheets[name] = _SheetFacts(
-                len(alone.sheet(name)),
-                alone.period(name) > 0,
-                alone.normal_map(name) is not None,
-                alone.specular_map(name) is not None,
-            )
-        except PackError as error:
-            problems.append(str(error))
-    return sheets, tuple(unchecked)
+        if _level(whole, name, "banner", []) is None and _is_sound(whole, name):
+            namespace, path = split_id(whole.asset_id(name))
+            file = f"assets/{namespace}/textures/entity/banner/{path}.png"
+            others = [other for other in whole.patterns() if other.startswith(f"{namespace}:")]
+            meant = near(name, (n for n in others if _level(whole, n, "banner", []) is not None))
+            hint = f"; there is one for {meant}" if meant else ""
+            yield f"{pack.label}: {name} is defined, but no pack has its texture {file}{hint}"
 
 
-def _cost(file: PackFile, packs: Packs) -> int:
-    """Bytes of a PNG file and of its decoded texels."""
-    width, height = png_size(file.data, f"{packs.packs[file.level].label}: {file.name}")
-    return len(file.data) + 4 * width * height
+def _is_sound(packs: Packs, name: str) -> bool:
+    """Whether the definition of a pattern can be read."""
+    try:
+        packs.asset_id(name)
+    except PackError:
+        return False
+    return True
 
 
 def _had(alone: Packs, names: Sequence[str], kind: Kind, problems: list[str]) -> tuple[str, ...]:
@@ -155,14 +161,19 @@ def _level(packs: Packs, name: str, kind: Kind, problems: list[str]) -> int | No
 
 
 def _bases(alone: Packs, problems: list[str]) -> tuple[str, ...]:
+    """The bases that the pack has; the errors of broken ones and of their maps are problems."""
     names: tuple[Base, ...] = ("banner_base", "shield_base", "shield_base_nopattern")
-    found = tuple(name for name in names if alone.base_level(name) == 1)
-    for name in found:
-        try:
-            alone.base(name)
-        except PackError as error:
-            problems.append(str(error))
-    return found
+    found = []
+    for name in names:
+        for read in (alone.base_level, alone.base, alone.base_normal_map, alone.base_specular_map):
+            try:
+                value = read(name)
+            except PackError as error:
+                problems.append(str(error))
+            else:
+                if read == alone.base_level and value == 1:
+                    found.append(name)
+    return tuple(found)
 
 
 def _hidden(name: str, lower: Sequence[Packs]) -> list[tuple[str, str]]:

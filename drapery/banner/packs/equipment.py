@@ -185,7 +185,7 @@ def _id(entry: Mapping[str, Any], key: str, place: str) -> str | None:
 def _override(worn: str, pattern: str, material: str, packs: Packs) -> TrimOverride:
     """What the equipment changes about a trim, by its first entry that is for it."""
     found = packs.file(f"assets/minecraft/equipment/{worn}.json", MAX_JSON)
-    if found is not None and _has_overrides(packs.packs[found.level].format):
+    if found is not None and has_overrides(packs.packs[found.level].format):
         for each in trim_overrides(found.data, packs.place(found)):
             pairs = ((each.pattern, pattern), (each.material, material))
             if all(wanted in (None, full_id(given)) for wanted, given in pairs):
@@ -193,7 +193,8 @@ def _override(worn: str, pattern: str, material: str, packs: Packs) -> TrimOverr
     return TrimOverride(None, None, None, None)
 
 
-def _has_overrides(format: int | None) -> bool:
+def has_overrides(format: int | None) -> bool:
+    """Whether the game of a format reads overrides of trims; None is an unknown format."""
     return format is None or format > _LAST_WITHOUT_OVERRIDES
 
 

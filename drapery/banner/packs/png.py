@@ -38,6 +38,11 @@ def png_size(data: bytes, name: str) -> tuple[int, int]:
     return width, height
 
 
+def is_plain_rgba(data: bytes) -> bool:
+    """Whether a PNG file, whose header `png_size` has checked, is RGBA with 8 bits a channel."""
+    return data[24:26] == bytes([8, 6])
+
+
 def read_png(data: bytes, name: str) -> Texels:
     """The texels of a PNG file of any mode, shape [H, W, 4].
 

@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import Literal
 
 from drapery.banner.names import shown
-from drapery.banner.packs.checks import listed
+from drapery.banner.packs.checks import MAX_PATH, listed
 from drapery.banner.packs.folders import OwnArt
 from drapery.banner.packs.masks import are_masks, looks_like_mask
 from drapery.banner.packs.memory import MemoryPack
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, extra_sprites, open_pack
 from drapery.banner.packs.places import Place, base_places, in_order, wings_places
-from drapery.banner.packs.png import MAX_PIXELS, Texels, png_size, read_png
+from drapery.banner.packs.png import MAX_PIXELS, Texels, is_plain_rgba, png_size, read_png
 from drapery.banner.packs.png_chunks import wrong_checksums
 from drapery.banner.packs.resampling import squared
 from drapery.banner.packs.sources import PackSource
@@ -35,7 +35,7 @@ from drapery.banner.packs.textures import (
     frame_layout,
     still_layout,
 )
-from drapery.banner.packs.versions import LAST_MASK_FORMAT, NEWEST_FORMAT
+from drapery.banner.packs.versions import LAST_MASK_FORMAT, LAST_RGBA_MASK_FORMAT, NEWEST_FORMAT
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
 
@@ -44,6 +44,15 @@ Base = Literal["banner_base", "shield_base", "shield_base_nopattern"]
 
 MAX_PNG = 32 << 20
 """Largest PNG file that is read [bytes]."""
+
+
+_GAME_BASE = (64, 64)
+"""Width and height of the game's own bases [px]."""
+
+
+def sheet_name(pattern: str, kind: Kind) -> str:
+    """What messages call a pattern's sheet."""
+    return pattern if kind == "banner" else f"{pattern} (shield)"
 
 
 @dataclass(frozen=True)
@@ -76,7 +85,9 @@ class Packs:
     _missing: dict[str, None] = field(default_factory=dict, init=False, repr=False)
     _black: dict[str, None] = field(default_factory=dict, init=False, repr=False)
     _notes: dict[str, None] = field(default_factory=dict, init=False, repr=False)
-    _unchecked: dict[tuple[int, str], str] = field(default_factory=dict, init=False, repr=False)
+    _gathered: dict[tuple[int, str], dict[str, None]] = field(
+        default_factory=dict, init=False, repr=False
+    )
 
     def sheet(self, pattern: str, kind: Kind = "banner", time: float = 0.0) -> Texels:
         """The sheet of a pattern, shape [H, H, 4], at a time [s] of its animation.
@@ -153,7 +164,11 @@ class Packs:
     def texels(self, file: PackFile, time: float = 0.0) -> Texels:
         """The texture of a file that `find` gave, shape [H, W, 4]. Raises PackError."""
         key = ("file", file.level, file.name)
-        return self._textures.get(key, lambda: self._read(file, file.name)).at(time)
+        return self._textures.get(key, lambda: self.read(file)).at(time)
+
+    def read(self, file: PackFile) -> Texture:
+        """The texture of a file that `find` gave, which is not kept. Raises PackError."""
+        return self._read(file, file.name)
 
     def place(self, file: PackFile) -> str:
         """The pack and the name of a file, for messages."""
@@ -222,7 +237,7 @@ class Packs:
     def notes(self) -> tuple[str, ...]:
         """What was read otherwise than it lies in the packs, or not at all, one line each."""
         own = (line for pack in self.packs for line in pack.notes())
-        return (*dict.fromkeys((*own, *self._notes, *self._wrong_checksums())),)
+        return (*dict.fromkeys((*own, *self._notes, *self._gathered_notes())),)
 
     def warnings(self) -> tuple[str, ...]:
         """Warnings about the textures read so far, one line each; they name the packs."""
@@ -243,15 +258,13 @@ class Packs:
             lines.append(f"no texture comes from {labels}: the textures needed are not in it")
         return tuple(lines)
 
-    def _wrong_checksums(self) -> Iterator[str]:
-        """One line for each pack that has PNG files with wrong checksums."""
-        for level in sorted({level for level, _ in self._unchecked}):
-            files = {name: kinds for (at, name), kinds in self._unchecked.items() if at == level}
-            yield (
-                f"{self.packs[level].label}: wrong checksums, which the game does not check, in"
-                f" {listed(f'{name} ({kinds})' for name, kinds in files.items())}:"
-                " save these files again"
-            )
+    def _gather(self, file: PackFile, words: str, line: str) -> None:
+        """Note a file, with others of its pack in one line. line: has {} for the words of all."""
+        self._gathered.setdefault((file.level, line), {})[words] = None
+
+    def _gathered_notes(self) -> Iterator[str]:
+        for (level, line), words in sorted(self._gathered.items()):
+            yield f"{self.packs[level].label}: {line.format(listed(words, MAX_PATH))}"
 
     def _all_in_memory(self) -> bool:
         """Whether all packs are made of arrays, which hold only what they replace."""
@@ -262,7 +275,7 @@ class Packs:
 
     def _read_sheet(self, pattern: str, kind: Kind) -> Texture:
         found = self._find_sheet(pattern, kind)
-        name = pattern if kind == "banner" else f"{pattern} (shield)"
+        name = sheet_name(pattern, kind)
         sheet = self._read(found, name, is_sheet=True)
         if found is None:
             return sheet
@@ -271,8 +284,30 @@ class Packs:
             if looks_like_mask(sheet.frames[0]):
                 self._black[name] = None
             return sheet
-        base = self.base("banner_base" if kind == "banner" else "shield_base")
-        return replace(sheet, base=base)
+        base: Base = "banner_base" if kind == "banner" else "shield_base"
+        self._note_mask(found, self._find_base(base))
+        return replace(sheet, base=self.base(base))
+
+    def _note_mask(self, mask: PackFile, base: PackFile | None) -> None:
+        """Note a mask that the game to 1.14 leaves out."""
+        size = png_size(mask.data, self.place(mask))
+        # Our own base has the place of the game's.
+        own = base is None or base.level == 0
+        wanted = _GAME_BASE if own or base is None else png_size(base.data, self.place(base))
+        if size != wanted:
+            self._gather(
+                mask,
+                f"{mask.name} ({size[0]} x {size[1]} px)",
+                f"to 1.14 the game leaves out masks that have not the size of the base,"
+                f" {wanted[0]} x {wanted[1]} px: {{}}",
+            )
+        format = self.packs[mask.level].format
+        if format is not None and format <= LAST_RGBA_MASK_FORMAT and not is_plain_rgba(mask.data):
+            self._gather(
+                mask,
+                mask.name,
+                "to 1.12 the game leaves out masks that are not RGBA with 8 bits a channel: {}",
+            )
 
     def _has_masks(self, level: int, kind: Kind) -> bool:
         """Whether a pack's sheets are masks: by the format if one is asked for, else by vote."""
@@ -324,7 +359,11 @@ class Packs:
         texels = read_png(found.data, place)
         wrong = wrong_checksums(found.data, place)
         if wrong:
-            self._unchecked[found.level, found.name] = ", ".join(wrong)
+            self._gather(
+                found,
+                f"{found.name} ({', '.join(wrong)})",
+                "wrong checksums, which the game does not check, in {}: save these files again",
+            )
         return texels
 
     def _layout(self, found: PackFile) -> FrameLayout:
@@ -362,7 +401,7 @@ class Packs:
 
     def _find_sheet(self, pattern: str, kind: Kind) -> PackFile | None:
         """The file of a pattern's sheet, through its definition and the atlas."""
-        namespace, path = split_id(self._asset_id(full_id(pattern)))
+        namespace, path = split_id(self.asset_id(full_id(pattern)))
         sprite = f"{namespace}:entity/{kind}/{path}"
         for texture in textures_of(sprite, self._atlas(kind)):
             found = self._find([texture_file(texture)]) if is_id(texture) else None
@@ -396,8 +435,11 @@ class Packs:
             names = [name for name in names if not pack.hides(name)]
         return None
 
-    def _asset_id(self, pattern: str) -> str:
-        """The asset id in the pattern's definition in a data pack, or the pattern itself."""
+    def asset_id(self, pattern: str) -> str:
+        """The asset id in the pattern's definition in a data pack, or the pattern itself.
+
+        pattern: with its namespace. Raises PackError.
+        """
         namespace, path = split_id(pattern)
         found = self._find([f"data/{namespace}/banner_pattern/{path}.json"], limit=MAX_JSON)
         if found is None:
