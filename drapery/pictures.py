@@ -117,28 +117,42 @@ def draw_face(
     format: int | None = None,
     scale: int = 8,
     side: Literal["front", "back"] = "front",
+    kind: Literal["auto", "banner", "shield"] = "auto",
 ) -> Frame:
-    """The plain face of a banner, 20 x 40 texels, each `scale` pixels wide in a 64 x 64 pack.
+    """The plain face of a banner, 20 x 40 texels, or of a shield, 12 x 22.
 
-    packs, format: as in `Settings`.
+    scale: how many pixels wide a texel of a 64 x 64 pack is. packs, format: as in `Settings`.
+    kind: whose face; auto takes it from the design.
     Raises OptionError or PackError.
     """
     check_format(format)
     opened = open_packs(packs, format=format)
-    pixels = face_pixels(banner, opened, scale, side)
+    pixels = face_pixels(banner, opened, scale, side, banner.kind if kind == "auto" else kind)
     _warn_of(opened)
     return Frame(pixels)
 
 
 def face_pixels(
-    banner: Banner, packs: Packs, scale: int, side: Literal["front", "back"] = "front"
+    banner: Banner,
+    packs: Packs,
+    scale: int,
+    side: Literal["front", "back"] = "front",
+    kind: Literal["banner", "shield"] = "banner",
 ) -> Pixels:
-    """The plain face, shape [40 scale, 20 scale, 4], for packs of any size.
+    """The plain face of a banner, shape [40 scale, 20 scale, 4], for packs of any size.
 
-    Raises PackError.
+    That of a shield has the shape [22 scale, 12 scale, 4]. Raises PackError.
     """
-    from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
+    from drapery.banner.sprites import (
+        FLAG_REGIONS,
+        SHIELD_REGIONS,
+        composite,
+        flag_layers,
+        shield_layers,
+    )
 
+    if kind == "shield":
+        return SHIELD_REGIONS[side].sample(composite(shield_layers(banner, packs)), scale)
     return FLAG_REGIONS[side].sample(composite(flag_layers(banner, packs)), scale)
 
 

@@ -17,6 +17,8 @@ from conftest import GIVE, Run
 from PIL import Image
 
 from drapery import Banner, DraperyError, animate, draw
+from drapery.banner.packs import open_packs
+from drapery.banner.sprites import SHIELD_REGIONS, composite, shield_layers
 from drapery.commands import notices
 from drapery.errors import DesignError, OptionError
 from drapery.settings import Settings
@@ -81,6 +83,22 @@ def test_flat_is_the_plain_face(drapery: Run, tmp_path: Path) -> None:
         texels = np.asarray(image)
     assert np.array_equal(texels, texels[::3, ::3].repeat(3, axis=0).repeat(3, axis=1))
     assert (texels[..., 3] == 255).all()
+
+
+@pytest.mark.parametrize("side", ["front", "back"])
+@pytest.mark.parametrize("words", [("--kind", "shield"), ()])
+def test_flat_is_the_plain_face_of_a_shield(
+    drapery: Run, tmp_path: Path, words: tuple[str, ...], side: str
+) -> None:
+    item = 'shield[base_color="red",banner_patterns=[{pattern:"creeper",color:"lime"}]]'
+    design = "red creeper:lime" if words else f"/give @p {item}"
+    back = ("--back",) if side == "back" else ()
+    target = tmp_path / "face.png"
+    assert drapery("flat", design, "-o", target, "--scale", "3", *words, *back)[0] == 0
+    sheet = composite(shield_layers(Banner.parse("red creeper:lime"), open_packs()))
+    wanted = SHIELD_REGIONS[side].crop(sheet).repeat(3, 0).repeat(3, 1)
+    pixels = np.asarray(Image.open(target))
+    assert pixels.shape == (66, 36, 4) and np.array_equal(pixels, wanted)
 
 
 @pytest.mark.parametrize("form", ["json", "give", "give-legacy", "shorthand"])

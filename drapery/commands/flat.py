@@ -1,4 +1,4 @@
-"""`drapery flat`: the plain face of a banner, as banner sites show it."""
+"""`drapery flat`: the plain face of a banner or shield, as banner sites show it."""
 
 from pathlib import Path
 from typing import Annotated, Literal
@@ -16,11 +16,15 @@ def run(
     scale: Annotated[int, typer.Option(help="Pixels per texel of a 64 x 64 pack.")] = 8,
     form: o.FromOption = None,
     number: o.NumberOption = None,
+    kind: Annotated[
+        Literal["auto", "banner", "shield"],
+        typer.Option(help="Whose face: 20 x 40 or 12 x 22; auto takes it from the design."),
+    ] = "auto",
     back: Annotated[bool, typer.Option("--back", help="Draw the back.")] = False,
     packs: o.PackOption = None,
     format: o.FormatOption = None,
 ) -> None:
-    """Write the plain 20 x 40 face of a banner, enlarged."""
+    """Write the plain face of a banner or shield, enlarged."""
     from drapery import draw_face
     from drapery.banner import read_design
     from drapery.option import within
@@ -30,5 +34,5 @@ def run(
     check_still_target(out)
     side: Literal["front", "back"] = "back" if back else "front"
     banner = read_design(design, form=form, number=number)
-    face = draw_face(banner, packs=packs or (), format=format, scale=scale, side=side)
+    face = draw_face(banner, packs=packs or (), format=format, scale=scale, side=side, kind=kind)
     face.save(out)
