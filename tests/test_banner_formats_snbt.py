@@ -64,7 +64,7 @@ def test_a_written_tree_is_read_as_itself(tree: object):
 )
 def test_values_of_every_age(text: str, value: object):
     read = parse_snbt(text)
-    assert read == value and type(read) is type(value)
+    assert read == value and isinstance(read, type(value))
 
 
 def test_numbers_past_all_bounds_stay_numbers():

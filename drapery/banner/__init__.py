@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from drapery.banner.dyes import DYE_NAMES, DYES, Dye
     from drapery.banner.formats.form import BinaryForm, Form
     from drapery.banner.formats.found import FoundBanner, find_banners
-    from drapery.banner.formats.give_details import GIVE_FORMS, ItemDetails, write_give
+    from drapery.banner.formats.give_details import GIVE_FORMS, not_kept, write_give
+    from drapery.banner.formats.item_details import ItemDetails, plain_text
     from drapery.banner.formats.languages import game_languages, game_titles
     from drapery.banner.formats.reading import read_designs
     from drapery.banner.formats.registry import (
@@ -91,10 +92,12 @@ __all__ = [
     "letter_banners",
     "letter_characters",
     "loom_steps",
+    "not_kept",
     "pack_link",
     "parse_banner",
     "parse_banners",
     "pattern_id",
+    "plain_text",
     "read_design",
     "read_designs",
     "reader_tables",
@@ -116,7 +119,8 @@ __getattr__, __dir__ = lazy_names(
         "banner.dyes": ("DYES", "DYE_NAMES", "Dye"),
         "banner.formats.form": ("BinaryForm", "Form"),
         "banner.formats.found": ("FoundBanner", "find_banners"),
-        "banner.formats.give_details": ("GIVE_FORMS", "ItemDetails", "write_give"),
+        "banner.formats.give_details": ("GIVE_FORMS", "not_kept", "write_give"),
+        "banner.formats.item_details": ("ItemDetails", "plain_text"),
         "banner.formats.languages": ("game_languages", "game_titles"),
         "banner.formats.studio_link": ("hidden_layers", "pack_link", "unpack_link"),
         "banner.formats.reading": ("read_designs",),

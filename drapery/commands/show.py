@@ -8,7 +8,7 @@ import typer
 from drapery.commands import options as o
 
 if TYPE_CHECKING:
-    from drapery import Banner
+    from drapery import Banner, FoundBanner
 
 
 def run(
@@ -44,13 +44,30 @@ def run(
         [choose_banner(found, number)] if number is not None else [one.banner for one in found]
     )
     if written is not None:
-        for banner in banners:
-            print(write_banner(banner, written))
+        for one in found if number is None else found[number - 1 : number]:
+            _write_text(one, written)
         return
     for place, banner in zip((one.where for one in found), banners, strict=False):
         if len(banners) > 1:
             print(place)
         _explain(banner)
+
+
+def _write_text(found: "FoundBanner", form: str) -> None:
+    """The banner in a form of text, with what its item says beside the design if that is kept."""
+    import warnings
+
+    from drapery.banner import GIVE_FORMS, not_kept, write_banner, write_give
+
+    if found.details is None:
+        print(write_banner(found.banner, form))
+        return
+    if lost := not_kept(found.details, form):
+        warnings.warn(lost, stacklevel=2)
+    keeps = form in GIVE_FORMS
+    print(
+        write_give(found.banner, form, found.details) if keeps else write_banner(found.banner, form)
+    )
 
 
 def _write(banner: "Banner", out: Path, form: str | None) -> None:

@@ -6,8 +6,9 @@ from dataclasses import replace
 from starlette.concurrency import run_in_threadpool
 
 from drapery import DraperyError, FoundBanner, parse_banners, read_designs
+from drapery.banner import ItemDetails
 from drapery.studio.document import Document
-from drapery.studio.item_names import item_name
+from drapery.studio.sketch import MAX_TITLE
 from drapery.studio.uploads import Uploads
 from drapery.studio.warning_log import collected_warnings
 
@@ -23,7 +24,7 @@ class UploadQueue:
 
     found: the banners. line: the error, or "". notes: the warnings. name: the file's name, or "".
     beside: whether the text field was read; then the page shows the line next to that field.
-    title: the name of the item in a text, or "".
+    details: what a text says of its item beside the design, or None.
     """
 
     def __init__(self, document: Document, uploads: Uploads) -> None:
@@ -33,12 +34,19 @@ class UploadQueue:
         self.notes: tuple[str, ...] = ()
         self.name = ""
         self.beside = False
-        self.title = ""
+        self.details: ItemDetails | None = None
         self._uploads = uploads
 
     def read_text(self, text: str, *, beside: bool = False) -> None:
         """Read a text in any form; the text is never used as the path of a file."""
-        self._finish("", *_read(lambda: parse_banners(text)), beside=beside, title=item_name(text))
+        found, line, notes = _read(lambda: parse_banners(text))
+        self._finish("", found, line, notes, beside=beside)
+
+    @property
+    def title(self) -> str:
+        """The name of the item in the text, or ""."""
+        title = self.details.title.strip()[:MAX_TITLE] if self.details else ""
+        return title if title.isprintable() else ""
 
     async def read_file(self, number: int) -> None:
         """Read an uploaded file and remove it. Raises DesignError if there is none."""
@@ -59,10 +67,9 @@ class UploadQueue:
         notes: list[str],
         *,
         beside: bool = False,
-        title: str = "",
     ) -> None:
         self.found, self.line, self.name = tuple(found), line, name
-        self.title = title
+        self.details = found[0].details if len({each.banner for each in found}) == 1 else None
         self.notes, self.beside = tuple(notes[:MAX_NOTES]), beside
         self._document.notify("read")
 

@@ -8,12 +8,13 @@ banner, unless the command makes none and the tested one has layers.
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYES
 from drapery.banner.formats import loot
 from drapery.banner.formats.found import FoundBanner, find_banners
+from drapery.banner.formats.item_details import ItemDetails, read_details
 from drapery.banner.formats.leftovers import (
     PARAMETER,
     STATES,
@@ -194,7 +195,8 @@ def _made(text: str, words: list[Word], line: int) -> Iterator[FoundBanner]:
         for word in rest:
             if _is_item(word):
                 parts = _parsed(text, word.start, rest[-1], line)
-                yield FoundBanner(_argument(word.name, parts[1:]), bare(word.name))
+                details = _details(words, name, parts[1:])
+                yield FoundBanner(_argument(word.name, parts[1:]), bare(word.name), details)
                 return
             if PARAMETER.search(word.name) and word.name.endswith("_banner"):
                 check_literal(word.name, "item", "base dye")
@@ -285,7 +287,7 @@ def _in_tree(tree: DataTree, command: str, old: bool) -> Iterator[FoundBanner]:
         yield FoundBanner(banner_from_block_entity(tree))
     else:
         _parse_tags(tree)
-        yield from find_banners(tree)
+        yield from find_banners(tree, details=True)
         yield from _in_strings(tree)
 
 
@@ -303,7 +305,7 @@ def _in_strings(tree: DataTree) -> Iterator[FoundBanner]:
         for key, value in node.items():
             if isinstance(value, str) and command_of(value) and looks_like_design(value):
                 for one in banners_of_command(value):
-                    yield FoundBanner(one.banner, f"{under('', key)} {one.where}")
+                    yield replace(one, where=f"{under('', key)} {one.where}")
 
 
 _OLD_ENTITIES_WORDS = """
@@ -370,6 +372,21 @@ def _argument(identifier: str, rest: list[Part]) -> Banner:
         return banner_from_tag(identifier, tag)
     components: DataTree = None if brackets is None else dict(brackets)
     return banner_from_components(identifier, components)
+
+
+def _details(words: list[Word], command: str, rest: list[Part]) -> ItemDetails | None:
+    """What a command says of its item beside the design; None for a command that places blocks."""
+    if command in ("setblock", "fill"):
+        return None
+    brackets = next((part for part in rest if isinstance(part, Brackets)), Brackets())
+    tag = next((p for p in rest if isinstance(p, dict) and not isinstance(p, Brackets)), {})
+    count = next((int(part) for part in rest if _is_count(part)), 1)
+    target = words[1].text if command == "give" and len(words) > 2 else ItemDetails.target
+    return read_details(dict(brackets), tag, count, PARAMETER.sub(r"$(\1)", target))
+
+
+def _is_count(part: Part) -> bool:
+    return isinstance(part, str) and part.isdecimal() and len(part) < 10
 
 
 _MODES = frozenset({"destroy", "hollow", "keep", "outline", "replace", "strict"})

@@ -8,7 +8,7 @@ files that they are.
 import os
 from collections.abc import Callable, Iterator
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path, PurePosixPath
 
@@ -207,7 +207,7 @@ def _in_snbt(tree: DataTree, name: str, report: OnError) -> Iterator[FoundBanner
 def _in_text(name: str, text: str, report: OnError) -> Iterator[FoundBanner]:
     if name.lower().endswith(".mcfunction"):
         for one in functions.find(text, report):
-            yield FoundBanner(one.banner, f"{name} {one.where}")
+            yield replace(one, where=f"{name} {one.where}")
         return
     errors: list[DesignError] = []
     if name.lower().endswith(".snbt"):

@@ -1,11 +1,12 @@
 """All banners in a tree: items in containers, blocks, and what entities hold."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial, reduce
 from typing import TypeAlias
 
 from drapery.banner.design import Banner
+from drapery.banner.formats.item_details import ItemDetails, details_of_item
 from drapery.banner.formats.rows import Rows
 from drapery.banner.formats.tree import (
     DataTree,
@@ -37,10 +38,13 @@ class FoundBanner:
     """A banner and its place: a path in a tree, after the position of a block or a name.
 
     where: such as `tower.nbt block 1,2,3` or `Items[0]`; empty if the text is only the banner.
+    details: what the text says of the item beside its design, or None; it does not count in
+    comparisons.
     """
 
     banner: Banner
     where: str = ""
+    details: ItemDetails | None = field(default=None, compare=False, repr=False)
 
 
 def find_banners(
@@ -49,6 +53,7 @@ def find_banners(
     *,
     block_of: BlockOf | None = None,
     on_error: Callable[[DesignError], None] | None = None,
+    details: bool = False,
 ) -> Iterator[FoundBanner]:
     """Every banner and patterned shield in the tree, in the order of the text.
 
@@ -60,13 +65,15 @@ def find_banners(
     block_of: gives the block of a block entity, whose id names the base dye since 1.13.
     on_error: called with the error of one broken banner, after which the search continues;
         without it, the error is raised.
+    details: keep what an item says beside its design, such as its name; this takes memory.
     """
     open_nodes: list[Iterator[tuple[Path, DataTree]]] = [iter([((None, where), tree)])]
     while open_nodes:
-        path, node = next(open_nodes[-1], (None, None))
-        if path is None:
+        step = next(open_nodes[-1], None)
+        if step is None:
             open_nodes.pop()
             continue
+        path, node = step
         read = reader_of(node, block_of)
         if read is None:
             open_nodes.append(children_of(path, node))
@@ -75,7 +82,8 @@ def find_banners(
             path, read = (path, key), partial(read_shown, key)
         at = path_text(path)
         try:
-            yield FoundBanner(read(node, at), at)
+            kept = details_of_item(node) if details and read is banner_from_item else None
+            yield FoundBanner(read(node, at), at, kept)
         except DesignError as error:
             if on_error is None:
                 raise

@@ -5,6 +5,7 @@ next one; a macro line begins with `$` and has parameters such as `$(dye)`.
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import give
@@ -100,7 +101,7 @@ def find(text: str, on_error: Callable[[DesignError], None]) -> list[FoundBanner
     for number, line in lines:
         try:
             read = _read_line(line, number)
-            found += [FoundBanner(one.banner, f"line {number} {one.where}") for one in read]
+            found += [replace(one, where=f"line {number} {one.where}") for one in read]
         except DesignError as error:
             on_error(DesignError(_with_line(str(error), number)))
     return found

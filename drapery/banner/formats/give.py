@@ -40,9 +40,14 @@ def argument(banner: Banner, more: Mapping[str, DataTree] = MappingProxyType({})
     components = [f'base_color="{banner.base}"'] if shield else []
     if banner.layers:
         components.append(f"banner_patterns={write_snbt(names(banner.layers))}")
-    components += [f"{name}={write_snbt(value)}" for name, value in more.items()]
+    components += [_component(name, value) for name, value in more.items()]
     item = "minecraft:shield" if shield else f"minecraft:{banner.base}_banner"
     return f"{item}[{','.join(components)}]" if components else item
+
+
+def _component(name: str, value: DataTree) -> str:
+    """`name=value`, or `!name` of a component that is removed."""
+    return name if value is None else f"{name}={write_snbt(value)}"
 
 
 def _is_item(word: str) -> bool:

@@ -134,7 +134,7 @@ class _Node:
 
 
 @dataclass(frozen=True)
-class _Item:
+class _LootItem:
     """An item after some functions, with one outcome of their conditions.
 
     id: of the item; empty if it is not known. hidden: whether its design may come from the game.
@@ -161,8 +161,8 @@ _Test: TypeAlias = tuple[str, bool]
 class _Work:
     """What is known of one file's functions, by their ids as Python objects.
 
-    applied: those that are of an item. tests: their conditions. doubts: see `_Item`. tags: parsed.
-    left: how many may still be applied.
+    applied: those that are of an item. tests: their conditions. doubts: see `_LootItem`.
+    tags: of functions, parsed. left: how many may still be applied.
     """
 
     applied: set[int] = field(default_factory=set)
@@ -286,7 +286,7 @@ def _readings(node: _Node, work: _Work) -> list[_Reading]:
     name = tree.get("name")
     is_entry = _is_id(name) and not {"type", "weight", *_FUNCTION_KEYS}.isdisjoint(tree)
     if is_entry and _reader(tree) is None:
-        items = _variants(_Item(name), node.modifiers, work, at)
+        items = _variants(_LootItem(name), node.modifiers, work, at)
         return [partial(_finished, item, at) for item in items]
     return [partial(_banner, node)]
 
@@ -361,7 +361,9 @@ def _placed(tree: dict[str, DataTree], at: str) -> Banner | None:
     return banner_from_block_entity(_tag(data, at), at, block=name)
 
 
-def _variants(item: _Item, modifiers: tuple[_Modifier, ...], work: _Work, at: str) -> list[_Item]:
+def _variants(
+    item: _LootItem, modifiers: tuple[_Modifier, ...], work: _Work, at: str
+) -> list[_LootItem]:
     """The item after its functions, once for each outcome of their conditions that matters.
 
     Raises DesignError for over MAX_VARIANTS.
@@ -382,7 +384,7 @@ def _variants(item: _Item, modifiers: tuple[_Modifier, ...], work: _Work, at: st
     return items
 
 
-def _finished(item: _Item, at: str) -> Banner | None:
+def _finished(item: _LootItem, at: str) -> Banner | None:
     """The banner that an item is after its functions, or None if the file does not state it."""
     if item.fault:
         raise DesignError(item.fault)
@@ -404,12 +406,12 @@ def _finished(item: _Item, at: str) -> Banner | None:
 
 
 def _applied(
-    items: list[_Item], modifier: _Modifier, tests: Mapping[str, int], work: _Work
-) -> list[_Item]:
+    items: list[_LootItem], modifier: _Modifier, tests: Mapping[str, int], work: _Work
+) -> list[_LootItem]:
     """The items after a function; where its condition is open, with it and without it."""
     test = _test_of(modifier.tree, work)
-    changed: list[_Item] = []
-    kept: list[_Item] = []
+    changed: list[_LootItem] = []
+    kept: list[_LootItem] = []
     for item in items:
         if test is None:
             changed.append(item)
@@ -423,7 +425,7 @@ def _applied(
     return _once([*kept, *_changed(changed, modifier, tests, work)])
 
 
-def _once(items: Iterable[_Item]) -> list[_Item]:
+def _once(items: Iterable[_LootItem]) -> list[_LootItem]:
     return list(dict.fromkeys(items))
 
 
@@ -473,14 +475,14 @@ def _inner(
 
 
 def _changed(
-    items: list[_Item], modifier: _Modifier, tests: Mapping[str, int], work: _Work
-) -> list[_Item]:
+    items: list[_LootItem], modifier: _Modifier, tests: Mapping[str, int], work: _Work
+) -> list[_LootItem]:
     """The items after a function that applies."""
     function = modifier.tree
     work.spend(len(items))
     if _name_of(function) not in _HOLDERS:
         return [item if item.fault else _apply(item, modifier, work) for item in items]
-    found: list[_Item] = []
+    found: list[_LootItem] = []
     for passed, keys in _PARTS.items():
         group = [item for item in items if _passes(function, item) in (passed, None)]
         for one in _inner(function, keys, path=modifier.path):
@@ -489,7 +491,7 @@ def _changed(
     return _once(found)
 
 
-def _passes(function: dict[str, DataTree], item: _Item) -> bool | None:
+def _passes(function: dict[str, DataTree], item: _LootItem) -> bool | None:
     """Whether an item passes the filter of a function; None if the file does not tell."""
     test = function.get("item_filter")
     if not isinstance(test, dict) or not item.id:
@@ -501,7 +503,7 @@ def _passes(function: dict[str, DataTree], item: _Item) -> bool | None:
     return None if any(name.startswith("#") for name in names) else False
 
 
-def _apply(item: _Item, modifier: _Modifier, work: _Work) -> _Item:
+def _apply(item: _LootItem, modifier: _Modifier, work: _Work) -> _LootItem:
     """The item after a function. One that cannot be read becomes its fault."""
     function, at = modifier.tree, path_text(modifier.path)
     name = _name_of(function)
@@ -543,7 +545,7 @@ _Changes = dict[str, Any]
 
 
 def _set_banner_pattern(
-    item: _Item, function: dict[str, DataTree], at: str, work: _Work
+    item: _LootItem, function: dict[str, DataTree], at: str, work: _Work
 ) -> _Changes:
     layers = read_layers(function.get("patterns"), under(at, "patterns"))
     layers = (item.layers if function.get("append") else ()) + layers
@@ -551,7 +553,9 @@ def _set_banner_pattern(
     return {"layers": layers}
 
 
-def _set_components(item: _Item, function: dict[str, DataTree], at: str, work: _Work) -> _Changes:
+def _set_components(
+    item: _LootItem, function: dict[str, DataTree], at: str, work: _Work
+) -> _Changes:
     at = under(at, "components")
     components = function.get("components")
     if not isinstance(components, dict):
@@ -576,7 +580,7 @@ def _fault_of(check: Callable[[], None]) -> str:
     return ""
 
 
-def _set_nbt(item: _Item, function: dict[str, DataTree], at: str, work: _Work) -> _Changes:
+def _set_nbt(item: _LootItem, function: dict[str, DataTree], at: str, work: _Work) -> _Changes:
     at = under(at, "tag")
     if is_shield_id(item.id) and not _has_block_entity(function.get("tag")):
         return {}
@@ -586,12 +590,12 @@ def _set_nbt(item: _Item, function: dict[str, DataTree], at: str, work: _Work) -
     return {"base": banner.base, "layers": banner.layers}
 
 
-def _set_item(item: _Item, function: dict[str, DataTree], at: str, work: _Work) -> _Changes:
+def _set_item(item: _LootItem, function: dict[str, DataTree], at: str, work: _Work) -> _Changes:
     return {"id": str(function.get("item", ""))}
 
 
 def _set_banner_details(
-    item: _Item, function: dict[str, DataTree], at: str, work: _Work
+    item: _LootItem, function: dict[str, DataTree], at: str, work: _Work
 ) -> _Changes:
     if function.get("type") in (1, "illager_captain"):
         return {"base": OMINOUS.base, "layers": OMINOUS.layers}
@@ -602,7 +606,7 @@ def _set_banner_details(
     return {"base": base, "layers": layers}
 
 
-def _set_data(item: _Item, function: dict[str, DataTree], at: str, work: _Work) -> _Changes:
+def _set_data(item: _LootItem, function: dict[str, DataTree], at: str, work: _Work) -> _Changes:
     data = function.get("data")
     if not isinstance(data, int):
         return {"hidden": True}
@@ -611,7 +615,7 @@ def _set_data(item: _Item, function: dict[str, DataTree], at: str, work: _Work) 
     return {}
 
 
-_FUNCTIONS: dict[str, Callable[[_Item, dict[str, DataTree], str, _Work], _Changes]] = {
+_FUNCTIONS: dict[str, Callable[[_LootItem, dict[str, DataTree], str, _Work], _Changes]] = {
     "set_banner_details": _set_banner_details,
     "set_banner_pattern": _set_banner_pattern,
     "set_components": _set_components,
@@ -628,7 +632,7 @@ def _without_item(group: tuple[_Modifier, ...], work: _Work) -> list[_Reading]:
         return []
     at = path_text(group[0].path)
     name = next(filter(None, (_item_of(one.tree) for one in left)), "")
-    return [partial(_design_of, item, at) for item in _variants(_Item(name), left, work, at)]
+    return [partial(_design_of, item, at) for item in _variants(_LootItem(name), left, work, at)]
 
 
 def _with_inner(function: dict[str, DataTree]) -> Iterator[dict[str, DataTree]]:
@@ -638,7 +642,7 @@ def _with_inner(function: dict[str, DataTree]) -> Iterator[dict[str, DataTree]]:
         yield from _with_inner(one.tree)
 
 
-def _design_of(item: _Item, at: str) -> Banner | None:
+def _design_of(item: _LootItem, at: str) -> Banner | None:
     if item.fault:
         raise DesignError(item.fault)
     if not item.layers:

@@ -5,6 +5,7 @@ import re
 import sys
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from drapery.banner.formats.form import BinaryForm
@@ -267,7 +268,7 @@ def _in_file(found: FoundBanner, name: str) -> FoundBanner:
     """The banner with a place that begins with its file's name."""
     if found.where.startswith(name):
         return found
-    return FoundBanner(found.banner, f"{name} {found.where}".rstrip())
+    return replace(found, where=f"{name} {found.where}".rstrip())
 
 
 def _reason(error: DesignError, path: Path) -> str:

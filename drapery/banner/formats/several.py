@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.names import shown
@@ -38,7 +39,7 @@ def find_in_lines(
                 return []
         else:
             good += 1
-            found += [FoundBanner(f.banner, _at(number, f.where)) for f in read_line]
+            found += [replace(f, where=_at(number, f.where)) for f in read_line]
     if good < min(2, len(lines)) or len(faults) > good:
         return []
     errors += faults

@@ -48,15 +48,43 @@ def parse_command(text: str, *, line: int = 1) -> list[Part]:
     return parts
 
 
+class TypedInt(int):
+    """An int whose text names its type, such as `5b` or `true`; `write_snbt` writes that text."""
+
+    text: str
+
+
+class TypedFloat(float):
+    """A float whose text names its type, such as `1.5f`; `write_snbt` writes that text."""
+
+    text: str
+
+
+class TypedList(list[DataTree]):
+    """A typed array, such as `[I;1,2]`, whose letter `write_snbt` writes."""
+
+    letter: str
+
+
 def write_snbt(tree: DataTree) -> str:
-    """The shortest SNBT of a tree, as in the game's commands: `{pattern:"creeper"}`."""
+    """The shortest SNBT of a tree, as in the game's commands: `{pattern:"creeper"}`.
+
+    Numbers and arrays that were read keep their types.
+    """
     if isinstance(tree, dict):
         return "{" + ",".join(f"{_key(k)}:{write_snbt(v)}" for k, v in tree.items()) + "}"
     if isinstance(tree, list):
-        return "[" + ",".join(map(write_snbt, tree)) + "]"
+        kind = f"{tree.letter};" if isinstance(tree, TypedList) else ""
+        return f"[{kind}" + ",".join(map(write_snbt, tree)) + "]"
     if isinstance(tree, str):
-        return '"' + tree.replace("\\", "\\\\").replace('"', '\\"') + '"'
-    return str(tree)
+        text = tree.replace("\\", "\\\\").replace('"', '\\"')
+        return '"' + _CONTROL.sub(lambda match: f"\\x{ord(match[0]):02x}", text) + '"'
+    if isinstance(tree, bool):
+        return "true" if tree else "false"
+    return tree.text if isinstance(tree, (TypedInt, TypedFloat)) else str(tree)
+
+
+_CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 
 
 def _key(key: str) -> str:
@@ -176,7 +204,9 @@ def _build() -> Any:
         def array(self, c: Any) -> DataTree:
             if c[0] not in ("B", "I", "L"):
                 raise _FaultError(c[0], f"{shown(c[0])} is not a type of array; use B, I or L")
-            return c[1] if len(c) > 1 else []
+            array = TypedList(c[1] if len(c) > 1 else [])
+            array.letter = str(c[0])
+            return array
 
     return Build()
 
@@ -210,17 +240,30 @@ def scalar(word: str) -> DataTree:
     """The value of a bare word: `5b` and `0x5` are 5, `true` is 1, `creeper` is itself."""
     word = str(word)
     if word in ("true", "false"):
-        return int(word == "true")
+        return _typed_int(int(word == "true"), word)
     if len(word) > _LONGEST_NUMBER:
         return word
     try:
         if match := _INTEGER.fullmatch(word):
-            return _integer(*match.groups(default=""))
+            number = _integer(*match.groups(default=""))
+            return _typed_int(number, word) if word[-1].isalpha() else number
         if match := _FLOAT.fullmatch(word):
-            return float(match[1].replace("_", ""))
+            return _float(match[1], word)
     except ValueError:  # nothing but underscores
         pass
     return word
+
+
+def _typed_int(number: int, word: str) -> TypedInt:
+    typed = TypedInt(number)
+    typed.text = word
+    return typed
+
+
+def _float(digits: str, word: str) -> float:
+    number = TypedFloat(digits.replace("_", ""))
+    number.text = word
+    return number
 
 
 def _integer(sign: str, hexadecimal: str, binary: str, decimal: str) -> int:
@@ -232,7 +275,7 @@ def _call(name: "Token", arguments: list[DataTree]) -> DataTree:
     """`bool(x)` and `uuid("…")`, the two functions of 1.21.5."""
     argument = arguments[0] if len(arguments) == 1 else None
     if name == "bool" and isinstance(argument, (int, float)):
-        return int(argument != 0)
+        return _typed_int(int(argument != 0), "true" if argument else "false")
     if name == "uuid" and isinstance(argument, str):
         return _uuid(name, argument)
     raise _FaultError(
@@ -246,7 +289,9 @@ def _uuid(name: "Token", text: str) -> list[int]:
     if not re.fullmatch("[0-9a-fA-F]{32}", digits):
         raise _FaultError(name, f"{shown(text)} is not a UUID")
     words = [int(digits[place : place + 8], 16) for place in range(0, 32, 8)]
-    return [word - (1 << 32) if word >> 31 else word for word in words]
+    array = TypedList(word - (1 << 32) if word >> 31 else word for word in words)
+    array.letter = "I"
+    return array
 
 
 _ESCAPE = re.compile(

@@ -113,7 +113,7 @@ def _found(tree: DataTree) -> Iterator[FoundBanner]:
     elif isinstance(tree, dict) and (banner := _without_id(tree)):
         yield FoundBanner(banner)
     else:
-        yield from find_banners(tree)
+        yield from find_banners(tree, details=True)
 
 
 def _in_structure(tree: dict[str, DataTree]) -> Iterator[FoundBanner]:

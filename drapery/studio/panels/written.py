@@ -1,18 +1,27 @@
 """The design as text in any form; give commands have a player, a count, a name and lore."""
 
 from dataclasses import dataclass, field, replace
+from itertools import zip_longest
 from typing import Any
 
 from nicegui import ui
 
 from drapery import Banner, DesignError
-from drapery.banner import FORMS, GIVE_FORMS, ItemDetails, write_banner, write_give
+from drapery.banner import (
+    FORMS,
+    GIVE_FORMS,
+    ItemDetails,
+    not_kept,
+    plain_text,
+    write_banner,
+    write_give,
+)
 from drapery.option import Option
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, set_props, translated_text
+from drapery.studio.widgets import button, set_props, text_element, translated_text
 
 COUNT = Option("count", "How many items the command gives", int, 1, bounds=(1, 1600))
 MAX_LORE = 500
@@ -71,6 +80,8 @@ def build_writer(session: Session) -> None:
     written = ui.element("textarea").classes("field code").props('id="written" rows=6 readonly')
     written.props.update({"aria-label": translated("The design as text"), "spellcheck": "false"})
 
+    note = text_element("", "p").classes("hint")
+
     def show() -> None:
         try:
             text, fault = chosen.text(banner_of(session.sketch)), False
@@ -79,12 +90,20 @@ def build_writer(session: Session) -> None:
         written.classes(add="is-fault" if fault else "", remove="" if fault else "is-fault")
         set_props(written, {"value": text})
         set_props(copy, {"disabled": fault})
+        note.set_text("" if fault else not_kept(chosen.details, chosen.form))
+        note.set_visibility(bool(note.text))
         fields.refresh()
 
     def keep_name() -> None:
-        """The name of a pasted item."""
-        if not session.upload_queue.line:
-            change(name=session.upload_queue.title)
+        """What a pasted item says beside its design."""
+        queue = session.upload_queue
+        if queue.line:
+            return
+        if queue.details is None:
+            change(name="", components={}, tag={}, left_out=())
+        else:
+            chosen.details = queue.details
+            show()
 
     session.follow(show, "sketch")
     session.listen(keep_name, "read")
@@ -100,17 +119,24 @@ def _item_fields(fields: Fields, chosen: WrittenForm, change: Any) -> None:
     fields.number("Count", COUNT, lambda: chosen.details.count, lambda number: change(count=number))
     fields.line(
         "Name of the item",
-        lambda: chosen.details.name,
-        lambda text: change(name=str(text).strip()),
+        lambda: plain_text(chosen.details.name),
+        lambda text: change(name=_unless_same(str(text).strip(), chosen.details.name)),
         maxlength=MAX_TITLE,
     )
     fields.line(
         "Lore, with | between lines",
-        lambda: " | ".join(chosen.details.lore),
-        lambda text: change(lore=_lines(str(text))),
+        lambda: " | ".join(map(plain_text, chosen.details.lore)),
+        lambda text: change(lore=_lines(str(text), chosen.details.lore)),
         maxlength=MAX_LORE,
     )
 
 
-def _lines(text: str) -> tuple[str, ...]:
-    return tuple(line.strip() for line in text.split("|")) if text.strip() else ()
+def _lines(text: str, lore: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The lines of lore; one that says what it said before keeps its looks."""
+    lines = [line.strip() for line in text.split("|")] if text.strip() else []
+    return tuple(_unless_same(line, old) for line, old in zip_longest(lines, lore[: len(lines)]))
+
+
+def _unless_same(text: str, component: Any) -> Any:
+    """The text, or the component if it says the same."""
+    return component if text == plain_text(component).strip() else text
