@@ -1,15 +1,17 @@
 """Compile the kernels that most tests use: `python tests/compile_kernels.py single|double|web`.
 
-The parts have no kernel in common, so they can run at once; `.ci/run` does so before the tests.
-Otherwise each worker of pytest compiles what it needs, and many kernels are compiled twice.
+`pytest` does so before its workers start, each part in a process: they have no kernel in common.
+Otherwise each worker compiles what it needs, and many kernels are compiled twice.
 """
 
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from itertools import islice
 from typing import get_args
 
 import numpy as np
+from tracing import untraced_environment
 
 from drapery import Banner, draw
 from drapery.cloth import (
@@ -74,6 +76,20 @@ def web() -> None:
 
 
 PARTS: dict[str, Callable[[], None]] = {"single": single, "double": double, "web": web}
+
+
+def compile_all() -> None:
+    """Compile all parts at once; with kernels that are stored already it takes a few seconds.
+
+    Raises CalledProcessError.
+    """
+    command = [sys.executable, __file__]
+    running = [subprocess.Popen([*command, part], env=untraced_environment()) for part in PARTS]
+    codes = [process.wait() for process in running]
+    for code, process in zip(codes, running, strict=True):
+        if code:
+            raise subprocess.CalledProcessError(code, process.args)
+
 
 if __name__ == "__main__":
     PARTS[sys.argv[1]]()

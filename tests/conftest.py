@@ -12,8 +12,16 @@ import numpy as np
 import pytest
 from firefox_browser import firefox
 from hypothesis import settings
-from studio_browser import chromium, compiled_kernels, studio
+from studio_browser import chromium, compiled_kernels, running_studio, studio
 from tracing import PROCESSES, trace_no_compiler
+from workers import (
+    pytest_cmdline_main,
+    pytest_collection_modifyitems,
+    pytest_report_header,
+    pytest_sessionstart,
+    pytest_xdist_auto_num_workers,
+    pytest_xdist_make_scheduler,
+)
 
 from drapery import Settings, cli
 
@@ -21,8 +29,20 @@ from drapery import Settings, cli
 # package comes first.
 sys.path.append(str(Path(__file__).parents[1]))
 
-# Fixtures are found by their names here.
-__all__ = ["chromium", "compiled_kernels", "firefox", "studio"]
+# Fixtures and hooks are found by their names here.
+__all__ = [
+    "chromium",
+    "compiled_kernels",
+    "firefox",
+    "pytest_cmdline_main",
+    "pytest_collection_modifyitems",
+    "pytest_report_header",
+    "pytest_sessionstart",
+    "pytest_xdist_auto_num_workers",
+    "pytest_xdist_make_scheduler",
+    "running_studio",
+    "studio",
+]
 
 # How long one example takes is the machine's business on a shared machine, not the example's.
 settings.register_profile("shared machine", deadline=None)

@@ -1,6 +1,5 @@
 """A studio in its own process, and a headless Chromium that opens it."""
 
-import os
 import re
 import shutil
 import signal
@@ -16,6 +15,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import pytest
+from tracing import untraced_environment
 
 from drapery import Banner, draw
 
@@ -45,20 +45,35 @@ const options = { dataTransfer: data, bubbles: true, cancelable: true };
 document.querySelector(arguments[2]).dispatchEvent(new DragEvent("drop", options));
 """
 
+SEEN = """
+window.seenNotices = [];
+const seen = new WeakSet();
+new MutationObserver(() => {
+  for (const each of document.querySelectorAll(".q-notification")) {
+    if (seen.has(each)) continue;
+    seen.add(each);
+    window.seenNotices.push([each.getAttribute("role"), each.innerText]);
+  }
+}).observe(document, { childList: true, subtree: true });
+"""
+"""Keeps the notices of a page, which go by themselves while a loaded machine looks elsewhere."""
+
 WIDE = (1280, 800)
 PHONE = (390, 844)
 
 
 class Studio:
-    """A studio that runs. address: of its page. folder: where it may write."""
+    """A studio that runs. address: of its page. folder: where it may write. library: its file."""
 
     def __init__(self, folder: Path, *options: str) -> None:
         self.folder = folder
         command = [sys.executable, "-m", "drapery", "studio", "--no-open", "--port", "0"]
-        library = ["--library", str(folder / "library.sqlite")]
-        environment = os.environ | {"TMPDIR": str(folder), "XDG_DATA_HOME": str(folder)}
+        self.library = folder / "library.sqlite"
+        command += ["--library", str(self.library)]
+        # A tracer would slow down what pages wait for.
+        environment = untraced_environment() | {"TMPDIR": str(folder), "XDG_DATA_HOME": str(folder)}
         self.process = subprocess.Popen(
-            [*command, *library, *options], stderr=subprocess.PIPE, text=True, env=environment
+            [*command, *options], stderr=subprocess.PIPE, text=True, env=environment
         )
         self.log: list[str] = []
         self.address = self._address()
@@ -94,13 +109,24 @@ def compiled_kernels() -> None:
 
 
 @pytest.fixture(scope="session")
-def studio(compiled_kernels: None) -> Iterator[Studio]:
-    """A studio at a free port with an empty library."""
+def running_studio(compiled_kernels: None) -> Iterator[Studio]:
+    """A studio at a free port."""
     pytest.importorskip("nicegui")
     with tempfile.TemporaryDirectory() as folder:
         studio = Studio(Path(folder))
         yield studio
         studio.stop()
+
+
+@pytest.fixture
+def studio(running_studio: Studio) -> Studio:
+    """A studio with an empty library, whatever other tests have saved there."""
+    from drapery.studio.library import Library
+
+    library = Library(running_studio.library)
+    for design in library.search(limit=1000)[0]:
+        library.remove(design.number)
+    return running_studio
 
 
 @pytest.fixture(scope="session")
@@ -127,6 +153,7 @@ def open_browser(folder: Path) -> Any:
     options.add_experimental_option("prefs", downloads)
     driver = Chrome(options=options, service=ChromeService(str(DRIVER)))
     driver.set_script_timeout(30)
+    driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": SEEN})
     resize(driver, WIDE)
     return driver
 
@@ -171,6 +198,12 @@ def wait_until(condition: Callable[[], T], seconds: float = 60.0) -> T:
             return answer
         time.sleep(0.03)
     raise AssertionError(f"still not so after {seconds} s")
+
+
+def notices(driver: Any, role: str = "") -> list[str]:
+    """All notices since the page was opened. role: `alert` for those that are read at once."""
+    shown = driver.execute_script("return window.seenNotices")
+    return [text for its_role, text in shown if role in ("", its_role)]
 
 
 def lying(folder: Path, pattern: str) -> set[Path]:

@@ -18,6 +18,7 @@ from studio_browser import (
     Studio,
     console_errors,
     drop,
+    notices,
     open_browser,
     open_page,
     paste,
@@ -99,9 +100,7 @@ def titles(page: Any) -> list[str]:
 
 def alert(page: Any) -> str:
     """The text of the notices that a screen reader announces at once."""
-    return " ".join(
-        each.text for each in page.find_elements(By.CSS_SELECTOR, ".q-notification[role=alert]")
-    )
+    return " ".join(notices(page, "alert"))
 
 
 def test_a_design_is_built_by_clicking(page: Any) -> None:

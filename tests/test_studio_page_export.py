@@ -13,7 +13,7 @@ from urllib.parse import quote, urlsplit
 
 import pytest
 from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
-from studio_browser import Studio, console_errors, lying, open_page, wait_until
+from studio_browser import Studio, console_errors, lying, notices, open_page, wait_until
 from studio_browser import drop as drop_file
 
 from drapery.settings import Settings
@@ -53,7 +53,9 @@ class Page:
         return str(self.run("return document.querySelector(arguments[0])?.value ?? ''", selector))
 
     def notice(self, words: str) -> str:
-        return str(wait_until(lambda: self.run(NOTICE, words)))
+        """The notice with these words, which may be gone again."""
+        found = wait_until(lambda: [each for each in notices(self.driver) if words in each])
+        return found[0]
 
     @property
     def token(self) -> str:
@@ -81,10 +83,6 @@ field[tick ? "checked" : "value"] = arguments[2];
 field.dispatchEvent(new Event("input", { bubbles: true }));
 field.dispatchEvent(new Event("change", { bubbles: true }));
 return true;
-"""
-NOTICE = """
-const found = [...document.querySelectorAll(".q-notification")].map((each) => each.innerText);
-return found.find((each) => each.includes(arguments[0])) ?? "";
 """
 
 
@@ -292,8 +290,7 @@ def test_a_broken_pack_is_one_line(page: Page, tmp_path: Path) -> None:
     drop(page, "packs", broken, odd)
     assert "neither a folder nor a complete zip" in page.notice("broken.zip")
     assert "is not a PNG file" in page.notice("odd.zip")
-    notices = page.driver.find_elements("css selector", ".q-notification")
-    assert {each.get_attribute("role") for each in notices} == {"alert"}
+    assert notices(page.driver) == notices(page.driver, "alert")
     assert sheet(page) == before
     assert wait_until(lambda: sent(page) <= lay)
 

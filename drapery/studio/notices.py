@@ -14,7 +14,7 @@ Tone = Literal["fault", "warning", "done"]
 _TONES: dict[Tone, tuple[Literal["negative", "warning", "positive"], int, str]] = {
     "fault": ("negative", 10_000, "white"),
     "warning": ("warning", 7_000, "dark"),
-    "done": ("positive", 1_800, ""),
+    "done": ("positive", 4_000, ""),
 }
 """Quasar's type, how long it is shown [ms], and the colour of its button, if it has one."""
 

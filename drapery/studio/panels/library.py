@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from nicegui import background_tasks, ui
+from nicegui.element import Element
 
 from drapery.studio.art import THUMBNAIL_SCALE, face_png
 from drapery.studio.file_field import FileField
@@ -46,7 +47,8 @@ class LibraryPanel:
         self._limit = PAGE
         # Searches started so far.
         self._asked = 0
-        self._shown: list[Design] = []
+        # The designs that are listed, with their cards, by their numbers.
+        self._cards: dict[int, tuple[Design, Element]] = {}
         self._fields = Fields(session)
         self._form()
         self._search()
@@ -104,14 +106,15 @@ class LibraryPanel:
                 "Tag",
                 {"": "all tags"},
                 lambda: self._tag,
-                lambda tag: background_tasks.create(self._search_for(tag=str(tag))),
+                lambda tag: self._search_for(tag=str(tag)),
             )
 
-    async def _search_for(self, *, words: str | None = None, tag: str | None = None) -> None:
+    def _search_for(self, *, words: str | None = None, tag: str | None = None) -> None:
+        # At once: a field shows the old value again if this is not the new one yet.
         self._words = self._words if words is None else words
         self._tag = self._tag if tag is None else tag
         self._limit = PAGE
-        await self._refresh()
+        background_tasks.create(self._refresh())
 
     def _whole_library(self) -> None:
         translated_text("The whole library", "h2")
@@ -148,7 +151,7 @@ class LibraryPanel:
         designs, count, tags = answer
         if tag is not None and tag not in tags:
             # No design has this tag any more.
-            await self._search_for(tag="")
+            self._search_for(tag="")
             return
         with self._client:  # says the language
             names = {name: f"{name} ({count})" for name, count in tags.items()}
@@ -159,14 +162,21 @@ class LibraryPanel:
 
     def _show(self, designs: "list[Design]") -> None:
         # Cards that are already there stay, because a click on a replaced card is lost.
-        if designs == self._shown:
-            return
-        self._shown = designs
-        self._found.clear()
-        with self._found:
-            for design in designs:
-                with ui.element("li").classes("design").props(f"data-design={design.number}"):
+        before, self._cards = self._cards, {}
+        for design in designs:
+            same, card = before.get(design.number, (None, None))
+            if card is not None and same == design:
+                del before[design.number]
+            else:
+                with self._found, ui.element("li").classes("design") as card:
+                    card.props(f"data-design={design.number}")
                     self._card(design)
+            self._cards[design.number] = design, card
+        for _, card in before.values():
+            card.delete()
+        for place, (_, card) in enumerate(self._cards.values()):
+            if self._found.default_slot.children[place] is not card:
+                card.move(target_index=place)
 
     def _card(self, design: "Design") -> None:
         name = design.title or translated("Untitled")

@@ -1,0 +1,94 @@
+"""How `pytest` spreads the whole suite over processes; `conftest.py` has these hooks.
+
+A run of single files, or of tests chosen by name, needs no other process. `-n` says another number.
+"""
+
+import os
+from pathlib import Path
+
+import pytest
+from compile_kernels import compile_all
+
+PAGES = "test_studio_page"
+"""The page's tests wait for a browser and a server, with deadlines: one worker runs them all, one
+after another, while the others do the rest."""
+LONGEST = (
+    *(PAGES, "test_testing_outside", "test_batch_run", "test_batch_server"),
+    *("test_cloth_bending", "test_render_soft", "test_typing"),
+)
+"""Files that begin so come first, so that no worker is alone with them at the end."""
+MOST = 8
+"""The most workers by default."""
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_cmdline_main(config: pytest.Config) -> None:
+    """Before pytest-xdist reads its options, say what they are by default."""
+    option = config.option
+    if not config.pluginmanager.hasplugin("xdist") or is_worker(config):
+        return
+    if option.numprocesses is None and is_whole(config):
+        option.numprocesses = "auto"  # with --pdb, pytest-xdist takes none
+    if option.dist == "no":
+        option.dist = "loadfile"
+    option.loadscopereorder = False
+
+
+def is_worker(config: pytest.Config) -> bool:
+    """Whether this process is a worker, which reads the same options and starts none."""
+    return hasattr(config, "workerinput") or "PYTEST_XDIST_WORKER" in os.environ
+
+
+def is_whole(config: pytest.Config) -> bool:
+    """Whether folders are run, and all of their tests."""
+    option = config.option
+    chosen = ("keyword", "markexpr", "lf", "stepwise", "collectonly")
+    if any(getattr(option, name, None) for name in chosen):
+        return False
+    return all(Path(word).is_dir() for word in config.args)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int | None:
+    """One more than processors, because tests often wait for other processes."""
+    if "PYTEST_XDIST_AUTO_NUM_WORKERS" in os.environ:
+        return None
+    return min((os.cpu_count() or 1) + 1, MOST)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
+    """As `--dist loadfile`, but all files of the page's tests go to one worker."""
+    if config.option.dist != "loadfile":
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    class Files(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = nodeid.partition("::")[0]
+            return PAGES if Path(file).name.startswith(PAGES) else file
+
+    return Files(config, log)
+
+
+def pytest_report_header(config: pytest.Config) -> str | None:
+    if config.pluginmanager.hasplugin("xdist") or not is_whole(config):
+        return None
+    return 'one test after another, without pytest-xdist; `pip install -e ".[dev]"` installs it'
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile kernels once, before pytest-xdist starts workers that would each do it."""
+    if getattr(session.config.option, "tx", None) and not is_worker(session.config):
+        compile_all()
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The longest files first."""
+
+    def place(item: pytest.Item) -> int:
+        starts = (number for number, name in enumerate(LONGEST) if item.path.name.startswith(name))
+        return next(starts, len(LONGEST))
+
+    items.sort(key=place)
