@@ -126,17 +126,23 @@ def test_harmed_and_unused_goldens_are_named_by_workers_in_one_report(
     data = {name: path.read_bytes() for name, path in goldens.items()}
     test.write_text(test.read_text().partition("def test_gone")[0])
 
-    # All tests, without the name of a file: only then can a golden be known as unused.
+    # All tests, for only then can a golden be known as unused.
     (project / "test_banner.py").unlink(missing_ok=True)
     failed = run("-n", "2")
     assert failed.returncode == 1 and "4 failed, 1 passed" in failed.stdout
-    assert re.search(r"\d snapshots? unused", failed.stdout)
     assert "Traceback" not in failed.stdout
     for name, (_, says) in HARMS.items():
         assert says in failed.stdout
         assert goldens[name].read_bytes() == data[name]
     page = (project / "drapery-report/index.html").read_text()
     assert "4 pictures not as expected" in page
+
+    assert run("--drapery-update").returncode == 0
+    listed, pruned = run("-n", "2").stdout, run("-n", "2", "--drapery-prune").stdout
+    assert re.search(r"drapery: \d goldens? (is|are) named by no test", listed)
+    assert re.search(r"drapery: \d goldens? deleted", pruned)
+    left = {path.stem.partition("[")[0] for path in project.glob("goldens/*/*.png")}
+    assert left == {"test_many"}
 
 
 def _harm(path: Path, harm: bytes | str | tuple[int, int]) -> None:

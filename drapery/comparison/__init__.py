@@ -11,7 +11,7 @@ from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.comparison.cost import Cost, cost_of
-    from drapery.comparison.metrics import Difference, errors, measure
+    from drapery.comparison.metrics import Difference, errors, measure, seen
     from drapery.comparison.pairs import (
         Comparison,
         build_up_sheet,
@@ -49,6 +49,7 @@ __all__ = [
     "measure",
     "pair_entry",
     "pair_sheet",
+    "seen",
     "side_by_side",
     "write_text",
 ]
@@ -57,7 +58,7 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "comparison.cost": ("Cost", "cost_of"),
-        "comparison.metrics": ("Difference", "errors", "measure"),
+        "comparison.metrics": ("Difference", "errors", "measure", "seen"),
         "comparison.pairs": (
             "Comparison",
             "build_up_sheet",

@@ -49,7 +49,7 @@ def errors(expected: Pixels, actual: Pixels) -> NDArray[np.uint8]:
             f"the pictures' sizes differ: {_size(expected)} and {_size(actual)};"
             " compare pictures of one size"
         )
-    difference = np.abs(_seen(expected).astype(np.int16) - _seen(actual))
+    difference = np.abs(seen(expected).astype(np.int16) - seen(actual))
     worst: NDArray[np.uint8] = difference.max(axis=-1).astype(np.uint8)
     return worst
 
@@ -64,7 +64,7 @@ def measure(
     Raises OptionError if the sizes differ or the extra is not installed.
     """
     worst = errors(expected, actual)
-    exact = np.abs(_seen(expected).astype(np.int16) - _seen(actual))
+    exact = np.abs(seen(expected).astype(np.int16) - seen(actual))
     return Difference(
         pixels=worst.size,
         changed=int(np.count_nonzero(worst > slack)),
@@ -75,8 +75,8 @@ def measure(
     )
 
 
-def _seen(pixels: Pixels) -> Pixels:
-    """The picture with the colour of transparent pixels set to 0."""
+def seen(pixels: Pixels) -> Pixels:
+    """Pictures with the colour of transparent pixels set to 0, shape [..., 4]."""
     seen: Pixels = pixels * (pixels[..., 3:] > 0)
     return seen
 

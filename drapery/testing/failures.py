@@ -23,6 +23,7 @@ from drapery.comparison import data_of, difference_panel, side_by_side, write_te
 from drapery.errors import OutputError
 from drapery.render import Animation, Frame, Pixels, make_folder, png_bytes, replacing
 from drapery.testing.golden import Picture, decode, frames_of, same_size
+from drapery.testing.naming import ENDINGS
 
 _FACTS = ".failure.json"
 _CONTENT = ".golden"
@@ -30,22 +31,24 @@ _PICTURES = ("expected", "actual", "difference")
 _PAGE = "index.html"
 _MOST_ROWS = 500
 """The most rows of a summary: CI services refuse long ones."""
-GOLDENS = (".png", ".sha256")
-"""The endings of goldens; no other file is written when pictures are accepted."""
 
 
 @dataclass(frozen=True)
 class FailedPicture:
     """A failed check as its report holds it.
 
-    id: the beginning of the names of its files. golden: where its golden is or will be, relative
-    to the folder in which the checks ran; empty if it is elsewhere. line: what changed.
+    id: the beginning of the names of its files. test: what made the check. line: what changed.
+    golden: where its golden is or will be, relative to the folder in which the checks ran; empty
+    if it is elsewhere. was: the SHA-256 of the golden that was checked, or nothing if there was
+    none.
     """
 
     id: str
+    test: str
     name: str
     line: str
     golden: str
+    was: str
     folder: Path
 
     def picture(self, kind: str) -> bytes | None:
@@ -80,10 +83,13 @@ def keep_failure(
     actual: Picture,
     line: str,
     update: GoldenUpdate | None = None,
+    *,
+    root: Path | None = None,
 ) -> Path:
     """Write a failure's pictures and facts; returns the picture to look at first.
 
-    update: what `accept_failures` writes. Raises OutputError.
+    update: what `accept_failures` writes. root: the folder in which `accept_failures` will run; by
+    default the present one. Raises OutputError.
     """
     make_folder(folder)
     stem = _stem(test, label)
@@ -100,9 +106,10 @@ def keep_failure(
             )
     for kind, picture in pictures.items():
         picture.save(folder / f"{stem}.{kind}.png")
-    facts = {"name": f"{test} [{label}]", "line": line, "golden": ""}
+    facts = {"test": test, "name": f"{test} [{label}]", "line": line, "golden": "", "was": ""}
     if update is not None:
-        facts["golden"] = _relative(update.path)
+        facts["golden"] = _relative(update.path, root)
+        facts["was"] = _hash_of(update.path)
         with replacing(folder / (stem + _CONTENT)) as beside:
             beside.write_bytes(update.content)
     write_text(folder / (stem + _FACTS), json.dumps(facts))
@@ -115,23 +122,27 @@ def failures_in(folder: Path) -> list[FailedPicture]:
     for path in sorted(folder.glob(f"*{_FACTS}")):
         try:
             facts = json.loads(path.read_text(encoding="utf-8"))
-            name, line, golden = (str(facts[key]) for key in ("name", "line", "golden"))
+            words = {key: str(facts[key]) for key in ("test", "name", "line", "golden", "was")}
         except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
             raise OutputError(f"{path} cannot be read ({error}); run the checks again") from None
-        found.append(FailedPicture(path.name.removesuffix(_FACTS), name, line, golden, folder))
+        found.append(FailedPicture(path.name.removesuffix(_FACTS), folder=folder, **words))
     return found
 
 
-def write_report(folder: Path, page: Path | None = None) -> Path | None:
-    """Make the page of all failures in a folder; None if there are none. Raises OutputError.
+def write_report(
+    folder: Path, page: Path | None = None, *, root: Path | None = None
+) -> Path | None:
+    """Make the page of all failures in a folder; without failures there is none.
 
-    page: where to write it, by default index.html in the folder.
+    page: where to write it, by default index.html in the folder. root: the folder in which the
+    failures will be accepted; by default the present one. Raises OutputError.
     """
     failures = failures_in(folder)
-    if not failures:
-        return None
     page = page or folder / _PAGE
-    write_text(page, _page_of(failures, folder))
+    if not failures:
+        _remove(page)
+        return None
+    write_text(page, _page_of(failures, folder, root))
     return page
 
 
@@ -155,8 +166,9 @@ def markdown_report(folder: Path) -> str:
 def accept_failures(folder: Path, only: Collection[str] | None = None) -> Iterator[Path]:
     """Write the actual pictures of a report as goldens; yields the path of each.
 
-    only: the ids of those to accept; None for all. Raises OutputError if a golden would lie
-    outside the present folder, as in a report that somebody else made.
+    only: the ids of those to accept; None for all. Raises OutputError, before anything is written,
+    if a golden would lie outside the present folder, as in a report that somebody else made, or
+    is not the one that was checked.
     """
     if not folder.is_dir():
         raise OutputError(f"{folder} is not a folder; use the report of drapery golden check")
@@ -164,21 +176,43 @@ def accept_failures(folder: Path, only: Collection[str] | None = None) -> Iterat
     unknown = set(only or ()) - {each.id for each in known}
     if unknown:
         raise OutputError(f"{folder} has no picture {min(unknown)!r}; use the report of this run")
+    chosen = []
     for each in known:
         content = folder / (each.id + _CONTENT)
-        if (only is not None and each.id not in only) or not content.exists():
-            continue
-        path = Path(each.golden)
-        inside = "\0" not in each.golden and path.resolve().is_relative_to(Path.cwd().resolve())
-        if not each.golden or not inside or path.suffix not in GOLDENS:
-            raise OutputError(
-                f"golden {each.golden or each.name!r} is not a golden in this folder; "
-                "run this where the checks ran"
-            )
-        make_folder(path.parent)
-        with replacing(path) as beside:
-            beside.write_bytes(content.read_bytes())
-        yield path
+        if (only is None or each.id in only) and content.exists():
+            chosen.append(GoldenUpdate(_golden_to_replace(each), content.read_bytes()))
+    for update in chosen:
+        make_folder(update.path.parent)
+        with replacing(update.path) as beside:
+            beside.write_bytes(update.content)
+        yield update.path
+
+
+def _golden_to_replace(failure: FailedPicture) -> Path:
+    """The golden of a failure. Raises OutputError if it must not be written."""
+    path = Path(failure.golden)
+    inside = "\0" not in failure.golden and path.resolve().is_relative_to(Path.cwd().resolve())
+    if not failure.golden or not inside or path.suffix not in ENDINGS:
+        raise OutputError(
+            f"golden {failure.golden or failure.name!r} is not a golden in this folder; "
+            "run this where the checks ran"
+        )
+    if _hash_of(path) != failure.was:
+        raise OutputError(
+            f"golden {failure.golden} is not the one that the report compared with; "
+            "run the checks again"
+        )
+    return path
+
+
+def _hash_of(path: Path) -> str:
+    """The SHA-256 of a file; nothing if there is none. Raises OutputError."""
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except FileNotFoundError:
+        return ""
+    except OSError as error:
+        raise OutputError(f"{path} cannot be read ({error.strerror}); make it readable") from None
 
 
 def read_approvals(path: Path) -> list[str]:
@@ -200,22 +234,34 @@ def clear_report(folder: Path, page: Path | None = None) -> None:
 
     Raises OutputError if one cannot be removed, as in a folder of another user.
     """
+    found = list(folder.glob(f"*{_FACTS}"))
+    for facts in found:
+        remove_failure(folder, facts.name.removesuffix(_FACTS))
+    if found:
+        _remove(page or folder / _PAGE)
+
+
+def remove_failure(folder: Path, id: str) -> None:
+    """Remove a failure from a report, but not from its page. Raises OutputError."""
+    for kind in _PICTURES:
+        _remove(folder / f"{id}.{kind}.png")
+    _remove(folder / (id + _CONTENT))
+    _remove(folder / (id + _FACTS))
+
+
+def _remove(path: Path) -> None:
     try:
-        for facts in folder.glob(f"*{_FACTS}"):
-            stem = facts.name.removesuffix(_FACTS)
-            for kind in _PICTURES:
-                (folder / f"{stem}.{kind}.png").unlink(missing_ok=True)
-            (folder / (stem + _CONTENT)).unlink(missing_ok=True)
-            facts.unlink()
-            (page or folder / _PAGE).unlink(missing_ok=True)
+        path.unlink(missing_ok=True)
+    except NotADirectoryError:
+        return
     except OSError as error:
         raise OutputError(
-            f"the report of an earlier run in {folder} cannot be removed ({error.strerror});"
+            f"the report of an earlier run in {path.parent} cannot be removed ({error.strerror});"
             " remove the folder, or choose another for reports"
         ) from None
 
 
-def _page_of(failures: list[FailedPicture], folder: Path) -> str:
+def _page_of(failures: list[FailedPicture], folder: Path, root: Path | None) -> str:
     from jinja2 import Environment
 
     here = files("drapery.testing")
@@ -236,7 +282,7 @@ def _page_of(failures: list[FailedPicture], folder: Path) -> str:
         .from_string(texts["html"])
         .render(
             summary=f"{len(failures)} picture{plural} not as expected.",
-            folder=shlex.quote(_relative(folder) or folder.name),
+            folder=shlex.quote(_relative(folder, root) or folder.name),
             style=texts["css"],
             script=texts["js"],
             entries=entries,
@@ -282,12 +328,10 @@ def _sheet(frames: tuple[Frame, ...], columns: int) -> Pixels:
     return sheet
 
 
-def _relative(path: Path) -> str:
-    """A path relative to the present folder, or nothing if it lies elsewhere."""
-    whole = path.resolve()
-    if not whole.is_relative_to(Path.cwd()):
-        return ""
-    return whole.relative_to(Path.cwd()).as_posix()
+def _relative(path: Path, root: Path | None) -> str:
+    """A path relative to a folder, by default the present one; nothing if it lies elsewhere."""
+    whole, start = path.resolve(), (root or Path.cwd()).resolve()
+    return whole.relative_to(start).as_posix() if whole.is_relative_to(start) else ""
 
 
 def _cell(text: str) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageSequence, PngImagePlugin
 
-from drapery.comparison import errors
+from drapery.comparison import errors, seen
 from drapery.errors import DraperyError, OptionError
 from drapery.render import Animation, Frame, apng_bytes
 
@@ -144,17 +144,32 @@ def _layers(note: str) -> list[dict[str, str]] | None:
 
 
 def fingerprint(picture: Picture) -> bytes:
-    """The golden of the hash mode: one line with size and SHA-256 of the pixels."""
-    digest = hashlib.sha256(stacked(picture).tobytes()).hexdigest()
+    """The golden of the hash mode: one line with size and SHA-256 of the pixels.
+
+    The colour of transparent pixels does not count, as in a comparison.
+    """
+    digest = hashlib.sha256(seen(stacked(picture)).tobytes()).hexdigest()
     return f"{size_of(picture)} sha256:{digest}\n".encode()
 
 
 def agrees(expected: Picture, actual: Picture, tolerance: Tolerance) -> bool:
     """Whether a picture is within the tolerance of its golden."""
+    return beyond(expected, actual, tolerance) == 0
+
+
+def beyond(expected: Picture, actual: Picture, tolerance: Tolerance) -> float:
+    """How many pixels are beyond the tolerance; 0 if the pictures agree.
+
+    It is infinite if their sizes differ.
+    """
     if not same_size(expected, actual):
-        return False
-    wrong = errors(stacked(expected), stacked(actual)) > tolerance.channel
-    return int(np.count_nonzero(wrong, axis=(1, 2)).max()) <= tolerance.pixels
+        return math.inf
+    old, new = stacked(expected), stacked(actual)
+    if np.array_equal(old, new):
+        return 0
+    wrong = errors(old, new) > tolerance.channel
+    most = np.count_nonzero(wrong, axis=(1, 2))
+    return float(most.sum()) if most.max() > tolerance.pixels else 0
 
 
 def frames_of(picture: Picture) -> tuple[Frame, ...]:

@@ -1,10 +1,12 @@
-"""The pytest plugin: the fixture `golden`, `--drapery-update`, and a report of failures.
+"""The pytest plugin: the fixture `golden`, its flags, and a report of failures.
 
-Goldens are in `goldens/<test file>/` beside the test. syrupy names them, finds those that no test
-uses any more, and collects the results of pytest-xdist's workers.
+Goldens are in `goldens/<test file>/` beside the test. Each process that runs tests records which
+goldens they name (`drapery.testing.usage`); workers of pytest-xdist send their record to the main
+process, which lists or deletes the goldens that no test names.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,12 +16,24 @@ from drapery.errors import DraperyError
 
 if TYPE_CHECKING:
     from drapery import Banner
+    from drapery.testing.usage import GoldenUsage
 
 Golden = Callable[..., None]
 """The type of the fixture `golden`: `golden(picture, name, *, tolerance, pixels, ...)`."""
 
+_FAULTS: pytest.StashKey[list[str]] = pytest.StashKey()
+"""What the goldens of this try of a test found, until the test fails because of it."""
+_USAGE: "pytest.StashKey[GoldenUsage]" = pytest.StashKey()
+_NAMES: pytest.StashKey[dict[Path, dict[str, str]]] = pytest.StashKey()
+"""For each folder of goldens the names of its files, by their names without case."""
+_ENTRIES: pytest.StashKey[dict[str, list[str]]] = pytest.StashKey()
+"""The ids of the report's failures, by the ids of their tests."""
+
 _STALE: pytest.StashKey[bool] = pytest.StashKey()
 """Whether the report folder holds failures of an earlier run that cannot be removed."""
+
+_MOST_LISTED = 10
+"""The most unused goldens that are named."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -30,66 +44,148 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="write the pictures of this run as the new goldens",
     )
     group.addoption(
+        "--drapery-variant",
+        metavar="NAME",
+        help="with --drapery-update: write them beside the present goldens, as further approved"
+        " pictures of this name",
+    )
+    group.addoption(
+        "--drapery-prune",
+        action="store_true",
+        help="delete the goldens that no test names, after a complete run without failures",
+    )
+    group.addoption(
         "--drapery-report",
         metavar="PATH",
         default="drapery-report",
         help="folder of failed pictures and their report (default: drapery-report), or the page"
         " itself as a file .html; the pictures are then in a folder beside it",
     )
+    parser.addini("drapery_tolerance", "the default of golden(tolerance=)", default="0")
+    parser.addini("drapery_pixels", "the default of golden(pixels=)", default="0")
+
+
+def pytest_load_initial_conftests(parser: pytest.Parser, args: list[str]) -> None:
+    # syrupy's flag, which other projects know; where syrupy is installed it is for its snapshots.
+    if "--snapshot-update" in parser.parse_known_and_unknown_args(args)[1]:
+        raise pytest.UsageError(
+            "--snapshot-update is not a flag for goldens; use --drapery-update to accept pictures"
+            " and --drapery-prune to delete unused goldens"
+        )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    from drapery.testing.naming import VARIANT
+    from drapery.testing.usage import GoldenUsage
+
+    config.stash[_USAGE] = GoldenUsage()
+    update, variant = config.getoption("--drapery-update"), config.getoption("--drapery-variant")
+    if update and config.getoption("--drapery-prune"):
+        raise pytest.UsageError(
+            "--drapery-prune deletes goldens and --drapery-update writes them; run pytest twice"
+        )
+    if variant is not None and not update:
+        raise pytest.UsageError("--drapery-variant does nothing without --drapery-update")
+    if variant is not None and not VARIANT.fullmatch(variant):
+        raise pytest.UsageError(
+            f"--drapery-variant {variant!r} is not a name; use at most 32 of A-Z, a-z, 0-9, ._-"
+        )
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    if _is_worker(session.config):
-        return
-    from drapery.testing.failures import clear_report
+    """Read which tests the report of earlier runs has."""
+    config = session.config
+    entries = config.stash.setdefault(_ENTRIES, {})
+    folder, page = _report_places(config)
+    if not folder.is_dir():
+        return  # most runs; the import takes a tenth of a second
+    from drapery.testing.failures import clear_report, failures_in
 
     try:
-        clear_report(*_report_places(session.config))
-    except DraperyError as error:
-        session.config.stash[_STALE] = True
-        warning = pytest.PytestWarning(f"{error} with --drapery-report PATH")
-        session.config.issue_config_time_warning(warning, 2)
+        for each in failures_in(folder):
+            entries.setdefault(each.test, []).append(each.id)
+    except DraperyError:  # another version wrote it, or a file is damaged
+        if not _is_worker(config):
+            _tidy(config, partial(clear_report, folder, page))
 
 
-def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    if _is_worker(config) or config.stash.get(_STALE, False):
+def pytest_itemcollected(item: pytest.Item) -> None:
+    item.config.stash[_USAGE].collected += 1
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    usage = session.config.stash[_USAGE]
+    usage.tests = {item.nodeid: (str(item.path), _test_name(item)) for item in session.items}
+    if session.config.option.collectonly or not usage.chose_all(session.config.args):
         return
-    from drapery.testing.failures import write_report
+    files = {path for path, _ in usage.tests.values()}
+    for test in [*session.config.stash[_ENTRIES]]:
+        path = session.config.rootpath / test.partition("::")[0]
+        # Tests that were renamed or deleted never run again.
+        if "::" in test and test not in usage.tests and (str(path) in files or not path.exists()):
+            _forget(session.config, test)
 
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Each try of a test begins anew."""
+    item.stash[_FAULTS] = []
+    _forget(item.config, item.nodeid)
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, Any, Any]:
+    """A test checks all its goldens, then fails with all that differ."""
     try:
-        page = write_report(*_report_places(config))
-    except DraperyError as error:
-        terminalreporter.write_line(f"drapery: {error}")
-        return
-    if page is not None:
-        terminalreporter.write_line(f"drapery: report of the failed pictures: {page}")
+        result = yield
+    except BaseException as error:
+        faults = _taken_faults(pyfuncitem)
+        if not faults or not isinstance(error, pytest.skip.Exception):
+            if faults:
+                pyfuncitem.add_report_section("call", "golden pictures", "\n".join(faults))
+            raise
+    else:
+        faults = _taken_faults(pyfuncitem)
+    if faults:
+        pytest.fail("\n".join(faults), pytrace=False)
+    return result
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, Any]:
+    report = yield
+    if report.when == "call":
+        if report.passed:
+            item.config.stash[_USAGE].passed.add(item.nodeid)
+        if not report.failed:  # it passed, or it is expected to fail
+            _forget(item.config, item.nodeid)
+    return report
 
 
 @pytest.fixture
-def golden(request: pytest.FixtureRequest) -> Golden:
+def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
     """Compare a picture with its golden file: `golden(picture, name="creeper")`.
+
+    A test goes on after a picture that differs, and fails at its end with all of them.
 
     picture: a Frame, an Animation, a Pillow image, a uint8 array, or a scene to be drawn by
         `backend`.
-    name: the golden's name within the test; by default its number.
+    name: the golden's name within the test; by default its number. A name is used once in a test.
     tolerance, pixels: channel errors up to `tolerance` (0..255) do not count, and `pixels` pixels
         of each frame may have larger errors; both are 0 by default, which is right for the soft
-        backend.
+        backend. `drapery_tolerance` and `drapery_pixels` in pytest's configuration change it.
     hashed: store only size and SHA-256 instead of the picture.
     backend: each backend other than soft has separate goldens.
     banner, packs: the design that was drawn; a failure then names the layer that changed.
     """
-    try:
-        from drapery.testing.check import check_golden
-    except ModuleNotFoundError as missing:
-        pytest.fail(f'golden needs {missing.name}: pip install "drapery[testing]"', pytrace=False)
+    labels: list[str] = []
 
     def check(
         picture: Any,
         name: str | None = None,
         *,
-        tolerance: int = 0,
-        pixels: int = 0,
+        tolerance: int | None = None,
+        pixels: int | None = None,
         hashed: bool = False,
         backend: str = "soft",
         banner: "Banner | None" = None,
@@ -97,22 +193,221 @@ def golden(request: pytest.FixtureRequest) -> Golden:
     ) -> None:
         __tracebackhide__ = True
         try:
-            fault = check_golden(
+            labels.append(_label(name, labels, backend))
+            fault = _check(
                 request,
-                picture,
-                name=name,
+                labels[-1],
+                _drawn(picture, backend),
                 tolerance=(tolerance, pixels),
-                hashed=hashed,
-                backend=backend,
+                ending=".sha256" if hashed else ".png",
                 design=None if banner is None else (banner, tuple(packs)),
-                report=_report_places(request.config)[0],
             )
         except DraperyError as error:
             fault = str(error)
         if fault is not None:
-            pytest.fail(fault, pytrace=False)
+            request.node.stash[_FAULTS].append(fault)
 
-    return check
+    yield check
+    faults = _taken_faults(request.node)
+    if faults:  # of a call after the test, in another fixture
+        pytest.fail("\n".join(faults), pytrace=False)
+
+
+def _taken_faults(item: pytest.Item) -> list[str]:
+    faults = item.stash.get(_FAULTS, [])
+    item.stash[_FAULTS] = []
+    return faults
+
+
+def _label(name: str | None, used: list[str], backend: str) -> str:
+    """The label of a golden. Raises GoldenError if the test has used it."""
+    from drapery.testing.golden import GoldenError
+
+    label = name or f"{len(used) + 1}"
+    if backend not in ("soft", "auto"):
+        label = f"{label}-{backend}"
+    if label in used:
+        raise GoldenError(f"golden {label!r} is named twice in this test; use another name")
+    return label
+
+
+def _drawn(picture: Any, backend: str) -> Any:
+    from drapery.render import Animation, Scene
+    from drapery.testing.golden import as_frame
+
+    if isinstance(picture, Animation):
+        return picture
+    if isinstance(picture, Scene):
+        from drapery.render import backend as backend_by_name
+
+        return backend_by_name(backend)(picture)
+    return as_frame(picture)
+
+
+def _check(
+    request: pytest.FixtureRequest,
+    label: str,
+    picture: Any,
+    *,
+    tolerance: tuple[int | None, int | None],
+    ending: str,
+    design: "tuple[Banner, tuple[str | Path, ...]] | None",
+) -> str | None:
+    from drapery.testing.check import GoldenCheck, check_golden
+    from drapery.testing.golden import GoldenError
+    from drapery.testing.naming import golden_folder, golden_stem
+    from drapery.testing.usage import same_but_for_case
+
+    item, config = request.node, request.config
+    path = golden_folder(item.path) / (golden_stem(_test_name(item), label) + ending)
+    usage = config.stash[_USAGE]
+    other = same_but_for_case(path, config.stash.setdefault(_NAMES, {}))
+    if other is not None:
+        # A file system that ignores case would keep one file for both.
+        raise GoldenError(
+            f"golden {label!r}: {path.name} differs from {other} only in case; use another name"
+        )
+    usage.named.add(str(path))
+    result = check_golden(
+        GoldenCheck(
+            test=item.nodeid,
+            label=label,
+            path=path,
+            tolerance=_tolerance(config, *tolerance),
+            update=bool(config.getoption("--drapery-update")),
+            variant=config.getoption("--drapery-variant"),
+            report=_report_places(config)[0],
+            root=config.invocation_params.dir,
+        ),
+        picture,
+        lambda: _notes(design),
+    )
+    if result.written is not None:
+        usage.written += 1
+    elif result.failure is not None:
+        config.stash[_ENTRIES].setdefault(item.nodeid, []).append(result.failure)
+    return result.fault
+
+
+def _tolerance(config: pytest.Config, channel: int | None, pixels: int | None) -> Any:
+    from drapery.errors import OptionError
+    from drapery.testing.golden import Tolerance
+
+    given = {"drapery_tolerance": channel, "drapery_pixels": pixels}
+    for name, value in given.items():
+        if value is None:
+            try:
+                given[name] = int(config.getini(name))
+            except ValueError:
+                raise OptionError(
+                    f"{name} = {config.getini(name)!r} in pytest's configuration is not a whole"
+                    " number"
+                ) from None
+    return Tolerance(*given.values())  # type: ignore[arg-type]
+
+
+def _notes(design: "tuple[Banner, tuple[str | Path, ...]] | None") -> Any:
+    if design is None:
+        return None
+    from drapery.packs import open_packs
+    from drapery.testing.explain import layer_notes
+
+    banner, packs = design
+    return layer_notes(banner, open_packs(packs))
+
+
+def _test_name(item: pytest.Item) -> str:
+    """The test's classes and name, such as TestBanner.test_red[hero]."""
+    chain = [node.name for node in item.listchain() if isinstance(node, pytest.Class)]
+    return ".".join([*chain, item.name])
+
+
+def _forget(config: pytest.Config, test: str) -> None:
+    """Remove what the report has of a test."""
+    from drapery.testing.failures import remove_failure
+
+    folder, _ = _report_places(config)
+    for id in config.stash[_ENTRIES].pop(test, ()):
+        _tidy(config, partial(remove_failure, folder, id))
+
+
+def _tidy(config: pytest.Config, remove: Callable[[], None]) -> None:
+    """Remove what an earlier run has left; the first failure is a warning."""
+    try:
+        remove()
+    except DraperyError as error:
+        if not config.stash.get(_STALE, False):
+            config.stash[_STALE] = True
+            warning = pytest.PytestWarning(f"{error} with --drapery-report PATH")
+            config.issue_config_time_warning(warning, 2)
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    if _is_worker(session.config):
+        output = session.config.workeroutput  # type: ignore[attr-defined]
+        output["drapery_goldens"] = session.config.stash[_USAGE].as_dict()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """A worker of pytest-xdist has ended; its output has nothing if it crashed."""
+    found = getattr(node, "workeroutput", {}).get("drapery_goldens")
+    if found is not None:
+        node.config.stash[_USAGE].add(found)
+
+
+def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pytest.Config) -> None:
+    if _is_worker(config):
+        return
+    usage = config.stash[_USAGE]
+    if usage.written:
+        terminalreporter.write_line(f"drapery: {_count(usage.written)} written")
+    _report_unused(terminalreporter, exitstatus, config)
+    folder, page = _report_places(config)
+    if config.stash.get(_STALE, False) or not folder.is_dir():
+        return
+    from drapery.testing.failures import write_report
+
+    try:
+        page = write_report(folder, page, root=config.invocation_params.dir)
+    except DraperyError as error:
+        terminalreporter.write_line(f"drapery: {error}")
+        return
+    if page is not None:
+        terminalreporter.write_line(f"drapery: report of the failed pictures: {page}")
+
+
+def _report_unused(terminalreporter: Any, exitstatus: int, config: pytest.Config) -> None:
+    """List the goldens that no test names after a complete run, or delete them."""
+    usage, prune = config.stash[_USAGE], config.getoption("--drapery-prune")
+    reason = ""
+    if exitstatus != pytest.ExitCode.OK:
+        reason = "not all tests passed"
+    elif config.option.collectonly or not usage.chose_all(config.args):
+        reason = "not all tests of the files ran"
+    if reason:
+        if prune:
+            terminalreporter.write_line(f"drapery: no golden is deleted, because {reason}")
+        return
+    unused = usage.unused()
+    if prune:
+        for path in unused:
+            path.unlink(missing_ok=True)
+        terminalreporter.write_line(f"drapery: {_count(len(unused))} deleted")
+    elif unused:
+        verb = "is" if len(unused) == 1 else "are"
+        terminalreporter.write_line(
+            f"drapery: {_count(len(unused))} {verb} named by no test; delete with --drapery-prune:"
+        )
+    shown = unused[:_MOST_LISTED]
+    for path in shown:
+        terminalreporter.write_line(f"  {path}")
+    if len(unused) > len(shown):
+        terminalreporter.write_line(f"  and {len(unused) - len(shown)} more")
+
+
+def _count(goldens: int) -> str:
+    return f"{goldens} golden" + ("s" if goldens != 1 else "")
 
 
 def _is_worker(config: pytest.Config) -> bool:
