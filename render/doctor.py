@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from drapery.render.backends import added_backends, backend
 from drapery.render.frame import Frame
-from drapery.render.gl.platform import INSTALL_GL, INSTALL_PYRENDER
+from drapery.render.gl.platform import INSTALL_GL, INSTALL_PYRENDER, REMEDIES
 
 TIMEOUT = 120
 """How long a backend may take, compiling included [s]."""
@@ -76,7 +76,7 @@ def _pyrender() -> BackendReport:
     works, said = _run(DRAW_GL)
     if works:
         return BackendReport("pyrender", True, said, "")
-    for remedy in (INSTALL_PYRENDER, INSTALL_GL):
+    for remedy in (INSTALL_PYRENDER, *REMEDIES.values()):
         if said.endswith(remedy):
             return BackendReport("pyrender", False, said.removesuffix(f": {remedy}"), remedy)
     return BackendReport("pyrender", False, said, INSTALL_GL)

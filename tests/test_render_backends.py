@@ -8,6 +8,7 @@ import pytest
 from drapery.errors import BackendError
 from drapery.render import backends, doctor
 from drapery.render.frame import Frame
+from drapery.render.gl import platform as gl_platform
 from drapery.render.scene import Scene
 from drapery.render.soft import draw_scene
 
@@ -65,3 +66,21 @@ def test_the_doctor_draws_before_it_says_works(monkeypatch: pytest.MonkeyPatch) 
 def test_the_doctor_sees_a_triangle_that_is_wrong() -> None:
     with pytest.raises(ValueError, match="wrongly"):
         doctor._check_triangle(Frame(np.zeros((16, 16, 4), np.uint8)))
+
+
+@pytest.mark.parametrize(
+    ("platform", "library", "package"),
+    [("egl", "libGL.so.1", "libegl1 libgl1"), ("osmesa", "libOSMesa.so.8", "libosmesa6")],
+)
+def test_a_platform_that_is_asked_for_names_its_own_library(
+    platform: str, library: str, package: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYOPENGL_PLATFORM", platform)
+    monkeypatch.setattr(gl_platform, "_loaded", lambda name: None)
+    said = rf"on {platform}, which PYOPENGL_PLATFORM names \({library} is missing.*{package}$"
+    with pytest.raises(BackendError, match=said) as raised:
+        gl_platform.choose_platform()
+    monkeypatch.setattr(doctor, "_run", lambda program: (False, str(raised.value)))
+    report = doctor._pyrender()
+    assert report.remedy.endswith(package) and library in report.detail
+    assert package not in report.detail

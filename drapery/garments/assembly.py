@@ -1,11 +1,13 @@
 """From a garment to cloth that moves: pieces are cut, sewn and pinned."""
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.banner.names import shown
 from drapery.banner.packs import Packs
 from drapery.cloth import Cloth, PinPath, Seam, sew
 from drapery.cloth.sewing import sewn_particles
@@ -17,6 +19,7 @@ from drapery.mesh import Array, vertex_normals
 from drapery.render.scene import Material
 from drapery.style.extrusion import Shell, make_shell
 from drapery.style.tailoring import ClothModel, ClothSheet
+from drapery.style.visible import is_invisible
 
 LAYER = 2.5
 """A layer of cloth adds so many thicknesses to the distance of the next from what it meets."""
@@ -170,6 +173,16 @@ def _piece(
 ) -> SewnPiece:
     texture = cut.piece.texture or garment.texture
     material, mapping = texture_of(texture, cut.size, packs, garment.folder)
+    if texture.source in ("file", "pack") and is_invisible(
+        material.layers[0].texels, astuple(mapping)
+    ):
+        warnings.warn(
+            f"garment {garment.name}: texture {shown(str(texture.file or texture.pack), 200)} is"
+            f" transparent where piece {cut.piece.name} shows it, so nothing can be seen of the"
+            " piece; use another texture",
+            UserWarning,
+            stacklevel=2,
+        )
     material = replace(material, transmission=garment.fabric.transmission)
     shell = make_shell(cut.triangles, cut.uvs, mapping)
     width, height = cut.size

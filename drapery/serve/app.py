@@ -180,6 +180,8 @@ class PictureService:
         if result.error is not None:
             _log.warning("a picture was not drawn: %s", result.error)
             return result
+        for line in result.warnings:
+            _log.warning("a picture was drawn: %s", line)
         path = self.store.path(result.job.outs[0])
         data = path.read_bytes()
         path.unlink(missing_ok=True)

@@ -20,6 +20,9 @@ from drapery.errors import BackendError
 
 INSTALL_PYRENDER = 'pip install "drapery[gl]"'
 INSTALL_GL = "apt-get install -y --no-install-recommends libegl1 libgl1"
+INSTALL_OSMESA = "apt-get install -y --no-install-recommends libosmesa6"
+REMEDIES = {"egl": INSTALL_GL, "osmesa": INSTALL_OSMESA}
+"""What installs the libraries of each platform."""
 
 EGL_PLATFORM_DEVICE = 0x313F
 MAX_DEVICES = 64
@@ -67,7 +70,13 @@ def pyrender_installed() -> bool:
 def choose_platform() -> str:
     """`egl` or `osmesa`. Raises BackendError with the line that installs what is missing."""
     wanted = os.environ.get("PYOPENGL_PLATFORM")
-    if wanted in ("egl", "osmesa"):
+    if wanted in REMEDIES:
+        found = probe_egl() if wanted == "egl" else probe_osmesa()
+        if not found.works:
+            raise BackendError(
+                f"there is no OpenGL for pyrender on {wanted}, which PYOPENGL_PLATFORM names"
+                f" ({found.missing}; without that variable another may work): {REMEDIES[wanted]}"
+            )
         return wanted
     egl = probe_egl()
     if egl.works:
@@ -98,7 +107,7 @@ def load_pyrender() -> tuple[ModuleType, Any]:
         platform.make_current()
     except Exception as error:
         raise BackendError(
-            f"OpenGL does not start on {name} ({_first_line(error)}): {INSTALL_GL}"
+            f"OpenGL does not start on {name} ({_first_line(error)}): {REMEDIES[name]}"
         ) from error
     return pyrender, platform
 

@@ -21,7 +21,7 @@ LEAN = 6.0
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """The cape, with a hole where its texture is transparent. Raises OptionError or PackError."""
-    material = Material((TextureLayer(back_texture(settings, packs, (22, 17))),), "cutout")
+    material = Material((TextureLayer(back_texture(settings, packs, CAPE_MAPPING)),), "cutout")
     cape = Panel(
         CAPE_SIZE,
         np.array(SHOULDERS),

@@ -15,8 +15,10 @@ from drapery.style.body import Body, Part
 from drapery.style.boxes import ModelBox, box_mesh
 from drapery.style.figure import TEXEL
 from drapery.style.kinds.player import SHEET, SHOULDERS, back_texture
+from drapery.style.uv_mapping import box_mapping
 
 _LEFT_WING = ModelBox((-10, 0, 0), (10, 20, 2), (22, 0), grown=1.0)
+_WING_MAPPING = box_mapping(_LEFT_WING.offset, _LEFT_WING.size, SHEET)
 _ROOT = (5.0, 0.0, 0.0)
 """Where the left wing is attached to the shoulders [texels]."""
 SPREAD = 15.0
@@ -25,7 +27,7 @@ SPREAD = 15.0
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """Both wings, cut out by their texture. Raises OptionError or PackError."""
-    material = Material((TextureLayer(back_texture(settings, packs, (46, 22))),), "cutout")
+    material = Material((TextureLayer(back_texture(settings, packs, _WING_MAPPING)),), "cutout")
     left = _left_wing()
     return Body(tuple(Part(wing, lambda time: material) for wing in (left, _mirrored(left))))
 

@@ -1,5 +1,7 @@
 """The texture of capes and elytra, and their place on a player's back."""
 
+import warnings
+from dataclasses import astuple
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +14,8 @@ from drapery.banner.packs.png_file import read_png_file
 from drapery.errors import OptionError
 from drapery.settings import Settings
 from drapery.style.figure import TEXEL
+from drapery.style.uv_mapping import BoxMapping
+from drapery.style.visible import is_invisible
 
 SHOULDERS = (0.5, 24 * TEXEL, 0.5)
 """The middle between the shoulders [m], above the middle of a block."""
@@ -19,16 +23,28 @@ SHOULDERS = (0.5, 24 * TEXEL, 0.5)
 SHEET = (64, 32)
 
 
-def back_texture(settings: Settings, packs: Packs, least: tuple[int, int]) -> Texels:
+def back_texture(settings: Settings, packs: Packs, used: BoxMapping) -> Texels:
     """The sheet of a cape and elytra, shape [32 n, 64 n, 4]: the texture given, or the packs'.
 
-    least: width and height of the part that is needed [texels]. Raises OptionError or PackError.
+    used: the part that is shown. It warns of one that is transparent.
+    Raises OptionError or PackError.
     """
     name, texels = _texels(settings, packs)
     height, width = texels.shape[:2]
-    times = fits_wings(width, height, least)
+    sides = np.reshape(astuple(used), (-1, 2, 2)) * SHEET
+    low, high = (tuple(map(round, edge)) for edge in (sides.min((0, 1)), sides.max((0, 1))))
+    times = fits_wings(width, height, (high[0], high[1]))
     if times:
-        return _widened(texels, times)
+        sheet = _widened(texels, times)
+        if is_invisible(sheet, astuple(used)):
+            warnings.warn(
+                f"{name}: its part for kind {settings.kind}, from {low[0]},{low[1]} to"
+                f" {high[0]},{high[1]} of {SHEET[0]} x {SHEET[1]} texels, is transparent, so"
+                " nothing can be seen; use another texture or kind",
+                UserWarning,
+                stacklevel=2,
+            )
+        return sheet
     raise OptionError(
         f"{name} is {width} x {height} px, which does not fit a {settings.kind};"
         " use 64 x 32 px, or a multiple of it"
