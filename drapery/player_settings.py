@@ -32,8 +32,9 @@ class PlayerSettings:
     skin: str = _option(
         "traveller",
         str,
-        "Skin: traveller, dancer, or a PNG file, 64 x 64 or 64 x 32 or a multiple",
-        metavar="FILE|NAME",
+        "Skin: traveller, dancer, or a PNG file, 64 x 64 or 64 x 32 or a multiple; or a profile of"
+        " the game as JSON or SNBT, or in such a file, with textures of the packs",
+        metavar="FILE|NAME|PROFILE",
         audience="anyone",
     )
     arms: ArmsOption = _option(

@@ -85,6 +85,10 @@ def test_bodies_that_are_not_skins_are_refused(client: TestClient) -> None:
     [
         ({"skin": "/etc/passwd"}, "skin '/etc/passwd' is not known; use one of: traveller"),
         ({"skin": "../marked.png"}, "is not known"),
+        ({"skin": "/tmp/{a}.png"}, "is not known"),
+        ({"skin": "/tmp/profile.json"}, "is not known"),
+        ({"skin": '{name:"Kay"}'}, "profile of 'Kay' names no texture"),
+        ({"skin": "{" + "a" * 8000}, "skin has over 8000 characters"),
         ({"cape": "cape.png"}, "cape 'cape.png' is not known; the service has none"),
         ({"wear": "/tmp/x.toml"}, "wear '/tmp/x.toml' is not known"),
         ({"wear": "cape;" * 5}, "wear 5 is out of range; use 0 to 4 garments"),
@@ -99,6 +103,12 @@ def test_bodies_that_are_not_skins_are_refused(client: TestClient) -> None:
 def test_an_address_names_no_file_and_stays_in_its_limits(query: dict[str, str], said: str) -> None:
     found = read_request(tuple(query.items()), ".png", ServiceConfig(), "player")
     assert isinstance(found, list) and said in found[0], found
+
+
+def test_a_profile_in_an_address_names_textures_of_packs() -> None:
+    query = (("skin", '{texture:"entity/player/dancer"}'),)
+    found = read_request(query, ".png", ServiceConfig(), "player")
+    assert not isinstance(found, list)
 
 
 def test_a_skin_is_in_the_address_or_in_the_body(tmp_path: Path) -> None:

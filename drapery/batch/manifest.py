@@ -151,7 +151,7 @@ def _from_current_folder(name: str, value: Any) -> Any:
 
 
 def _names_file(text: str) -> bool:
-    return text.lower().endswith((".toml", ".png", ".json"))
+    return text.lower().endswith((".toml", ".png", ".json", ".snbt"))
 
 
 def _request(

@@ -187,7 +187,10 @@ def write_players(
 
 
 def _absolute(skin: str) -> str:
-    return str(Path(skin).absolute()) if skin.lower().endswith(".png") else skin
+    from drapery.garments import is_profile_file
+
+    is_file = skin.lower().endswith(".png") or is_profile_file(skin)
+    return str(Path(skin).absolute()) if is_file else skin
 
 
 def _check_scale(scale: int) -> None:

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
         player_of,
         skin_names,
     )
+    from drapery.garments.profiles import is_profile_file, is_profile_text
     from drapery.player_settings import PlayerSettings
 
 __all__ = [
@@ -66,6 +67,8 @@ __all__ = [
     "dressed_player",
     "find_garment",
     "garment_names",
+    "is_profile_file",
+    "is_profile_text",
     "make_wearer",
     "motion_names",
     "player_of",
@@ -101,6 +104,7 @@ __getattr__, __dir__ = lazy_names(
             "player_of",
             "skin_names",
         ),
+        "garments.profiles": ("is_profile_file", "is_profile_text"),
         "player_settings": ("PlayerSettings",),
         "garments.assembly": ("SewnCloth", "SewnPiece", "tailor"),
     },

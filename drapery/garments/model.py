@@ -29,6 +29,7 @@ from drapery.cloth import FABRICS, Fabric
 from drapery.errors import DraperyError, OptionError
 from drapery.garments.blends import read_blend
 from drapery.garments.loading import load_tables
+from drapery.garments.profiles import is_profile_file
 from drapery.option import shown
 from drapery.options import unknown_names
 from drapery.player_settings import MAX_SPEED
@@ -161,7 +162,7 @@ class ClothTexture(GarmentTable):
     trim_width: Annotated[int, Field(strict=True, ge=1, le=64)] = 1
     design: Annotated[Banner, BeforeValidator(_said(_as_banner))] | None = None
     file: Path | None = None
-    pack: Annotated[str, Field(pattern=r"^[a-z0-9_/.:-]{1,64}$")] | None = None
+    pack: Annotated[str, Field(pattern=r"^[a-z0-9_/.:-]{1,128}$")] | None = None
     box: tuple[Length, Length, Extent, Extent, Extent] | None = None
     front: Area | None = None
     back: Area | None = None
@@ -381,7 +382,8 @@ class GarmentWearer(GarmentTable):
     """Who wears it. kind: player or horse.
 
     skin: of a player, `traveller` or `dancer`, or a PNG file of 64 x 64 or 64 x 32 texels, relative
-    to the garment's file. arms: slim, classic, or auto, which reads it from the skin.
+    to the garment's file, or a profile of the game, as text or as a file, whose texture a pack has.
+    arms: slim, classic, or auto, which reads it from the skin.
     overlay: how the skin's second layer is drawn: flat, its texels as small boxes, or not at all.
     motion: `walk`, another motion of a player, or a pose in a JSON file; see `motion_names`.
     Several are layered by `walk+wave`, or averaged by `walk:0.7,wave:0.3`.
@@ -543,7 +545,9 @@ class Garment(GarmentTable):
         names: list[str | Path] = [each.file for each in textures if each.file is not None]
         names += [each.file for each in self.mesh]
         if self.wearer is not None:
-            names += [self.wearer.skin] if self.wearer.skin.lower().endswith(".png") else []
+            skin = self.wearer.skin
+            is_file = skin.lower().endswith(".png") or is_profile_file(skin)
+            names += [skin] if is_file else []
             names += read_blend(self.wearer.motion, self.folder).files
         own = (self.folder / name for name in names)
         return (*dict.fromkeys(own), *(path for each in self.over for path in each.paths))
@@ -555,10 +559,12 @@ class Garment(GarmentTable):
         """
         return self._with_source("design", ClothTexture(design=_as_banner(design)))
 
-    def with_texture(self, file: str | Path) -> "Garment":
-        """The garment with another PNG file on the pieces that have a file or a texture of the
-        packs, or on all if none has; their regions stay."""
-        return self._with_source("file", ClothTexture(file=Path(file).absolute()))
+    def with_texture(self, texture: str | Path | ClothTexture) -> "Garment":
+        """The garment with another texture, or that of a PNG file, on the pieces that have a file
+        or a texture of the packs, or on all if none has; their regions stay."""
+        if not isinstance(texture, ClothTexture):
+            texture = ClothTexture(file=Path(texture).absolute())
+        return self._with_source("file", texture)
 
     def _with_source(self, source: str, new: ClothTexture) -> "Garment":
         old = [each.texture or self.texture for each in self.piece]

@@ -19,6 +19,7 @@ from drapery.garments.model import (
     GridPiece,
     RingPiece,
 )
+from drapery.garments.profiles import Profile, profile_of
 from drapery.option import shown
 from drapery.player_settings import PlayerSettings
 from drapery.style.equipment import ARMOR_SOLID, BANNER_TEXEL, FLAG_TOP, POLES, parse_armor
@@ -51,25 +52,28 @@ def dressed_player(
     cape: str | Path | None = None,
     elytra: bool = False,
     wear: Sequence[str | Path | Garment] = (),
+    folder: Path = Path(),
 ) -> Garment:
     """A player that wears garments, the first of them innermost.
 
     What hangs behind the shoulders lies over all of them but those around the neck.
-    cape: the PNG file of a cape, 64 x 32 or a multiple. elytra: wings of cloth in place of the
-    cape, with the texture of `cape` if that is given. wear: garments, or their names or files.
-    Raises OptionError for garments that are not found.
+    cape: the PNG file of a cape, 64 x 32 or a multiple; unless given, the cape of the profile that
+    is the wearer's skin. elytra: wings of cloth in place of the cape, with the texture of `cape` if
+    that is given. wear: garments, or their names or files. folder: where the path of a profile
+    starts. Raises OptionError for garments and profiles that cannot be used.
     """
+    texture = _texture_behind(cape, elytra, profile_of(wearer.skin, folder))
     worn = [each if isinstance(each, Garment) else find_garment(each) for each in wear]
     behind = []
     if elytra:
         wings = find_garment("elytra")
-        if cape is not None:
-            texture = ClothTexture.model_validate({**WING, "file": Path(cape).absolute()})
+        if texture is not None:
+            texture = ClothTexture(**WING, **texture)
             pieces = [each.model_copy(update={"texture": texture}) for each in wings.piece]
             wings = wings.model_copy(update={"piece": tuple(pieces)})
         behind = [wings]
-    elif cape is not None:
-        behind = [find_garment("cape").with_texture(cape)]
+    elif texture is not None:
+        behind = [find_garment("cape").with_texture(ClothTexture(**texture))]
     if behind:
         outer = [_is_around_neck(each) for each in worn]
         worn = [
@@ -80,6 +84,18 @@ def dressed_player(
     if wearer.armor is not None and "chestplate" in parse_armor(wearer.armor):
         worn = [_over_chestplate(each) if each.name in BEHIND else each for each in worn]
     return Garment(name="player", piece=(), wearer=wearer, picture=PICTURE, over=tuple(worn))
+
+
+def _texture_behind(
+    cape: str | Path | None, elytra: bool, profile: Profile | None
+) -> dict[str, Any] | None:
+    """The source of the texture of a cape or of wings, as ClothTexture has it, or None."""
+    if cape is not None:
+        return {"file": Path(cape).absolute()}
+    if profile is None:
+        return None
+    own = (profile.elytra or profile.cape) if elytra else profile.cape
+    return None if own is None else {"pack": own}
 
 
 def _is_around_neck(garment: Garment) -> bool:
@@ -115,7 +131,7 @@ def player_of(settings: PlayerSettings, folder: Path = Path()) -> Garment:
     wearer = make_wearer(look=_look_of(settings.look), **given)
     cape = None if settings.cape is None else folder / settings.cape
     wear = [folder / name if name.endswith(ENDING) else name for name in settings.wear]
-    player = dressed_player(wearer, cape=cape, elytra=settings.elytra, wear=wear)
+    player = dressed_player(wearer, cape=cape, elytra=settings.elytra, wear=wear, folder=folder)
     return player.model_copy(update={"folder": folder})
 
 

@@ -9,10 +9,12 @@ import numpy as np
 
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
+from drapery.banner.packs.texture_ids import texture_file
 from drapery.cloth.colliders import Box, Collider, Pose
 from drapery.cloth.colliders import Path as PosePathOf
 from drapery.errors import OptionError
 from drapery.garments.model import Garment, GarmentWearer
+from drapery.garments.profiles import Profile, profile_of
 from drapery.garments.textures import read_texture
 from drapery.mesh import Mesh
 from drapery.render.scene import Material, Model, Rig, TextureLayer
@@ -142,10 +144,27 @@ def _skin(who: GarmentWearer, folder: Path, packs: Packs) -> Skin:
     if who.skin in SKINS:
         texels = packs.texture(f"entity/player/{who.skin}")
         return read_skin(texels, arms, overlay=who.overlay)
+    profile = profile_of(who.skin, folder)
+    if profile is not None:
+        return _skin_of(profile, who, packs)
     if not who.skin.lower().endswith(".png"):
         known = ", ".join(SKINS)
-        raise OptionError(f"skin {who.skin!r} is not known; use a PNG file, or one of: {known}")
+        raise OptionError(
+            f"skin {who.skin!r} is not known; use a PNG file, a profile, or one of: {known}"
+        )
     return read_skin(read_texture(folder / who.skin), arms, f"skin {who.skin}", who.overlay)
+
+
+def _skin_of(profile: Profile, who: GarmentWearer, packs: Packs) -> Skin:
+    """The skin of a profile, a texture of the packs. Raises OptionError and PackError."""
+    if not packs.has_texture(profile.texture):
+        raise OptionError(
+            f"skin {profile.texture}: no pack has {texture_file(profile.texture)};"
+            " give one that has it, by --pack"
+        )
+    arms = profile.arms if who.arms == "auto" else who.arms
+    texels = packs.texture(profile.texture)
+    return read_skin(texels, arms, f"skin {profile.texture}", who.overlay)
 
 
 def _horse(packs: Packs) -> Draw:

@@ -246,7 +246,7 @@ def _garment(values: dict[str, str], limits: PictureLimits) -> "Garment":
 
 def _player(values: dict[str, str], config: ServiceConfig, skin: Path | None) -> "Garment":
     """The player of an address. skin: a file that the client sent."""
-    from drapery.garments import garment_names, player_of, skin_names
+    from drapery.garments import garment_names, is_profile_text, player_of, skin_names
 
     given = {name: values[name] for name in PLAYER_OPTIONS if name in values}
     for name in ("head", "shield"):
@@ -264,6 +264,10 @@ def _player(values: dict[str, str], config: ServiceConfig, skin: Path | None) ->
         raise OptionError("skin is in the address and in the body; leave one out")
     if skin is not None:
         chosen["skin"] = str(skin)
+    elif is_profile_text(chosen.get("skin", "")):
+        # It names textures of the service's packs alone.
+        if len(chosen["skin"]) > config.limits.max_length:
+            raise OptionError(f"skin has over {config.limits.max_length} characters")
     elif "skin" in chosen and chosen["skin"] not in skin_names():
         _known("skin", chosen["skin"], (*skin_names(), *config.skins))
         chosen["skin"] = str(config.skins[chosen["skin"]])
