@@ -13,6 +13,7 @@ from drapery.banner.loom import fits_loom, loom_steps, simplify
 from drapery.banner.packs import open_packs
 from drapery.comparison.metrics import measure
 from drapery.comparison.panels import difference_panel
+from drapery.comparison.tolerance import Tolerance
 from drapery.errors import OptionError
 from drapery.render.contact import contact_sheet, on_checker, stack_frames
 from drapery.render.frame import Frame
@@ -31,7 +32,7 @@ def test_figures_of_a_known_difference() -> None:
     difference = measure(expected, actual)
     assert (difference.pixels, difference.changed, difference.max_error) == (256, 2, 255)
     assert difference.mean_error == pytest.approx((10 + 300 + 255) / (256 * 4))
-    assert measure(expected, actual, slack=10).changed == 1
+    assert measure(expected, actual, Tolerance(channel=10)).beyond == 1
 
 
 def test_perceptual_metrics_know_their_ends() -> None:

@@ -9,12 +9,12 @@ from PIL import Image
 from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
 from drapery.comparison.metrics import measure
+from drapery.comparison.tolerance import Tolerance
 from drapery.errors import OptionError
 from drapery.render.frame import Animation, Frame
 from drapery.testing.explain import explain_change, layer_notes
 from drapery.testing.golden import (
     GoldenError,
-    Tolerance,
     agrees,
     as_frame,
     decode,

@@ -55,21 +55,19 @@ def run(
 
     Each --style is a picture of its own.
     """
-    from drapery.comparison import compare_variants, draw_variants
-    from drapery.option import within
+    from drapery.comparison import Tolerance, compare_variants, draw_variants
     from drapery.settings import Settings
 
     for target in out or []:
         _check_target(target)
-    within("tolerance", tolerance, 0, 255)
-    within("pixels", pixels, 0, 2**31)
+    limits = Tolerance(tolerance, pixels)
     modes, backends, styles = layers.split(","), backend.split(","), words.pop("style") or ()
     first = {"layers": modes[0], "backend": backends[0]}
     settings = Settings(**o.options_of(words | first))
     reading = {name: words[name] for name in ("form", "number")}
     with compile_notice():
         chosen = draw_variants(subjects, settings, modes, backends, styles, **reading)
-        pairs = compare_variants(chosen, perceptual=perceptual)
+        pairs = compare_variants(chosen, limits, perceptual=perceptual)
         costs = {v.label: _cost(v) for v in chosen} if cost else {}
     for pair in pairs:
         print(pair.line())
@@ -77,7 +75,7 @@ def run(
         print(f"{label}: {figures['quads']} quads, {figures['ms_per_frame']:.2f} ms a frame")
     for target in out or []:
         _write(target, pairs, costs)
-    raise typer.Exit(0 if all(_close(pair, tolerance, pixels) for pair in pairs) else 1)
+    raise typer.Exit(0 if all(pair.difference.agrees for pair in pairs) else 1)
 
 
 def _cost(variant: "Variant") -> dict[str, float]:
@@ -85,13 +83,6 @@ def _cost(variant: "Variant") -> dict[str, float]:
 
     measured = cost_of(variant)
     return {"quads": measured.quads, "ms_per_frame": measured.milliseconds}
-
-
-def _close(pair: "Comparison", tolerance: int, pixels: int) -> bool:
-    from drapery.comparison import measure
-
-    frames = pair.first.frame.pixels, pair.other.frame.pixels
-    return measure(*frames, slack=tolerance).changed <= pixels
 
 
 def _check_target(target: Path) -> None:

@@ -11,7 +11,7 @@ from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
     from drapery.comparison.cost import Cost, cost_of
-    from drapery.comparison.metrics import Difference, errors, measure, seen
+    from drapery.comparison.metrics import Difference, difference_map, errors, measure, seen
     from drapery.comparison.pairs import (
         Comparison,
         build_up_sheet,
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         html_report,
         write_text,
     )
+    from drapery.comparison.tolerance import Tolerance, ignored_pixels, painted
     from drapery.comparison.variants import Variant, draw_variants
 
 __all__ = [
@@ -35,6 +36,7 @@ __all__ = [
     "Cost",
     "Difference",
     "ReportEntry",
+    "Tolerance",
     "Variant",
     "build_up_sheet",
     "compare",
@@ -42,11 +44,14 @@ __all__ = [
     "cost_of",
     "data_address",
     "data_of",
+    "difference_map",
     "difference_panel",
     "draw_variants",
     "errors",
     "html_report",
+    "ignored_pixels",
     "measure",
+    "painted",
     "pair_entry",
     "pair_sheet",
     "seen",
@@ -58,7 +63,7 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "comparison.cost": ("Cost", "cost_of"),
-        "comparison.metrics": ("Difference", "errors", "measure", "seen"),
+        "comparison.metrics": ("Difference", "difference_map", "errors", "measure", "seen"),
         "comparison.pairs": (
             "Comparison",
             "build_up_sheet",
@@ -75,6 +80,7 @@ __getattr__, __dir__ = lazy_names(
             "html_report",
             "write_text",
         ),
+        "comparison.tolerance": ("Tolerance", "ignored_pixels", "painted"),
         "comparison.variants": ("Variant", "draw_variants"),
     },
 )

@@ -1,16 +1,31 @@
 """Measures of the difference between two pictures."""
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.comparison.perceptual import perceptual_measures
+from drapery.comparison.tolerance import Box, Tolerance
 from drapery.errors import OptionError
 from drapery.render import Pixels
 
-MATTE = 128
-"""Grey under transparent pixels [sRGB] for metrics without alpha."""
+Channels = NDArray[np.uint8] | NDArray[np.uint16]
+"""A picture of 8 or 16 bits a channel, sRGB with straight alpha, shape [H, W, 4]."""
+Places = NDArray[np.intp]
+
+EXACT = Tolerance()
+"""The tolerance of a comparison in which each difference counts."""
+
+
+SAME, WITHIN, SMOOTHED, BEYOND = range(4)
+"""What a pixel of a difference map is: equal to the eye or ignored; within the tolerance of a
+pixel; on a smoothed edge that does not count; beyond the tolerance."""
+
+_BLOCK = 1 << 16
+"""How many pixels are compared at a time: memory stays small, and a block in the cache."""
 
 
 @dataclass(frozen=True)
@@ -18,61 +33,234 @@ class Difference:
     """The difference between a picture and the expected one.
 
     pixels: number of pixels of each picture. changed: number of pixels that differ.
-    max_error, mean_error: largest and average error over the channels of all pixels, 0..255.
+    max_error, mean_error: largest and average error over the channels of all pixels, 0..255; a
+        part of 1 where both pictures have 16 bits a channel.
+    beyond: number of pixels beyond the tolerance of a pixel. allowed: how many may be.
+    smoothed: number of pixels of smoothed edges that do not count. ignored: those left out.
+    hidden: number of pixels of which only the colour behind full transparency differs.
+    box: left, top, width and height of the area of the pixels that are beyond, or of all that
+        differ if none is; None if none differs.
+    exceeded: the perceptual limits that are exceeded, in words.
     ssim: structural similarity (Wang et al. 2004), 1 for equal pictures.
     flip: mean FLIP error (Andersson et al. 2020), 0 for equal pictures.
-    The last two are None unless `measure` is called with `perceptual`.
+    ciede2000: mean colour difference (Sharma, Wu, Dalal 2005), 0 for equal pictures.
+    The last three are None unless they were asked for or are limits.
     """
 
     pixels: int
     changed: int
-    max_error: int
+    max_error: float
     mean_error: float
+    beyond: int = 0
+    allowed: int = 0
+    smoothed: int = 0
+    ignored: int = 0
+    hidden: int = 0
+    box: Box | None = None
+    exceeded: tuple[str, ...] = ()
     ssim: float | None = None
     flip: float | None = None
+    ciede2000: float | None = None
 
     @property
     def same(self) -> bool:
+        """Whether no pixel differs to the eye."""
         return self.changed == 0
 
-    def as_dict(self) -> dict[str, float | int | None]:
-        return asdict(self)
+    @property
+    def exact(self) -> bool:
+        """Whether all bits are the same."""
+        return self.changed == 0 and self.hidden == 0 and self.ignored == 0
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the pictures agree within the tolerance."""
+        return self.beyond <= self.allowed and not self.exceeded
+
+    @property
+    def verdict(self) -> str:
+        """ "same", "within" the tolerance, or "different"."""
+        if not self.agrees:
+            return "different"
+        return "same" if self.same else "within"
+
+    def as_dict(self) -> dict[str, Any]:
+        return {"verdict": self.verdict, "same": self.same} | asdict(self)
 
 
-def errors(expected: Pixels, actual: Pixels) -> NDArray[np.uint8]:
-    """The largest channel error of each pixel, shape [H, W].
+def errors(expected: Channels, actual: Channels) -> Channels:
+    """The largest channel error of each pixel, shape [H, W], in the pictures' own units.
 
     The colour of transparent pixels does not count. Raises OptionError if the sizes differ.
     """
+    old, new = _alike(expected, actual)
+    difference = np.abs(seen(old).astype(np.int32) - seen(new))
+    worst: Channels = difference.max(axis=-1).astype(old.dtype)
+    return worst
+
+
+def measure(
+    expected: Channels,
+    actual: Channels,
+    tolerance: Tolerance = EXACT,
+    *,
+    ignored: NDArray[np.bool_] | None = None,
+    perceptual: bool = False,
+) -> Difference:
+    """Measure a picture, sRGB with straight alpha, shape [H, W, 4], against the expected one.
+
+    expected, actual: uint8 or uint16; 16 bits count where both have them. ignored: pixels that do
+    not count, shape [H, W]. perceptual: SSIM, FLIP and CIEDE2000 as well; they take longer and
+    need the `compare` extra. Raises OptionError if the sizes differ or the extra is missing.
+    """
+    old, new = _alike(expected, actual)
+    found = _compared(old, new, tolerance, ignored)
+    wanted = {}
+    if perceptual or tolerance.perceptual:
+        wanted = perceptual_measures(eight_bits(old), eight_bits(new))
+    return replace(found, **wanted, exceeded=_exceeded(tolerance, wanted))
+
+
+def difference_map(
+    expected: Channels,
+    actual: Channels,
+    tolerance: Tolerance = EXACT,
+    *,
+    ignored: NDArray[np.bool_] | None = None,
+) -> NDArray[np.uint8]:
+    """What each pixel is: SAME, WITHIN, SMOOTHED or BEYOND, shape [H, W]; see `measure`."""
+    old, new = _alike(expected, actual)
+    kinds = np.zeros(old.shape[:2], np.uint8)
+    for part in _different_parts(old, new, ignored):
+        kinds.reshape(-1)[part.places] = _kinds(old, new, part, tolerance)
+    return kinds
+
+
+class _Part(NamedTuple):
+    """Pixels of which some bit differs: their places in the joined rows, [n], and the absolute
+    errors of their channels, [n, 4]."""
+
+    places: Places
+    errors: NDArray[np.int32]
+
+
+def _different_parts(
+    old: Channels, new: Channels, ignored: NDArray[np.bool_] | None
+) -> Iterator[_Part]:
+    """The pixels that differ, block by block."""
+    first, second = old.reshape(-1, 4), new.reshape(-1, 4)
+    # A pixel as one number: four times fewer comparisons.
+    whole = np.dtype(f"u{4 * old.dtype.itemsize}")
+    a, b = first.view(whole).reshape(-1), second.view(whole).reshape(-1)
+    for start in range(0, len(a), _BLOCK):
+        block = slice(start, start + _BLOCK)
+        other = a[block] != b[block]
+        if ignored is not None:
+            other &= ~ignored.reshape(-1)[block]
+        places = np.flatnonzero(other) + start
+        if len(places):
+            change = seen(first[places]).astype(np.int32) - seen(second[places])
+            yield _Part(places, np.abs(change))
+
+
+def _compared(
+    old: Channels, new: Channels, tolerance: Tolerance, ignored: NDArray[np.bool_] | None
+) -> Difference:
+    counts, largest, total = np.zeros(4, np.int64), 0, 0
+    hidden, boxes = 0, {WITHIN: _NO_BOX, BEYOND: _NO_BOX}
+    width = old.shape[1]
+    for part in _different_parts(old, new, ignored):
+        kinds = _kinds(old, new, part, tolerance)
+        counts += np.bincount(kinds, minlength=4)
+        largest = max(largest, int(part.errors.max()))
+        total += int(part.errors.sum(dtype=np.int64))
+        hidden += int(np.count_nonzero(kinds == SAME))
+        for kind in boxes:
+            boxes[kind] = _grown(boxes[kind], part.places[kinds >= kind], width)
+    unit = 1 if old.dtype == np.uint8 else 257
+    count = old.shape[0] * width
+    return Difference(
+        pixels=count,
+        changed=int(counts[WITHIN:].sum()),
+        max_error=largest // unit if largest % unit == 0 else largest / unit,
+        mean_error=total / (4 * count * unit) if count else 0.0,
+        beyond=int(counts[BEYOND]),
+        allowed=tolerance.allowed(count),
+        smoothed=int(counts[SMOOTHED]),
+        ignored=0 if ignored is None else int(np.count_nonzero(ignored)),
+        hidden=hidden,
+        box=_box(boxes[BEYOND] if counts[BEYOND] else boxes[WITHIN]),
+    )
+
+
+def _kinds(old: Channels, new: Channels, part: _Part, tolerance: Tolerance) -> NDArray[np.uint8]:
+    """What each pixel of a part is, [n]."""
+    worst = part.errors.max(axis=1)
+    unit = 1 if old.dtype == np.uint8 else 257
+    kinds = np.where(worst > tolerance.channel * unit, BEYOND, WITHIN).astype(np.uint8)
+    kinds[worst == 0] = SAME
+    if tolerance.colour is None and tolerance.antialiasing:
+        return kinds
+    from drapery.comparison import antialiasing
+
+    a, b = eight_bits(old), eight_bits(new)
+    far = np.flatnonzero(kinds == BEYOND)
+    if tolerance.colour is not None:
+        rows = (picture.reshape(-1, 4)[part.places[far]] for picture in (a, b))
+        near = antialiasing.perceived_difference(*rows, part.places[far]) <= tolerance.colour
+        kinds[far[near]] = WITHIN
+        far = far[~near]
+    if not tolerance.antialiasing:
+        kinds[far[antialiasing.is_smoothed(a, b, part.places[far])]] = SMOOTHED
+    return kinds
+
+
+_NO_BOX = (1 << 62, 1 << 62, -1, -1)
+
+
+def _grown(box: Box, places: Places, width: int) -> Box:
+    """A box of left, top, right and bottom that holds the places too."""
+    if not len(places):
+        return box
+    y, x = np.divmod(places, width)
+    return (
+        min(box[0], int(x.min())),
+        min(box[1], int(y[0])),
+        max(box[2], int(x.max())),
+        max(box[3], int(y[-1])),
+    )
+
+
+def _box(box: Box) -> Box | None:
+    left, top, right, bottom = box
+    return (left, top, right - left + 1, bottom - top + 1) if right >= left else None
+
+
+def _exceeded(tolerance: Tolerance, found: Mapping[str, float]) -> tuple[str, ...]:
+    """Which perceptual limits the measures exceed, in words."""
+    limits = {name: getattr(tolerance, name) for name in ("flip", "ssim", "ciede2000")}
+    return tuple(
+        f"{name} {found[name]:.4g} is {'below' if name == 'ssim' else 'above'} {limit:g}"
+        for name, limit in limits.items()
+        if limit is not None and (found[name] < limit if name == "ssim" else found[name] > limit)
+    )
+
+
+def _alike(expected: Channels, actual: Channels) -> tuple[Channels, Channels]:
+    """Both pictures with the fewer bits of the two. Raises OptionError if the sizes differ."""
     if expected.shape != actual.shape:
         raise OptionError(
             f"the pictures' sizes differ: {_size(expected)} and {_size(actual)};"
             " compare pictures of one size"
         )
-    difference = np.abs(seen(expected).astype(np.int16) - seen(actual))
-    worst: NDArray[np.uint8] = difference.max(axis=-1).astype(np.uint8)
-    return worst
+    if expected.dtype != actual.dtype:
+        expected, actual = eight_bits(expected), eight_bits(actual)
+    return np.ascontiguousarray(expected), np.ascontiguousarray(actual)
 
 
-def measure(
-    expected: Pixels, actual: Pixels, *, slack: int = 0, perceptual: bool = False
-) -> Difference:
-    """Measure a picture, [H, W, 4] uint8 sRGB with straight alpha, against the expected one.
-
-    slack: a pixel counts as changed if the error of a channel is greater than this, 0..255.
-    perceptual: SSIM and FLIP as well; they take longer and need the `compare` extra.
-    Raises OptionError if the sizes differ or the extra is not installed.
-    """
-    worst = errors(expected, actual)
-    exact = np.abs(seen(expected).astype(np.int16) - seen(actual))
-    return Difference(
-        pixels=worst.size,
-        changed=int(np.count_nonzero(worst > slack)),
-        max_error=int(worst.max(initial=0)),
-        mean_error=float(exact.mean(dtype=np.float64)) if exact.size else 0.0,
-        ssim=_ssim(expected, actual) if perceptual else None,
-        flip=_flip(expected, actual) if perceptual else None,
-    )
+def eight_bits(pixels: Channels) -> Pixels:
+    """The upper eight bits of each channel, as the game reads pictures of 16 bits."""
+    return pixels if pixels.dtype == np.uint8 else (pixels >> 8).astype(np.uint8)
 
 
 def seen(pixels: Pixels) -> Pixels:
@@ -83,38 +271,3 @@ def seen(pixels: Pixels) -> Pixels:
 
 def _size(pixels: Pixels) -> str:
     return f"{pixels.shape[1]}x{pixels.shape[0]}"
-
-
-def over_matte(pixels: Pixels, matte: int = MATTE) -> NDArray[np.uint8]:
-    """The picture over a grey background, shape [H, W, 3]."""
-    alpha = pixels[..., 3:].astype(np.uint16)
-    mixed = (pixels[..., :3] * alpha + matte * (255 - alpha) + 127) // 255
-    return mixed.astype(np.uint8)
-
-
-def _ssim(expected: Pixels, actual: Pixels) -> float:
-    try:
-        from skimage import metrics
-    except ImportError:
-        raise _missing("SSIM") from None
-    side = min(7, *expected.shape[:2])
-    window = side if side % 2 else side - 1
-    if window < 3:
-        return float(np.array_equal(over_matte(expected), over_matte(actual)))
-    similarity: Any = metrics.structural_similarity  # its types are incomplete
-    pictures = over_matte(expected), over_matte(actual)
-    return float(similarity(*pictures, channel_axis=-1, win_size=window))
-
-
-def _flip(expected: Pixels, actual: Pixels) -> float:
-    try:
-        import flip_evaluator
-    except ImportError:
-        raise _missing("FLIP") from None
-    pictures = (over_matte(p).astype(np.float32) / 255 for p in (expected, actual))
-    _, mean, _ = flip_evaluator.evaluate(*pictures, "LDR")
-    return float(mean)
-
-
-def _missing(metric: str) -> OptionError:
-    return OptionError(f'{metric} needs more packages: pip install "drapery[compare]"')

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from typing import Unpack
 
 from drapery.banner.design import Banner
-from drapery.comparison.metrics import Difference, measure
+from drapery.comparison.metrics import EXACT, Difference, measure
 from drapery.comparison.panels import side_by_side
 from drapery.comparison.report import ReportEntry, data_address
+from drapery.comparison.tolerance import Tolerance
 from drapery.comparison.variants import Variant, variant_of
 from drapery.errors import OptionError
 from drapery.render import Frame, contact_sheet
@@ -57,31 +58,36 @@ def compare(
     other: Banner | Frame,
     settings: Settings | None = None,
     *,
+    tolerance: Tolerance = EXACT,
     perceptual: bool = False,
     **options: Unpack[Options],
 ) -> Comparison:
     """Compare two designs, both drawn with the same options, or two finished pictures.
 
-    settings, options: as for `draw`. perceptual: measures SSIM and FLIP too (extra: compare).
+    settings, options: as for `draw`. tolerance: what counts as a difference.
+    perceptual: measures SSIM, FLIP and CIEDE2000 too (extra: compare).
     Raises OptionError if the sizes differ, and the errors of `draw`.
     """
     variants = [
         variant_of(label, subject, settings, options)
         for label, subject in (("the first", first), ("the second", other))
     ]
-    return compare_variants(variants, perceptual)[0]
+    return compare_variants(variants, tolerance, perceptual=perceptual)[0]
 
 
-def compare_variants(variants: Sequence[Variant], perceptual: bool = False) -> list[Comparison]:
+def compare_variants(
+    variants: Sequence[Variant], tolerance: Tolerance = EXACT, *, perceptual: bool = False
+) -> list[Comparison]:
     """Compare every variant with the first. Raises OptionError if the sizes differ."""
     if len(variants) < 2:
         raise OptionError("one picture cannot be compared; name at least two")
     first, *others = variants
-    return [_pair(first, other, perceptual) for other in others]
+    return [_pair(first, other, tolerance, perceptual) for other in others]
 
 
-def _pair(first: Variant, other: Variant, perceptual: bool) -> Comparison:
-    difference = measure(first.frame.pixels, other.frame.pixels, perceptual=perceptual)
+def _pair(first: Variant, other: Variant, tolerance: Tolerance, perceptual: bool) -> Comparison:
+    pictures = first.frame.pixels, other.frame.pixels
+    difference = measure(*pictures, tolerance, perceptual=perceptual)
     steps = []
     if first.banner is not None and not difference.same:
         for count in range(max(first.layer_count, other.layer_count) + 1):

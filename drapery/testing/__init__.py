@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.comparison import Tolerance
     from drapery.testing.case_check import CaseResult, check_cases, unused_goldens, update_cases
     from drapery.testing.cases import Case, CaseFile, read_cases
     from drapery.testing.explain import LayerNote, explain_change, layer_notes
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from drapery.testing.garment_check import check_garment
     from drapery.testing.golden import (
         GoldenError,
-        Tolerance,
         agrees,
         as_frame,
         decode,
@@ -67,6 +67,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
+        "comparison.tolerance": ("Tolerance",),
         "testing.case_check": ("CaseResult", "check_cases", "unused_goldens", "update_cases"),
         "testing.cases": ("Case", "CaseFile", "read_cases"),
         "testing.explain": ("LayerNote", "explain_change", "layer_notes"),
@@ -81,7 +82,6 @@ __getattr__, __dir__ = lazy_names(
         "testing.garment_check": ("check_garment",),
         "testing.golden": (
             "GoldenError",
-            "Tolerance",
             "agrees",
             "as_frame",
             "decode",

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from drapery import Banner, animate, draw
 from drapery.banner import read_design
+from drapery.comparison import Tolerance
 from drapery.errors import DraperyError
 from drapery.packs import open_packs
 from drapery.render import make_folder, replacing
@@ -16,7 +17,6 @@ from drapery.testing.failures import GoldenUpdate, keep_failure
 from drapery.testing.golden import (
     GoldenError,
     Picture,
-    Tolerance,
     agrees,
     decode,
     encode,

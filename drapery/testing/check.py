@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from drapery.comparison import Tolerance
 from drapery.errors import OutputError
 from drapery.render import make_folder, replacing
 from drapery.testing.explain import LayerNote, explain_change
@@ -12,7 +13,6 @@ from drapery.testing.failures import GoldenUpdate, keep_failure
 from drapery.testing.golden import (
     GoldenError,
     Picture,
-    Tolerance,
     beyond,
     decode,
     encode,

@@ -6,14 +6,13 @@ import json
 import math
 import struct
 import zlib
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageSequence, PngImagePlugin
 
-from drapery.comparison import errors, seen
+from drapery.comparison import Tolerance, measure, seen
 from drapery.errors import DraperyError, OptionError
 from drapery.render import Animation, Frame, apng_bytes
 
@@ -30,26 +29,6 @@ Picture = Frame | Animation
 
 class GoldenError(DraperyError):
     """A golden file that cannot be used."""
-
-
-@dataclass(frozen=True)
-class Tolerance:
-    """How far a picture may differ from its golden; by default not at all.
-
-    channel: channel errors up to this value, 0..255, do not count.
-    pixels: the number of pixels of each frame that may have larger errors, 0 or more.
-    Raises OptionError for numbers out of range.
-    """
-
-    channel: int = 0
-    pixels: int = 0
-
-    def __post_init__(self) -> None:
-        if not (0 <= self.channel <= 255 and self.pixels >= 0):
-            raise OptionError(
-                f"tolerance {self.channel} of {self.pixels} pixels is out of range;"
-                " use 0 to 255, and 0 or more pixels"
-            )
 
 
 def as_frame(picture: Any) -> Frame:
@@ -164,12 +143,13 @@ def beyond(expected: Picture, actual: Picture, tolerance: Tolerance) -> float:
     """
     if not same_size(expected, actual):
         return math.inf
-    old, new = stacked(expected), stacked(actual)
-    if np.array_equal(old, new):
+    frames = [
+        measure(old.pixels, new.pixels, tolerance)
+        for old, new in zip(frames_of(expected), frames_of(actual), strict=True)
+    ]
+    if all(frame.agrees for frame in frames):
         return 0
-    wrong = errors(old, new) > tolerance.channel
-    most = np.count_nonzero(wrong, axis=(1, 2))
-    return float(most.sum()) if most.max() > tolerance.pixels else 0
+    return float(sum(frame.beyond for frame in frames)) or math.inf
 
 
 def frames_of(picture: Picture) -> tuple[Frame, ...]:

@@ -290,8 +290,8 @@ def _check(
 
 
 def _tolerance(config: pytest.Config, channel: int | None, pixels: int | None) -> Any:
+    from drapery.comparison import Tolerance
     from drapery.errors import OptionError
-    from drapery.testing.golden import Tolerance
 
     given = {"drapery_tolerance": channel, "drapery_pixels": pixels}
     for name, value in given.items():
