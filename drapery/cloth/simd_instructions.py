@@ -36,8 +36,14 @@ class _LanesModel(_Model):  # type: ignore[misc]
 
 
 def _place(context: Any, builder: Any, kind: Any, array: Any, row: Any, lane: Any) -> Any:
-    """Pointer to array[row, lane], whose last axis is contiguous."""
+    """Pointer to a register at array[row, lane], whose last axis is contiguous."""
     numbers = context.make_array(kind)(context, builder, array)
+    if context.enable_boundscheck:
+        rows, lanes = _cgutils.unpack_tuple(builder, numbers.shape, 2)
+        last = builder.add(lane, context.get_constant(types.intp, Lanes(kind.dtype).count - 1))
+        _cgutils.do_boundscheck(context, builder, row, rows, 0)
+        for each in (lane, last):
+            _cgutils.do_boundscheck(context, builder, each, lanes, 1)
     bytes_a_row = builder.extract_value(numbers.strides, 0)
     start = builder.bitcast(numbers.data, ir.IntType(8).as_pointer())
     line = builder.gep(start, [builder.mul(row, bytes_a_row)])
@@ -56,7 +62,7 @@ def lane_count(typing: Any, array: Any) -> Any:
 
 @_intrinsic
 def load(typing: Any, array: Any, row: Any, lane: Any) -> Any:
-    """A register of array[row, lane : ...]; not checked."""
+    """A register of array[row, lane : ...]; checked only with NUMBA_BOUNDSCHECK."""
     kind = Lanes(array.dtype)
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -71,7 +77,7 @@ def load(typing: Any, array: Any, row: Any, lane: Any) -> Any:
 
 @_intrinsic
 def store(typing: Any, array: Any, row: Any, lane: Any, value: Any) -> Any:
-    """array[row, lane : ...] = value; not checked."""
+    """array[row, lane : ...] = value; checked only with NUMBA_BOUNDSCHECK."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         place = _place(context, builder, signature.args[0], *args[:3])

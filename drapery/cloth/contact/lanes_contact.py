@@ -116,23 +116,23 @@ def meets_itself(batch: Any) -> bool:
 
 
 @kernel
-def begin_lanes(y: Any, u: Any, batch: Any, substeps: Any) -> Any:
-    """What contact keeps of a block of lanes y, u [3N, L], [3N, L]: the places at the start of a
-    step. A step of several substeps may be made again, so then these rows follow: the velocities
-    at its start, 3N; the places and velocities at its end in lanes whose step is not made again,
-    6N; 1 in lanes whose step is, 0 in others. Empty without contact."""
-    rows = 4 * y.shape[0] + 1 if substeps > 1 else y.shape[0]
-    before = simd.empty_lanes(rows if batch.work.end.shape[0] > 0 else 0, y.shape[1], y)
-    for row_of in range(4 * y.shape[0], before.shape[0]):
+def begin_lanes(y: Any, u: Any, batch: Any) -> Any:
+    """What contact keeps of a block of lanes y, u [3N, L], [3N, L]: the places and velocities at
+    the start of a step, 3N rows each; the places and velocities at its end in lanes whose step is
+    not made again, 3N rows each; 1 in lanes whose step may be or is, 0 in others. Empty without
+    contact. The rows do not depend on the substeps: whoever asks for a step again can have it."""
+    rows = 4 * y.shape[0] + 1 if batch.work.end.shape[0] > 0 else 0
+    before = simd.empty_lanes(rows, y.shape[1], y)
+    if rows > 0:
         for lane in range(y.shape[1]):
-            before[row_of, lane] = 1
-    keep_lanes(before, y, u)
+            before[rows - 1, lane] = 1
+        keep_lanes(before, y, u)
     return before
 
 
 @kernel
 def keep_lanes(before: Any, y: Any, u: Any) -> None:
-    """Keep the places and, if there is room, the velocities at the start of a step."""
+    """Keep the places and velocities at the start of a step."""
     rows = y.shape[0]
     load_lanes(before[:rows], y, 0)
     load_lanes(before[rows : 2 * rows], u, 0)
@@ -151,7 +151,6 @@ def meet_lanes(
     if before.shape[0] == 0:
         return False
     rows, lanes, again = y.shape[0], lane_count(y), False
-    repeats = before.shape[0] > rows
     place_boxes(batch, when)
     gaps = simd.empty_lanes(1, lanes, y)
     for first in range(0, min(y.shape[1], batch.cloths - start), lanes):
@@ -161,7 +160,7 @@ def meet_lanes(
         for cloth in range(first, min(first + lanes, batch.cloths - start)):
             near = meets_itself(batch) or gaps[0, cloth - first] < 0
             if careful:
-                if near and (not repeats or before[4 * rows, cloth] > 0):
+                if near and before[4 * rows, cloth] > 0:
                     meet_lane(y, u, before, batch, cloth, dt, True)
             else:
                 held = near and meet_lane(y, u, before, batch, cloth, dt, False)
@@ -175,7 +174,7 @@ def meet_lanes(
                 y[row, lane] = before[row, lane]
                 u[row, lane] = before[rows + row, lane]
         return True
-    if careful and repeats and when[2] == 1.0:
+    if careful and when[2] == 1.0:
         for row in range(rows):
             for lane in range(y.shape[1]):
                 if before[4 * rows, lane] == 0:

@@ -145,7 +145,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
-        before = lanes_contact.begin_lanes(y, u, batch, substeps)
+        before = lanes_contact.begin_lanes(y, u, batch)
         step, again = 0, False
         while step < steps * substeps:
             time = batch.numbers[2] + step * batch.numbers[0]

@@ -356,7 +356,7 @@ def _advance(
     rows, springs, bends = batch.x.shape[0], plan.body.springs, plan.bends
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        before = lanes_contact.begin_lanes(y, u, batch, substeps)
+        before = lanes_contact.begin_lanes(y, u, batch)
         lanes = y.shape[1]
         residuals = batch.residuals[start : start + lanes]
         b, dv = simd.empty_lanes(rows, lanes, batch.x), simd.empty_lanes(rows, lanes, batch.x)

@@ -83,7 +83,7 @@ def _advance(
     h = dtype.type(batch.numbers[0])
     for start in range(first, last, batch.width):
         y, u, g, old, wind, work = load_block(batch, body, start, last)
-        before = lanes_contact.begin_lanes(y, u, batch, substeps)
+        before = lanes_contact.begin_lanes(y, u, batch)
         step, again = 0, False
         while step < steps * substeps:
             if step % substeps == 0:

@@ -386,8 +386,10 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         start = min(block, last - width)
         kernels.load_lanes(y, batch.x, start)
         kernels.load_lanes(u, batch.v, start)
-        before = lanes_contact.begin_lanes(y, u, batch, substeps)
-        step, careful = 0, batch.often
+        before = lanes_contact.begin_lanes(y, u, batch)
+        # A step of one substep cannot have more contacts.
+        always = batch.often or substeps == 1
+        step, careful = 0, always
         while step < steps:
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(batch.gusts.seeds.size):
@@ -418,7 +420,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             when = step, (substeps - 1) / substeps if careful else 0.0, 1.0
             moved = h if careful else dt
             again = lanes_contact.meet_lanes(y, u, before, batch, start, when, moved, careful)
-            careful = again or batch.often
+            careful = again or always
             step += not again
         kernels.store_lanes(batch.new_x, y, start)
         kernels.store_lanes(batch.new_v, u, start)
@@ -446,7 +448,9 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
         before = lanes_contact.begin_plane(y, u, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
-        step, careful = 0, batch.often
+        # A step of one substep cannot have more contacts.
+        always = batch.often or substeps == 1
+        step, careful = 0, always
         while step < steps:
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
             for number in range(gusts.seeds.size):
@@ -489,7 +493,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             when = step, (substeps - 1) / substeps if careful else 0.0, 1.0
             moved = h if careful else dt
             again = lanes_contact.meet_plane(y, u, before, batch, when, moved, sheet, careful)
-            careful = again or batch.often
+            careful = again or always
             step += not again
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

@@ -1,0 +1,153 @@
+"""All solvers on all layouts of lanes against all kinds of contact, for a few steps each.
+
+`test_cloth_bounds.py` runs this in a process whose kernels check every index, those of registers
+too: `NUMBA_BOUNDSCHECK=1 NUMBA_OPT=0 python tests/bounds_sweep.py`. Each case that reads or writes
+outside of an array is printed. Types of arguments are the same in all cases of a solver and layout,
+so each kernel is compiled once.
+"""
+
+import sys
+from collections.abc import Iterator
+from itertools import product
+from typing import Any, get_args
+
+import numpy as np
+
+from drapery.cloth import (
+    Box,
+    Capsule,
+    Cloth,
+    Collider,
+    Collisions,
+    Gravity,
+    MovingCloth,
+    Plane,
+    Sphere,
+    State,
+    Voxels,
+    Wind,
+    disc,
+    from_triangles,
+    grid,
+    rest_state,
+)
+from drapery.cloth.colliders import mesh_collider, straight
+from drapery.cloth.simd import BYTES, load, store
+from drapery.cloth.solvers.registry import solver
+from drapery.jit import entry_point
+from drapery.mesh import Array
+from drapery.settings import SolverName
+
+BEHIND = np.array([0.0, -0.5, 0.02])
+"""A place so near to the cloth that the wind presses the cloth on it in the first step [m]."""
+THICK = 0.02
+TETRAHEDRON = np.array([[0.0, 0.3, 0.0], [0.3, -0.2, 0.0], [-0.3, -0.2, 0.0], [0.0, 0.0, -0.3]])
+FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+CELLS = np.array([[-1, -3, 0], [0, -3, 0]], np.int32)
+SUBSTEPS = (1, 2, None)
+STEPS = 3
+
+
+def near(x: float = 0.0, z: float = 0.0) -> Array:
+    """A place some way from BEHIND [m]."""
+    return BEHIND + np.array([x, 0.0, z])
+
+
+def layouts(name: str) -> dict[str, tuple[Cloth, int]]:
+    """Cloths, and how many of each, one for each layout that a solver has kernels for."""
+    found = {
+        "small grid": (grid(4, 5, 1.0, 1.0), 1),
+        "crowd": (grid(3, 3, 1.0, 1.0), 19),
+        "mesh": (upright_disc(), 1),
+        "grid without pins": (grid(4, 5, 1.0, 1.0, pins="none"), 1),
+    }
+    if name in ("desbrun", "xpbd"):
+        found["plane of lanes"] = grid(18, 4, 1.0, 1.0), 2
+        found["plane of lanes on two pins"] = grid(17, 3, 1.0, 1.0, pins="corners"), 1
+    if name == "desbrun":
+        found["loose plane of lanes"] = grid(16, 3, 1.0, 1.0, pins="none"), 1
+    return found
+
+
+def upright_disc() -> Cloth:
+    """A round cloth that faces +z, held at one point of its rim."""
+    flat = disc(2, 0.5)
+    upright = flat.rest_positions[:, [0, 2, 1]] - (0.0, 0.5, 0.0)
+    return from_triangles(upright, flat.triangles, pins=(int(upright[:, 1].argmax()),))
+
+
+def contacts() -> dict[str, Collisions | None]:
+    """Each shape alone, and boxes with the cloth itself."""
+    box = Box(near(z=0.1), np.array([0.5, 0.4, 0.2]))
+    shapes: dict[str, Any] = {
+        "box": Collider(box),
+        "plane": Collider(Plane(BEHIND, np.array([0.0, 0.0, -1.0]))),
+        "moving box": Collider(box, straight((0.0, 0.0, -3.0))),
+        "sphere": Collider(Sphere(near(z=0.2), 0.2)),
+        "capsule": Collider(Capsule(near(x=-0.3), near(x=0.3), 0.1)),
+        "voxels": Collider(Voxels(CELLS, 0.2)),
+        "mesh": Collider(mesh_collider(TETRAHEDRON + BEHIND, FACES)),
+    }
+    found: dict[str, Collisions | None] = {"nothing": None}
+    found |= {name: Collisions([shape], THICK) for name, shape in shapes.items()}
+    found["itself"] = Collisions((), THICK, apart=THICK)
+    found["itself and a moving box"] = Collisions([shapes["moving box"]], THICK, apart=THICK)
+    found["itself and a sphere"] = Collisions([shapes["sphere"]], THICK, apart=THICK)
+    return found
+
+
+def folded(cloth: Cloth, count: int) -> State:
+    """Cloths at rest whose lower halves move towards their upper halves, so that they meet."""
+    state = rest_state(cloth, count)
+    velocities = np.zeros_like(state.positions)
+    velocities[..., 1] = np.where(state.positions[..., 1] < -0.5, 12.0, 0.0)
+    velocities[..., 2] = 4.0
+    velocities[:, cloth.inv_mass == 0] = 0
+    return State(state.positions, velocities, 0.0)
+
+
+@entry_point
+def first_of_register(x: Any, row: Any, lane: Any) -> None:
+    """Set x[0, 0 : ...] to x[row, lane : ...]."""
+    store(x, 0, 0, load(x, row, lane))
+
+
+def unchecked() -> Iterator[str]:
+    """Indices outside of an array of two registers in each row that no check finds."""
+    x = np.zeros((3, 2 * BYTES // 4), np.float32)
+    for row, lane in ((3, 0), (-1, 0), (0, -1), (2, BYTES // 4 + 1)):
+        try:
+            first_of_register(x, row, lane)
+        except IndexError:
+            continue
+        yield f"a register at [{row}, {lane}] of {x.shape} is not checked"
+
+
+def wrong_indices(*names: str) -> Iterator[str]:
+    """The cases of some solvers in which a kernel used an index outside of an array."""
+    forces = Gravity(), Wind((0.0, 0.0, 20.0), gusts=0.5)
+    met = contacts()
+    for name in names:
+        for (layout, (cloth, count)), substeps in product(layouts(name).items(), SUBSTEPS):
+            options: dict[str, Any] = {"threads": 1}
+            if substeps is not None:
+                options["substeps"] = substeps
+            if layout.startswith("loose"):
+                options["angular"] = "none"
+            for contact, collisions in met.items():
+                try:
+                    moving = MovingCloth.begin(
+                        cloth,
+                        solver(name, **options),
+                        start=folded(cloth, count),
+                        collisions=collisions,
+                    )
+                    moving.advance(forces, steps=STEPS)
+                except IndexError as fault:
+                    yield f"{name}, {layout}, {contact}, substeps={substeps}: {fault}"
+
+
+if __name__ == "__main__":
+    found = [*unchecked(), *wrong_indices(*(sys.argv[1:] or get_args(SolverName)))]
+    print(*found, sep="\n")
+    sys.exit(bool(found))
