@@ -18,7 +18,7 @@ class OptionError(DraperyError):
 
 
 class BackendError(DraperyError):
-    """A renderer that cannot run on this machine."""
+    """A renderer, or the compiler of kernels, that cannot run on this machine."""
 
 
 class OutputError(DraperyError):

@@ -16,6 +16,7 @@ from typing import Any, TypeVar, cast
 
 from drapery.aot.arguments import pack
 from drapery.aot.library import CompiledKernel, kernels_of
+from drapery.errors import BackendError
 from drapery.kernel_sources import SIMD
 
 Function = TypeVar("Function", bound=Callable[..., object])
@@ -24,6 +25,9 @@ INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper":
 OUTER = {"error_model": "numpy", "nogil": True}
 REGISTER = 64
 """Bytes of the widest register for which kernels are written; see `drapery.cloth.simd`."""
+
+DISABLE_JIT = "NUMBA_DISABLE_JIT"
+"""The variable of the environment that turns numba's compiler off."""
 
 _declarations: list[Callable[[], Any]] = []
 """What tells numba of types and instructions, before the first kernel that uses them."""
@@ -137,6 +141,18 @@ def entry_point(function: Function) -> Function:
     return cast(Function, EntryPoint(function))
 
 
+def compiler_fault() -> str:
+    """Why kernels cannot be compiled, and the remedy; empty if they can be."""
+    from numba import config
+
+    if cast(Any, config).DISABLE_JIT:
+        return (
+            f"{DISABLE_JIT} is set, which turns off the compiler that Drapery's kernels need;"
+            f" unset {DISABLE_JIT}"
+        )
+    return ""
+
+
 def numba_name(module: str, name: str, plain: str | None = None) -> Any:
     """A name, for kernels, of a module that imports numba.
 
@@ -221,6 +237,11 @@ def when_numba_compiles(begin: Callable[[Any], None]) -> Iterator[None]:
 
 
 def _prepare_numba() -> None:
-    """What must happen before any kernel is compiled. Called under the lock."""
+    """What must happen before any kernel is compiled. Called under the lock.
+
+    Raises BackendError if the environment turns the compiler off.
+    """
+    if fault := compiler_fault():
+        raise BackendError(fault)
     while _declarations:
         _declarations.pop(0)()

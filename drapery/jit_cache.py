@@ -2,16 +2,21 @@
 
 numba's own cache checks only the file of a cached function, so an edit of a function that it calls
 from another file gives stale results. Here the key has a hash of all source files of the function's
-top-level package (such as all of `drapery.cloth`): kernels call only functions of it and of
-`drapery.jit`, and a test checks that. Each hash has a folder of its own, so that installations
-with the same sources share their kernels. A damaged file is compiled again. If no folder can be
-written, kernels are compiled in every process, and a warning says so once.
+top-level package (such as all of `drapery.cloth`) and of the few files that kernels of any package
+use: kernels refer to nothing else, which a test checks by following all that they refer to. The key
+also has the versions of the compiler and its settings, such as NUMBA_BOUNDSCHECK. Each key has a
+folder of its own, so that installations with the same sources share their kernels. A damaged file
+is compiled again. Kernels of other packages than Drapery's are not stored, since the files that
+they use are not known. If no folder can be written, kernels are compiled in every process, and a
+warning says so once.
 """
 
 import hashlib
 import inspect
+import logging
 import os
 import pickle
+import re
 import shutil
 import stat
 import tempfile
@@ -31,9 +36,12 @@ from numba.misc.appdirs import AppDirs
 
 from drapery.kernel_sources import SIMD, source_files, source_hash
 
+LOG = logging.getLogger(__name__)
 REMEDY = "set NUMBA_CACHE_DIR to a folder that can be written"
 MAX_SOURCES = 24
 """The most folders of kernels that are kept, each for one state of the sources."""
+NOT_ABOUT_CODE = re.compile("CUDA|.*CUDA|DUMP_|CACHE_|COLOR_|.*NUM_THREADS|FULL_TRACEBACKS|.*WARN")
+"""Names of settings of numba that change no machine code."""
 
 _caching: Any = caching
 _config: Any = config
@@ -100,7 +108,7 @@ def cache_on_disk(dispatcher: Any) -> Any:
     """Give a function that numba will compile a cache, if there is a folder for one."""
     if kernel_cache_status().folder is None:
         _warn_once(f"kernels are compiled in every process ({kernel_cache_status().reason})")
-    elif source_files(dispatcher.py_func):
+    elif is_ours(dispatcher.py_func) and source_files(dispatcher.py_func):
         dispatcher._cache = _KernelCache(dispatcher.py_func)
     return dispatcher
 
@@ -110,16 +118,34 @@ def _warn_once(message: str) -> None:
     warnings.warn(f"{message}; {REMEDY}", stacklevel=2)
 
 
-@cache
+def is_ours(function: Callable[..., object]) -> bool:
+    """Whether a function is of Drapery."""
+    return function.__module__.startswith("drapery.")
+
+
 def folder_for(source: str) -> Path:
     """The folder for kernels of sources with this hash; it is made, and the oldest one deleted.
 
-    The versions and the variable that say what numba makes of the sources are part of its name.
+    The versions and settings that say what numba makes of the sources are part of its name.
     Raises OSError.
     """
+    return _folder(f"{source} {compiler_settings()}")
+
+
+def compiler_settings() -> str:
+    """The versions and settings that decide what machine code sources become.
+
+    A setting of numba that is not known to change no code counts, whatever it does.
+    """
+    found = {name: str(value) for name, value in vars(_config).items() if name.isupper()}
+    chosen = {name: found[name] for name in sorted(found) if not NOT_ABOUT_CODE.match(name)}
+    return f"{numba.__version__} {llvmlite.__version__} {os.environ.get(SIMD)} {chosen}"
+
+
+@cache
+def _folder(key: str) -> Path:
     folder = kernel_cache_status().folder
     assert folder is not None
-    key = f"{source} {numba.__version__} {llvmlite.__version__} {os.environ.get(SIMD)}"
     own = folder / hashlib.sha256(key.encode()).hexdigest()[:16]
     if not own.is_dir():
         own.mkdir(exist_ok=True)
@@ -129,7 +155,7 @@ def folder_for(source: str) -> Path:
 
 def _delete_oldest(folder: Path) -> None:
     """Keep the folders that were written to last. Another process may delete the same ones."""
-    with suppress(OSError):
+    with suppress(OSError):  # another process has deleted one of them
         folders = [each for each in folder.iterdir() if each.is_dir()]
         folders.sort(key=lambda each: each.stat().st_mtime)
         for each in folders[:-MAX_SOURCES]:
@@ -144,9 +170,7 @@ class _Locator(_caching._CacheLocator):  # type: ignore[misc]
         self._py_file = inspect.getfile(function)  # numba's warnings name it
 
     def get_cache_path(self) -> str:
-        if self._function.__module__.startswith("drapery."):
-            return str(folder_for(source_hash(self._function)))
-        return str(kernel_cache_status().folder)  # a user's function, whose file is often edited
+        return str(folder_for(source_hash(self._function)))
 
     def get_source_stamp(self) -> str:
         return source_hash(self._function)
@@ -192,8 +216,9 @@ class _KernelCache(_caching.FunctionCache):  # type: ignore[misc]
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         try:
             return super().load_overload(sig, target_context)
-        except Exception:  # whatever unpickling of damaged bytes raises
-            with suppress(OSError):
+        except Exception as fault:  # whatever unpickling of damaged bytes raises
+            LOG.info("a stored kernel in %s is compiled again: %s", self.cache_path, fault)
+            with suppress(OSError):  # then `save_overload` says so
                 self.flush()
             return None
 

@@ -11,10 +11,16 @@ from pathlib import Path
 
 SIMD = "DRAPERY_SIMD"
 """The variable of the environment that makes kernels use no registers of lanes if it is 0."""
+SHARED = ("elementary.py", "jit.py", "jit_calls.py")
+"""The files beside this one with code that kernels of any package are compiled from."""
 
 
 def source_files(function: Callable[..., object]) -> list[Path]:
-    """The sources that a kernel may call: those of its top-level package, else only its file."""
+    """The sources that a kernel may be compiled from: those of its top-level package, and `SHARED`.
+
+    `tests/test_kernel_sources.py` follows all that kernels refer to, and finds it in these files.
+    Of a function outside of Drapery only its own file is known.
+    """
     package = package_of(function)
     if not package.startswith("drapery."):
         return [Path(inspect.getfile(function))]
@@ -33,8 +39,12 @@ def _sources_of(package: str) -> list[Path]:
     found = sorted(
         Path(folder, name) for folder, _, names in walks for name in names if name.endswith(".py")
     )
-    shared = [Path(__file__).with_name(name) for name in ("jit.py", "jit_calls.py")]
-    return [*found, *shared] if found else []
+    return [*found, *shared_files()] if found else []
+
+
+def shared_files() -> list[Path]:
+    """The files of `SHARED`."""
+    return [Path(__file__).with_name(name) for name in SHARED]
 
 
 def source_hash(function: Callable[..., object]) -> str:

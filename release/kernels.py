@@ -31,7 +31,8 @@ PICTURES: tuple[dict[str, Any], ...] = (
     {"view": "hero", "shadow": True, "samples": 4},
     {"contact": "none", "wind": 0.0},
     {"grid": (33, 65)},
-    {"solver": "xpbd"},
+    {"solver": "desbrun"},
+    {"solver": "desbrun", "grid": (9, 17)},
     {"kind": "shield"},
 )
 """Options of the pictures whose kernels are compiled."""

@@ -8,6 +8,7 @@ import sys
 from importlib.metadata import version
 from typing import NamedTuple
 
+from drapery.jit import DISABLE_JIT
 from drapery.render.backends import added_backends, backend
 from drapery.render.frame import Frame
 from drapery.render.gl.platform import INSTALL_GL, INSTALL_PYRENDER, REMEDIES
@@ -69,7 +70,8 @@ def _check_triangle(frame: Frame) -> None:
 def _soft() -> BackendReport:
     works, said = _run(DRAW.format("soft"))
     detail = f"numba {version('numba')}, the default; {said}" if works else said
-    return BackendReport("soft", works, detail, "" if works else SET_CACHE)
+    remedy = f"unset {DISABLE_JIT}" if DISABLE_JIT in said else SET_CACHE
+    return BackendReport("soft", works, detail, "" if works else remedy)
 
 
 def _pyrender() -> BackendReport:

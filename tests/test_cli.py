@@ -273,6 +273,24 @@ def test_doctor_prints_the_whole_remedy(drapery: Run, monkeypatch: pytest.Monkey
     assert code == 0 and 'to mend it: pip install "drapery[video]"' in out
 
 
+def test_a_variable_that_turns_the_compiler_off_is_named(tmp_path: Path) -> None:
+    off = os.environ | {"NUMBA_DISABLE_JIT": "1", "DRAPERY_AOT": "0"}
+    run = command("render", "red", "-o", tmp_path / "red.png", "--size", "16x16", env=off)
+    assert run.returncode == 2 and run.stderr.count("\n") == 1
+    assert "unset NUMBA_DISABLE_JIT" in run.stderr
+
+
+def test_the_doctor_names_a_variable_that_turns_the_compiler_off(
+    drapery: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from numba import config
+
+    monkeypatch.setattr("drapery.render.backend_report", lambda: [])
+    monkeypatch.setattr(config, "DISABLE_JIT", 1)
+    code, out, _ = drapery("doctor")
+    assert code == 0 and "to mend it: NUMBA_DISABLE_JIT is set" in out
+
+
 def command(*words: object, **options: Any) -> "subprocess.CompletedProcess[str]":
     """Drapery in a process of its own."""
     line = [sys.executable, "-m", "drapery", *map(str, words)]

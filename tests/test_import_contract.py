@@ -38,7 +38,7 @@ ALLOWED: dict[str, set[str]] = {
     "jit_cache": {"kernel_sources"},
     "jit_calls": set(),
     "lazy": set(),
-    "jit": {"aot", "jit_cache", "jit_calls", "kernel_sources"},
+    "jit": {"aot", "errors", "jit_cache", "jit_calls", "kernel_sources"},
     "mesh": {"errors"},
     "option": {"errors"},
     "settings": {"errors", "option"},

@@ -32,8 +32,12 @@ def run() -> None:
 def _say_where_kernels_are(console: "Console") -> None:
     from rich.markup import escape
 
+    from drapery.jit import compiler_fault
     from drapery.jit_cache import REMEDY, kernel_cache_status
 
+    if fault := compiler_fault():
+        line = f"kernels: [yellow]cannot be compiled[/]\n  to mend it: {escape(fault)}"
+        console.print(line, soft_wrap=True)
     status = kernel_cache_status()
     if status.folder is not None:
         line = f"[green]kept[/] in {escape(str(status.folder))}"

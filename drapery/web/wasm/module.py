@@ -12,6 +12,7 @@ import drapery.cloth
 import drapery.render
 import drapery.style
 from drapery.jit_cache import kernel_cache_status
+from drapery.kernel_sources import shared_files
 from drapery.web.wasm.image import WasmBuildError
 
 HERE = Path(__file__).parent
@@ -24,7 +25,7 @@ def sources_hash() -> str:
     total = hashlib.sha256()
     packages = drapery.cloth, drapery.style, drapery.render
     sources = [*chain(*(sorted(_folder(package).rglob("*.py")) for package in packages))]
-    for path in (*sources, *(HERE / name for name in BUILDERS)):
+    for path in (*sources, *shared_files(), *(HERE / name for name in BUILDERS)):
         total.update(hashlib.sha256(path.read_bytes()).digest())
     return total.hexdigest()[:16]
 
