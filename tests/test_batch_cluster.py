@@ -94,6 +94,26 @@ def test_packs_travel_as_the_same_bytes(tmp_path: Path, monkeypatch) -> None:
     assert pictures(tmp_path / "here") == pictures(tmp_path / "there")
 
 
+def test_a_store_that_cannot_be_listed_is_no_empty_store(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Else all pictures would be drawn again."""
+    far = open_store("memory://drapery/none")
+    assert far.sizes(["a.png"]) == [None]
+
+    def refuse(*_: object, **__: object) -> None:
+        raise PermissionError("Forbidden: the token has expired")
+
+    monkeypatch.setattr("fsspec.implementations.memory.MemoryFileSystem.find", refuse)
+    with pytest.raises(OutputError, match=r"cannot list memory://drapery/none: Forbidden"):
+        far.sizes(["a.png"])
+    near = open_store(str(tmp_path))
+    assert near.sizes(["a.png", "a.png/b.png"]) == [None, None]
+    monkeypatch.setattr(Path, "stat", refuse)
+    with pytest.raises(OutputError, match="cannot find out whether"):
+        near.sizes(["a.png"])
+
+
 def test_outputs_go_to_any_target_of_fsspec(tmp_path: Path) -> None:
     planned = jobs.plan(read_manifest(manifest(tmp_path / "m.jsonl", 3)))
     far, near = open_store("memory://drapery/test"), open_store(str(tmp_path / "near"))

@@ -1,8 +1,10 @@
 """A manifest is read whole before anything is drawn: all jobs, or all faults with their lines."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,6 +25,7 @@ from drapery.garments import find_garment
 from drapery.packs import MemoryPack
 from drapery.render.encode.output import replacing
 from drapery.settings import Settings
+from drapery.styles import combined_style
 
 JOBS = [
     {"name": "lime", "design": "white creeper:lime", "view": "hero", "wind": 6},
@@ -106,6 +109,26 @@ def test_the_key_of_a_garment_holds_the_bytes_of_its_files(tmp_path: Path) -> No
 def test_a_garment_that_cannot_be_drawn_is_a_fault(row: dict[str, object], said: str) -> None:
     with pytest.raises(ManifestError, match=said):
         read_manifest([row])
+
+
+@pytest.mark.parametrize("several", [str, lambda text: [text]])
+def test_files_of_defaults_lie_in_the_current_folder(
+    several: Callable[[str], Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those of the manifest lie beside it."""
+    here, there = tmp_path / "here", tmp_path / "there"
+    for folder, light in ((here, "flat"), (there, "studio")):
+        folder.mkdir()
+        (folder / "my.toml").write_text(f'light = "{light}"', encoding="utf-8")
+    (here / "my.txt").write_text("red", encoding="utf-8")
+    monkeypatch.chdir(here)
+    path = there / "m.jsonl"
+    path.write_text('{"name": "a", "style": "my.toml"}\n{"name": "b"}\n', encoding="utf-8")
+    given = {"style": several("my.toml"), "design": "my.txt", "wind": "7"}
+    requests = read_manifest(path, given)
+    assert [combined_style(one.settings.style).light for one in requests] == ["studio", "flat"]
+    assert [one.banner for one in requests] == [Banner.parse("red")] * 2
+    assert "my.toml" not in str(read_manifest([{"design": "red"}], {"style": "cel; ink"}))
 
 
 def test_defaults_lie_under_the_manifests_own(tmp_path: Path) -> None:

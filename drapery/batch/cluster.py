@@ -129,8 +129,9 @@ class DaskExecutor:
         self._counted = time.monotonic()
         try:
             self._threads = sum(self.client.nthreads().values())
-        except Exception:
+        except Exception as error:
             # Asked again soon; `poll` reports when the scheduler has ended.
+            logging.getLogger(__name__).debug("the threads cannot be counted: %s", error)
             self._threads = 0
 
     def _check_scheduler(self) -> None:

@@ -3,17 +3,20 @@
 import hashlib
 import json
 import os
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, replace
-from functools import cache
-from importlib.metadata import version
+from functools import cache, partial
+from importlib.metadata import packages_distributions, version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from inspect import unwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drapery import Banner
 from drapery.errors import PackError
+from drapery.render import backend
 from drapery.settings import Settings
 from drapery.styles import combined_style
 
@@ -64,7 +67,9 @@ def picture_key(
     """The key of a picture: 64 hexadecimal digits. Raises PackError for unreadable packs.
 
     It is a hash of the design in its canonical form or of the garment, the options, the steps of
-    styles, the bytes of packs and textures (not their names), and `code_version`.
+    styles, the bytes of packs and textures (not their names), `code_version`, and `added_code` of
+    the packages that add its styles and backend. Raises OptionError or BackendError if one of these
+    cannot be loaded.
     """
     style = combined_style(settings.style)
     options, texture = asdict(replace(settings, style=())), settings.texture_path
@@ -76,6 +81,7 @@ def picture_key(
         "options": options,
         "file": [ending, seconds, fps],
         "version": code_version(),
+        "added": added_code([step.function for step in style.steps], settings.backend),
     }
     return hashlib.sha256(json.dumps(whole, sort_keys=True).encode()).hexdigest()
 
@@ -98,6 +104,35 @@ def code_version() -> str:
     return f"{version('drapery')}+{whole.hexdigest()[:16]}"
 
 
+def added_code(functions: Iterable[Callable[..., Any]], backend_name: str) -> dict[str, list[str]]:
+    """The code of other packages that draws a picture: by the name of each top-level package, the
+    versions of its distributions and the hash of its files, so that an edit counts too.
+
+    functions: of the steps of its style. Raises BackendError or PackError.
+    """
+    used = [*functions, backend(backend_name)]
+    packages = {_module_of(function).partition(".")[0] for function in used}
+    return {name: _code_of(name) for name in sorted(packages - {"drapery"})}
+
+
+def _module_of(function: Any) -> str:
+    while isinstance(function, partial):
+        function = function.func
+    return str(getattr(unwrap(function), "__module__", type(function).__module__))
+
+
+@cache
+def _code_of(package: str) -> list[str]:
+    """Of a package that is imported, since what is imported is what draws."""
+    names = packages_distributions().get(package, [])
+    found = [f"{name} {version(name)}" for name in sorted(set(names))]
+    module = sys.modules[package]
+    places = [Path(place) for place in getattr(module, "__path__", [])]
+    if not places and getattr(module, "__file__", None):
+        places = [Path(str(module.__file__))]
+    return [*found, *(digest(place) for place in sorted(places))]
+
+
 def _own_files(node: Traversable, name: str) -> Iterator[tuple[str, Traversable]]:
     for child in node.iterdir():
         if child.is_dir() and child.name != "__pycache__":
@@ -113,9 +148,13 @@ def _of_file(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
+def _raise(error: OSError) -> None:
+    raise error
+
+
 def _names(folder: Path) -> list[str]:
     found: list[str] = []
-    for top, folders, names in os.walk(folder):
+    for top, folders, names in os.walk(folder, onerror=_raise):
         folders[:] = [name for name in folders if name not in (".git", "__pycache__")]
         found += [Path(top, name).relative_to(folder).as_posix() for name in names]
         if len(found) > MAX_FILES:

@@ -1,5 +1,6 @@
 """Reads and checks a whole manifest: the result is all of its jobs, or all of its faults."""
 
+import os
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from drapery import Banner
 from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
-from drapery.option import shown
+from drapery.option import Option, shown
 from drapery.options import check_options, one_line, unknown_names
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
@@ -136,22 +137,39 @@ def _with_defaults(row: ManifestRow, defaults: Mapping[str, Any]) -> ManifestRow
 
 
 def _from_current_folder(name: str, value: Any) -> Any:
-    """Defaults' paths are relative to the current folder, so they are made absolute."""
-    if name == "texture":
-        return Path(value).absolute()
-    if name in FILE_COLUMNS:
-        several = isinstance(value, list | tuple)
-        parts = value if several else str(value).split(";")
-        found = [str(Path(p).absolute()) if _names_file(str(p)) else p for p in parts]
-        return found if several else ";".join(map(str, found))
-    if name in ("pack", "packs"):
-        parts = value.split(";") if isinstance(value, str) else value
-        return [Path(part).absolute() for part in parts if part]
-    return value
+    """Defaults' paths are relative to the current folder, so they are made absolute.
+
+    What names a file is decided as where a row is read: by the table of options, by the ending of
+    fields that hold files, and of a design by whether there is such a file.
+    """
+    if isinstance(value, list | tuple):
+        return [_from_current_folder(name, each) for each in value]
+    option = OPTIONS.get("packs" if name == "pack" else name)
+    if isinstance(value, str) and ((option and option.several) or name in FILE_COLUMNS):
+        parts = (part.strip() for part in value.split(";"))
+        return ";".join(_absolute(name, part, option) for part in parts if part)
+    return _absolute(name, value, option) if isinstance(value, str | Path) else value
 
 
-def _names_file(text: str) -> bool:
-    return text.lower().endswith((".toml", ".png", ".json", ".snbt"))
+FILE_ENDINGS = (".toml", ".png", ".json", ".snbt")
+"""The endings by which the value of a column of FILE_COLUMNS names a file."""
+
+
+def _absolute(name: str, value: str | Path, option: Option | None) -> str:
+    text = str(value)
+    if option is not None:
+        is_file = option.is_path(value)
+    elif name == "design":
+        is_file = _is_file(Path(), text)
+    else:
+        is_file = name in FILE_COLUMNS and text.lower().endswith(FILE_ENDINGS)
+    return str(Path(text).absolute()) if is_file else text
+
+
+def _is_file(folder: Path, text: str) -> bool:
+    """Whether a text, which may be far too long for that, is the path of a file."""
+    # `Path.is_file` raises where a name is too long.
+    return "\n" not in text and os.path.isfile(folder / text)  # noqa: PTH113
 
 
 def _request(
@@ -247,9 +265,8 @@ def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
     try:
         if text is None:
             return None
-        file = folder / text if len(text) < 200 and "\0" not in text else None
-        if file is not None and "\n" not in text and file.is_file():
-            return read_design(file)
+        if _is_file(folder, text):
+            return read_design(folder / text)
         design = _parsed(text)
     except (DesignError, OSError) as error:
         design = str(error)

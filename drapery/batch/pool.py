@@ -130,8 +130,7 @@ class ProcessPool:
             if not worker.jobs:
                 worker.begin()
             worker.jobs.append(self._backlog.popleft())
-            # `poll` finds a dead worker by the end of its pipe.
-            with contextlib.suppress(OSError):
+            with contextlib.suppress(OSError):  # `poll` finds a dead worker by the end of its pipe
                 worker.pipe.send(worker.jobs[-1])
 
     def poll(self, timeout: float) -> list[JobResult]:
@@ -203,7 +202,7 @@ class ProcessPool:
     def _receive(self, worker: _Worker) -> list[JobResult]:
         try:
             message = worker.pipe.recv()
-        except (EOFError, OSError):
+        except (EOFError, OSError):  # a worker that dies closes its pipe
             return self._lost(worker, "its worker died")
         if not worker.ready:
             worker.ready, worker.resting, self._failed_starts = True, message, 0

@@ -31,7 +31,8 @@ class Store(Protocol):
         """A file's bytes. Raises OutputError."""
 
     def sizes(self, names: Sequence[str]) -> list[int | None]:
-        """The sizes of files [bytes], None where there is none."""
+        """The sizes of files [bytes], None where there is none. Raises OutputError where that
+        cannot be found out: a file that is not seen would be drawn again."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,8 @@ class LocalStore:
         """Remove what killed workers have left of these files, half-written."""
         ours = {self.path(name) for name in names}
         for folder in {path.parent for path in ours}:
-            with contextlib.suppress(OSError), os.scandir(folder) as entries:
+            # The folder may be missing, and another process may remove the same files.
+            with contextlib.suppress(FileNotFoundError), os.scandir(folder) as entries:
                 for entry in entries:
                     part = _PART.fullmatch(entry.name)
                     if part is not None and folder / part[1] in ours:
@@ -126,8 +128,13 @@ class RemoteStore:
         fs, root = _file_system(self.url)
         try:
             found = fs.find(root, detail=True)
-        except Exception:
+        except FileNotFoundError:  # nothing is written yet
             found = {}
+        except Exception as error:
+            reason = " ".join(str(error).split())[:200]
+            raise OutputError(
+                f"cannot list {self.url}: {reason}; check the address and your rights"
+            ) from None
         sizes = {path.lstrip("/"): int(info["size"]) for path, info in found.items()}
         return [sizes.get(self._at(name)[1].lstrip("/")) for name in names]
 
@@ -139,8 +146,10 @@ class RemoteStore:
 def _size(path: Path) -> int | None:
     try:
         return path.stat().st_size
-    except OSError:
+    except (FileNotFoundError, NotADirectoryError):
         return None
+    except OSError as error:
+        raise OutputError(f"cannot find out whether {path} exists: {error.strerror}") from None
 
 
 @cache

@@ -98,14 +98,13 @@ def _limit(memory: int) -> None:
         limit = memory_of("self", ADDRESS_SPACE) + memory + (1 << 30)
         _, hard = resource.getrlimit(resource.RLIMIT_AS)
         if hard == resource.RLIM_INFINITY or limit < hard:
-            # macOS has the call and refuses some limits.
-            with suppress(OSError, ValueError):
+            with suppress(OSError, ValueError):  # macOS has the call and refuses some limits
                 resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
 
 
 def memory_of(pid: int | str | None, column: int) -> int:
     """ADDRESS_SPACE or RESIDENT memory of a process [bytes]; 0 where the system does not say."""
-    with suppress(OSError, IndexError, ValueError):
+    with suppress(OSError, IndexError, ValueError):  # the process may have ended
         if sys.platform != "win32":
             pages = Path(f"/proc/{pid}/statm").read_text(encoding="ascii").split()[column]
             return int(pages) * os.sysconf("SC_PAGE_SIZE")

@@ -20,7 +20,7 @@ def say(message: str) -> None:
     line = " ".join(message.splitlines())
     if len(line) > MAX_LINE:
         line = f"{line[:MAX_LINE]} ..."
-    with suppress(OSError):
+    with suppress(OSError):  # there is nowhere else to say so
         print(f"drapery: {line}", file=sys.stderr, flush=True)
 
 
@@ -65,7 +65,7 @@ def _start_beside(module: str) -> None:
     """Run a module in another process, without waiting for it."""
     nowhere = subprocess.DEVNULL
     command = [sys.executable, "-m", module]
-    with suppress(OSError):
+    with suppress(OSError):  # it only saves time
         subprocess.Popen(command, stdin=nowhere, stdout=nowhere, stderr=nowhere)
 
 

@@ -1,12 +1,12 @@
 """The work of one tab: its design with what can be undone, its options, packs and files."""
 
+import logging
 import secrets
 import shutil
 import tempfile
 import threading
 from collections import defaultdict
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
@@ -15,6 +15,8 @@ from drapery import Settings
 from drapery.packs import Packs, open_packs
 from drapery.studio.history import History
 from drapery.studio.sketch import MAX_TITLE, Sketch
+
+LOG = logging.getLogger(__name__)
 
 Event = (
     Literal["sketch", "settings", "packs", "scene", "preview", "recent", "library"]
@@ -143,8 +145,10 @@ class Document:
             return
         self.closed = True
         for call in reversed(self._at_close):
-            with suppress(Exception):
+            try:
                 call()
+            except Exception:  # all else must still stop
+                LOG.exception("a tab was not closed cleanly")
         self._at_close.clear()
         self._listeners.clear()
         if self._folder is not None:

@@ -246,7 +246,7 @@ class Exports:
 def _lower_priority() -> None:
     """Give the live cloth priority over this thread. On Linux each thread has its own niceness."""
     if sys.platform == "linux":
-        with suppress(OSError):
+        with suppress(OSError):  # a sandbox may forbid it
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 5)
 
 

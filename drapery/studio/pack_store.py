@@ -174,7 +174,7 @@ class PackStore:
 def _contents_or_fault(entry: PackEntry, format: int | None) -> PackContents:
     try:
         return _contents(entry.path, entry.name, format)
-    except DraperyError:
+    except DraperyError:  # the live cloth, which reads the pack too, says why
         return PackContents("cannot be read whole")
 
 

@@ -7,12 +7,14 @@ JSON object; the server closes the connection if a message is not valid.
 
 import asyncio
 import json
+import logging
 import math
 from contextlib import suppress
 from typing import Any
 
 import numpy as np
 from fastapi import FastAPI, WebSocket, WebSocketDisconnect
+from fastapi.websockets import WebSocketState
 
 from drapery import DraperyError, OptionError
 from drapery.studio.live import Ray
@@ -22,6 +24,7 @@ from drapery.studio.translation import translated
 from drapery.studio.wind_controls import KEYS
 from drapery.web.messages import MessageEncoder
 
+LOG = logging.getLogger(__name__)
 UNDER_WAY = 2
 """The most messages that are sent before the viewer reports that it has drawn them."""
 MAX_TEXT = 2048
@@ -30,6 +33,11 @@ MAX_VIEWERS = 8
 UNKNOWN, ENOUGH, WRONG, BROKEN = 4404, 4429, 4400, 1011
 """Why the server closes a socket: no such tab, too many viewers, a message that is not valid, a
 fault in the program."""
+
+
+def _has_gone(socket: WebSocket) -> bool:
+    """Whether the other end has closed the connection, or this one."""
+    return WebSocketState.DISCONNECTED in (socket.client_state, socket.application_state)
 
 
 class ViewerConnection:
@@ -59,8 +67,11 @@ class ViewerConnection:
         try:
             await self._send(socket)
         except Exception:
-            # The viewer has disconnected, or the program has an error: it may connect again.
-            with suppress(Exception):
+            if _has_gone(socket):
+                return
+            # An error in the program: the viewer may connect again.
+            LOG.exception("the connection of a viewer is closed")
+            with suppress(WebSocketDisconnect, RuntimeError):  # it may go at this moment
                 await socket.close(BROKEN)
 
     async def _send(self, socket: WebSocket) -> None:

@@ -5,10 +5,10 @@ ticks; the page's event loop only adds to the queue and waits.
 """
 
 import asyncio
+import logging
 import math
 import threading
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -29,6 +29,7 @@ from drapery.studio.snippets import ExportRequest, options_for, subject_of
 from drapery.studio.wind_controls import wind_controls_of
 from drapery.web.panes import ViewerState
 
+LOG = logging.getLogger(__name__)
 BEHIND = 4
 """The most ticks in one turn; more delayed ticks are skipped, so simulated time runs slower."""
 LONG = 0.8
@@ -236,8 +237,10 @@ class Viewport:
             self.version += 1
 
     def _notify(self) -> None:
-        with suppress(Exception):
+        try:
             self._document.notify("steered")
+        except Exception:  # the cloth moves on without the panel that failed
+            LOG.exception("a panel failed")
 
     async def _run(self) -> None:
         try:

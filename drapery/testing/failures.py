@@ -222,7 +222,9 @@ def read_approvals(path: Path) -> list[str]:
     """
     try:
         accepted = json.loads(path.read_text(encoding="utf-8"))["accepted"]
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+    except OSError as error:
+        raise OutputError(f"{path} cannot be read: {error.strerror}; give its path") from None
+    except (ValueError, KeyError, TypeError, RecursionError):
         accepted = None
     if not isinstance(accepted, list) or not all(isinstance(each, str) for each in accepted):
         raise OutputError(f"{path} has no decisions; save them on the page of the report")

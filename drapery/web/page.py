@@ -108,7 +108,7 @@ def _scene(design: Banner | None, packs: Packs, settings: Settings) -> bytes:
     own = [layer.pattern for layer in design.layers] if design else []
     try:
         return scene_bytes(design, packs, settings, [*PATTERN_NAMES, *own])
-    except DraperyError:
+    except DraperyError:  # raised again if it is a pattern of the design
         return scene_bytes(design, packs, settings, own)
 
 

@@ -146,7 +146,7 @@ def _osmesa_platform() -> Any:
 def _loaded(name: str) -> ctypes.CDLL | None:
     try:
         return ctypes.CDLL(name)
-    except OSError:
+    except OSError:  # it is not installed
         return None
 
 

@@ -99,7 +99,7 @@ def _in_folder(
 ) -> Iterator[FoundBanner]:
     """As `in_folder`. start: of every place."""
     paths: list[Path] = []
-    for top, folders, names in os.walk(folder):
+    for top, folders, names in os.walk(folder, onerror=files.unreadable(on_error)):
         folders.sort()
         paths += (Path(top, name) for name in names if _may_hold(Path(top, name), folder))
         if len(paths) > files.MAX_FILES:

@@ -115,7 +115,7 @@ def _in_world(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
             " save the part that you want with a structure block and give the .mcstructure"
         )
     found = False
-    for path in _world_files(folder):
+    for path in _world_files(folder, on_error):
         found = True
         try:
             yield from _in_file(path, path.relative_to(folder).as_posix(), on_error)
@@ -127,13 +127,22 @@ def _in_world(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
         raise DesignError(f"{folder}: not a world of Java Edition; give the folder of level.dat")
 
 
-def _world_files(folder: Path) -> Iterator[Path]:
+def unreadable(on_error: OnError) -> Callable[[OSError], None]:
+    """What `os.walk` calls for a folder that it cannot list, which it would skip in silence."""
+
+    def report(error: OSError) -> None:
+        on_error(DesignError(f"{error.filename}: {error.strerror}; make it readable"))
+
+    return report
+
+
+def _world_files(folder: Path, on_error: OnError) -> Iterator[Path]:
     """The files of a world that may hold banners, folder by folder in a fixed order.
 
     Its data packs have a reader of their own.
     """
     count = 0
-    for top, folders, names in os.walk(folder):
+    for top, folders, names in os.walk(folder, onerror=unreadable(on_error)):
         if Path(top) == folder:
             folders[:] = (name for name in folders if name != PACKS)
         folders.sort()

@@ -108,7 +108,7 @@ def _as_path(source: str | Path) -> Path | None:
             return None if is_word and _is_design(source) else path
         if path.exists():
             return path
-    except OSError:
+    except OSError:  # the text is too long for a name
         return None
     known = path.suffix.lower() in _SUFFIXES and not set('{}[]"').intersection(source)
     if known or _FILE_NAME.fullmatch(source):

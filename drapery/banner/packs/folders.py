@@ -71,7 +71,7 @@ class FolderSource:
     def files(self, folder: str) -> tuple[str, ...]:
         """See `PackSource`."""
         found = []
-        for here, folders, names in os.walk(self.root / folder):
+        for here, folders, names in os.walk(self.root / folder, onerror=self._refuse):
             folders.sort()
             place = Path(here).relative_to(self.root).as_posix()
             found += [f"{place}/{name}" for name in names]
@@ -86,8 +86,15 @@ class FolderSource:
         try:
             with os.scandir(self.root / folder) as entries:
                 return tuple(sorted(entry.name for entry in entries if entry.is_dir()))
-        except OSError:
+        except OSError as error:
+            self._refuse(error)
             return ()
+
+    def _refuse(self, error: OSError) -> None:
+        """Raises PackError unless a folder is only missing."""
+        if not isinstance(error, FileNotFoundError | NotADirectoryError):
+            name = Path(str(error.filename)).relative_to(self.root).as_posix()
+            raise PackError(f"{self.label}: {name} cannot be read: {reason(error)}")
 
     def _refuse_outside_link(self, path: Path, name: str) -> None:
         if not path.resolve().is_relative_to(self.root.resolve()):

@@ -81,7 +81,7 @@ class _ExportForm:
         """Whether the same file would be made now. A pause alone makes no file stale."""
         try:
             request = request_of(self._session, self._choice)
-        except DraperyError:
+        except DraperyError:  # the button that makes the file says why
             return False
         if request.settings.time == self._session.viewport.paused_at:
             settings = replace(request.settings, time=work.request.settings.time)

@@ -41,7 +41,7 @@ def build(session: Session) -> None:
         try:
             banner = banner_of(session.sketch)
             unseen = len(banner.layers) - len(simplify(banner, session.packs()).layers)
-        except DraperyError:
+        except DraperyError:  # the live cloth says why
             return
         line = f"A loom makes at most {LOOM_LAYERS} layers; the design has {len(banner.layers)}."
         warning.set_text(translated(line))

@@ -31,7 +31,7 @@ def build(session: Session) -> None:
     def list_patterns() -> None:
         try:
             names = pattern_names(session.packs())
-        except DraperyError:
+        except DraperyError:  # the live cloth says why
             return
         words = search_words()
         found = [
