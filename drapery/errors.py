@@ -2,7 +2,23 @@
 
 
 class DraperyError(Exception):
-    """A fault that the user can correct. Its message is one line; commands then exit with 2."""
+    """A fault that the user can correct. Its message is one line; commands then exit with 2.
+
+    Names of files and texts in a message may hold anything: white space becomes a space, and other
+    characters that cannot be printed, such as those that steer a terminal, are escaped.
+    """
+
+    def __str__(self) -> str:
+        return _on_one_line(super().__str__())
+
+
+def _on_one_line(text: str) -> str:
+    if text.isprintable():
+        return text
+    return "".join(
+        each if each.isprintable() else " " if each.isspace() else repr(each)[1:-1]
+        for each in text.strip()
+    )
 
 
 class DesignError(DraperyError):

@@ -10,13 +10,14 @@ import tempfile
 import warnings
 import zipfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 from unittest import mock
 from urllib.parse import quote, urlencode
 
 import fuzzing
+import hostile
 import numpy as np
 import pack_maker
 import page_reader
@@ -26,6 +27,8 @@ from drapery.banner.formats import FORMS, datapack, parse_banner, structure
 from drapery.batch.manifest import ManifestError, read_manifest
 from drapery.errors import DesignError, DraperyError, OptionError
 from drapery.packs import open_packs
+from drapery.player_settings import PLAYER_OPTIONS
+from drapery.settings import OPTIONS
 from drapery.testing.cases import read_cases
 
 GIVE = '/give @p white_banner[banner_patterns=[{pattern:"creeper",color:"lime"}]]'
@@ -99,9 +102,67 @@ def other_targets() -> dict[str, Target]:
             "design=red&wind=9&time=1",
         ]
         found["query"] = Target(_query_reader(), queries, fuzzing.mutate_text)
+        addresses = [f"/banner.png?{query}" for query in queries]
+        addresses += [
+            "/player.gif?motion=walk%2Bwave&wear=cape&seconds=1",
+            "/garment.png?name=cape",
+        ]
+        found["service"] = Target(
+            _answers, [*addresses, "/metrics", "/openapi.json"], _mutate_address
+        )
     if page_reader.NODE is not None:
         found["page"] = page_target()
     return found
+
+
+@contextlib.contextmanager
+def undrawn_service() -> Iterator[Any]:
+    """A client of the service, which answers a sound address with the word `drawn`."""
+    from fastapi.testclient import TestClient
+
+    from drapery.serve import app as service
+
+    async def drawn(*_: object) -> bytes:
+        return b"drawn"
+
+    with (
+        mock.patch.object(service, "JobQueue"),
+        mock.patch.object(service.PictureService, "_draw", drawn),
+        TestClient(service.make_app(rate=0)) as client,
+    ):
+        yield client
+
+
+_SERVICE = contextlib.ExitStack()
+atexit.register(_SERVICE.close)
+
+
+@cache
+def _client() -> Any:
+    return _SERVICE.enter_context(undrawn_service())
+
+
+def _answers(address: str) -> Iterable[Any]:
+    """The answer of the service to an address, which is a picture or a reason."""
+    path, mark, query = address.partition("?")
+    url = quote(path, safe="/%.") + mark + quote(query, safe="=&%+;:,[]")
+    got = _client().get(url.encode("ascii").decode(), follow_redirects=False)
+    assert got.status_code == 200 or 400 <= got.status_code < 500, (got.status_code, got.text)
+    if got.status_code != 200:
+        raise OptionError(str(got.json()["detail"]))
+    return [got.content]
+
+
+def _mutate_address(rng: random.Random, samples: Sequence[str]) -> str:
+    """An address with other bytes, or with a value for one of its parameters that nobody means."""
+    if rng.random() < 0.5:
+        text = fuzzing.mutate_text(rng, samples, 3)
+        return "/" + text.encode("utf-8", "replace").decode().lstrip("/")
+    path, _, query = rng.choice(samples).partition("?")
+    parts = [part.partition("=")[0] for part in query.split("&")]
+    names = [*filter(None, parts), *OPTIONS, *PLAYER_OPTIONS, "design", "seconds", "fps"]
+    value = rng.choice((*hostile.TEXTS, *hostile.changed_texts(1, rng.randrange(10**6))))
+    return f"{path}?{query}&{rng.choice(names)}={quote(value)}"
 
 
 def page_target() -> Target:

@@ -27,7 +27,7 @@ def plain_design(text: str) -> Banner | None:
 
 def parse_design(text: str) -> Banner:
     """The banner of a text in any form. Raises DesignError."""
-    if plain := plain_design(text):
+    if isinstance(text, str) and (plain := plain_design(text)):
         return plain
     from drapery.banner.formats.registry import parse_banner
 

@@ -42,7 +42,7 @@ def run(
     ] = None,
 ) -> None:
     """Answer /banner.png?design=…, /garment.png?name=… and /player.png?skin=…, and the same with
-    .gif; /docs lists the parameters."""
+    .gif; /openapi.json lists the parameters."""
     import os
 
     from drapery.errors import BackendError
@@ -83,5 +83,5 @@ def run(
         cache=cache << 20,
         deadline=deadline,
     )
-    say(f"listening at {address_of(listening)}; /docs lists the parameters")
+    say(f"listening at {address_of(listening)}; /openapi.json lists the parameters")
     run_server(app, listening, proxies)

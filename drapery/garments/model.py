@@ -27,7 +27,7 @@ from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
 from drapery.cloth import FABRICS, Fabric
 from drapery.errors import DraperyError, OptionError
-from drapery.garments.blends import read_blend
+from drapery.garments.blends import POSE_ENDING, read_blend
 from drapery.garments.loading import load_tables
 from drapery.garments.profiles import is_profile_file
 from drapery.option import shown
@@ -495,6 +495,11 @@ class Garment(GarmentTable):
                 bones = ", ".join(self.bones)
                 remedy = f"use one of: {bones}" if self.wearer else "add a [wearer], or use fixed"
                 yield ("pin", number, "to"), f"to {shown(pin.to)} is not known; {remedy}"
+        if self.wearer is not None:
+            try:
+                read_blend(self.wearer.motion, self.folder)
+            except OptionError as error:
+                yield ("wearer", "motion"), str(error)
         for number, seam in enumerate(self.seam):
             for side in seam.join:
                 if side.split(".")[0] not in names:
@@ -552,6 +557,20 @@ class Garment(GarmentTable):
         own = (self.folder / name for name in names)
         return (*dict.fromkeys(own), *(path for each in self.over for path in each.paths))
 
+    @property
+    def named_paths(self) -> tuple[str, ...]:
+        """All files and folders that it names, as it names them, whether they are read or not:
+        the `paths`, and the packs, styles and textures of its pictures."""
+        named = [str(path) for path in _paths_in(self)]
+        if self.wearer is not None:
+            skin = self.wearer.skin
+            named += [skin] if skin.lower().endswith(".png") or is_profile_file(skin) else []
+            named += [self.wearer.motion] if POSE_ENDING in self.wearer.motion.lower() else []
+        for name, value in self.picture.items():
+            values = value if isinstance(value, tuple) else (value,)
+            named += [str(each) for each in values if OPTIONS[name].is_path(each)]
+        return tuple(dict.fromkeys(named))
+
     def with_design(self, design: str | Banner) -> "Garment":
         """The garment with another design on the pieces that have one, or on all if none has.
 
@@ -579,6 +598,19 @@ class Garment(GarmentTable):
             else:
                 pieces.append(each if any(chosen) else each.model_copy(update={"texture": new}))
         return self.model_copy(update={"piece": tuple(pieces)})
+
+
+def _paths_in(value: object) -> Iterator[Path]:
+    """The paths in a table and those inside it; where a garment's relative paths start is none."""
+    if isinstance(value, Path):
+        yield value
+    elif isinstance(value, GarmentTable):
+        for name in type(value).model_fields:
+            if name != "folder":
+                yield from _paths_in(getattr(value, name))
+    elif isinstance(value, tuple):
+        for each in value:
+            yield from _paths_in(each)
 
 
 TABLES: dict[str, type[BaseModel]] = {

@@ -13,9 +13,9 @@ from pydantic import Field, ValidationError
 from drapery.cloth.colliders import rotation_about
 from drapery.elementary import sine_of_turns
 from drapery.errors import OptionError
+from drapery.garments.blends import unknown_motion
 from drapery.garments.model import Angle, GarmentTable, Length
 from drapery.mesh import Array
-from drapery.option import shown
 from drapery.style.figure import TEXEL, WING_JOINTS, FigurePart, Placed, to_metres
 from drapery.toml_text import read_toml
 
@@ -83,10 +83,7 @@ def find_motion(name: str, folder: Path = Path()) -> Motion:
         return Motion(poses=(_read_pose(folder / name),), grounded=False)
     known = _known()
     if name not in known:
-        raise OptionError(
-            f"motion {shown(name)} is not known; use walk, a pose in a JSON file, or one of:"
-            f" {', '.join(known)}"
-        )
+        raise unknown_motion(name)
     return known[name]
 
 

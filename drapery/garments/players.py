@@ -59,8 +59,9 @@ def dressed_player(
     What hangs behind the shoulders lies over all of them but those around the neck.
     cape: the PNG file of a cape, 64 x 32 or a multiple; unless given, the cape of the profile that
     is the wearer's skin. elytra: wings of cloth in place of the cape, with the texture of `cape` if
-    that is given. wear: garments, or their names or files. folder: where the path of a profile
-    starts. Raises OptionError for garments and profiles that cannot be used.
+    that is given. wear: garments, or their names or files. folder: where relative paths of the
+    wearer and of a profile start. Raises OptionError for garments, profiles and motions that
+    cannot be used.
     """
     texture = _texture_behind(cape, elytra, profile_of(wearer.skin, folder))
     worn = [each if isinstance(each, Garment) else find_garment(each) for each in wear]
@@ -83,7 +84,11 @@ def dressed_player(
         ]
     if wearer.armor is not None and "chestplate" in parse_armor(wearer.armor):
         worn = [_over_chestplate(each) if each.name in BEHIND else each for each in worn]
-    return Garment(name="player", piece=(), wearer=wearer, picture=PICTURE, over=tuple(worn))
+    given = {"name": "player", "piece": (), "picture": PICTURE, "folder": folder}
+    try:
+        return Garment(**given, wearer=wearer, over=tuple(worn))
+    except ValidationError as error:
+        raise OptionError(complaint_of(error, Garment)) from None
 
 
 def _texture_behind(
@@ -131,8 +136,7 @@ def player_of(settings: PlayerSettings, folder: Path = Path()) -> Garment:
     wearer = make_wearer(look=_look_of(settings.look), **given)
     cape = None if settings.cape is None else folder / settings.cape
     wear = [folder / name if name.endswith(ENDING) else name for name in settings.wear]
-    player = dressed_player(wearer, cape=cape, elytra=settings.elytra, wear=wear, folder=folder)
-    return player.model_copy(update={"folder": folder})
+    return dressed_player(wearer, cape=cape, elytra=settings.elytra, wear=wear, folder=folder)
 
 
 def _look_of(text: str) -> tuple[float, ...]:

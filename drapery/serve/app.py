@@ -25,7 +25,7 @@ from drapery.batch.jobs import OUT_OF_MEMORY, Job, JobResult, make_job, run_job
 from drapery.batch.keys import DigestCache, code_version
 from drapery.batch.pool import JobLimits, ProcessPool
 from drapery.batch.stores import LocalStore
-from drapery.errors import OptionError, PackError
+from drapery.errors import DraperyError, OptionError
 from drapery.options import one_line
 from drapery.serve.job_queue import BusyError, JobQueue, Unavailable
 from drapery.serve.picture_cache import PictureCache
@@ -167,12 +167,12 @@ class PictureService:
         """
         try:
             skin = self.uploads.put(sent) if sent else None
-        except (OptionError, PackError) as error:
+            request = read_request(query, ending, self.config, subject, skin)
+            if isinstance(request, list):
+                return request
+            job = make_job(request, self.digests)
+        except DraperyError as error:
             return [one_line(str(error))]
-        request = read_request(query, ending, self.config, subject, skin)
-        if isinstance(request, list):
-            return request
-        job = make_job(request, self.digests)
         return replace(job, outs=(f"{job.key}{ending}",))
 
     def _finish(self, result: JobResult) -> bytes | JobResult:
@@ -258,6 +258,11 @@ def make_app(
         title="Drapery",
         description="Pictures of Minecraft banners, garments and players as cloth.",
         lifespan=lifespan,
+        # Pages of documentation load scripts of another site.
+        docs_url=None,
+        redoc_url=None,
+        # A redirect from `/banner.png/` would lead to whatever host the request names.
+        redirect_slashes=False,
     )
     app.add_middleware(CountRequests, metrics=metrics)
     for subject in SUBJECTS:

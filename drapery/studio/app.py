@@ -39,7 +39,14 @@ def make_app(
         pruning.cancel()
         sessions.close_all()
 
-    app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None, lifespan=lifespan)
+    app = FastAPI(
+        docs_url=None,
+        redoc_url=None,
+        openapi_url=None,
+        lifespan=lifespan,
+        redirect_slashes=False,  # a redirect would lead to whatever host the request names
+    )
+    nicegui_app.router.redirect_slashes = False
     routes.add_routes(app, sessions)
     stream.add_routes(app, sessions)
     page.add_page(sessions)

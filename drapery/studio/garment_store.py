@@ -8,6 +8,7 @@ from pathlib import Path
 from drapery import DraperyError
 from drapery.errors import OptionError
 from drapery.garments import Garment, check_skin, tailor
+from drapery.option import shown
 from drapery.studio.document import Document
 from drapery.studio.uploads import Uploads
 
@@ -83,10 +84,11 @@ class GarmentStore:
 
     def _check(self, path: Path) -> None:
         garment = Garment.load(path)
-        if garment.paths:
+        # Whoever made the file must not choose what is read here.
+        if named := garment.named_paths:
             raise OptionError(
-                f"garment {garment.name} names the file {garment.paths[0].name}, which the studio"
-                " does not have; use a block, a design, or a texture of the packs"
+                f"garment {garment.name} names {shown(named[0])}, which was not sent; leave it"
+                " out, or use a block, a design, a texture of the packs, or the name of a style"
             )
         count = sum(len(each.start) for each in tailor(garment, self._document.packs()))
         if count > MAX_PARTICLES:

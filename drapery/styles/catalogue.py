@@ -56,7 +56,7 @@ def find_style(name: StyleLike) -> Style:
         return _preset(str(name))
     added = _added()
     if str(name) not in added:
-        known = ", ".join(style_names())
+        known = ", ".join([*PRESETS, *(each for each in added if each not in PRESETS)])
         raise OptionError(
             f"style {shown(str(name))} is not known; use a file that ends with {ENDING},"
             f" or one of: {known}"

@@ -56,6 +56,8 @@ def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBa
     Raises DesignError as `parse_banners` does, for files that cannot be read, and for a folder
     without a design or with over 100,000 files.
     """
+    if not isinstance(source, str | Path):
+        raise DesignError(f"design {shown(source)} is not a text; write it in quotes")
     form = named_now(form)
     if source == "-":
         return parse_banners(_decoded(_read_stdin(), "-"), form=form)

@@ -158,6 +158,8 @@ def parse_banners(text: str, *, form: str | None = None) -> list[FoundBanner]:
 
 def parse_all(text: str, form: str | None, errors: list[DesignError]) -> list[FoundBanner]:
     """As `parse_banners`, but the errors of broken lines are added to `errors`."""
+    if not isinstance(text, str):
+        raise DesignError(f"design {shown(text)} is not a text; write it in quotes")
     if len(text) > MAX_TEXT:
         raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: shorten it")
     text = text.removeprefix("\ufeff")
