@@ -303,8 +303,13 @@ def test_shields_alone_have_their_lines(drapery: Run, tmp_path: Path) -> None:
 
 
 def test_a_sheet_for_shields_that_is_not_square_is_noted(tmp_path: Path) -> None:
-    files: Files = {SHIELD + "creeper.png": png(np.full((32, 64, 4), 99, np.uint8))}
-    assert f"{SHIELD}creeper.png is 64 x 32 px: it is stretched" in notes(tmp_path, files)
+    wide = png(np.full((32, 64, 4), 99, np.uint8))
+    assert f"{SHIELD}creeper.png is 64 x 32 px: stretched" in notes(
+        tmp_path / "one", {SHIELD + "creeper.png": wide}
+    )
+    many = notes(tmp_path / "many", {f"{SHIELD}{name}.png": wide for name in PATTERN_NAMES})
+    (line,) = many.splitlines()
+    assert "border.png is 64 x 32 px" in line and "and 38 more: stretched" in line
 
 
 def test_small_sheets_are_named(tmp_path: Path) -> None:

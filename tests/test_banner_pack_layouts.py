@@ -285,6 +285,18 @@ def test_wings_and_capes_wear_the_packs_elytra(
     assert set(np.unique(pixels[pixels[..., 3] > 0, 0])) == {seen}
 
 
+@pytest.mark.parametrize("size", [(16, 32), (24, 48), (128, 256)])
+@pytest.mark.parametrize("kind", ["elytra", "cape"])
+def test_sheets_of_wings_of_any_size_are_drawn(
+    tmp_path: Path, size: tuple[int, int], kind: str
+) -> None:
+    sheet = png(np.full((*size, 4), (90, 0, 0, 255), np.uint8))
+    path = folder_pack(tmp_path, {NEW_WINGS: sheet})
+    assert describe_packs([path])[0].problems == ()
+    pixels = draw(kind=kind, packs=path, light="flat", size=(30, 40)).pixels  # type: ignore[arg-type]
+    assert set(np.unique(pixels[pixels[..., 3] > 0, 0])) == {90}
+
+
 def test_a_given_texture_overrules_the_packs(tmp_path: Path) -> None:
     path = folder_pack(tmp_path, {NEW_WINGS: back_sheet(90)})
     given = np.full((32, 64, 4), 200, np.uint8)

@@ -97,6 +97,15 @@ def test_a_pack_has_the_warnings_of_the_commands_and_the_format_is_chosen(tmp_pa
     session.close()
 
 
+def test_a_pack_with_a_broken_sheet_for_shields_is_refused(tmp_path: Path) -> None:
+    from drapery.studio.pack_store import _contents
+
+    files = {META: mcmeta(), "assets/minecraft/textures/entity/shield/creeper.png": b"broken"}
+    path = zip_pack(tmp_path / "a.zip", files)
+    with pytest.raises(PackError, match=r"shield/creeper\.png is not a PNG file"):
+        _contents(path, "a.zip", None)
+
+
 def test_no_pack_is_read_before_the_page_is_there(tmp_path: Path) -> None:
     """A pack with which the studio was started is read whole in a thread, as one that is sent."""
     files = {META: mcmeta(), f"{BANNER}creeper.png": png(noise(1, 64))}

@@ -67,7 +67,7 @@ class PackStore:
         return line
 
     def check(self, number: int) -> PackContents:
-        """Read everything in an uploaded file that a banner may need.
+        """Read everything in an uploaded file that a banner or a shield may need.
 
         Raises PackError with the same line as the commands; the line has the user's file name.
         """
@@ -179,7 +179,7 @@ def _contents_or_fault(entry: PackEntry, format: int | None) -> PackContents:
 
 
 def _contents(path: Path, name: str, format: int | None) -> PackContents:
-    """A pack's banner contents; reads every texture once. Raises PackError.
+    """A pack's contents for banners and shields; reads every texture once. Raises PackError.
 
     name: what the warnings call the pack.
     """
@@ -187,7 +187,10 @@ def _contents(path: Path, name: str, format: int | None) -> PackContents:
     names = packs.patterns()
     for pattern in names:
         packs.sheet(pattern)
+        if packs.level(pattern, "shield") == 1:  # a pack may have none for shields
+            packs.sheet(pattern, "shield")
     packs.base_sheet()
+    packs.base("shield_base")
     own = sum(packs.level(pattern) == 1 for pattern in names)
     warnings = (line.replace(str(path), name) for line in packs.warnings() if OWN_ART not in line)
     return PackContents(f"Patterns: {own}", tuple(warnings))

@@ -35,11 +35,13 @@ MATERIALS = (
 DARKER = frozenset({"iron", "gold", "diamond", "netherite", "copper"})
 """Trims of these are darker on armour of the same material."""
 
-WINGS_SHAPES = ((64, 32), (46, 22), (22, 17))
-"""Sizes of the sheet of wings and a cape [texels], or their multiples: whole, cut after the wings,
-after the cape."""
+WINGS_SHEET = (64, 32)
+"""Width and height of the sheet of wings and a cape [texels]."""
 
-WINGS_SIZE = (46, 22)
+CUT_WINGS = ((46, 22), (22, 17))
+"""Sizes of such a sheet that was cut after the wings, and after the cape [texels]."""
+
+WINGS_SIZE = CUT_WINGS[0]
 """Width and height of the part of it that wings need [texels]."""
 
 _LAST_WITHOUT_OVERRIDES = last_before("26.3")
@@ -57,17 +59,22 @@ class TrimOverride:
     palette: str | None
 
 
-def fits_wings(width: int, height: int, least: tuple[int, int] = WINGS_SIZE) -> int:
-    """How many pixels a texel of a sheet of wings has [px]; 0 where the size is not one of theirs.
+def whole_wings(
+    width: int, height: int, least: tuple[int, int] = WINGS_SIZE
+) -> tuple[int, int] | None:
+    """Width and height [px] of the whole sheet of which this is all or a part.
 
-    least: width and height of the part that is needed [texels].
+    None where the size is not one of theirs. least: width and height of the part that is needed
+    [texels]. A whole sheet may have any size that is twice as wide as high, as in the game.
     """
-    for across, down in WINGS_SHAPES:
+    if width == 2 * height:
+        return width, height
+    for across, down in CUT_WINGS:
         times = width // across
         fits = (width, height) == (across * times, down * times)
         if fits and across >= least[0] and down >= least[1]:
-            return times
-    return 0
+            return WINGS_SHEET[0] * times, WINGS_SHEET[1] * times
+    return None
 
 
 def armor_places(layer: str, material: str, more: str = "") -> tuple[Place, ...]:

@@ -347,10 +347,11 @@ class Packs:
         if is_sheet:
             check_sheet(layout, place)
             if layout.width != layout.height:
-                self._notes[
-                    f"{place} is {layout.width} x {layout.height} px: it is stretched to a square,"
-                    " as in the game"
-                ] = None
+                self._gather(
+                    found,
+                    f"{found.name} is {layout.width} x {layout.height} px",
+                    "{}: stretched to a square, as in the game",
+                )
         return replace(cut_frames(self._decoded(found), layout), is_sheet=is_sheet)
 
     def _decoded(self, found: PackFile) -> Texels:

@@ -8,11 +8,11 @@ from drapery.banner.packs.equipment import (
     LAYERS,
     MATERIALS,
     equipment_textures,
-    fits_wings,
     has_overrides,
     key_places,
     palette_fault,
     trim_overrides,
+    whole_wings,
 )
 from drapery.banner.packs.meta import MAX_JSON
 from drapery.banner.packs.pack import Pack
@@ -98,7 +98,7 @@ def _wrong_wings(alone: Packs) -> Iterator[str]:
         found = alone.find(wings_places())
         if found is not None and found.level > 0:
             height, width = alone.texels(found).shape[:2]
-            if not fits_wings(width, height):
+            if whole_wings(width, height) is None:
                 yield (
                     f"{alone.place(found)} is {width} x {height} px, which does not fit wings;"
                     " use 64 x 32 px, or a multiple of it"

@@ -8,7 +8,7 @@ import numpy as np
 
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
-from drapery.banner.packs.equipment import fits_wings
+from drapery.banner.packs.equipment import WINGS_SHEET, whole_wings
 from drapery.banner.packs.png import Texels
 from drapery.banner.packs.png_file import read_png_file
 from drapery.errors import OptionError
@@ -20,11 +20,11 @@ from drapery.style.visible import is_invisible
 SHOULDERS = (0.5, 24 * TEXEL, 0.5)
 """The middle between the shoulders [m], above the middle of a block."""
 
-SHEET = (64, 32)
+SHEET = WINGS_SHEET
 
 
 def back_texture(settings: Settings, packs: Packs, used: BoxMapping) -> Texels:
-    """The sheet of a cape and elytra, shape [32 n, 64 n, 4]: the texture given, or the packs'.
+    """The sheet of a cape and elytra, shape [H, 2 H, 4]: the texture given, or the packs'.
 
     used: the part that is shown. It warns of one that is transparent.
     Raises OptionError or PackError.
@@ -33,9 +33,9 @@ def back_texture(settings: Settings, packs: Packs, used: BoxMapping) -> Texels:
     height, width = texels.shape[:2]
     sides = np.reshape(astuple(used), (-1, 2, 2)) * SHEET
     low, high = (tuple(map(round, edge)) for edge in (sides.min((0, 1)), sides.max((0, 1))))
-    times = fits_wings(width, height, (high[0], high[1]))
-    if times:
-        sheet = _widened(texels, times)
+    whole = whole_wings(width, height, (high[0], high[1]))
+    if whole is not None:
+        sheet = _widened(texels, whole)
         if is_invisible(sheet, astuple(used)):
             warnings.warn(
                 f"{name}: its part for kind {settings.kind}, from {low[0]},{low[1]} to"
@@ -82,8 +82,8 @@ def _of_packs(kind: str, packs: Packs) -> Texels:
     return texels
 
 
-def _widened(texels: Texels, times: int) -> Texels:
-    """The sheet at its whole size, transparent where it was cut."""
-    whole = np.zeros((SHEET[1] * times, SHEET[0] * times, 4), np.uint8)
+def _widened(texels: Texels, size: tuple[int, int]) -> Texels:
+    """The sheet at its whole size, width and height [px], transparent where it was cut."""
+    whole = np.zeros((size[1], size[0], 4), np.uint8)
     whole[: texels.shape[0], : texels.shape[1]] = texels
     return whole
