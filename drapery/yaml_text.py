@@ -50,6 +50,9 @@ def load_yaml(text: str, where: object) -> Any:
             _place(text, error.position),
             f"character {error.character!r} is not allowed",
         )
+    except UnicodeEncodeError as error:  # half of a pair of surrogates
+        place = _place(text, error.start)
+        reason = f"character {text[error.start]!r} is not allowed"
     except yaml.YAMLError as error:
         place, reason = "", str(error)
     reason = " ".join(reason.split())

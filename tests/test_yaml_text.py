@@ -77,6 +77,7 @@ def test_anchors_and_merges_are_read() -> None:
             "line 1, column 4: the tag tag:yaml.org,2002:python/object:os.system is not read",
         ),
         ("a: ok\nb: \x00", "x.yaml, line 2, column 4: character"),
+        ("a: ok\nb: \ud800", "x.yaml, line 2, column 4: character"),
     ],
 )
 def test_a_fault_names_the_file_the_line_and_the_remedy(text: str, message: str) -> None:
