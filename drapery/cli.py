@@ -61,6 +61,8 @@ def command_line(words: Sequence[str] = ()) -> typer.Typer:
     for name in called or (*COMMANDS, *GROUPS):
         module = import_module(f"drapery.commands.{name}")
         if name in GROUPS:
+            for each in module.app.registered_commands:
+                each.cls = PlainCommand
             app.add_typer(module.app, name=name)
         else:
             settings = getattr(module, "CONTEXT", None)

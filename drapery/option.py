@@ -84,7 +84,7 @@ class Option:
             values = (value,) if self._taken(value) else _sequence(self.name, value)
             return tuple(self._check_one(self.name, each) for each in values)
         if self.parts:
-            return self._check_pair(value)
+            return self._check_pair(pair(self.name, value) if isinstance(value, str) else value)
         return self._check_one(self.name, value)
 
     def parse(self, value: object, folder: Path | None = None) -> Any:
@@ -95,8 +95,6 @@ class Option:
         """
         if self.several and isinstance(value, str):
             value = [part.strip() for part in value.split(";") if part.strip()]
-        if self.parts and isinstance(value, str):
-            return self.check(pair(self.name, value))
         if self.several and isinstance(value, list | tuple):
             return self.check([self._parse_one(each, folder) for each in value])
         return self.check(self._parse_one(value, folder))

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from drapery.errors import OptionError
-from drapery.settings import NAMED_OPTIONS, Settings
+from drapery.settings import NAMED_OPTIONS, Settings, check_used
 
 NAMES = frozenset(NAMED_OPTIONS)
 MAX_HINTS = 8
@@ -34,6 +34,7 @@ def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str
     if faults:
         return faults
     try:
+        check_used(values)
         return Settings(**values)
     except OptionError as error:
         return [one_line(str(error))]

@@ -13,7 +13,7 @@ from drapery.errors import DesignError, OptionError
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
-from drapery.settings import Options, Settings, check_format, frame_count
+from drapery.settings import Options, Settings, check_format, check_used, frame_count
 
 if TYPE_CHECKING:
     from drapery.garments.model import Garment
@@ -243,6 +243,7 @@ def _checked(
 
 
 def _settled(settings: Settings | None, options: Options) -> Settings:
+    check_used(options, "standing" if settings is None else settings.placement)
     if settings is None:
         return Settings(**options)
     return replace(settings, **options) if options else settings

@@ -56,6 +56,15 @@ MAX_FORMAT = 9999
 """Larger pack formats are a typing error; 26.3 has 97."""
 
 
+IDLE: Mapping[Placement, tuple[str, ...]] = {
+    "item": (
+        *("view", "solver", "grid", "fabric", "pins", "contact"),
+        *("wind", "direction", "gusts", "seed", "shadow"),
+    ),
+}
+"""Options that change nothing in a placement: an item has its own camera, and is stiff."""
+
+
 class Options(TypedDict, total=False):
     """Keyword options of `draw` and `animate`; see `Settings` for what each means."""
 
@@ -69,8 +78,8 @@ class Options(TypedDict, total=False):
     facing: Facing | None
     view: str | View
     turntable: bool
-    size: tuple[int, int]
-    grid: tuple[int, int]
+    size: tuple[int, int] | str
+    grid: tuple[int, int] | str
     solver: SolverName | Solver
     fabric: FabricName | Fabric
     forces: Sequence[Force]
@@ -428,6 +437,11 @@ class Settings:
             )
 
     @property
+    def idle(self) -> tuple[str, ...]:
+        """The options that change nothing in its placement."""
+        return IDLE.get(self.placement, ())
+
+    @property
     def is_hero(self) -> bool:
         """Whether the picture shows its subject in the hero view, which has defaults of its own."""
         return self.view == "hero" and self.placement != "item"
@@ -529,6 +543,17 @@ def frame_count(seconds: float, fps: float) -> int:
     LOOP_OPTIONS["fps"].check(fps)
     within("seconds", seconds, 1 / fps, MAX_FRAMES / fps, f"s at {fps:g} frames/s")
     return max(1, round(seconds * fps))
+
+
+def check_used(given: Mapping[str, Any], placement: str = "standing") -> None:
+    """Raise OptionError for an option that changes nothing in the placement of a picture.
+
+    given: values by name; a default counts as not given. placement: unless it is given.
+    """
+    placement = given.get("placement", placement)
+    for name in IDLE.get(placement, ()):  # type: ignore[call-overload]
+        if name in given and given[name] != OPTIONS[name].default:
+            raise OptionError(f"{name} does nothing for placement {placement}; leave it out")
 
 
 def check_format(number: int | None) -> None:

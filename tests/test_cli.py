@@ -223,7 +223,7 @@ def test_the_library_raises_what_the_command_line_prints() -> None:
     [
         {"packs": 5},
         {"size": (64,)},
-        {"size": "64x64"},
+        {"size": "64"},
         {"grid": (5.5, 9)},
         {"wind": "4"},
         {"seed": 1.5},

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from conftest import Run
 from PIL import Image
 from pydantic import ValidationError
 
@@ -451,3 +452,24 @@ def test_the_command_lists_and_describes(capsys: pytest.CaptureFixture[str]) -> 
     assert len(lines) == len(garment_names()) + 1 and lines[-1] == "A tent over a ridge pole"
     with pytest.raises(OptionError, match="no garment is given"):
         command("garment")
+
+
+@pytest.mark.parametrize("name", ["cape", "elytra"])
+def test_another_view_shows_its_side_and_an_own_view_keeps_its_turn(name: str) -> None:
+    garment = find_garment(name)
+    assert garment.settings().rotation == garment.settings(wind=1.0).rotation == 8
+    assert garment.settings(view="back").rotation == garment.settings(view="front").rotation == 0
+    assert garment.settings(view="back", rotation=8).rotation == 8
+    assert garment.settings(view="iso").rotation == 8
+
+
+def test_the_view_from_behind_shows_a_cape(drapery: Run, tmp_path: Path) -> None:
+    seen = []
+    for view in ("front", "back"):
+        path = tmp_path / f"{view}.png"
+        words = ("--view", view, "--size", "24x36", "--time", "0.1", "--light", "flat", "-o", path)
+        assert drapery("garment", "cape", *words)[0] == 0
+        red, green, _, _ = np.moveaxis(np.asarray(Image.open(path).convert("RGBA"), int), -1, 0)
+        seen.append(int(((red > 90) & (green < 60)).sum()))
+    ahead, behind = seen
+    assert behind > 3 * ahead

@@ -10,7 +10,7 @@ import typer.main
 from conftest import Run
 from cost import limited_cost
 
-from drapery import settings
+from drapery import Banner, draw, settings
 from drapery.cli import command_line
 from drapery.cloth import Drag, Fabric, Gravity, SolverXPBD, Wind
 from drapery.errors import OptionError
@@ -38,7 +38,9 @@ NUMBERS = [
 def test_the_table_the_settings_and_the_keywords_are_the_same() -> None:
     assert list(OPTIONS) == [field.name for field in fields(Settings)]
     assert {name: kind.__forward_arg__ for name, kind in Options.__annotations__.items()} == {
-        field.name: field.type for field in fields(Settings)
+        # A pair may be given as a text, but never is one in Settings.
+        field.name: f"{field.type} | str" if OPTIONS[field.name].parts else field.type
+        for field in fields(Settings)
     }
     assert {name: option.default for name, option in OPTIONS.items()} == {
         field.name: field.default for field in fields(Settings)
@@ -250,3 +252,15 @@ def test_many_unknown_names_are_refused_soon() -> None:
         faults = check_options({f"winds{number}": 1 for number in range(20_000)}, Path())
     assert isinstance(faults, list) and len(faults) == 20_000
     assert "did you mean wind" in faults[0] and "leave it out" in faults[-1]
+
+
+def test_a_pair_is_a_text_in_python_too() -> None:
+    settings = Settings(size="64x48", grid="5x9")  # type: ignore[arg-type]
+    assert (settings.size, settings.grid) == ((64, 48), (5, 9))
+    assert draw(Banner("white"), size="8x6", grid="3x4", time=0.0).pixels.shape == (6, 8, 4)
+    for name, option in OPTIONS.items():
+        if option.parts:
+            text = option.to_text(option.default)
+            assert option.check(text) == option.parse(text) == option.default, name
+            with pytest.raises(OptionError, match=f"{name} '64' is not two whole numbers"):
+                option.check("64")

@@ -131,4 +131,5 @@ def _check_types(cloth: Cloth, solver: Solver) -> None:
     if not isinstance(cloth, Cloth):
         raise OptionError(f"cloth {shown(cloth)} is not a Cloth; use grid, disc or from_mesh")
     if not (hasattr(solver, "init") and hasattr(solver, "step")) or isinstance(solver, type):
-        raise OptionError(f"solver {shown(solver)} is not a solver; use SolverXPBD() or the like")
+        named = f"solver({solver!r})" if isinstance(solver, str) else "SolverXPBD() or the like"
+        raise OptionError(f"solver {shown(solver)} is not a solver; use {named}")

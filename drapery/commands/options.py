@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 import typer
 
 from drapery.option import Option
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options, check_used
 
 if TYPE_CHECKING:
     from drapery import Banner
@@ -120,6 +120,7 @@ def options_of(words: Mapping[str, Any]) -> Options:
         name: option.parse((words[name] or ()) if option.several else words[name])
         for name, option in chosen.items()
     }
+    check_used(values)
     return cast(Options, values)
 
 

@@ -11,6 +11,8 @@ from typing import Any, get_args, get_origin
 
 from typer.core import TyperCommand, TyperGroup
 
+from drapery.errors import OptionError
+
 _TYPES = (str, int, float, Path)
 
 
@@ -25,6 +27,11 @@ class PlainCommand(TyperCommand):
         """Its parameters and `--help`."""
         return [_plain(each) for each in super().get_params(ctx)]
 
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """The words that are left. Raises OptionError for an option without its value."""
+        _check_values(self.get_params(ctx), args)
+        return super().parse_args(ctx, args)
+
 
 class PlainGroup(TyperGroup):
     """The same for a group of commands."""
@@ -32,6 +39,26 @@ class PlainGroup(TyperGroup):
     def get_params(self, ctx: Any) -> list[Any]:
         """Its parameters and `--help`."""
         return [_plain(each) for each in super().get_params(ctx)]
+
+
+def _check_values(parameters: list[Any], words: list[str]) -> None:
+    """Raise OptionError where another option stands in the place of an option's value."""
+    options = {name: each for each in parameters for name in each.opts if name.startswith("-")}
+    others = [name for each in parameters for name in each.secondary_opts]
+    following = iter(words)
+    for word in following:
+        if word == "--":
+            return
+        option = options.get(word)
+        if option is None or option.is_flag or option.count:
+            continue
+        value = next(following, "")
+        if value in options or value in others or value.startswith("--"):
+            about = f" ({option.help.split('.')[0]})" if option.help else ""
+            kind = option.metavar or "VALUE"
+            raise OptionError(
+                f"{word} takes a value{about}, but {value} follows it; write {word} {kind} {value}"
+            )
 
 
 def _plain(parameter: Any) -> Any:

@@ -1,5 +1,6 @@
 """`drapery sheet`: many labelled pictures on one sheet."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -124,11 +125,12 @@ def write_styles(
     """One design in every style, or in those of --style."""
     from drapery.banner import parse_banner
     from drapery.option import within
-    from drapery.settings import Settings
+    from drapery.settings import OPTIONS, Settings
     from drapery.sheets import check_sheet_target, styles_sheet
 
     within("moments", moments, 1, MAX_MOMENTS)
-    settings = Settings(**o.options_of(words | {"view": view, "size": size}))
+    given = words | {"size": size} | ({} if view == "hero" else {"view": view})
+    settings = replace(Settings(**o.options_of(given)), view=OPTIONS["view"].parse(view))
     check_sheet_target(out)
     with compile_notice():
         design = o.design_of(words) or parse_banner(STYLED)

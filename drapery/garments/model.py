@@ -6,7 +6,7 @@ to the right, y up, its front towards +z; `turn` and `place` then move it. A wea
 origin, its feet on y = 0, and looks to +z.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -533,7 +533,17 @@ class Garment(GarmentTable):
 
     def settings(self, **options: Any) -> Settings:
         """The settings of its picture. options: those that replace its own. Raises OptionError."""
-        return Settings(**{**self.picture, **options})
+        return Settings(**self.picture_options(options))
+
+    def picture_options(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Options of its picture, where those that are given replace its own.
+
+        Its own rotation belongs to its own view: another view `front` or `back` shows that side.
+        """
+        own = dict(self.picture)
+        if given.get("view") in ("front", "back") and "rotation" not in given:
+            own.pop("rotation", None)
+        return {**own, **given}
 
     def check_settings(self, settings: Settings) -> None:
         """Raise OptionError for an option that its file sets in its stead, such as `grid`."""

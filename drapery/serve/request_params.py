@@ -191,7 +191,7 @@ def read_request(
             garment = (
                 _player(values, config, skin) if is_player else _garment(values, config.limits)
             )
-            settings = replace(config.base, **{**garment.picture, **chosen})
+            settings = replace(config.base, **garment.picture_options(chosen))
             return _request(values, garment, settings, ending, config.limits)
         settings, banner = replace(config.base, **chosen), _banner(values, config.limits)
         _check_kind(banner, settings)

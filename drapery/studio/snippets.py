@@ -260,6 +260,7 @@ _OPTIONS = {
 
 def _names(request: ExportRequest) -> tuple[str, ...]:
     names: tuple[str, ...] = _OPTIONS.get(request.kind, PICTURE_OPTIONS)
+    names = tuple(name for name in names if name not in request.settings.idle)
     if drawn_garment(request) is not None:
         names = tuple(name for name in names if name not in (*UNUSED_OPTIONS, "texture"))
     return names

@@ -1,0 +1,94 @@
+"""An option that changes nothing in a placement is refused by every way to give it."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import Run
+
+from drapery import Banner, Settings, animate, draw, iter_frames, save_model
+from drapery.errors import OptionError
+from drapery.options import check_options
+from drapery.settings import IDLE, NAMED_OPTIONS
+from drapery.studio.snippets import ExportRequest, as_command, as_python
+
+CREEPER = Banner.parse("white creeper:lime")
+OTHERS: dict[str, Any] = {
+    "kind": "shield", "rotation": 5, "facing": "east", "view": "back", "turntable": True,
+    "size": (40, 40), "grid": (4, 6), "solver": "desbrun", "fabric": "silk", "pins": "corners",
+    "contact": "none", "wind": 9.0, "direction": 100.0, "gusts": 1.5, "seed": 7,
+    "style": "pixel-art", "thickness": 4.0, "background": "#ff0000", "ground": "stone",
+    "samples": 4, "pixel": 2, "light": "flat", "block_light": 9, "sky_light": 2, "daylight": 0.1,
+    "shadow": True,
+}  # fmt: skip
+"""Another value of each option."""
+UNSEEN = {
+    "packs": "is a file",
+    "format": "is for packs",
+    "texture": "is a file",
+    "placement": "is the placement itself",
+    "pose": "an item has the game's own pose",
+    "time": "textures of packs move",
+    "layers": "looks the same where nothing is translucent",
+    "pbr": "needs maps of a pack",
+    "backend": "draws the same",
+}
+"""Options that need not change this picture."""
+
+
+@pytest.mark.parametrize("name", sorted(NAMED_OPTIONS))
+def test_each_option_changes_an_item_or_is_refused(name: str) -> None:
+    assert (name in OTHERS) != (name in UNSEEN)
+    if name in UNSEEN:
+        return
+    dark = {"sky_light": 3} if name in ("block_light", "daylight") else {}
+    plain = {"placement": "item", "size": (32, 32), **dark}
+    given = {**plain, name: OTHERS[name]}
+    try:
+        changed = draw(CREEPER, **given).pixels
+    except OptionError as error:
+        assert name in str(error)
+        assert str(error).endswith(("leave it out", "use rotation"))
+        return
+    assert not np.array_equal(changed, draw(CREEPER, **plain).pixels)
+
+
+@pytest.mark.parametrize("name", IDLE["item"])
+def test_all_ways_to_give_it_refuse_it(name: str, drapery: Run, tmp_path: Path) -> None:
+    option = NAMED_OPTIONS[name]
+    said = f"{name} does nothing for placement item; leave it out"
+    given = {"placement": "item", name: OTHERS[name]}
+    texts = {"placement": "item", name: option.to_text(OTHERS[name])}
+    assert check_options(texts, Path()) == [said]
+    calls = (
+        lambda: draw(CREEPER, **given),
+        lambda: draw(CREEPER, Settings(placement="item"), **{name: OTHERS[name]}),
+        lambda: animate(CREEPER, **given),
+        lambda: iter_frames(CREEPER, **given),
+        lambda: save_model(CREEPER, tmp_path / "x.glb", **given),
+    )
+    for call in calls:
+        with pytest.raises(OptionError, match=said):
+            call()
+    words = [option.command_flag]
+    words += [] if option.type is bool else [option.to_text(OTHERS[name])]
+    for command, file in (("render", "x.png"), ("animate", "x.gif"), ("model", "x.glb")):
+        if (command, name) == ("model", "shadow"):
+            continue  # a 3-D file has no shadow
+        answer = drapery(command, "red", "--placement", "item", *words, "-o", tmp_path / file)
+        assert answer == (2, "", f"drapery: {said}\n")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_default_is_not_refused_and_a_file_has_other_placements() -> None:
+    assert isinstance(check_options({"placement": "item", "view": "front"}, Path()), Settings)
+    assert isinstance(check_options({"placement": "wall", "view": "back"}, Path()), Settings)
+
+
+def test_the_studio_writes_no_option_that_does_nothing() -> None:
+    settings = Settings(placement="item", view="hero", wind=9.0, size=(64, 64))
+    for code in (as_command, as_python):
+        text = code(ExportRequest(CREEPER, settings))
+        assert "item" in text and "64" in text
+        assert "wind" not in text and "view" not in text
