@@ -1,4 +1,7 @@
-"""TOML from users: one reader with a bound on its length, and the line of a field in its text."""
+"""TOML from users: one reader with bounds, and the line of a field in its text.
+
+The parser needs memory and time by the square of the depth of a key, so the text is scanned before.
+"""
 
 import re
 import tomllib
@@ -6,6 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from drapery.errors import OptionError
+from drapery.user_files import read_user_file
+
+MAX_DEPTH = 32
+"""The most parts of a dotted name, and the most lists and tables inside one another."""
+MAX_WORD = 100
+"""The most characters of a number, or of a name without quotes."""
 
 Place = tuple[int | str, ...]
 """Where a field is: the names of tables and fields, and the numbers of items in lists, from 0."""
@@ -17,20 +26,57 @@ def read_toml(path: str | Path, max_bytes: int, kind: str) -> tuple[dict[str, An
     kind: what the file describes, for messages, such as `a style`.
     Raises OptionError for a file that cannot be read, is longer than max_bytes, or is not TOML.
     """
+    data = read_user_file(path, max_bytes, shorter=f"{kind} is shorter")
     try:
-        with Path(path).open("rb") as file:
-            data = file.read(max_bytes + 1)
-    except OSError as error:
-        raise OptionError(f"{path} cannot be read: {error.strerror}; check the path") from None
-    if len(data) > max_bytes:
-        raise OptionError(f"{path} has over {max_bytes} bytes; {kind} is shorter")
-    try:
-        text = data.decode("utf-8")
-        return tomllib.loads(text), text
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise OptionError(f"{path} is not text in UTF-8; save it as UTF-8") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise OptionError(f"{path} is not TOML: {error}; correct that line") from None
+    return parse_toml(text, path), text
+
+
+def parse_toml(text: str, where: object) -> dict[str, Any]:
+    """The value of a text of TOML.
+
+    where: the name of the file, for messages. Raises OptionError for a text that is not TOML, or
+    that exceeds MAX_DEPTH or MAX_WORD.
+    """
+    _check_bounds(text, where)
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise OptionError(f"{where} is not TOML: {error}; correct that line") from None
+
+
+def _check_bounds(text: str, where: object) -> None:
+    """Raise OptionError for names, lists and tables that nest too deeply, and for long words."""
+    parts = depth = 0
+    for found in _TOKENS.finditer(text):
+        token = found.group()
+        if len(token) > MAX_WORD and found.lastgroup == "word":
+            fault = f"a word without quotes has over {MAX_WORD} characters; shorten it"
+        elif token == ".":
+            parts += 1
+            fault = f"a name has over {MAX_DEPTH} parts; shorten it" if parts >= MAX_DEPTH else ""
+        elif found.lastgroup == "mark":
+            parts, fault = 0, ""
+            depth = max(0, depth + (token in "[{") - (token in "]}"))
+            if depth > MAX_DEPTH:
+                fault = f"lists and tables nest over {MAX_DEPTH} deep; flatten them"
+        else:
+            continue
+        if fault:
+            line = text.count("\n", 0, found.start()) + 1
+            raise OptionError(f"{where} line {line}: {fault}")
+
+
+_TOKENS = re.compile(
+    r"""
+    \"{3}(?:[^"\\]|\\.|"(?!""))*+"{0,5} | '{3}(?:[^']|'(?!''))*+'{0,5}  # texts of many lines
+    | "(?:[^"\\\n]|\\.)*+"? | '[^'\n]*+'? | \#[^\n]*+  # texts of a line, comments
+    | (?P<word>[\w+-]++) | (?P<dot>\.) | (?P<mark>[][{}=,\n])
+    """,
+    re.VERBOSE | re.DOTALL,
+)
 
 
 def locate(path: str | Path, text: str, place: Place) -> str:

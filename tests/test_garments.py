@@ -10,7 +10,7 @@ from conftest import Run
 from PIL import Image
 from pydantic import ValidationError
 
-from drapery import Banner, draw, iter_frames, save_model
+from drapery import Banner, draw, iter_frames, mesh_headers, save_model
 from drapery.cli import command_line
 from drapery.errors import OptionError
 from drapery.garments import (
@@ -381,7 +381,7 @@ def test_a_3d_file_stops_cloth_and_is_drawn(tmp_path: Path) -> None:
         ("none.obj", None, "cannot be read: No such file"),
         ("text.stl", "solid no", "text.stl"),
         ("empty.obj", "v 0 0 0", "empty.obj"),
-        ("bad.glb", "glTF", "bad.glb cannot be read"),
+        ("bad.glb", "glTF", "bad.glb is no .glb file"),
     ],
 )
 def test_a_3d_file_that_cannot_be_used_is_named(
@@ -402,11 +402,10 @@ def test_the_size_of_a_3d_file_is_limited(tmp_path: Path, monkeypatch: pytest.Mo
                 read_stiff_mesh(GarmentMesh(file=Path("hill.obj")), tmp_path, 1 / 16)
 
 
-def test_a_3d_file_is_judged_before_its_parts_are_copied(
+def test_a_3d_file_is_judged_before_its_parts_are_made(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Each copy decodes the texture again, so a small file could take gigabytes."""
-    image = Image.new("RGB", (meshes.MAX_TEXTURE + 1, 1))
+    image = Image.new("RGB", (mesh_headers.MAX_TEXTURE + 1, 1))
     material = trimesh.visual.material.PBRMaterial(baseColorTexture=image)
     part = trimesh.creation.box()
     part.visual = trimesh.visual.TextureVisuals(np.zeros((8, 2)), material=material)
@@ -415,9 +414,9 @@ def test_a_3d_file_is_judged_before_its_parts_are_copied(
         matrix = trimesh.transformations.translation_matrix((number, 0, 0))
         scene.graph.update(f"node {number}", matrix=matrix, geometry="box")
     (tmp_path / "boxes.glb").write_bytes(scene.export(file_type="glb"))
-    monkeypatch.setattr(trimesh.Trimesh, "copy", None)
+    monkeypatch.setattr(trimesh, "load", None)
     for limit, said in ((1000, "a texture over 1024 px"), (2, "over 2 parts")):
-        monkeypatch.setattr(meshes, "MAX_PARTS", limit)
+        monkeypatch.setattr(mesh_headers, "MAX_PARTS", limit)
         with pytest.raises(OptionError, match=said):
             read_stiff_mesh(GarmentMesh(file=Path("boxes.glb")), tmp_path, 1 / 16)
 

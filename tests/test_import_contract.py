@@ -22,6 +22,7 @@ FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
     *("aot", "jit_cache", "jit_calls", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
+    *("user_files", "picture_file", "mesh_file", "mesh_headers"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
@@ -45,7 +46,11 @@ ALLOWED: dict[str, set[str]] = {
     "options": {"errors", "option", "settings"},
     "player_settings": {"option"},
     "yaml_text": {"errors"},
-    "toml_text": {"errors"},
+    "user_files": {"errors"},
+    "toml_text": {"errors", "user_files"},
+    "picture_file": {"errors"},
+    "mesh_headers": {"errors", "picture_file"},
+    "mesh_file": {"errors", "mesh", "mesh_headers", "user_files"},
     "assets": set(),
     "banner": {"assets"},
     "packs": {"banner"},

@@ -12,6 +12,7 @@ from drapery.batch.jobs import Job
 from drapery.batch.keys import DigestCache
 from drapery.errors import OutputError, PackError
 from drapery.settings import Settings
+from drapery.user_files import open_user_file
 
 MAX_BYTES = 1 << 30
 
@@ -34,13 +35,18 @@ def paths_of(job: Job) -> tuple[Path, ...]:
 def bundle(path: Path, digests: DigestCache) -> Artifact:
     """A pack or texture as an artifact. Raises PackError."""
     try:
-        data = path.read_bytes() if path.is_file() else _zipped(path)
+        data = _zipped(path) if path.is_dir() else _bytes(path)
     except OSError as error:
         raise PackError(f"pack {path} cannot be read: {error.strerror}; check the path") from None
     if len(data) > MAX_BYTES:
         raise PackError(f"pack {path} is over {MAX_BYTES >> 20} MiB; remove files not needed")
     name = path.name if path.is_file() else f"{path.name}.zip"
     return Artifact(name, digests.of(path)[:16], data)
+
+
+def _bytes(path: Path) -> bytes:
+    with open_user_file(path) as file:
+        return file.read(MAX_BYTES + 1)
 
 
 def unbundle(artifact: Artifact) -> Path:
@@ -94,5 +100,5 @@ def _zipped(folder: Path) -> bytes:
             if path.is_file() and ".git" not in path.relative_to(folder).parts:
                 # Without times, so that the same pack gives the same artifact.
                 info = zipfile.ZipInfo(path.relative_to(folder).as_posix())
-                file.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
+                file.writestr(info, _bytes(path), zipfile.ZIP_DEFLATED)
     return buffer.getvalue()

@@ -19,6 +19,7 @@ from drapery.errors import PackError
 from drapery.render import backend
 from drapery.settings import Settings
 from drapery.styles import combined_style
+from drapery.user_files import open_user_file
 
 if TYPE_CHECKING:
     from drapery.garments import Garment
@@ -144,7 +145,7 @@ def _own_files(node: Traversable, name: str) -> Iterator[tuple[str, Traversable]
 
 
 def _of_file(path: Path) -> str:
-    with path.open("rb") as file:
+    with open_user_file(path) as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 

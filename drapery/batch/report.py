@@ -10,6 +10,7 @@ from drapery.batch.results import OutputRecord
 from drapery.batch.run import Progress
 from drapery.batch.stores import Store
 from drapery.errors import DraperyError
+from drapery.picture_file import opened_picture
 
 FILE = "report.html"
 MAX_PICTURES = 240
@@ -120,9 +121,7 @@ def _pictures(outs: list[str], store: Store) -> Iterable[tuple[str, str]]:
 
 def _thumbnail(data: bytes) -> str:
     """The first frame, no larger than SIDE, as a `data:` address."""
-    from PIL import Image
-
-    with Image.open(io.BytesIO(data)) as image:
+    with opened_picture(data, "a picture", max_pixels=1 << 27) as image:
         small = image.convert("RGBA")
     small.thumbnail((SIDE, SIDE))
     buffer = io.BytesIO()

@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 from drapery import Banner
 from drapery.errors import DesignError, DraperyError, OptionError
 from drapery.options import one_line
+from drapery.user_files import read_user_file, reason, shown_path
 
 MAX_TEXT = 512 << 20
 MAX_YAML = 16 << 20
@@ -56,21 +57,21 @@ def read_rows(path: Path) -> Rows:
     Raises OptionError for a file that is none of these, DesignError for a broken world.
     """
     reader = _READERS.get(path.suffix.lower())
-    if path.is_file() and reader is not None:
-        yield from reader(path)
-    elif path.is_dir() or path.is_file():
-        yield from _banners(path)
-    else:
-        raise OptionError(f"{path}: no such file or folder; name a manifest, world or schematic")
+    try:
+        exists, is_folder = path.exists(), path.is_dir()
+    except (OSError, ValueError) as error:
+        raise OptionError(f"{shown_path(path)}: {reason(error)}; check the path") from None
+    if not exists:
+        raise OptionError(
+            f"{shown_path(path)}: no such file or folder; name a manifest, world or schematic"
+        )
+    yield from _banners(path) if is_folder or reader is None else reader(path)
 
 
 def _text(path: Path, limit: int) -> str:
+    data = read_user_file(path, limit, remedy="make it readable", shorter="split it")
     try:
-        if path.stat().st_size > limit:
-            raise OptionError(f"{path} is larger than {limit >> 20} MiB; split it")
-        return path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise OptionError(f"{path}: {error.strerror}; make it readable") from None
+        return io.TextIOWrapper(io.BytesIO(data), encoding="utf-8-sig").read()
     except UnicodeDecodeError as error:
         raise OptionError(f"{path}: byte {error.start} is not UTF-8; save it as UTF-8") from None
 

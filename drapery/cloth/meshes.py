@@ -1,5 +1,7 @@
 """Cloths in the shape of a triangle mesh."""
 
+from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,13 +15,14 @@ from drapery.cloth.builders import (
     check_particles,
     check_size,
 )
-from drapery.cloth.checks import check_count
+from drapery.cloth.checks import check_count, shown
 from drapery.cloth.cloth import FLEXION, STRUCTURAL, Cloth
 from drapery.cloth.fabric import Fabric
 from drapery.cloth.pins import Pins, pinned_particles
 from drapery.elementary import cos, sin
 from drapery.errors import OptionError
 from drapery.mesh import Array, face_normals
+from drapery.mesh_file import check_triangles, joined, read_mesh_file
 
 WELD = 1e-6
 """Vertices of a loaded mesh that are nearer than this fraction of its size become one particle."""
@@ -109,16 +112,13 @@ def flat_uvs(rest: Array) -> Array:
 
 
 def from_mesh(mesh: Any, **options: Any) -> Cloth:
-    """A cloth in the shape of a `trimesh.Trimesh`, or of a file that trimesh loads.
+    """A cloth in the shape of a `trimesh.Trimesh`, or of a .glb, .obj, .ply or .stl file.
 
     Vertices at the same position, as at the seams of a texture, become one particle. options: those
     of `from_triangles`. Raises OptionError.
     """
-    if not hasattr(mesh, "faces"):
-        mesh = _load(mesh)
-    positions, faces = np.asarray(mesh.vertices, float), np.asarray(mesh.faces)
-    if len(positions) == 0:
-        raise OptionError("mesh has no vertices; give one with triangles")
+    name = f"mesh {mesh}" if isinstance(mesh, str | PathLike) else "mesh"
+    positions, faces, uv = _arrays(mesh, name)
     grain = WELD * float(np.ptp(positions, axis=0).max())
     cells = np.round(positions / max(grain, 1e-30)).astype(np.int64)
     _, first, number = np.unique(cells, axis=0, return_index=True, return_inverse=True)
@@ -126,20 +126,26 @@ def from_mesh(mesh: Any, **options: Any) -> Cloth:
     rank = np.argsort(np.argsort(first))
     kept, faces = np.sort(first), rank[number.ravel()][faces]
     whole = np.array([len(set(face)) == 3 for face in faces.tolist()], bool)
-    uv = getattr(getattr(mesh, "visual", None), "uv", None)
     if uv is not None and "uvs" not in options and len(uv) == len(positions):
         # trimesh counts v upwards.
         options["uvs"] = np.asarray(uv, float)[kept, :2] * [1, -1] + [0, 1]
+    if not whole.any():
+        extent = " x ".join(f"{side:.4g}" for side in np.ptp(positions, axis=0))
+        raise OptionError(f"{name} of {extent} has no triangle with an area; give one with faces")
     return from_triangles(positions[kept], faces[whole].reshape(-1, 3), **options)
 
 
-def _load(path: Any) -> Any:
-    import trimesh
-
-    try:
-        return trimesh.load(path, force="mesh", process=False)
-    except Exception as fault:
-        raise OptionError(f"{path}: not a mesh that trimesh can load ({fault})") from None
+def _arrays(mesh: Any, name: str) -> tuple[Array, NDArray[np.integer], Array | None]:
+    """Positions [N, 3], triangles [T, 3] and texture coordinates [N, 2] of a mesh or a file."""
+    if isinstance(mesh, str | PathLike):
+        parts = read_mesh_file(Path(mesh))
+        every = [part.uvs for part in parts if part.uvs is not None]
+        return *joined(parts), np.concatenate(every) if len(every) == len(parts) else None
+    if not (hasattr(mesh, "faces") and hasattr(mesh, "vertices")):
+        raise OptionError(f"{shown(mesh)} is no mesh; give a trimesh.Trimesh or the path of a file")
+    positions, faces = np.asarray(mesh.vertices, float), np.asarray(mesh.faces)
+    check_triangles(positions, faces, name)
+    return positions, faces, getattr(getattr(mesh, "visual", None), "uv", None)
 
 
 def disc(

@@ -6,19 +6,22 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import read_designs
 from drapery.banner.formats.registry import choose_banner
 from drapery.errors import OptionError
+from drapery.picture_file import opened_picture
 from drapery.pictures import draw
 from drapery.render import Frame
 from drapery.settings import Options, Settings
 from drapery.styles import StyleLike, find_style
+from drapery.user_files import read_user_file
 
 PICTURE_ENDINGS = (".png", ".gif", ".webp", ".apng")
 MAX_PICTURE_SIDE = 16384
+MAX_PICTURE_PIXELS = 8192 * 8192
+MAX_PICTURE_FILE = 512 << 20
 
 Axes = dict[str, list[tuple[str, dict[str, Any]]]]
 """The values of each thing that may vary: their labels, and the settings that they change."""
@@ -143,12 +146,7 @@ def _is_pack(subject: str) -> bool:
 
 
 def _load(path: Path) -> Frame:
-    try:
-        with Image.open(path) as image:
-            if max(image.size) > MAX_PICTURE_SIDE:
-                raise OptionError(f"{path} is larger than {MAX_PICTURE_SIDE} pixels; use a smaller")
-            return Frame(np.asarray(image.convert("RGBA")))
-    except OptionError:
-        raise
-    except Exception as error:  # Pillow raises errors of many types for a broken file
-        raise OptionError(f"{path} is not a readable picture ({error}); draw it again") from error
+    data = read_user_file(path, MAX_PICTURE_FILE, shorter="compare smaller pictures")
+    limits = {"max_pixels": MAX_PICTURE_PIXELS, "max_side": MAX_PICTURE_SIDE}
+    with opened_picture(data, str(path), **limits) as image:
+        return Frame(np.asarray(image.convert("RGBA")))

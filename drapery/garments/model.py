@@ -30,6 +30,7 @@ from drapery.errors import DraperyError, OptionError
 from drapery.garments.blends import POSE_ENDING, read_blend
 from drapery.garments.loading import load_tables
 from drapery.garments.profiles import is_profile_file
+from drapery.mesh_file import MESH_ENDINGS
 from drapery.option import shown
 from drapery.options import unknown_names
 from drapery.player_settings import MAX_SPEED
@@ -44,7 +45,6 @@ MAX_PIECES = 64
 """The most pieces, pins, seams, poles and blocks of a garment, each."""
 MAX_MESHES = 8
 """The most 3-D files of a garment."""
-MESH_ENDINGS = (".glb", ".obj", ".ply", ".stl")
 MAX_PARTICLES = 65
 """The most particles along one side of a piece."""
 UNUSED_OPTIONS = (

@@ -18,6 +18,7 @@ from drapery.garments.model import Angle, GarmentTable, Length
 from drapery.mesh import Array
 from drapery.style.figure import TEXEL, WING_JOINTS, FigurePart, Placed, to_metres
 from drapery.toml_text import read_toml
+from drapery.user_files import read_user_file
 
 MAX_BYTES = 1 << 16
 """The longest file of poses [bytes]."""
@@ -100,15 +101,9 @@ def _known() -> dict[str, Motion]:
 
 
 def _read_pose(path: Path) -> KeyPose:
+    data = read_user_file(path, MAX_BYTES, shorter="a pose is shorter")
     try:
-        with path.open("rb") as file:
-            text = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        raise OptionError(f"{path} cannot be read: {error.strerror}; check the path") from None
-    if len(text) > MAX_BYTES:
-        raise OptionError(f"{path} has over {MAX_BYTES} bytes; a pose is shorter")
-    try:
-        return KeyPose.model_validate(json.loads(text))
+        return KeyPose.model_validate(json.loads(data.decode("utf-8-sig")))
     except (ValueError, RecursionError) as error:
         if isinstance(error, ValidationError):
             fault = error.errors()[0]

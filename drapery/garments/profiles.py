@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drapery.banner.names import shown
-from drapery.banner.packs.checks import reason
 from drapery.banner.packs.texture_ids import full_id
 from drapery.errors import DesignError, OptionError, PackError
+from drapery.user_files import read_user_file
 
 if TYPE_CHECKING:
     from drapery.style.skins import Arms
@@ -59,11 +59,7 @@ def profile_of(skin: str, folder: Path = Path()) -> Profile | None:
         return None
     path = folder / skin
     name = f"profile {shown(str(path), 200)}"
-    try:
-        with path.open("rb") as file:
-            data = file.read(MAX_PROFILE + 1)
-    except (OSError, ValueError) as error:
-        raise OptionError(f"{name} cannot be read ({reason(error)}); check the path") from None
+    data = read_user_file(path, MAX_PROFILE, name=name)
     try:
         return read_profile(data.decode("utf-8-sig"), name)
     except UnicodeDecodeError:

@@ -1,20 +1,20 @@
 """Any picture as the face that designs are searched for: read, cropped, fitted and weighted."""
 
-import warnings
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageOps, UnidentifiedImageError
+from PIL import Image, ImageOps
 
 from drapery.banner import DYES
 from drapery.errors import OptionError, PackError
 from drapery.match.art import HEIGHT, WIDTH
 from drapery.match.colours import UNIT, distances, oklab
 from drapery.packs import Texels, read_png
+from drapery.picture_file import opened_picture
+from drapery.user_files import read_user_file
 
 Fit = Literal["cover", "contain", "stretch"]
 Weighting = Literal["even", "centre", "edges", "rare"]
@@ -23,9 +23,8 @@ FITS: tuple[Fit, ...] = get_args(Fit)
 WEIGHTINGS: tuple[Weighting, ...] = get_args(Weighting)
 
 MAX_BYTES = 64 << 20
-MAX_PIXELS = 4096 * 4096
 _PNG = b"\x89PNG\r\n\x1a\n"
-_OTHERS = ("JPEG", "WEBP")
+_FORMATS = ("PNG", "JPEG", "WEBP")
 
 PITCH = (24, 48)
 """From one banner of a mural to the next, across and down [texels]; 24 are a block."""
@@ -54,12 +53,8 @@ def read_picture(path: str | Path) -> Texels:
     Raises OptionError for a file that cannot be read, is not such a picture, or is too large.
     """
     name = Path(path).name
-    try:
-        with Path(path).open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise OptionError(f"{name} cannot be read ({reason}); give a picture") from None
+    remedy, shorter = "give a picture", "shrink it"
+    data = read_user_file(path, MAX_BYTES, name=name, remedy=remedy, shorter=shorter)
     return decode_picture(data, name)
 
 
@@ -75,26 +70,8 @@ def decode_picture(data: bytes, name: str = "the picture") -> Texels:
             return read_png(data, name)
         except PackError as error:
             raise OptionError(str(error)) from None
-    try:
-        with warnings.catch_warnings(action="ignore"):
-            image = Image.open(BytesIO(data), formats=_OTHERS)
-            width, height = image.size
-            if width * height > MAX_PIXELS:
-                raise OptionError(
-                    f"{name} is {width} x {height} px; at most {MAX_PIXELS >> 20} million pixels"
-                    " are read: shrink it"
-                )
-            return np.asarray(ImageOps.exif_transpose(image).convert("RGBA"))
-    except Image.DecompressionBombError:
-        raise OptionError(
-            f"{name} has over {MAX_PIXELS >> 20} million pixels, which are not read: shrink it"
-        ) from None
-    except UnidentifiedImageError:
-        raise OptionError(
-            f"{name} is not a picture that can be read; save it as PNG, JPEG or WebP"
-        ) from None
-    except (OSError, SyntaxError, ValueError, EOFError, IndexError, KeyError) as error:
-        raise OptionError(f"{name} is a broken picture ({error}); save it again") from None
+    with opened_picture(data, name, _FORMATS) as image:
+        return np.asarray(ImageOps.exif_transpose(image).convert("RGBA"))
 
 
 def fit_picture(

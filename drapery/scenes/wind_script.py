@@ -11,9 +11,9 @@ A command is a time [s], a word and its number. `#` begins a comment.
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from drapery.errors import OptionError
+from drapery.user_files import read_user_file
 
 MAX_BYTES = 1 << 16
 LIMITS = {"strength": (0.0, 40.0), "direction": (-3600.0, 3600.0)}
@@ -36,18 +36,12 @@ class WindSetting:
 
 def read_script(path: str) -> tuple[WindSetting, ...]:
     """The settings of a file, in order. Raises OptionError that names the line."""
+    name, remedy = f"script {path}", "give a file of commands"
+    data = read_user_file(path, MAX_BYTES, name=name, remedy=remedy)
     try:
-        with Path(path).open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-        text = data.decode()
-    except (OSError, ValueError) as fault:
-        reason = getattr(fault, "strerror", None) or "it is not a text file"
-        raise OptionError(
-            f"script {path} cannot be read ({reason}); give a file of commands"
-        ) from None
-    if len(data) > MAX_BYTES:
-        raise OptionError(f"script {path} is over {MAX_BYTES} bytes; shorten it")
-    return tuple(parse_script(text, path))
+        return tuple(parse_script(data.decode("utf-8-sig"), path))
+    except UnicodeDecodeError:
+        raise OptionError(f"{name} is not text in UTF-8; save it as UTF-8") from None
 
 
 def parse_script(text: str, name: str = "script") -> Iterator[WindSetting]:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from drapery.errors import OptionError
 from drapery.option import shown
+from drapery.user_files import read_user_file
 
 MAX_BYTES = 1 << 16
 """The longest file [bytes]."""
@@ -23,14 +24,8 @@ def read_palette(path: str | Path) -> tuple[str, ...]:
     target = Path(path)
     if target.suffix.lower() not in ENDINGS:
         raise OptionError(f"palette {shown(str(path))} is of an unknown type; use .gpl or .hex")
-    try:
-        with target.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "its name cannot be used"
-        raise OptionError(f"palette {path} cannot be read: {reason}; check the path") from None
-    if len(data) > MAX_BYTES:
-        raise OptionError(f"palette {path} has over {MAX_BYTES} bytes; a palette is shorter")
+    name, shorter = f"palette {path}", "a palette is shorter"
+    data = read_user_file(target, MAX_BYTES, name=name, shorter=shorter)
     lines = data.decode("utf-8-sig", errors="replace").splitlines()
     colours = _gpl(lines, path) if target.suffix.lower() == ".gpl" else _hex(lines, path)
     if not 2 <= len(colours) <= MAX_COLOURS:

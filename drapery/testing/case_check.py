@@ -22,6 +22,10 @@ from drapery.testing.golden import (
     encode,
     fingerprint,
 )
+from drapery.user_files import read_user_file
+
+MAX_BYTES = 1 << 30
+"""The longest golden file [bytes]."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,7 @@ def update_cases(cases: CaseFile, folder: Path) -> Iterator[CaseResult]:
     for case in cases.case:
         path = _golden_path(cases, case, folder)
         new = _draw(case).golden()
-        changed = not path.exists() or path.read_bytes() != new
+        changed = not path.exists() or read_user_file(path, MAX_BYTES) != new
         if changed:
             make_folder(path.parent)
             with replacing(path) as beside:
@@ -121,7 +125,7 @@ def _fault(drawn: _DrawnCase, path: Path, report: Path) -> str | None:
     if not path.exists():
         keep("there is no golden yet")
         return f"no golden at {path}; write it with `drapery golden update`"
-    data = path.read_bytes()
+    data = read_user_file(path, MAX_BYTES)
     if case.hashed:
         found = fingerprint(picture)
         return None if data == found else keep(f"the hash changed to {found.decode().strip()}")

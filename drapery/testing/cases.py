@@ -17,7 +17,6 @@ has a `texture` in place of a design. With `seconds` or `fps` the picture is a l
 `drapery animate`.
 """
 
-import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +25,8 @@ from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 from drapery.errors import OptionError
 from drapery.options import NAMES, check_options, one_line, unknown_names
 from drapery.settings import LOOP_OPTIONS, Settings
+from drapery.toml_text import parse_toml
+from drapery.user_files import read_user_file
 from drapery.yaml_text import load_yaml
 
 MAX_FILE = 4 << 20
@@ -103,20 +104,13 @@ def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
 
 
 def _load(path: Path) -> dict[str, Any]:
+    data = read_user_file(path, MAX_FILE, remedy="name a TOML or YAML file", shorter="split it")
     try:
-        with path.open("rb") as file:
-            data = file.read(MAX_FILE + 1)
-        if len(data) > MAX_FILE:
-            raise OptionError(f"{path} is larger than {MAX_FILE >> 20} MiB; split it")
-        text = data.decode("utf-8")
-        if path.suffix.lower() in (".yaml", ".yml"):
-            loaded = load_yaml(text, path)
-        else:
-            loaded = tomllib.loads(text)
-    except OSError as error:
-        raise OptionError(f"{path}: {error.strerror}; name a TOML or YAML file") from None
-    except (ValueError, RecursionError) as error:
-        raise OptionError(f"{path}: {one_line(str(error))}; correct it there") from None
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise OptionError(f"{path}: {one_line(str(error))}; save it as UTF-8") from None
+    is_yaml = path.suffix.lower() in (".yaml", ".yml")
+    loaded = load_yaml(text, path) if is_yaml else parse_toml(text, path)
     if not isinstance(loaded, dict):
         raise OptionError(f"{path} has no cases; write [[case]] with name and design")
     return loaded

@@ -19,6 +19,7 @@ from drapery.testing.golden import (
     fingerprint,
 )
 from drapery.testing.naming import approved_paths, variant_path
+from drapery.user_files import open_user_file
 
 Notes = Callable[[], list[LayerNote] | None]
 """Makes the notes of a design's layers, which only a failure and an update need."""
@@ -97,7 +98,8 @@ class _Approved:
 
 def _compared(path: Path, picture: Picture, tolerance: Tolerance) -> _Approved:
     """Compare with one file. Raises OSError."""
-    data = path.read_bytes()
+    with open_user_file(path) as file:
+        data = file.read()
     if path.suffix == ".sha256":
         now = fingerprint(picture)
         was = data.decode("ascii", "replace").strip()

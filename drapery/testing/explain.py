@@ -1,16 +1,15 @@
 """Describes in one line what changed between a golden and a picture."""
 
 import base64
-import io
 from collections.abc import Iterator
 
 import numpy as np
-from PIL import Image
 
 from drapery import Banner
 from drapery.banner import FLAG_REGIONS, flag_layers
 from drapery.comparison import measure
 from drapery.packs import Packs
+from drapery.picture_file import opened_picture
 from drapery.render import Pixels, png_bytes
 from drapery.testing.golden import Picture, same_size, size_of, stacked
 
@@ -96,4 +95,5 @@ def _pack(face: Pixels) -> str:
 
 
 def _unpack(face: str) -> Pixels:
-    return np.asarray(Image.open(io.BytesIO(base64.b64decode(face))).convert("RGBA"))
+    with opened_picture(base64.b64decode(face), "the face", ("PNG",)) as image:
+        return np.asarray(image.convert("RGBA"))

@@ -14,6 +14,7 @@ from PIL import Image, ImageSequence, PngImagePlugin
 
 from drapery.comparison import Tolerance, measure, seen
 from drapery.errors import DraperyError, OptionError
+from drapery.picture_file import opened_picture
 from drapery.render import Animation, Frame, apng_bytes
 
 LAYERS_KEY = "drapery:layers"
@@ -74,7 +75,8 @@ def encode(picture: Picture, layers: list[dict[str, str]] | None = None) -> byte
 def decode(data: bytes) -> tuple[Picture, list[dict[str, str]] | None]:
     """The picture and the layers in a golden file. Raises GoldenError."""
     try:
-        with Image.open(io.BytesIO(data), formats=("PNG",)) as image:
+        limits = {"max_pixels": MAX_SIDE * MAX_SIDE, "max_side": MAX_SIDE}
+        with opened_picture(data, "the golden", ("PNG",), **limits) as image:
             assert isinstance(image, PngImagePlugin.PngImageFile)
             count = image.n_frames
             if max(image.size) > MAX_SIDE or count * image.width * image.height > MAX_PIXELS:

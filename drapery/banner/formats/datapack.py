@@ -22,6 +22,7 @@ from drapery.banner.formats.tree import DataTree
 from drapery.banner.formats.trees import read_text
 from drapery.banner.packs.zips import ZipSource, open_zip
 from drapery.errors import DesignError, PackError
+from drapery.user_files import open_user_file
 
 MAX_UNPACKED = 1 << 30
 """Most bytes of a pack's files that are read, unpacked; large packs have a tenth of that."""
@@ -113,7 +114,7 @@ def _in_folder(
 
 
 def _start_of(path: Path, limit: int) -> bytes:
-    with path.open("rb") as file:
+    with open_user_file(path) as file:
         return file.read(limit + 1)
 
 

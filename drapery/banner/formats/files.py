@@ -13,6 +13,7 @@ from drapery.banner.formats.found import FoundBanner, find_banners
 from drapery.banner.formats.nbt import is_nbt, read_nbt
 from drapery.banner.formats.tree import DataTree
 from drapery.errors import DesignError
+from drapery.user_files import open_user_file
 
 MAX_FILES = 100_000
 """Most files of one world that are read."""
@@ -88,7 +89,7 @@ def find_in_bytes(
 
 def _in_file(path: Path, where: str, on_error: OnError) -> Iterator[FoundBanner]:
     size = path.stat().st_size
-    with path.open("rb") as file:
+    with open_user_file(path) as file:
         head = file.read(_HEAD)
         file.seek(0)
         if is_compressed(head) or is_nbt(head, size):

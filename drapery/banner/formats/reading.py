@@ -23,6 +23,7 @@ from drapery.banner.formats.registry import (
 from drapery.banner.formats.snbt import MAX_TEXT
 from drapery.banner.names import shown
 from drapery.errors import DesignError
+from drapery.user_files import open_user_file
 
 _HEAD = 8192
 _ZIP = b"PK\x03\x04"
@@ -156,7 +157,7 @@ def _read_path(path: Path, form: str | None, errors: list[DesignError]) -> list[
         kind = "a world" if _is_world(path) else "a data pack"
         _check_form(path, form, kind)
         return _read_world(path, errors) if _is_world(path) else _read_pack(path, errors)
-    with path.open("rb") as file:
+    with open_user_file(path, descriptors=True) as file:
         head = file.read(_HEAD)
         if head.startswith(_ZIP):
             _check_form(path, form, "a zip")
@@ -195,9 +196,11 @@ def _read_as(path: Path, form: BinaryForm) -> list[FoundBanner]:
         raise DesignError(
             f"{path}: a folder, but not a file of the form {form.name!r}; give a file"
         )
-    check_size(path.stat().st_size, str(path), MAX_BYTES)
+    with open_user_file(path) as file:
+        check_size(path.stat().st_size, str(path), MAX_BYTES)
+        data = file.read(MAX_BYTES + 1)
     try:
-        return some_of(list(form.read(path.read_bytes())), [], "no banner in it")
+        return some_of(list(form.read(data)), [], "no banner in it")
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from None
 

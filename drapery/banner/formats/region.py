@@ -19,6 +19,7 @@ from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.lz4 import unlz4
 from drapery.banner.formats.nbt import read_nbt
 from drapery.errors import DesignError
+from drapery.user_files import read_user_file
 
 NAME = "region"
 SECTOR = 4096
@@ -154,7 +155,7 @@ def _own_file(folder: Path | None, name: str, where: str) -> bytes:
     if path is None or path.is_symlink() or not path.is_file():
         raise DesignError(f"{where}: its file {name} is missing; copy it into the region's folder")
     check_size(path.stat().st_size, f"{where} {name}", MAX_CHUNK)
-    return path.read_bytes()
+    return read_user_file(path, MAX_CHUNK, name=f"{where} {name}", error=DesignError)
 
 
 def _unwrap(data: bytes, kind: int, where: str) -> bytes:

@@ -35,8 +35,3 @@ def listed(names: Iterable[str], longest: int = 80) -> str:
     words = [name if name.isprintable() else ascii(name) for name in short]
     more = [f"and {len(all_names) - 5} more"] if len(all_names) > 5 else []
     return ", ".join(words + more)
-
-
-def reason(error: BaseException) -> str:
-    """The system's message for an error."""
-    return getattr(error, "strerror", None) or str(error) or type(error).__name__

@@ -9,8 +9,9 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from drapery import assets
-from drapery.banner.packs.checks import IGNORED_NAMES, MAX_FILES, ROOTS, listed, reason, within
+from drapery.banner.packs.checks import IGNORED_NAMES, MAX_FILES, ROOTS, listed, within
 from drapery.errors import PackError
+from drapery.user_files import open_user_file, reason
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class FolderSource:
                 self._refuse_broken_link(path, name)
                 return None
             self._refuse_outside_link(path, name)
-            with path.open("rb") as file:
+            with open_user_file(path) as file:
                 return within(file.read(limit + 1), limit, f"{self.label}: {name}")
         except (OSError, RuntimeError) as error:
             raise PackError(f"{self.label}: {name} cannot be read: {reason(error)}") from None

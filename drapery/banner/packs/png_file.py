@@ -2,10 +2,9 @@
 
 from pathlib import Path
 
-from drapery.banner.packs.checks import reason
 from drapery.banner.packs.png import Texels, read_png
 from drapery.banner.packs.stack import MAX_PNG
-from drapery.errors import OptionError
+from drapery.user_files import read_user_file
 
 
 def read_png_file(path: Path, name: str) -> Texels:
@@ -14,11 +13,5 @@ def read_png_file(path: Path, name: str) -> Texels:
     name: the file's name in errors. Raises OptionError for one that cannot be read or is too
     large, and PackError as `read_png` does.
     """
-    try:
-        with path.open("rb") as file:
-            data = file.read(MAX_PNG + 1)
-    except (OSError, ValueError) as error:
-        raise OptionError(f"{name} cannot be read ({reason(error)}); give a PNG file") from error
-    if len(data) > MAX_PNG:
-        raise OptionError(f"{name} is over {MAX_PNG} bytes; shrink it")
-    return read_png(data, name)
+    remedy, shorter = "give a PNG file", "shrink it"
+    return read_png(read_user_file(path, MAX_PNG, name=name, remedy=remedy, shorter=shorter), name)

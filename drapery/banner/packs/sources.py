@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 from drapery.banner.names import shown
-from drapery.banner.packs.checks import reason
 from drapery.banner.packs.folders import open_folder
 from drapery.banner.packs.zips import open_zip
 from drapery.errors import PackError
+from drapery.user_files import reason
 
 
 @runtime_checkable
@@ -48,7 +48,7 @@ def open_source(path: str | Path | PackSource) -> PackSource:
     try:
         if target.is_dir():
             return open_folder(target)
-        if target.is_file():
+        if target.exists():
             return open_zip(target)
     except (OSError, ValueError) as error:
         raise PackError(f"pack {target} cannot be read: {reason(error)}") from None

@@ -8,8 +8,9 @@ from pathlib import Path
 from stat import S_ISLNK
 from typing import TYPE_CHECKING
 
-from drapery.banner.packs.checks import IGNORED_NAMES, MAX_FILES, ROOTS, listed, reason, within
+from drapery.banner.packs.checks import IGNORED_NAMES, MAX_FILES, ROOTS, listed, within
 from drapery.errors import PackError
+from drapery.user_files import open_user_file, reason
 
 if TYPE_CHECKING:
     from zipfile import ZipFile, ZipInfo
@@ -140,7 +141,7 @@ def _root_in_zip(names: list[str], label: str, roots: tuple[str, ...]) -> str:
 
 def _check_directory(path: Path) -> None:
     """Refuse a huge list of contents before zipfile reads it; see APPNOTE 4.3.14 to 4.3.16."""
-    with path.open("rb") as file:
+    with open_user_file(path) as file:
         size = file.seek(0, os.SEEK_END)
         file.seek(max(0, size - _LONGEST_TAIL))
         tail = file.read()

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from drapery.cloth.colliders.shapes import MAX_TRIANGLES, TriangleMesh, sixfold_volumes
 from drapery.errors import OptionError
 from drapery.mesh import Array, Triangles, face_normals
+from drapery.mesh_file import joined, read_mesh_file
 
 
 def mesh_collider(vertices: ArrayLike, triangles: ArrayLike) -> TriangleMesh:
@@ -27,18 +28,15 @@ def mesh_collider(vertices: ArrayLike, triangles: ArrayLike) -> TriangleMesh:
 
 
 def load_mesh(path: str | Path, scale: float = 1.0) -> TriangleMesh:
-    """A collider from any file that trimesh reads (OBJ, STL, PLY, glTF, …).
+    """A collider from a .glb, .obj, .ply or .stl file.
 
     scale: metres in one unit of the file. Raises OptionError for a file that cannot be read.
     """
-    import trimesh
-
+    points, faces = joined(read_mesh_file(path, max_faces=MAX_TRIANGLES))
     try:
-        mesh = trimesh.load_mesh(path)
-        vertices, faces = mesh.vertices, mesh.faces
-    except Exception as fault:  # trimesh's readers raise errors of many types
-        raise OptionError(f"mesh {path}: not a surface that trimesh reads ({fault})") from None
-    return mesh_collider(np.asarray(vertices) * scale, faces)
+        return mesh_collider(points * scale, faces)
+    except OptionError as error:
+        raise OptionError(f"{path}: {error}") from None
 
 
 def height_collider(heights: ArrayLike, cell: float = 1.0, depth: float = 1.0) -> TriangleMesh:
