@@ -17,6 +17,7 @@ from assets.drawing.banner import pattern_sheet
 from assets.drawing.canvas import FLAG, SHEET_SIZE, Grey, TexelRect, Texels
 from assets.drawing.charges import CHARGES
 from assets.drawing.shield import FIELD, shield_sheet
+from benchmarks.quick import add_quick
 from drapery.banner.patterns import PATTERN_NAMES
 
 SHEETS: dict[str, tuple[TexelRect, Callable[[str], Texels]]] = {
@@ -24,6 +25,8 @@ SHEETS: dict[str, tuple[TexelRect, Callable[[str], Texels]]] = {
     "shield": (FIELD, shield_sheet),
 }
 """The region to compare and our sheet of a pattern, for each kind."""
+
+OURS = Path(__file__).parents[1] / "assets" / "minecraft" / "textures"
 
 SEEN = 4
 """The least alpha that counts as seen, of 255: packs have stray texels that nobody can see."""
@@ -55,8 +58,9 @@ def compare(kind: str, pattern: str, textures: Path) -> tuple[float, float, int,
 
 def main() -> None:
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    words.add_argument("--textures", type=Path, required=True)
-    textures = words.parse_args().textures
+    words.add_argument("--textures", type=Path, help="by default ours, of which all figures are 1")
+    add_quick(words)
+    textures = words.parse_args().textures or OURS
     for kind in SHEETS:
         figures = {name: compare(kind, name, textures) for name in PATTERN_NAMES}
         print(f"{kind:24} {'seen':>6} {'alpha':>6} {'ours':>5} {'theirs':>6}")

@@ -32,6 +32,7 @@ from http.client import HTTPConnection, HTTPException
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from benchmarks.quick import add_quick
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.batch.jobs import Job, plan, run_job
@@ -57,8 +58,8 @@ def mixed(path: Path, count: int, size: str = "48x48", loops: int = 10) -> Path:
     return path
 
 
-def catalogue_manifest(path: Path, size: str) -> Path:
-    """All banners with one layer, as loops of one second."""
+def catalogue_manifest(path: Path, size: str, most: int | None) -> Path:
+    """All banners with one layer, or at most so many, as loops of one second."""
     lines: list[dict[str, object]] = [{"defaults": {"size": size, "seconds": 1, "fps": 20}}]
     lines += [
         {"design": f"{'white' if dye != 'white' else 'black'} {pattern}:{dye}",
@@ -66,7 +67,7 @@ def catalogue_manifest(path: Path, size: str) -> Path:
         for pattern in PATTERN_NAMES
         for dye in DYE_NAMES
     ]  # fmt: skip
-    path.write_text("\n".join(map(json.dumps, lines)), encoding="utf-8")
+    path.write_text("\n".join(map(json.dumps, lines[: most and most + 1])), encoding="utf-8")
     return path
 
 
@@ -251,8 +252,8 @@ def soak(seconds: float, clients: int, port: int, pause: float) -> None:
     command = [sys.executable, "-m", "drapery", "serve", "--port", str(port), "--rate", "0"]
     server = subprocess.Popen(command)
     _await_server(f"http://127.0.0.1:{port}")
-    end = time.monotonic() + seconds
     right = [_drawn_bytes(seed) for seed in range(20)]
+    end = time.monotonic() + seconds
     seen = SoakAnswers()
     tasks = [
         threading.Thread(target=_client, args=(port, n, end, right, seen)) for n in range(clients)
@@ -448,7 +449,8 @@ def scale(costs: Costs, jobs: int, machines: int) -> None:
 def main() -> None:
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     names = ("overhead", "workers", "kills", "dask", "scheduler", "catalogue", "soak", "scale")
-    words.add_argument("what", choices=names)
+    words.add_argument("what", nargs="?", choices=names)
+    add_quick(words)
     words.add_argument("--jobs", type=int)
     words.add_argument("--size", default="48x48")
     words.add_argument("--kills", type=int, default=20)
@@ -458,9 +460,20 @@ def main() -> None:
     words.add_argument("--machines", type=int, default=100)
     words.add_argument("--port", type=int, default=8799)
     asked = words.parse_args()
-    with TemporaryDirectory() as temporary:
-        folder = Path(temporary)
-        _measure(asked, folder)
+    if not asked.quick and asked.what is None:
+        words.error(f"name one of: {', '.join(names)}")
+    if asked.quick:
+        asked.jobs, asked.kills, asked.seconds, asked.clients, asked.machines = (
+            2 * FIRST,
+            1,
+            1.0,
+            2,
+            2,
+        )
+    for what in names if asked.quick else [asked.what]:
+        with TemporaryDirectory() as temporary:
+            asked.what = what
+            _measure(asked, Path(temporary))
 
 
 def _measure(asked: argparse.Namespace, folder: Path) -> None:
@@ -475,7 +488,7 @@ def _measure(asked: argparse.Namespace, folder: Path) -> None:
     elif asked.what == "scheduler":
         schedulers(mixed(manifest, asked.jobs or 1000, asked.size), folder, asked.kills, asked.port)
     elif asked.what == "catalogue":
-        path = catalogue_manifest(manifest, asked.size)
+        path = catalogue_manifest(manifest, asked.size, asked.jobs)
         kills(path, folder, asked.kills, "--workers", "2", "--cluster")
     elif asked.what == "soak":
         soak(asked.seconds, asked.clients, asked.port, asked.kill_every)

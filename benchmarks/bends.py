@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.photos import flag_corners, front_vertices, pixels_of, random_camera
+from benchmarks.quick import add_quick
 from drapery import Banner, Settings
 from drapery.match.perspective import BEND_ORDERS, PhotoView
 from drapery.match.smooth import products
@@ -87,11 +88,16 @@ def main() -> None:
     """Write the file."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--count", type=int, default=61)
-    parser.add_argument("-o", "--out", type=Path, required=True)
+    parser.add_argument("-o", "--out", type=Path, help="the file to write")
+    add_quick(parser)
     chosen = parser.parse_args()
-    shifts = random_shifts(chosen.count)
+    shifts = random_shifts(1 if chosen.quick else chosen.count)
     lines = [" ".join(f"{factor:.3f}" for factor in row) for row in usual_bends(shifts)]
-    chosen.out.write_text("\n".join([HEAD, *lines, ""]), "utf-8")
+    text = "\n".join([HEAD, *lines, ""])
+    if chosen.out is None:
+        print(text)
+    else:
+        chosen.out.write_text(text, "utf-8")
 
 
 if __name__ == "__main__":

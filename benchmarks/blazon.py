@@ -4,11 +4,13 @@
 banners of up to 16 layers, and prints the shares and the time of one.
 """
 
+import argparse
 import random
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from benchmarks.quick import add_quick
 from drapery import Banner, Layer
 from drapery.banner import DYE_NAMES, PATTERN_NAMES
 from drapery.banner.blazon import parse_blazon, write_blazon
@@ -58,11 +60,14 @@ def is_read(text: str) -> bool:
 
 def main() -> None:
     """Print the shares."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    add_quick(parser)
+    count = 100 if parser.parse_args().quick else COUNT
     lines = [x for x in BLAZONS.read_text("utf-8").splitlines() if not x.startswith("#")]
     read = sum(map(is_read, lines))
     print(f"blazons: {read} of {len(lines)} are read ({read / len(lines):.1%})")
     print(f"banners of one layer: {returned(single_layers())}")
-    print(f"random banners: {returned(random_banners(COUNT))}")
+    print(f"random banners: {returned(random_banners(count))}")
 
 
 if __name__ == "__main__":

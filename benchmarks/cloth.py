@@ -23,6 +23,7 @@ import numpy as np
 from rich.progress import Progress
 
 from benchmarks.peers import Load, Runner, stretch
+from benchmarks.quick import add_quick
 from drapery.cloth import Cloth, Fabric, Gravity, SolverDesbrun, SolverXPBD, Wind, grid, rest_state
 
 SEED = {"width": 1.25, "height": 2.5, "mass": 1.0, "stiffness": (50.0, 10.0, 2.0)}
@@ -242,7 +243,7 @@ def linear(counts: Sequence[int], seconds: float) -> list[Row]:
 
 
 def compare(workloads: Sequence[str], quick: bool) -> list[Row]:
-    """The table."""
+    """The table. quick: few cloths, and of the peers only those of plain numpy."""
     print(
         f"{'':3} {'system':20} {'threads':>7} {'steps/s':>12} {'particle steps':>15}"
         f" {'stretch':>11} {'bytes':>9}"
@@ -250,7 +251,10 @@ def compare(workloads: Sequence[str], quick: bool) -> list[Row]:
     rows: list[Row] = []
     for workload in workloads:
         for system, effort in systems(workload, quick):
-            found = run(workload, WORKLOADS[workload], system, effort, 0.3 if quick else 2.0)
+            load = WORKLOADS[workload]
+            if quick:
+                load = replace(load, cloths=min(load.cloths, 8))
+            found = run(workload, load, system, effort, 0.02 if quick else 2.0)
             if isinstance(found, str):
                 print(f"{workload}  {system}({effort}): left out: {found}", flush=True)
             else:
@@ -266,7 +270,7 @@ def main() -> None:
     words = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    words.add_argument("--quick", action="store_true", help="W1 and W2, ours and numpy's alone")
+    add_quick(words)
     words.add_argument("--json", type=Path, metavar="FILE", help="write the rows")
     words.add_argument("--only", nargs="*", metavar="W", choices=WORKLOADS, help="these alone")
     words.add_argument("--linear", action="store_true", help="100 to 100,000 cloths instead")

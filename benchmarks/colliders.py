@@ -5,6 +5,7 @@ and is next to the row that it is compared with. Times are the minimum of a few 
 machine only their ratios are meaningful.
 """
 
+import argparse
 import math
 import time
 from typing import Any
@@ -13,12 +14,15 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.quick import add_quick
 from drapery.cloth import Gravity, State, grid, rest_state, simulate
 from drapery.cloth.colliders import Capsule, Collider, Shape, Sphere
 from drapery.cloth.collisions import Collisions, collision_world
 from drapery.mesh import Array
 
 SIDE, ORDER, STEPS, RUNS = 24, 2, 45, 7
+QUICK = 3, 1
+"""The steps and runs of the quick mode."""
 DT = 1 / 60
 
 
@@ -57,7 +61,7 @@ SHAPES: dict[str, Shape] = {
 }
 
 
-def motion(shape: Shape) -> tuple[list[State], list[State]]:
+def motion(shape: Shape, steps: int) -> tuple[list[State], list[State]]:
     """States before and after the steps of a cloth that falls on a shape and comes to rest."""
     cloth = grid(SIDE, SIDE, 1.2, 1.2, pins="none")
     start = rest_state(cloth, dtype=np.float64)
@@ -67,7 +71,7 @@ def motion(shape: Shape) -> tuple[list[State], list[State]]:
     states = simulate(
         cloth, forces=[Gravity()], dt=DT, start=State(places, start.velocities), collisions=met
     )
-    before = [next(states) for _ in range(STEPS)]
+    before = [next(states) for _ in range(steps)]
     pull = np.array([0.0, -9.81 * DT, 0.0])
     after = [
         State(s.positions + (s.velocities + pull) * DT, s.velocities + pull, s.time + DT)
@@ -76,25 +80,28 @@ def motion(shape: Shape) -> tuple[list[State], list[State]]:
     return before, after
 
 
-def step_ms(shape: Shape) -> float:
+def step_ms(shape: Shape, steps: int, runs: int) -> float:
     """Time of a collision step [ms]."""
     cloth = grid(SIDE, SIDE, 1.2, 1.2, pins="none")
     met = Collisions([Collider(shape, friction=0.6)], order=ORDER, threads=1)
-    world, (before, after) = collision_world(cloth, met), motion(shape)
+    world, (before, after) = collision_world(cloth, met), motion(shape, steps)
     times = []
-    for _ in range(RUNS):
+    for _ in range(runs):
         start = time.perf_counter()
         for a, b in zip(before, after, strict=True):
             world.resolve(a, b)
-        times.append((time.perf_counter() - start) / STEPS)
+        times.append((time.perf_counter() - start) / steps)
     return min(times) * 1e3
 
 
 def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    add_quick(parser)
+    steps, runs = QUICK if parser.parse_args().quick else (STEPS, RUNS)
     table = Table("shape", "a step [ms]", "to the built-in shape above")
     built_in = 1.0
     for name, shape in SHAPES.items():
-        taken = step_ms(shape)
+        taken = step_ms(shape, steps, runs)
         user = hasattr(shape, "signed_distance")
         table.add_row(name, f"{taken:.3f}", f"{taken / built_in:.2f}" if user else "")
         built_in = built_in if user else taken

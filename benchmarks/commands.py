@@ -24,11 +24,15 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.quick import add_quick
+
 DESIGN = "white creeper:lime border:black"
 COMMANDS = {
     "render": ("render", DESIGN, "-o", "banner.png"),
     "animate": ("animate", DESIGN, "-o", "banner.gif", "--seconds", "4", "--fps", "20"),
 }
+
+QUICK = {"render": (*COMMANDS["render"], "--size", "32x32")}
 
 
 def seconds(python: str, command: Sequence[str], processor: bool) -> float:
@@ -53,14 +57,15 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--processor", action="store_true", help="its time, not the wall clock's")
     parser.add_argument("--jit", action="store_true", help="no kernels compiled ahead of time")
+    add_quick(parser)
     given = parser.parse_args()
     if given.jit:
         os.environ["DRAPERY_AOT"] = "0"
     pythons = [sys.executable, *([given.against] if given.against else [])]
     table = Table("command", *("this" if p == sys.executable else p for p in pythons), "ratio")
-    for name, command in COMMANDS.items():
+    for name, command in (QUICK if given.quick else COMMANDS).items():
         times: dict[str, list[float]] = {python: [] for python in pythons}
-        for run in range(given.runs + 1):
+        for run in range(2 if given.quick else given.runs + 1):
             for python in pythons:
                 taken = seconds(python, command, given.processor)
                 if run:  # the first run compiles

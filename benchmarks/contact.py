@@ -20,6 +20,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.quick import add_quick, is_installed
 from drapery.cloth import (
     Box,
     Cloth,
@@ -299,12 +300,14 @@ def main() -> None:
     parser.add_argument("--every", type=int, default=1, help="steps between two judgements")
     parser.add_argument("--case", default="", help="only cases whose name contains this")
     parser.add_argument("--no-cost", action="store_true", help="do not time steps")
+    add_quick(parser)
     chosen = parser.parse_args()
+    quick, steps = chosen.quick, 3 if chosen.quick else chosen.steps
     console = Console(width=110)
-    for make in cases():
+    for make in cases() if is_installed("ipctk") else ():
         case = make()
         if chosen.case in case.name:
-            v = judged(case, chosen.steps, chosen.every)
+            v = judged(case, steps, chosen.every)
             console.print(
                 f"{v.name}: {v.steps} steps; of {v.judged} judged, crosses itself after {v.itself} "
                 f"and a box after {v.boxes}; deepest {v.deepest * 1e3:.2f} mm; {v.ms:.2f} ms a step"
@@ -313,15 +316,16 @@ def main() -> None:
         return
     table = Table("solver", "grid", "wind", "without [ms]", "world", "all")
     for name in ("desbrun", "xpbd"):
-        for shape in GRIDS:
+        for shape in GRIDS[:1] if quick else GRIDS:
             for side, wind in WINDS.items():
                 off, world, both = (cost(shape, name, c, wind) for c in ("none", "world", "all"))
                 ratios = f"{world / off:.2f} x", f"{both / off:.2f} x"
                 table.add_row(name, f"{shape[0]} x {shape[1]}", side, f"{off:.3f}", *ratios)
     console.print(table)
     for side, wind in WINDS.items():
-        off, world = (crowd(4913, contact, wind) for contact in ("none", "world"))
-        console.print(f"4913 banners, {side}: {world:.0f} steps/s, {off:.0f} without contact")
+        count = 8 if quick else 4913
+        off, world = (crowd(count, contact, wind) for contact in ("none", "world"))
+        console.print(f"{count} banners, {side}: {world:.0f} steps/s, {off:.0f} without contact")
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ import fuzz_targets
 import fuzzing
 from fuzz_targets import Target
 
+from benchmarks.quick import add_quick
 from drapery.errors import DraperyError
 
 
@@ -91,7 +92,10 @@ def main() -> int:
     )
     parser.add_argument("--save", type=Path, help="folder for the inputs that failed")
     parser.add_argument("--atheris", action="store_true", help="drive one reader by coverage")
+    add_quick(parser)
     options, rest = parser.parse_known_args()
+    if options.quick:
+        options.count, options.slowest = 5, 60.0
     known = fuzz_targets.targets()
     names = options.readers or list(known)
     if strange := [name for name in names if name not in known]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
+from benchmarks.quick import add_quick
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
 
@@ -45,7 +46,10 @@ def main() -> None:
     words.add_argument("--size", type=int, default=256)
     words.add_argument("--cold", action="store_true", help="without kernels in numba's cache")
     words.add_argument("--repeats", type=int, default=1, help="checks of the same goldens")
+    add_quick(words)
     asked = words.parse_args()
+    if asked.quick:
+        asked.count, asked.size = 3, 32
     with TemporaryDirectory() as kept:
         folder = Path(kept)
         (folder / "cases.toml").write_text(cases(asked.count, asked.size), encoding="utf-8")

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from benchmarks.quick import add_quick
 from drapery.banner import (
     DYES,
     FLAG_REGIONS,
@@ -144,6 +145,7 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--search", default="", metavar="CHARACTERS")
     parser.add_argument("--sheet", type=Path)
+    add_quick(parser)
     chosen = parser.parse_args()
     faces = [(character, letter_banners(character)[0]) for character in letter_characters()]
     if chosen.search:

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
+from benchmarks.quick import add_quick
 from drapery.banner import read_design
 from drapery.packs import open_packs
 from drapery.render.light import GAME_LIGHT
@@ -53,7 +54,9 @@ def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=15)
-    frames(parser.parse_args().runs)
+    add_quick(parser)
+    given = parser.parse_args()
+    frames(1 if given.quick else given.runs)
 
 
 if __name__ == "__main__":

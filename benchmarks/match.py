@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from benchmarks.quick import add_quick
 from drapery.banner import DYES
 from drapery.match import Matcher
 from drapery.match.art import HEIGHT, WIDTH, FaceArt, Levels, Stack
@@ -252,6 +253,8 @@ def print_pictures(
         shown.append((face, ours.reshape(face.shape)))
     every = [row for rows in sums.values() for row in rows]
     for kind, rows in (*sums.items(), ("all", every)):
+        if not rows:
+            continue
         ours_mean, greedy_mean, seconds, greedy_seconds = np.mean(rows, axis=0)
         wins = sum(row[0] < row[1] for row in rows)
         print(
@@ -282,19 +285,22 @@ def save_sheet(shown: list[tuple[NDArray[np.generic], ...]], path: Path) -> None
 def main() -> None:
     """Print the figures."""
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    words.add_argument("what", choices=("faces", "pictures"))
+    words.add_argument("what", nargs="?", choices=("faces", "pictures"), help="by default both")
     words.add_argument("--count", type=int, default=12)
     words.add_argument("--first", type=int, default=0, help="number of the first one")
     words.add_argument("--layers", type=int, nargs="+", default=[6])
     words.add_argument("--effort", type=int, default=24)
     words.add_argument("--pack", type=Path, action="append", default=[])
     words.add_argument("--sheet", type=Path)
+    add_quick(words)
     given = words.parse_args()
+    if given.quick:
+        given.count, given.layers, given.effort = 1, [2], 1
     for layers in given.layers:
         numbers = range(given.first, given.first + given.count)
-        if given.what == "faces":
+        if given.what != "pictures":
             print_faces(tuple(given.pack), layers, numbers)
-        else:
+        if given.what != "faces":
             print_pictures(tuple(given.pack), layers, numbers, given.effort, given.sheet)
 
 

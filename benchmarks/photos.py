@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from benchmarks.quick import add_quick
 from drapery import Banner, DraperyError, Layer, Settings
 from drapery.banner import DYE_NAMES, PATTERN_NAMES
 from drapery.match import match_photo
@@ -157,7 +158,10 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="seed of the first photo")
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--corners", choices=("given", "found"), nargs="+", default=WAYS)
+    add_quick(parser)
     chosen = parser.parse_args()
+    if chosen.quick:
+        chosen.count, chosen.corners = 1, ["given"]
     results: dict[str, list[PhotoResult]] = {way: [] for way in chosen.corners}
     for seed in range(chosen.first, chosen.first + chosen.count):
         case = photo_case(seed)

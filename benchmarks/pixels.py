@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.quick import add_quick
 from drapery import Banner, animate
 from drapery.styles import STEPS, Canvas, Sheet, Style, StyleStep, find_style
 
@@ -107,7 +108,10 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=4.0)
     parser.add_argument("--fps", type=float, default=20.0)
     parser.add_argument("--design", default=None)
+    add_quick(parser)
     given = parser.parse_args()
+    if given.quick:
+        given.seconds, given.fps = 0.5, 10.0
     banner = Banner.parse(given.design) if given.design else BANNER
     table = Table("method", "A-B-A", "back", "orphans", "blots", "colours")
     for name, style in styles().items():

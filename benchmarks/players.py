@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from benchmarks.quick import add_quick
 from drapery.batch.jobs import plan, run_job
 from drapery.batch.manifest import read_manifest
 from drapery.batch.stores import open_store
@@ -26,13 +27,15 @@ from drapery.scenes.dressing import Dressed, garment_loop
 from drapery.testing.garment_check import deepest
 
 COUNT = 100
+"""Busts."""
+FRAMES = 80
 
 
-def skins(folder: Path) -> list[dict[str, object]]:
+def skins(folder: Path, count: int) -> list[dict[str, object]]:
     """Rows of a manifest, each with a skin of its own, half of them with a second layer."""
     base = open_packs(()).texture("entity/player/traveller")
     rows: list[dict[str, object]] = []
-    for number in range(COUNT):
+    for number in range(count):
         texels = base.copy()
         texels[..., :3] = (texels[..., :3].astype(int) * (100 + number) // 200).astype(np.uint8)
         if number % 2:
@@ -42,10 +45,13 @@ def skins(folder: Path) -> list[dict[str, object]]:
     return rows
 
 
-def busts(view: str) -> None:
+def busts(view: str, count: int) -> None:
     """Print how many busts a second one core draws."""
     with TemporaryDirectory() as made, TemporaryDirectory() as drawn:
-        rows = [{**row, "view": view, "size": "128x128", "time": 0.5} for row in skins(Path(made))]
+        rows = [
+            {**row, "view": view, "size": "128x128", "time": 0.5}
+            for row in skins(Path(made), count)
+        ]
         store = open_store(drawn)
         for words in ("first run, with imports", "warm"):
             start = time.process_time()
@@ -56,13 +62,13 @@ def busts(view: str) -> None:
             failed = [result.error for result in results if result.error]
             assert not failed, failed[0]
             print(
-                f"busts, {view}, {words}: {(planned - start) / COUNT * 1e3:.1f} ms to plan,"
-                f" {(end - planned) / COUNT * 1e3:.1f} ms to draw and store,"
-                f" {COUNT / (end - start):.0f} a second on one core"
+                f"busts, {view}, {words}: {(planned - start) / count * 1e3:.1f} ms to plan,"
+                f" {(end - planned) / count * 1e3:.1f} ms to draw and store,"
+                f" {count / (end - start):.0f} a second on one core"
             )
 
 
-def loop(view: str) -> None:
+def loop(view: str, frames: int) -> None:
     """Print what a walking loop with a cape takes."""
     player = player_of(PlayerSettings(wear=("cape",)))
     packs = open_packs(())
@@ -70,11 +76,11 @@ def loop(view: str) -> None:
     with TemporaryDirectory() as folder:
         for words in ("first run, with imports", "warm"):
             times = [time.process_time()]
-            scenes = list(garment_loop(player, packs, settings, 80, 20.0))
+            scenes = list(garment_loop(player, packs, settings, frames, 20.0))
             times.append(time.process_time())
-            frames = list(draw_scenes(scenes, packs, settings, loop=True))
+            drawn_frames = list(draw_scenes(scenes, packs, settings, loop=True))
             times.append(time.process_time())
-            save_animation(frames, 20.0, Path(folder, "walk.gif"), total=80)
+            save_animation(drawn_frames, 20.0, Path(folder, "walk.gif"), total=frames)
             times.append(time.process_time())
             motion, drawn, written = np.diff(times)
             print(
@@ -83,11 +89,11 @@ def loop(view: str) -> None:
             )
 
 
-def contact(name: str) -> None:
+def contact(name: str, moments: int) -> None:
     """Print how deep a garment enters its wearer at a run."""
     player = player_of(PlayerSettings(wear=(name,), motion="run", speed=4.0))
     dressed = Dressed(player, open_packs(()), player.settings())
-    times = [frame / 20 for frame in range(1, 81)]
+    times = [frame / 20 for frame in range(1, moments + 1)]
     depths = [
         max(
             deepest(sewn, sheet[number], dressed.colliders(sewn), time)
@@ -97,23 +103,28 @@ def contact(name: str) -> None:
         for number, time in enumerate(times)
     ]
     inside = sum(depth > 0 for depth in depths)
-    print(f"contact, {name}: inside at {inside} of 80 moments, at most {max(depths) * 1e3:.2f} mm")
+    print(
+        f"contact, {name}: inside at {inside} of {moments} moments,"
+        f" at most {max(depths) * 1e3:.2f} mm"
+    )
 
 
 def main() -> None:
     """See the module."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("what", nargs="?", choices=("busts", "loop", "contact"))
-    what = parser.parse_args().what
+    add_quick(parser)
+    given = parser.parse_args()
+    what, count, frames = given.what, *((2, 4) if given.quick else (COUNT, FRAMES))
     if what in (None, "busts"):
         for view in ("iso", "hero"):
-            busts(view)
+            busts(view, count)
     if what in (None, "loop"):
         for view in ("back", "hero"):
-            loop(view)
+            loop(view, frames)
     if what in (None, "contact"):
         for name in ("cape", "elytra", "skirt"):
-            contact(name)
+            contact(name, frames)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.quick import add_quick
 from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import open_packs
 from drapery.banner.patterns import PATTERN_NAMES
@@ -208,21 +209,21 @@ def crowd_simulated(seconds: float, side: int = 17) -> list[Row]:
     return [row("crowd, simulated", "soft", "flat", worker_count(), float(np.median(times[2:])))]
 
 
-def growth(seconds: float) -> Iterator[tuple[str, float, float]]:
+def growth(seconds: float, most: int) -> Iterator[tuple[str, float, float]]:
     """For each size: the name of the varied quantity, its value, and the time of a frame [s]."""
     scene = one_banner("flat")[0]
     for side in (256, 512, 1024, 2048):
         yield "pixels", side * side, _time(replace(scene, size=(side, side)), seconds)
-    for side in (5, 7, 9, 11, 14, 17):
+    for side in (each for each in (3, 5, 7, 9, 11, 14, 17) if each <= most):
         many = crowd("thick", side)[0]
         count = len(many.models[0].mesh.triangles) * side**3
         yield "triangles", count, _time(many, seconds)
     noise = np.random.default_rng(0)
     # Layers of unequal sizes cannot be composited beforehand, so every sample blends all layers.
     layers = [TextureLayer(noise.integers(0, 256, (61 + k, 64, 4), np.uint8)) for k in range(17)]
-    for layers in (1, 2, 4, 8, 16):
-        model = replace(scene.models[0], materials=(Material(tuple(layers[: layers + 1])),))
-        yield "layers a sample", layers, _time(replace(scene, models=(model,)), seconds)
+    for count in (1, 2, 4, 8, 16):
+        model = replace(scene.models[0], materials=(Material(tuple(layers[: count + 1])),))
+        yield "layers a sample", count, _time(replace(scene, models=(model,)), seconds)
 
 
 def _time(scene: Scene, seconds: float) -> float:
@@ -261,10 +262,10 @@ def show_growth(points: Sequence[tuple[str, float, float]], console: Console) ->
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="less exact, in under 40 s")
+    add_quick(parser)
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the rows there")
     options = parser.parse_args()
-    seconds = 1.0 if options.quick else 8.0
+    seconds, side = (0.05, 3) if options.quick else (8.0, 17)
     gl, console = opengl(), Console()
     rows = []
     for layers in ("flat", "stacked"):
@@ -272,10 +273,10 @@ def main() -> None:
     rows += banner_to_png(seconds)
     for shape in ("thick", "thin"):
         name = f"crowd, {shape}"
-        rows += compare(name, "flat", crowd(shape), gl, seconds)
-    rows += crowd_simulated(seconds)
+        rows += compare(name, "flat", crowd(shape, side), gl, seconds)
+    rows += crowd_simulated(seconds, side)
     show(rows, console)
-    show_growth(list(growth(seconds / 8)), console)
+    show_growth(list(growth(seconds / 8, side)), console)
     if options.json:
         options.json.write_text(json.dumps([asdict(r) for r in rows], indent=2) + "\n")
 

@@ -6,6 +6,7 @@ mp4 and webp files come from encoders that change with their version, so for ani
 are hashed, and the bytes only of PNG files and models, which this package writes itself.
 """
 
+import argparse
 import hashlib
 import os
 import platform
@@ -18,6 +19,7 @@ from pathlib import Path
 
 import llvmlite.binding
 
+from benchmarks.quick import add_quick
 from drapery import Animation, Banner, animate, draw, draw_face, save_model
 
 SOLVERS = ("desbrun", "xpbd", "pbd", "verlet", "implicit", "provot")
@@ -62,12 +64,17 @@ def saved(name: str, save: Callable[[Path], object]) -> bytes:
 
 def main() -> None:
     """Print the line of each output, or of those that the command line names."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", help="of outputs; by default all")
+    add_quick(parser)
+    given = parser.parse_args()
+    wanted = ["face", "small", ".png"] if given.quick else given.names
     packages = ", ".join(f"{name} {version(name)}" for name in ("numpy", "numba", "pillow"))
     target = os.environ.get("NUMBA_CPU_NAME") or llvmlite.binding.get_host_cpu_name()
     about = f"{platform.machine()} ({target}), Python {platform.python_version()}, {packages}"
     print(about, file=sys.stderr)
     for name, make in outputs():
-        if name in sys.argv[1:] or len(sys.argv) == 1:
+        if name in wanted or not wanted:
             print(f"{hashlib.sha256(make()).hexdigest()}  {name}", flush=True)
 
 

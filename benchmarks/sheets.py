@@ -10,6 +10,7 @@ from time import perf_counter
 from typing import Any
 from unittest.mock import patch
 
+from benchmarks.quick import add_quick
 from drapery.cloth import Cloth, Gravity, SolverDesbrun, SolverXPBD, Wind, grid, rest_state
 from drapery.cloth.solvers.xpbd import enough_substeps
 
@@ -50,14 +51,18 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=0.5, help="of each stretch")
-    seconds = parser.parse_args().seconds
+    add_quick(parser)
+    given = parser.parse_args()
+    seconds, rounds, grids = given.seconds, ROUNDS, GRIDS
+    if given.quick:
+        seconds, rounds, grids = 0.01, 1, GRIDS[:1]
     print("| solver | grid | general path [steps/s] | plane of lanes [steps/s] | ratio |")
     print("|---|---|---|---|---|")
     for name in ("desbrun", "xpbd"):
-        for shape in GRIDS:
+        for shape in grids:
             cloth = grid(*shape, 0.8333, 1.6667)
             paths = [Path(name, cloth, sheet) for sheet in (False, True)]
-            for _ in range(ROUNDS):
+            for _ in range(rounds):
                 for path in paths:
                     path.time(seconds)
             general, plane = (path.best for path in paths)

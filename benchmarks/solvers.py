@@ -18,6 +18,7 @@ import trimesh
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.quick import add_quick
 from drapery.cloth import (
     Cloth,
     Drag,
@@ -239,10 +240,12 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write the rows to this file")
     parser.add_argument("--sheet", type=Path, help="draw the sheet to this file")
     parser.add_argument("--size", type=int, default=180, help="of a picture in pixels")
+    add_quick(parser)
     options = parser.parse_args()
     if options.sheet:
         sheet(options.size).save(options.sheet)
-    rows = [measure(name) for name in SOLVERS]
+    names = ["xpbd"] if options.quick else [*SOLVERS]
+    rows = [measure(name) for name in names]
     show(rows)
     if options.json:
         options.json.write_text(json.dumps([asdict(row) for row in rows], indent=1))

@@ -32,6 +32,8 @@ from pack_maker import BANNER, META, mcmeta, noise, png, zip_pack
 from selenium.common.exceptions import WebDriverException
 from selenium.webdriver import ActionChains, Keys
 from studio_browser import (
+    CHROMIUM,
+    DRIVER,
     PHONE,
     WIDE,
     Studio,
@@ -44,6 +46,7 @@ from studio_browser import (
 )
 from studio_tabs import open_tab
 
+from benchmarks.quick import add_quick, needs
 from drapery.banner import PATTERN_NAMES, write_banner
 from drapery.studio.sketch import banner_of, random_sketch
 
@@ -432,7 +435,8 @@ def first(count: int) -> None:
 def main(words: Sequence[str] | None = None) -> int:
     """Run one of them."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.studio", description=__doc__)
-    commands = parser.add_subparsers(dest="command", required=True)
+    add_quick(parser)
+    commands = parser.add_subparsers(dest="command")
     one = commands.add_parser("session")
     one.add_argument("--minutes", type=float, default=30)
     one.add_argument("--seed", type=int, default=1)
@@ -442,6 +446,13 @@ def main(words: Sequence[str] | None = None) -> int:
     one = commands.add_parser("first")
     one.add_argument("--count", type=int, default=10)
     given = parser.parse_args(words)
+    needs(CHROMIUM and DRIVER, "Chromium or its driver")
+    if given.quick:
+        first(1)
+        viewers(1, 0.5)
+        return 1 if session(0.02, 1) else 0
+    if given.command is None:
+        parser.error("name one of: session, viewers, first")
     if given.command == "session":
         return 1 if session(given.minutes, given.seed) else 0
     if given.command == "first":

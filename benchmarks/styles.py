@@ -13,6 +13,7 @@ from dataclasses import replace
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.quick import add_quick
 from drapery import Banner, Settings
 from drapery.packs import open_packs
 from drapery.render.soft import draw_buffers, draw_scene
@@ -72,7 +73,10 @@ def main() -> None:
     parser.add_argument("--size", type=int, default=512, help="width and height [pixels]")
     parser.add_argument("--runs", type=int, default=30)
     parser.add_argument("--crowd", action="store_true", help="the crowd of 4913 instead")
+    add_quick(parser)
     given = parser.parse_args()
+    if given.quick:
+        given.size, given.runs = 64, 1
     if given.crowd:
         for style in ("game", "pixel-art"):
             wall, busy = crowd_times(style, given.runs)

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 import drapery.web.wasm
+from benchmarks.quick import add_quick, needs
 from drapery import Banner, Settings
 from drapery.garments import dressed_player, make_wearer
 from drapery.packs import open_packs
@@ -76,8 +77,14 @@ PULLS: list[Action] = [
 ]
 
 
-def whole_module() -> bytes:
-    """The module with the kernels of all methods; it is built if it is not yet."""
+def whole_module(quick: bool) -> bytes:
+    """The module with the kernels of all methods, or of those of the tests; it is built if it is
+    not yet."""
+    if quick:
+        sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+        from wasm_player import built_module
+
+        return built_module()
     path = module_places()[-1]
     if not path.is_file() or not {
         f"play_{name}" for name in METHODS if name not in ("picture", "player")
@@ -164,13 +171,16 @@ def digest(*arrays: Any) -> str:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables; the exit status is 1 where bits differ."""
     parser = argparse.ArgumentParser("python -m benchmarks.web", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="fewer steps for the times")
-    timed = 60 if parser.parse_args(arguments).quick else STEPS
+    add_quick(parser)
+    quick = parser.parse_args(arguments).quick
+    needs(shutil.which("node"), "Node")
+    timed = 60 if quick else STEPS
+    solvers = ("desbrun",) if quick else ("desbrun", "xpbd")
     equal = True
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         start = time.process_time()
-        module = whole_module()
+        module = whole_module(quick)
         (folder / "module.wasm").write_bytes(module)
         info = module_info(module)
         print(f"module: {len(module)} bytes, gzipped {len(gzip.compress(module))}")
@@ -178,8 +188,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             "solver   grid   plan, gzipped  wind  wind and pulls  native us  Node us  and shown"
             "  Node/native"
         )
-        for solver in ("desbrun", "xpbd"):
-            for grid in GRIDS:
+        for solver in solvers:
+            for grid in GRIDS[:1] if quick else GRIDS:
                 options: Any = {"solver": solver, "grid": grid}
                 settings = Settings(**options)
                 panel = live_panels(banner(settings), settings, LANES)[0]
@@ -197,7 +207,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                     f" {there:10.0f} {here:8.0f} {shown:10.0f} {here / there:12.2f}",
                     flush=True,
                 )
-        for solver, wear in product(("desbrun", "xpbd"), ("cape", "elytra")):
+        for solver, wear in product(solvers, ("cape", "elytra")):
             panel, expected, there = worn(wear, solver)
             plan = write_plan(panel, info)
             state, here, _ = played(folder, plan, WIND, 1, timed)
@@ -208,7 +218,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 f" Node {here:.0f} us, {here / there:.2f}",
                 flush=True,
             )
-        for solver in ("desbrun", "xpbd"):
+        for solver in solvers:
             options = {"solver": solver, "grid": (11, 21)}
             settings = Settings(**options)
             panel = live_panels(banner(settings), settings, LANES)[0]

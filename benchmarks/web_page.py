@@ -6,19 +6,24 @@ steps the cloth, and of the process that draws with the software GL. Each of the
 ms at 60 frames/s. Each frame moves the cloth by 1/60 s, however long it takes.
 """
 
+import argparse
 import gzip
 import shutil
 import sys
 import tempfile
 import time
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import psutil
 from selenium.webdriver import Chrome, ChromeOptions, ChromeService
 
+from benchmarks.quick import add_quick, needs
+from benchmarks.web import whole_module
 from drapery import Banner, Settings
 from drapery.web.page import page_text
+from drapery.web.wasm.module import module_places
 
 BANNERS = 20
 SECONDS = 10.0
@@ -75,11 +80,19 @@ def busy(driver: Any) -> tuple[float, float, int]:
 
 def main() -> int:
     """Print the figures."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    add_quick(parser)
+    quick = parser.parse_args().quick
+    needs(shutil.which("chromium") and shutil.which("chromedriver"), "Chromium or its driver")
+    banners, seconds = (2, 0.5) if quick else (BANNERS, SECONDS)
+    if quick and find_spec("ziglang"):
+        whole_module(quick)  # pages find it beside numba's kernels
+    needs(any(path.is_file() for path in module_places()), "The module of `drapery.web.wasm.build`")
     settings = Settings(**SETTINGS)
     text = page_text(Banner.parse("white creeper:lime border:black"), settings)
     print(f"page: {len(text)} bytes, gzipped {len(gzip.compress(text.encode()))}")
     start, end = text.index("<drapery-banner"), text.index("</drapery-banner>") + 17
-    many = text[:start] + BANNERS * text[start:end] + text[end:]
+    many = text[:start] + banners * text[start:end] + text[end:]
     many = many.replace("main { display: grid;", "main { display: flex; flex-wrap: wrap;")
     with tempfile.TemporaryDirectory() as name:
         driver = opened(Path(name), "one.html", text)
@@ -93,11 +106,11 @@ def main() -> int:
         for what, script in (("stepped and drawn", ""), ("stepped only", UNDRAWN)):
             driver.execute_script(script)
             before = busy(driver)
-            time.sleep(SECONDS)
+            time.sleep(seconds)
             task, drawn, frames = (b - a for a, b in zip(before, busy(driver), strict=True))
             per = 1e3 / max(frames, 1)
             print(
-                f"{BANNERS} banners 11x21, {what}: {frames / SECONDS:.1f} frames/s;"
+                f"{banners} banners 11x21, {what}: {frames / seconds:.1f} frames/s;"
                 f" thread {task * per:.1f} ms a frame, GL {drawn * per:.1f} ms"
             )
         driver.quit()
