@@ -10,6 +10,7 @@ import random
 import re
 import struct
 import time
+import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
@@ -91,7 +92,8 @@ def judge(
     before, start = _memory("VmRSS"), time.process_time()
     _forget_peak()
     try:
-        with untraced():
+        with untraced(), warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # a reader may say what it leaves out
             number = len(list(read(given)))
         outcome = "no banner" if number == 0 else "a banner" if number == 1 else "banners"
     except DraperyError as error:

@@ -235,6 +235,7 @@ def test_the_service_says_that_it_is_alive_and_ready(client: TestClient) -> None
     assert "drapery_ready 1.0" in client.get("/metrics").text
 
 
+@pytest.mark.filterwarnings("ignore:not in .* taken from our own art")
 def test_a_pack_that_changes_is_not_drawn_under_its_old_etag(tmp_path: Path) -> None:
     pack = make_pack(tmp_path / "pack")
     config = ServiceConfig(Settings(packs=(pack,), size=(24, 32)))

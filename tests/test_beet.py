@@ -8,6 +8,12 @@ import pytest
 from beet import BannerPattern, ErrorMessage, Texture, run_beet
 from PIL import Image
 
+# Packs of one pattern take all else from our own art, and say so.
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:not in .* taken from our own art"),
+    pytest.mark.filterwarnings("ignore:no texture comes from"),
+]
+
 
 def project(folder: Path, **options: object) -> dict[str, object]:
     """A project with one new pattern and one pattern of the game that is redrawn."""

@@ -1,5 +1,6 @@
 """A field of the page that takes files, chosen or dropped on it, and sends them to the server."""
 
+import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -44,6 +45,9 @@ class FileField(ui.element, component="file_field.js"):
         self._props["zone"] = zone
         self._props["maxBytes"] = PURPOSES[purpose].max_bytes
 
+        # One after another: of two files, the later one would else be taken first if it is quicker.
+        turn = asyncio.Lock()
+
         async def sent(event: Any) -> None:
             answer = event.args if isinstance(event.args, dict) else {}
             number, line = answer.get("number"), answer.get("line")
@@ -51,7 +55,8 @@ class FileField(ui.element, component="file_field.js"):
                 show_notice(str(line or "the file could not be sent; send it again")[:400], "fault")
                 return
             try:
-                await take(number)
+                async with turn:
+                    await take(number)
             except DraperyError as error:
                 show_notice(str(error), "fault")
 
