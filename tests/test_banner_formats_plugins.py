@@ -73,6 +73,13 @@ SAME = {
         "items:\n  flag:\n    material: WHITE_BANNER\n    slot: 3\n    banner_meta:\n"
         "    - 'LIME;CREEPER'\n    - 'black;border'\n",
     ],
+    "crazycrates ": [
+        "x:\n  material: white_banner\n  meta:\n    patterns: [LIME:CREEPER, BLACK:BORDER]\n",
+    ],
+    "deluxemenus ": [
+        "x:\n  material: white_banner\n  meta:\n    banner_meta:\n    - LIME;CREEPER\n"
+        "    - BLACK;BORDER\n",
+    ],
     "commandpanels": [
         "item:\n  '3':\n    material: white_banner\n    banner:\n    - LIME,CREEPER\n"
         "    - BLACK,BORDER\n",
@@ -87,6 +94,20 @@ SAME = {
         "    - creeper:lime\n    - border:black\n",
         "Items:\n  '1':\n    material: white_banner\n    settings:\n      patterns:\n"
         "        creeper: lime\n        border: black\n",
+    ],
+    "yaml": [
+        "item:\n  type: white_banner\n  banner-patterns:\n    1:\n      type: creeper\n"
+        "      color: lime\n    2: {color: BLACK, type: minecraft:border}\n",
+        "item:\n  banner-patterns:\n    2: {color: BLACK, type: border}\n    1: {color: LIME, type:"
+        " creeper}\n  type: white_banner\n",
+        "banner:\n  base-color: WHITE\n  patterns:\n    '1':\n      type: CREEPER\n"
+        "      color: LIME\n    '2':\n      type: BORDER\n      color: BLACK\n",
+        "icon: white_banner # it\nmeta:\n  banner-patterns: # LIME:CREEPER\n  - LIME:creeper\n"
+        "  - BLACK:minecraft:border\n  lore: ['Red: cross', 'red:cross']\n",
+        "- base: WHITE_BANNER\n  banner-patterns:\n    CREEPER: LIME\n    BORDER: BLACK\n",
+        "item: WHITE_BANNER\nlayers: [{dye: lime, pattern: creeper}, {dye: black, pattern: bo}]\n",
+        "item: WHITE_BANNER\nbanner-patterns: creeper:lime|border:black\n",
+        "'1718':\n  color: WHITE\n  patterns:\n  - cre:LIME\n  - bo:BLACK\n",
     ],
     "essentialsx": [
         "white_banner 1 basecolor:16383998 cre,8439583 bo,1908001",
@@ -163,7 +184,7 @@ SAME = {
 
 @pytest.mark.parametrize(("form", "text"), [(f, t) for f, texts in SAME.items() for t in texts])
 def test_every_form_of_a_program_is_recognised_and_read(form: str, text: str):
-    assert recognise(text).name == form
+    assert recognise(text).name == form.strip()
     assert parse_banner(text) == CREEPER
 
 
@@ -222,6 +243,22 @@ def test_bukkit_is_written_for_old_servers_where_that_holds_the_banner():
         ("banner_meta:\n- LIME;CREEPER\n", ["banner_meta", "the item is missing", "material"]),
         ("material: RED_BANNER\nbanner_meta:\n- LIME\n", ["banner_meta[0]", "RED;CREEPER"]),
         ("material: STONE\nbanner_meta:\n- RED;BASE\n", ["material", "'STONE'", "WHITE_BANNER"]),
+        ("material: RED_BANNER\nbanner_meta: 5\n", ["banner_meta", "5", "not a list of layers"]),
+        ("material: RED_BANNER\npatterns: [LIME:KREEPER]\n", ["patterns[0]", "'KREEPER'"]),
+        ("material: RED_BANNER\npatterns: [LIMEY:CREEPER]\n", ["patterns[0]", "'LIMEY'"]),
+        (
+            "material: RED_BANNER\na: {patterns: [RED:CROSS]}\nb: {patterns: [RED:CROSS]}\n",
+            ["b.patterns", "a.patterns too"],
+        ),
+        ("x:\n  patterns: [RED:CROSS]\n  y: {material: RED_BANNER}\n", ["x.patterns", "missing"]),
+        (
+            "x:\n  base_color: RED\n  y: {material: SHIELD, patterns: [RED:CROSS]}\n",
+            ["x.base_color", "beside no item"],
+        ),
+        (
+            "x:\n  type: BANNER\n  patterns: [RED:CROSS]\n  base-color: RED\n  a: {base: BLUE}\n",
+            ["x.a.base", "x.base-color too"],
+        ),
         ("RED_BANNER:1:CREEPER", ["'CREEPER' has no dye", "PATTERN:DYE"]),
         ("PINKY_BANNER:1:CREEPER:RED", ["'PINKY_BANNER'", "RED_BANNER"]),
         ("white_banner 1 basecolor:5", ["'5'", "RED"]),
@@ -292,6 +329,10 @@ def test_optifine_shows_eight_layers_without_mojang():
 def test_all_items_of_a_file_are_found_with_their_places():
     text = "a:\n  material: RED_BANNER\n  banner_meta: [LIME;CROSS]\nb:\n- material: BLUE_BANNER\n"
     assert [one.where for one in parse_banners(text)] == ["a", "b[0]"]
+    inner = (
+        "a:\n  material: RED_BANNER\n  next: {material: BLUE_BANNER, banner_meta: [LIME;CROSS]}\n"
+    )
+    assert [one.where for one in parse_banners(inner)] == ["a", "a.next"]
     script = "- give red_banner[patterns=LIME/CROSS]\n- give blue_banner[patterns=RED/CROSS]\n"
     assert [one.where for one in parse_banners(script)] == [
         "line 1 red_banner",

@@ -37,7 +37,7 @@ def read(text: str) -> list[FoundBanner]:
 
 def _read_one(match: "re.Match[str]", line: str) -> FoundBanner:
     at = f"{line} {match[1]}"
-    item = kind_and_base(match[1], at)
+    item = kind_and_base(match[1])
     if item is None or item[1] is None:
         raise DesignError(f"{at}: {shown(match[1])} names no dye: write it as RED_BANNER")
     names = [name for name in match[3].split(":")[1:] if name and not name.startswith("CMD-")]

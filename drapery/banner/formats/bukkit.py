@@ -3,27 +3,32 @@
 Paper since 1.21.5 writes `id` and `components` instead; each component's value is a text in SNBT.
 """
 
-from drapery.banner.design import Banner, Layer
+from drapery.banner.design import Banner
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.item import item_object
+from drapery.banner.formats.leftovers import check_keys
 from drapery.banner.formats.snbt import parse_snbt, write_snbt
 from drapery.banner.formats.tree import (
     DataTree,
     banner_from_components,
-    check_count,
     is_banner_id,
     is_shield_id,
     under,
 )
 from drapery.banner.formats.yaml_items import (
+    Item,
+    base_below,
+    damage_below,
     find,
     has_key,
     kind_and_base,
+    layers_below,
     load,
     material,
     write_yaml,
 )
-from drapery.banner.names import dye_name, pattern_id, shown
+from drapery.banner.formats.yaml_layers import read_layers
+from drapery.banner.names import dye_name
 from drapery.banner.patterns import PATTERNS
 from drapery.errors import DesignError
 
@@ -44,6 +49,7 @@ SOURCE = "https://github.com/PaperMC/Paper/pull/12363"
 ITEM = "org.bukkit.inventory.ItemStack"
 _VERSION = 3700
 """The data version of 1.20.4, the last with codes of patterns."""
+_SAMPLE = "color: RED, pattern: cre"
 _NEW_VERSION = 4325
 """The data version of 1.21.5, the first of the form with components."""
 
@@ -61,12 +67,12 @@ def read(text: str) -> list[FoundBanner]:
     return found
 
 
-def _item(node: dict[str, DataTree], at: str) -> Banner | None:
+def _item(node: dict[str, DataTree], at: str) -> Item | None:
     is_stack = node.get("==") == ITEM
     identifier, name = node.get("id"), node.get("type")
     if is_banner_id(identifier) or is_shield_id(identifier):
         if is_stack or "components" in node:
-            return _from_components(str(identifier), node.get("components"), at)
+            return _from_components(node, str(identifier), at)
     elif isinstance(name, str) and (is_stack or "meta" in node):
         return _from_type(node, name, at)
     elif node.get("meta-type") == "BANNER":
@@ -75,14 +81,17 @@ def _item(node: dict[str, DataTree], at: str) -> Banner | None:
     return None
 
 
-def _from_components(identifier: str, components: DataTree, at: str) -> Banner | None:
-    at = under(at, "components")
-    tree = _snbt(components, at) if isinstance(components, str) else components
+def _from_components(node: dict[str, DataTree], identifier: str, at: str) -> Item | None:
+    place, components = under(at, "components"), node.get("components")
+    tree = _snbt(components, place) if isinstance(components, str) else components
     if isinstance(tree, dict):
-        tree = {key: _snbt(value, under(at, str(key))) for key, value in tree.items()}
+        tree = {key: _snbt(value, under(place, str(key))) for key, value in tree.items()}
     if is_shield_id(identifier) and not isinstance(tree, dict):
         return None
-    return banner_from_components(identifier, tree, at)
+    banner = banner_from_components(identifier, tree, place)
+    if not banner.layers:
+        check_keys(node, at, ("components",))
+    return Item(banner)
 
 
 def _snbt(value: DataTree, at: str) -> DataTree:
@@ -94,44 +103,33 @@ def _snbt(value: DataTree, at: str) -> DataTree:
         raise DesignError(f"{at}: {error}") from None
 
 
-def _from_type(node: dict[str, DataTree], name: str, at: str) -> Banner | None:
-    item = kind_and_base(name, under(at, "type"))
+def _from_type(node: dict[str, DataTree], name: str, at: str) -> Item | None:
+    item = kind_and_base(name)
     if item is None:
         return None
     kind, dye = item
-    meta = node.get("meta")
-    meta = meta if isinstance(meta, dict) else {}
-    base, damage = meta.get("base-color"), node.get("damage")
-    where = under(at, "meta")
-    if dye is None and base is not None:
-        dye = dye_name(base, under(where, "base-color"))
-    elif dye is None and kind == "banner":
-        dye = dye_name(damage or 0, under(at, "damage"), inverted=True)
-    layers = _layers(meta.get("patterns"), under(where, "patterns"))
+    place, entries = layers_below(node, at) or (under(at, "meta.patterns"), _patterns(node))
+    layers = read_layers(entries, place, _SAMPLE)
+    dye = dye or base_below(node, at)
+    damage = damage_below(node, at)
+    assumed = dye is None and (kind == "shield" or damage is None)
+    if dye is None and kind == "banner":
+        where, number = damage or (at, 0)
+        dye = dye_name(number, where, inverted=True)
     if kind == "shield" and dye is None and not layers:
-        if "internal" in meta:
+        meta = node.get("meta")
+        if isinstance(meta, dict) and "internal" in meta:
             raise DesignError(
-                f"{where}: the shield's design is packed in 'internal';"
+                f"{under(at, 'meta')}: the shield's design is packed in 'internal';"
                 " hold the shield and paste what /data get says"
             )
         return None
-    return Banner(dye or "white", layers, kind)
+    return Item(Banner(dye or "white", layers, kind), assumed)
 
 
-def _layers(entries: DataTree, at: str) -> tuple[Layer, ...]:
-    if entries is None:
-        return ()
-    if not isinstance(entries, list):
-        raise DesignError(f"{at}: {shown(entries)} is not a list of layers")
-    check_count(len(entries), at)
-    layers = []
-    for number, entry in enumerate(entries):
-        place = under(at, number)
-        if not isinstance(entry, dict):
-            raise DesignError(f"{place}: {shown(entry)} is not a layer: write color and pattern")
-        pattern = pattern_id(entry.get("pattern"), under(place, "pattern"), bukkit=True)
-        layers.append(Layer(pattern, dye_name(entry.get("color"), under(place, "color"))))
-    return tuple(layers)
+def _patterns(node: dict[str, DataTree]) -> DataTree:
+    meta = node.get("meta")
+    return meta.get("patterns") if isinstance(meta, dict) else None
 
 
 def write(banner: Banner) -> str:

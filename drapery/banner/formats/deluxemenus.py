@@ -15,7 +15,7 @@ NAME = "deluxemenus"
 TITLE = "item of the plugin DeluxeMenus, YAML"
 EXAMPLE = "material: RED_BANNER\nbanner_meta:\n- LIME;CREEPER\n- BLACK;BORDER"
 SOURCE = "https://github.com/HelpChat/DeluxeMenus"
-LAYOUT = LayerLayout("DeluxeMenus", ("material",), ("banner_meta",), ";", True, ("base_color",))
+LAYOUT = LayerLayout("DeluxeMenus", ("material",), ("banner_meta",), ";", True)
 
 
 def recognises(text: str) -> bool:

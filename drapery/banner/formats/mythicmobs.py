@@ -15,7 +15,7 @@ NAME = "mythicmobs"
 TITLE = "item of the plugin MythicMobs, YAML"
 EXAMPLE = "Banner:\n  Id: red_banner\n  BannerLayers:\n  - LIME CREEPER\n  - BLACK BORDER"
 SOURCE = "https://git.mythiccraft.io/mythiccraft/MythicMobs/-/wikis/Items/Banner-Layers"
-LAYOUT = LayerLayout("MythicMobs", ("Id",), ("BannerLayers",), " ", True, ("Options.Color",))
+LAYOUT = LayerLayout("MythicMobs", ("Id",), ("BannerLayers",), " ", True)
 
 
 def recognises(text: str) -> bool:

@@ -47,6 +47,7 @@ from drapery.banner.formats import (
     summon,
     trees,
     wynncraft,
+    yaml_plugin,
 )
 from drapery.banner.formats.form import BinaryForm, Form, single
 from drapery.banner.formats.found import FoundBanner
@@ -103,6 +104,7 @@ _TABLE = (
     _form(commandpanels, commandpanels.read),
     _form(skript, skript.read),
     _form(bentobox, bentobox.read),
+    _form(yaml_plugin, yaml_plugin.read),
     _form(essentialsx, essentialsx.read),
     _form(functions, functions.read),
     _form(give_old, commands.read_command),

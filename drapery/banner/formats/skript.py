@@ -111,7 +111,7 @@ _FILLER = Layer("base", "white")
 
 
 @dataclass
-class _Item:
+class _MadeBanner:
     """A banner that a script makes. line: where. copied: the layers that another one had."""
 
     base: str
@@ -125,8 +125,8 @@ class _Item:
 class _Script:
     """What a script has made so far. items, patterns: those in each variable now."""
 
-    made: list[_Item] = field(default_factory=list)
-    items: dict[str, _Item] = field(default_factory=dict)
+    made: list[_MadeBanner] = field(default_factory=list)
+    items: dict[str, _MadeBanner] = field(default_factory=dict)
     patterns: dict[str, list[Layer]] = field(default_factory=dict)
 
 
@@ -213,7 +213,7 @@ def _follow(script: _Script, line: str, number: int) -> bool:
         )
     dye = _base(words) if first in ("give", "drop", "equip") else None
     if dye:
-        script.made.append(_Item(dye, "", number))
+        script.made.append(_MadeBanner(dye, "", number))
     return dye is not None
 
 
@@ -235,9 +235,9 @@ def _assign(script: _Script, verb: str, name: str, value: str, number: int) -> b
         return bool(value)
     if verb == "set" and (source := script.items.get(_name(value))):
         copy = list(source.layers)
-        made = _Item(source.base, name, number, copy, list(copy))
+        made = _MadeBanner(source.base, name, number, copy, list(copy))
     elif verb in ("set", "add") and (dye := _base(words)):
-        made = _Item(dye, name if verb == "set" else "", number)
+        made = _MadeBanner(dye, name if verb == "set" else "", number)
     else:
         return item is not None
     script.made.append(made)
@@ -264,7 +264,7 @@ def _place(words: str) -> tuple[str, int] | None:
     return (_name(match["of"]), int(match["n"] or 0)) if match else None
 
 
-def _item(script: _Script, of: str) -> _Item:
+def _item(script: _Script, of: str) -> _MadeBanner:
     if of not in script.items:
         name = of if of.startswith("{") else shown(of)
         raise DesignError(
@@ -299,7 +299,7 @@ def _values(script: _Script, value: str, at: str) -> list[Layer]:
     return layers
 
 
-def _change(item: _Item, verb: str, index: int, values: list[Layer] | str, at: str) -> None:
+def _change(item: _MadeBanner, verb: str, index: int, values: list[Layer] | str, at: str) -> None:
     """Change a banner's patterns as Skript does. index: of one pattern from 1, or 0 for all."""
     layers, given = item.layers, list(values or ())
     if index and (verb in ("add", "remove") or len(given) != (verb == "set")):
