@@ -121,3 +121,66 @@ def test_a_line_that_may_not_be_run_once_is_named(section: str) -> None:
     script = f"on join:\n  {RED}  {section}\n    add {CREEPER} to banner patterns of {{_f}}\n"
     with pytest.warns(UserWarning, match=f"line 4 stands below '{section}'.*run once"):
         assert parse_banner(script) == parse_banner("red creeper:black")
+
+
+ITEM = """flag:
+  type: item
+  material: blue_banner
+  mechanisms:
+    hides: all
+    patterns: WHITE/CREEPER|BLACK/BORDER
+"""
+
+
+@pytest.mark.parametrize(
+    ("script", "design"),
+    [
+        (ITEM, "blue creeper:white border:black"),
+        (ITEM.replace("BORDER", "BORDER  # a comment"), "blue creeper:white border:black"),
+        (ITEM.replace("\n", "\n\n"), "blue creeper:white border:black"),
+        (ITEM.replace("\n", "\r\n"), "blue creeper:white border:black"),
+        (
+            ITEM.replace(
+                "WHITE/CREEPER|BLACK/BORDER", "\n    - WHITE/CREEPER\n    # x\n    - black/bo"
+            ),
+            "blue creeper:white border:black",
+        ),
+        (
+            ITEM.replace(
+                "WHITE/CREEPER|BLACK/BORDER", "# two\n      - WHITE/CREEPER\n      - BLACK/BO"
+            ),
+            "blue creeper:white border:black",
+        ),
+        (
+            ITEM.replace("WHITE/CREEPER|BLACK/BORDER", "<list[WHITE/CREEPER|BLACK/BORDER]>"),
+            "blue creeper:white border:black",
+        ),
+        (
+            ITEM.replace("WHITE/CREEPER|BLACK/BORDER", '"WHITE/CREEPER|BLACK/BORDER"'),
+            "blue creeper:white border:black",
+        ),
+        (
+            ITEM.replace("blue_banner", "minecraft:shield").replace(
+                "hides: all", "base_color: RED"
+            ),
+            "shield red creeper:white border:black",
+        ),
+        (
+            "flag:\n  type: item\n  mechanisms:\n    patterns: WHITE/CREEPER\n"
+            "  material: red_banner\n",
+            "red creeper:white",
+        ),
+    ],
+)
+def test_an_item_script_has_its_keys_in_any_order_and_spelling(script: str, design: str) -> None:
+    assert parse_banner(script) == parse_banner(design)
+    plain = "other:\n  type: item\n  material: red_banner\n"
+    for both in (plain + script, script + plain):
+        found = {one.banner for one in parse_banners(both)}
+        assert found == {parse_banner("red"), parse_banner(design)}
+
+
+def test_patterns_that_a_script_changes_elsewhere_are_named() -> None:
+    for change in ("<[flag].with[patterns=RED/CREEPER]>", "- adjust <[flag]> patterns:RED/BORDER"):
+        with pytest.warns(UserWarning, match="line 7: patterns of an item that is not named"):
+            parse_banner(f"{ITEM}{change}\n")

@@ -155,9 +155,9 @@ def _item(node: dict[str, DataTree], at: str, layout: LayerLayout) -> Item | Non
     beside = entries is not None or any(
         looks_like_layers(value, True) for name, value in node.items() if names_layers(name)
     )
-    if beside and not isinstance(item, str) and (other := item_key(node)):
-        key, item = other, node[other]
     named = kind_and_base(item) if isinstance(item, str) else None
+    if named is None and (other := item_key(node)) and (beside or layers_below(node, at)):
+        key, item, named = other, node[other], kind_and_base(node[other])
     if named is None and not beside:
         return None
     if named is None and isinstance(item, str):
