@@ -112,6 +112,8 @@ SAME = {
     "essentialsx": [
         "white_banner 1 basecolor:16383998 cre,8439583 bo,1908001",
         "kits:\n  flag:\n  - white_banner 1 name:&4Flag cre,8439583 bo,1908001\n",
+        "kits:\n  a:\n    items:\n    - BANNER:15 1 basecolor:16777215 cre:8375321 bo:1644825\n",
+        "- 'white_banner 1  name:My Flag cre,8439583 bo,1908001'",
         "- banner:15 1 basecolor:16777215 CREEPER:8375321 BORDER:1644825",
         "/give Steve white_banner 1 basecolor:WHITE cre,8439583 bo,1908001",
     ],
@@ -261,6 +263,7 @@ def test_bukkit_is_written_for_old_servers_where_that_holds_the_banner():
         ),
         ("RED_BANNER:1:CREEPER", ["'CREEPER' has no dye", "PATTERN:DYE"]),
         ("PINKY_BANNER:1:CREEPER:RED", ["'PINKY_BANNER'", "RED_BANNER"]),
+        ("white_banner 1 cre,8439583;", ["'cre,8439583;' is not a layer"]),
         ("white_banner 1 basecolor:5", ["'5'", "RED"]),
         ("red_banner[patterns=LIME]", ["'LIME'", "LIME/CREEPER"]),
         ("red_banner[patterns=<[layers]>|LIME/CREEPER]", ["filled in by the script"]),
@@ -359,6 +362,12 @@ WRAPPED = [
 def test_what_surrounds_a_copied_text_is_removed(form: str, wrapping: str):
     text = write_banner(CREEPER, form)
     assert parse_banner(wrapping.format(text)) == CREEPER
+
+
+@pytest.mark.parametrize("bullet", ["- ", "* ", "1. "])
+@pytest.mark.parametrize("form", ["give", "give-legacy", "shorthand", "item", "essentialsx"])
+def test_an_item_of_a_list_is_read_by_itself(form: str, bullet: str):
+    assert parse_banner(bullet + write_banner(CREEPER, form)) == CREEPER
 
 
 @pytest.mark.parametrize("text", ["<{}>", "[mine]({})", '[mine]({} "title")', "![mine](<{}>)"])

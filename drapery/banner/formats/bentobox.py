@@ -20,10 +20,13 @@ EXAMPLE = "RED_BANNER:1:STRIPE_RIGHT:BLACK:STRIPE_LEFT:YELLOW"
 SOURCE = "https://github.com/BentoBoxWorld/BentoBox"
 _ITEM = re.compile(r"\b([A-Z_]{0,40}BANNER):([0-9]{1,4})((?::[A-Za-z0-9_-]{0,80})*)")
 
+_AMOUNT = re.compile(r" +[0-9]{1,4}(?!\S)")
+
 
 def recognises(text: str) -> bool:
-    """Whether the text has an item of this form."""
-    return "BANNER:" in text and _ITEM.search(text) is not None
+    """Whether the text has an item of this form, and not an old one of EssentialsX."""
+    match = _ITEM.search(text) if "BANNER:" in text else None
+    return match is not None and _AMOUNT.match(text, match.end()) is None
 
 
 def read(text: str) -> list[FoundBanner]:

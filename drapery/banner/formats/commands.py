@@ -19,6 +19,7 @@ from drapery.banner.formats.leftovers import (
     PARAMETER,
     STATES,
     check_literal,
+    check_read,
     looks_like_design,
 )
 from drapery.banner.formats.snbt import Brackets, Part, parse_command, parse_snbt
@@ -274,8 +275,14 @@ def _may_hold(word: Word) -> bool:
     )
 
 
-def _in_tree(tree: DataTree, command: str, old: bool) -> Iterator[FoundBanner]:
+def _in_tree(tree: DataTree, command: str, old: bool) -> list[FoundBanner]:
     """The banners of a compound, of a list, or of components."""
+    found = list(_found_in(tree, command, old))
+    check_read(tree, (len(one.banner.layers) for one in found))
+    return found
+
+
+def _found_in(tree: DataTree, command: str, old: bool) -> Iterator[FoundBanner]:
     if isinstance(tree, Brackets):
         tree = dict(tree)
     if old or _has_old_items(tree):

@@ -72,10 +72,11 @@ def read(text: str) -> list[FoundBanner]:
 
 @dataclass
 class _ItemScript:
-    """An item script: where each of its keys stands, and what it says."""
+    """An item script: where each of its keys stands, what it says, and its list of patterns."""
 
     places: dict[str, str] = field(default_factory=dict)
     values: dict[str, str] = field(default_factory=dict)
+    patterns: list[str] = field(default_factory=list)
 
 
 def _item_scripts(text: str) -> Iterator[FoundBanner]:
@@ -91,7 +92,8 @@ def _item_scripts(text: str) -> Iterator[FoundBanner]:
             at = script.places["patterns"]
             raise DesignError(f"{at}: the item is missing: write 'material: red_banner' beside it")
         at = f"{script.places.get('patterns', script.places['material'])} {material}"
-        properties = {"patterns": "", **script.values}
+        patterns = "|".join([script.values.get("patterns", ""), *script.patterns])
+        properties = script.values | {"patterns": patterns}
         yield FoundBanner(_banner(material, properties, at), at)
 
 
@@ -104,8 +106,7 @@ def _scripts(text: str) -> Iterator[_ItemScript]:
             continue
         element = _ELEMENT.fullmatch(line) if open_list else None
         if element is not None:
-            entries = [script.values["patterns"], _unquoted(element[1])]
-            script.values["patterns"] = "|".join(filter(None, entries))
+            script.patterns.append(_unquoted(element[1]))
             continue
         open_list = False
         if not line[0].isspace() and not _KEY.fullmatch(line):

@@ -20,7 +20,7 @@ EXAMPLE = "white_banner 1 basecolor:16383998 cre,8439583 bo,1908001"
 SOURCE = "https://github.com/EssentialsX/Website/blob/main/BannerMeta.md"
 _ITEM = re.compile(
     r"(?:^|[\s/\"'-])((?:minecraft:)?(?:[a-z_]{1,30}_)?(?:banner|shield))(?::([0-9]{1,2}))?"
-    r"(?: ([0-9]{1,4}))?((?: [\w&§]{1,40}[:+',;.][^ \n\"']{1,200})*)",
+    r"(?: +([0-9]{1,4}))?([ \t][^\n]*)?",
     re.IGNORECASE,
 )
 _WORD = re.compile(r"([A-Za-z_]{1,40})[:+',;.]([0-9]{1,8}|[0-9]{1,3}(?:,[0-9]{1,3}){2}|[A-Za-z_]+)")
@@ -57,13 +57,16 @@ def read(text: str) -> list[FoundBanner]:
 def _item(match: "re.Match[str]", at: str) -> FoundBanner:
     base = base_of(match[1]) or (match[2] and dye_name(int(match[2]), at, inverted=True))
     layers = []
-    for word in match[4].split():
+    for word in (match[4] or "").split():
+        word = word.strip("\"',")
         parts = _WORD.fullmatch(word)
         name = parts[1].lower() if parts else ""
         if parts and name in ("basecolor", "basecolour"):
             base = _dye(parts[2], at)
         elif parts and name not in _OTHER:
             layers.append(Layer(pattern_id(parts[1], at, bukkit=True), _dye(parts[2], at)))
+        elif not parts and _DETAIL.search(word):
+            raise DesignError(f"{at}: {shown(word)} is not a layer: write cre,8439583")
     check_count(len(layers), at)
     shield = match[1].lower().endswith("shield")
     if not base and not (shield and layers):

@@ -5,11 +5,12 @@ So wherever no layer was read, the keys beside the place of the layers are check
 """
 
 import re
-from collections.abc import Container, Mapping
+import warnings
+from collections.abc import Container, Iterable, Iterator, Mapping
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, TypeAlias
 
-from drapery.banner.names import shown
+from drapery.banner.names import is_dye, shown
 from drapery.errors import DesignError
 
 _COMPONENTS_WORDS = """
@@ -104,6 +105,86 @@ def check_keys(tree: Mapping[str, Any], at: str, read: Container[str] = ()) -> N
             )
 
 
+def check_base(tree: object, at: str) -> None:
+    """Raise DesignError for a base dye that lies too deep, where an item has none of its own."""
+    for place, value in _within(tree):
+        name = str(place[1]).removeprefix("minecraft:").lower()
+        if name == "base_color" or (name == "base" and _is_dye(value)):
+            raise DesignError(
+                f"{_text(place, at)}: this base dye cannot be read here; write it at the item"
+            )
+
+
+def check_read(tree: object, layers_read: Iterable[int]) -> None:
+    """Raise DesignError for layers in a text that no reader took, beside a plain banner.
+
+    layers_read: how many layers each banner of the text has. Warns of a damage value, which was a
+    banner's dye, that belongs to no item.
+    """
+    counts = list(layers_read)
+    if not counts:
+        return
+    places = []
+    for place, node in [((None, ""), tree), *_within(tree)]:
+        if not isinstance(node, dict):
+            continue
+        if _has_layer_keys(node):
+            places.append(place)
+        if "Damage" in node and _ITEM_NAMES.isdisjoint(node) and place[1] not in _DETAILS:
+            place = (place, "Damage")
+            warnings.warn(f"{_text(place, '')}: the value belongs to no item", stacklevel=2)
+    if len(places) > sum(counts) and min(counts) == 0:
+        place = _text(places[0], "")
+        raise DesignError(f"{place}: no banner has this layer; write it below the item's id")
+
+
+def _is_dye(value: object) -> bool:
+    return is_dye(value) if isinstance(value, str) else value in range(16)
+
+
+_ITEM_NAMES = frozenset({"id", "Name", "item", "name"})
+_DETAILS = frozenset({"tag", "components"})
+
+_Place: TypeAlias = tuple["_Place | None", str | int]
+"""The place of a value in a tree: its parent's place and its key. It becomes a text only in an
+error, since a hostile text can have many long paths."""
+
+
+def _within(tree: object) -> Iterator[tuple[_Place, object]]:
+    """All that lies within a tree, but not in items that an item holds."""
+    nodes: list[tuple[_Place | None, object]] = [(None, tree)]
+    while nodes:
+        parent, node = nodes.pop()
+        keyed: Iterable[tuple[Any, object]] = ()
+        if isinstance(node, dict):
+            keyed = node.items()
+        elif isinstance(node, list):
+            keyed = enumerate(node)
+        children: list[tuple[_Place, object]] = [
+            ((parent, key), value)
+            for key, value in keyed
+            if str(key).removeprefix("minecraft:") not in _HOLDING
+        ]
+        yield from children
+        nodes += children[::-1]
+
+
+def _text(place: _Place, at: str) -> str:
+    keys: list[str | int] = []
+    step: _Place | None = place
+    while step is not None:
+        step, key = step
+        keys.append(key)
+    for key in keys[:16][::-1]:
+        at = f"{at}[{key}]" if isinstance(key, int) else _under(at, key)
+    return at.lstrip(".")
+
+
+def _has_layer_keys(node: Mapping[Any, Any]) -> bool:
+    keys = {str(key).lower() for key in node}
+    return "pattern" in keys and not keys.isdisjoint(("color", "colour"))
+
+
 def _is_design(key: str, value: object) -> bool:
     name = key.rpartition(":")[2]
     if not value or name == "provides_banner_patterns":
@@ -119,8 +200,7 @@ def _holds_layers(value: object) -> bool:
         if isinstance(node, str) and looks_like_design(node):
             return True
         if isinstance(node, dict):
-            keys = {str(key).lower() for key in node}
-            if "pattern" in keys and not keys.isdisjoint(("color", "colour")):
+            if _has_layer_keys(node):
                 return True
             nodes.extend(node.values())
         elif isinstance(node, list):

@@ -25,7 +25,8 @@ def find_in_lines(
     added to `errors`.
     """
     lines = [(n, line.strip()) for n, line in enumerate(text.split("\n"), 1) if _is_design(line)]
-    if "\n" not in text.strip() or not 0 < len(lines) <= MAX_LINES:
+    one_line = "\n" not in text.strip() and not _BULLET.match(text)
+    if one_line or not 0 < len(lines) <= MAX_LINES:
         return []
     found: list[FoundBanner] = []
     faults: list[DesignError] = []

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 from drapery.banner.design import MAX_LAYERS, Banner, Layer
 from drapery.banner.dyes import DYES
-from drapery.banner.formats.leftovers import check_components, check_keys, check_literal
+from drapery.banner.formats.leftovers import check_base, check_components, check_keys, check_literal
 from drapery.banner.names import dye_name, is_custom, pattern_id, shown
 from drapery.errors import DesignError
 
@@ -189,6 +189,8 @@ def banner_from_components(item_id: str, components: DataTree, at: str = "") -> 
         check_components(components, at)
     if is_shield_id(item_id):
         key, base = get(components, "base_color")
+        if base is None:
+            check_base(components, at)
         return _shield(None if base is None else _dye(base, under(at, key)), layers, at)
     return Banner(_known_base(item_id, at), layers)
 
@@ -209,6 +211,7 @@ def banner_from_tag(item_id: str, tag: DataTree, at: str = "", *, data: DataTree
     if is_shield_id(item_id):
         return _shield_from_tag(entity, inner, inverted=data is not None)
     if base_of(item_id) is None and "Base" not in entity:
+        check_base(entity, inner)
         # A missing damage value is 0, which is black.
         entity = entity | {"Base": 0 if data is None else data}
     return banner_from_block_entity(entity, inner, block=item_id)
@@ -219,6 +222,8 @@ def _shield_from_tag(entity: dict[str, DataTree], at: str, *, inverted: bool) ->
     if not layers:
         check_keys(entity, at)
     base = entity.get("Base")
+    if base is None:
+        check_base(entity, at)
     dye = None if base is None else _dye(base, under(at, "Base"), inverted=inverted)
     return _shield(dye, layers, at)
 

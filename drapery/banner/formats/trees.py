@@ -9,6 +9,7 @@ from itertools import accumulate
 from drapery.banner.design import Banner
 from drapery.banner.formats import loom_assistant, loot, own_json, wynncraft
 from drapery.banner.formats.found import FoundBanner, children_of, find_banners
+from drapery.banner.formats.leftovers import check_read
 from drapery.banner.formats.snbt import MAX_DEPTH, MAX_TEXT, parse_snbt
 from drapery.banner.formats.tree import DataTree, banner_from_block_entity, banner_from_tag, get
 from drapery.banner.names import shown
@@ -43,6 +44,7 @@ def _all(tree: DataTree) -> list[FoundBanner]:
     # What no form recognises may still hold parts of a data pack, such as an advancement's icon.
     found = list(_found(tree)) or list(loot.find(tree))
     if found:
+        check_read(tree, (len(one.banner.layers) for one in found))
         return found
     if isinstance(tree, dict) and isinstance(tree.get("elements"), list):
         raise DesignError(_pool(tree))
