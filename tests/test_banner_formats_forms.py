@@ -48,11 +48,11 @@ LACKS = {
 NO_SHIELDS = {
     *("give-1.12", "setblock", "block-entity", "bedrock", "wynncraft"),
     *("planet-minecraft", "needcoolshoes", "gamergeeks", "optifine", "bannotation"),
-    "bannerfont",
+    *("bannerfont", "bannermaker", "java"),
     *("bentobox", "commandpanels", "crazycrates", "skript", "loom-assistant"),
 }
 NO_DATA_PACKS = {
-    *(NO_SHIELDS - {"setblock", "block-entity", "loom-assistant"}),
+    *(NO_SHIELDS - {"setblock", "block-entity", "loom-assistant", "bannermaker"}),
     *("give-legacy", "minecraft-tools"),
     *("deluxemenus", "denizen", "essentialsx", "mythicmobs"),
 }

@@ -56,7 +56,37 @@ LAYERS = '[{pattern:"creeper",color:"lime"},{pattern:"minecraft:border",color:"b
 NEW = f"[banner_patterns={LAYERS}]"
 TAG = '{BlockEntityTag:{Patterns:[{Pattern:"cre",Color:5},{Pattern:"bo",Color:15}]}}'
 
+NEW_ITEM = (
+    "ItemStack i = new ItemStack(Material.RED_BANNER); BannerMeta m = (BannerMeta) i.getItemMeta();"
+)
+PATTERN = "new Pattern(DyeColor.LIME, PatternType.CREEPER)"
+ADDED = f"m.addPattern({PATTERN});"
+CODE = """ItemStack a = new ItemStack(Material.WHITE_BANNER, 1);
+BannerMeta meta = (BannerMeta) a.getItemMeta(); // meta.addPattern(new Pattern(DyeColor.RED,
+meta.addPattern(new Pattern(DyeColor.LIME, PatternType.CREEPER));
+/* meta.addPattern(new Pattern(DyeColor.RED, PatternType.CROSS)); */
+meta.addPattern(new org.bukkit.block.banner.Pattern(
+    DyeColor.BLACK, PatternType.BORDER));
+a.setItemMeta(meta);
+"""
+
 SAME = {
+    "java": [
+        CODE,
+        CODE.replace("WHITE_BANNER, 1", "BANNER, 1, (short) 15"),
+        CODE.replace("WHITE_BANNER, 1", "BANNER") + "meta.setBaseColor(DyeColor.WHITE);",
+        "val flag = ItemStack(Material.WHITE_BANNER)\nval meta = flag.itemMeta as BannerMeta\n"
+        "meta.setPatterns(listOf(Pattern(DyeColor.LIME, PatternType.CREEPER),\n"
+        "    Pattern(DyeColor.BLACK, PatternType.BORDER)))\n",
+        "new ItemBuilder(Material.WHITE_BANNER).addPattern(new Pattern(DyeColor.RED,"
+        " PatternType.FLOW))\n.addPattern(new Pattern(DyeColor.BLACK, PatternType.BORDER))"
+        ".setPattern(0, new Pattern(DyeColor.LIME, PatternType.CREEPER))",
+        "block.setType(Material.WHITE_BANNER);\nBanner flag = (Banner) block.getState();\nflag"
+        ".addPattern(new Pattern(DyeColor.RED, PatternType.CROSS));\nflag.removePattern(0);\n"
+        "flag.setPatterns(List.of(new Pattern(DyeColor.LIME, PatternType.CREEPER), new"
+        " Pattern(DyeColor.BLACK, PatternType.BORDER)));",
+    ],
+    "bannermaker": ["Qk0Cd2hpdGU7Y3JlZXBlcjpsaW1lO2JvcmRlcjpibGFjaw=="],
     "bukkit": [
         STACK,
         NEW_STACK,
@@ -124,6 +154,12 @@ SAME = {
         "flag:\n  type: item\n  material: white_banner\n  mechanisms:\n    hides: ALL\n"
         "    patterns: lime/CREEPER|black/BORDER\n",
         "    equipment: air|air|air|white_banner[patterns=<list[lime/creeper|black/border]>]",
+        "flag:\n    type: item\n    material: white_banner\n    mechanisms:\n        patterns:\n"
+        "        # two\n        - LIME/CREEPER\n        - 'BLACK/BORDER' # the rim\n",
+        "flag:\n  type: item\n  material: white_banner\n  mechanisms:\n"
+        "    patterns: <list[LIME/CREEPER|BLACK/BORDER]>\n",
+        "flag:\n  type: item\n  mechanisms:\n    patterns: lime/creeper|black/border  # comment\n"
+        "    hides: all\n  material: white_banner\n",
     ],
     "skript": [
         "set {_b} to a white banner\n"
@@ -197,6 +233,19 @@ def test_a_variable_has_the_value_that_it_had_last():
     assert first.banner == CREEPER and second.banner.layers[0].pattern == "flower"
 
 
+def test_the_patterns_of_code_go_to_their_own_items():
+    code = (
+        "ItemStack a = new ItemStack(Material.RED_BANNER), b = new"
+        " ItemStack(Material.BLUE_BANNER);\nBannerMeta one = (BannerMeta) a.getItemMeta();"
+        " BannerMeta two = (BannerMeta) b.getItemMeta();"
+        f"\ntwo.addPattern({PATTERN});\none.addPattern({PATTERN.replace('LIME', 'BLACK')});"
+    )
+    assert [one.banner for one in parse_banners(code)] == [
+        Banner.parse("red creeper:black"),
+        Banner.parse("blue creeper:lime"),
+    ]
+
+
 @pytest.mark.parametrize(
     "call",
     [
@@ -261,6 +310,14 @@ def test_bukkit_is_written_for_old_servers_where_that_holds_the_banner():
             "x:\n  type: BANNER\n  patterns: [RED:CROSS]\n  base-color: RED\n  a: {base: BLUE}\n",
             ["x.a.base", "x.base-color too"],
         ),
+        (ADDED, ["line 1", "the base dye is missing", "Material.WHITE_BANNER"]),
+        (f"{NEW_ITEM}{ADDED}m.addPattern(layer);", ["line 1", "'layer' is not a layer"]),
+        (f"{NEW_ITEM}layers.add({PATTERN});", ["line 1", "keeps before it adds them"]),
+        (f"{NEW_ITEM}m.setPattern(3, {PATTERN});", ["line 1", "there is no layer 3"]),
+        (f"{NEW_ITEM}m.setBaseColor(dye);{ADDED}", ["line 1", "'dye' is not a dye"]),
+        (f"{NEW_ITEM}m.addPattern({PATTERN}", ["line 1", "not closed"]),
+        ("Qk0CcmVkO2NyZWVwZXI6YmxhY2", ["not a whole code of BannerMaker"]),
+        ("Qk0CcmVkO2NyZWVwZXI=", ["layer 1", "'creeper' has no dye"]),
         ("RED_BANNER:1:CREEPER", ["'CREEPER' has no dye", "PATTERN:DYE"]),
         ("PINKY_BANNER:1:CREEPER:RED", ["'PINKY_BANNER'", "RED_BANNER"]),
         ("white_banner 1 cre,8439583;", ["'cre,8439583;' is not a layer"]),
@@ -297,7 +354,7 @@ def test_a_fault_names_its_place_and_what_to_write(text: str, parts: list[str]):
     ("text", "parts"),
     [
         ("flag:\n  item: RED_BANNER\n  slot: 3\n", ["YAML of a plugin", "DeluxeMenus"]),
-        ("meta.addPattern(new Pattern(DyeColor.RED, PatternType.CROSS));", ["program code"]),
+        ("meta.addPattern(new Pattern(DyeColor.RED, type));", ["program code", "not written out"]),
         ("<!DOCTYPE html>\n<p>banner</p>", ["a web page", "/give"]),
         ("H4sIAAAAAAAA" * 9, ["base64", "/data get entity @s SelectedItem"]),
     ],
@@ -437,3 +494,19 @@ def test_bannerfont_has_several_banners_and_names_a_bad_character():
     }.items():
         with pytest.raises(DesignError, match=re.escape(named)):
             FORMS["bannerfont"].read(text)
+
+
+def test_scripts_of_denizen_have_plain_banners_and_shields_with_a_base() -> None:
+    text = (
+        "plain:\n  type: item\n  material: red_banner\n\ntask:\n  type: task\n"
+        "  material: blue_banner\n\nshield:\n  type: item\n  material: shield\n"
+        "  mechanisms:\n    base_color: 'RED'\n    patterns: WHITE/CREEPER\n"
+    )
+    found = [one.banner for one in parse_banners(text, form="denizen")]
+    shield = Banner("red", (Layer("creeper", "white"),), "shield")
+    assert found == [Banner("red"), shield]
+    with pytest.raises(DesignError, match="line 3: the item is missing"):
+        parse_banners(
+            "flag:\n  type: item\n  patterns: WHITE/CREEPER\nother:\n  material: red_banner",
+            form="denizen",
+        )

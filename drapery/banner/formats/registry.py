@@ -10,6 +10,7 @@ from typing import TypeVar
 from drapery.banner.design import Banner
 from drapery.banner.formats import (
     bannerfont,
+    bannermaker,
     bannotation,
     bedrock,
     bentobox,
@@ -30,6 +31,7 @@ from drapery.banner.formats import (
     give_old,
     item,
     item_replace,
+    java,
     kubejs,
     loom_assistant,
     loot,
@@ -94,6 +96,8 @@ _TABLE = (
     _site(optifine),
     _form(bannerfont, bannerfont.read),
     _form(bannotation, single(bannotation.parse)),
+    _form(bannermaker, single(bannermaker.parse)),
+    _form(java, java.read),
     _form(kubejs, kubejs.read),
     _form(crafttweaker, crafttweaker.read),
     _form(denizen, denizen.read),

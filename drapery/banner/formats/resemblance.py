@@ -13,8 +13,8 @@ def advice(text: str) -> str | None:
     start = text.strip()[:4000]
     if _JAVA.search(start):
         return (
-            "program code, which is not read; write the banner with Bukkit's names,"
-            " such as RED_BANNER:1:CREEPER:LIME"
+            "program code whose patterns are not written out; write each as"
+            " addPattern(new Pattern(DyeColor.LIME, PatternType.CREEPER))"
         )
     if _PAGE.match(start):
         return "a web page, which is not read; copy the banner's /give command from it"
