@@ -27,7 +27,8 @@ def pytest_cmdline_main(config: pytest.Config) -> None:
     option = config.option
     if not config.pluginmanager.hasplugin("xdist") or is_worker(config):
         return
-    if option.numprocesses is None and is_whole(config):
+    # pytest-cov has read its options already: without -n it measures this process alone.
+    if option.numprocesses is None and is_whole(config) and not getattr(option, "cov_source", None):
         option.numprocesses = "auto"  # with --pdb, pytest-xdist takes none
     if option.dist == "no":
         option.dist = "loadfile"
