@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from drapery.banner import Banner
 from drapery.banner.formats import (
     FoundBanner,
     functions,
@@ -198,3 +199,44 @@ def test_a_line_that_cannot_be_read_is_warned_of_once() -> None:
         warnings.simplefilter("always")
         found = parse_banners(f"{GIVE}\n{wrong}\nwhite creeper:lime\nred border:black\n")
     assert len(found) == 3 and len(told) == 1 and "zzz" in str(told[0].message)
+
+
+ITEM = '{id:"minecraft:red_banner",components:{banner_patterns:[{pattern:"creeper",color:"lime"}]}}'
+OLD_TAG = '{BlockEntityTag:{Patterns:[{Pattern:"cre",Color:5}]}}'
+OLD_ITEM = f"{{id:red_banner,tag:'{OLD_TAG}'}}"
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        '/tellraw @a {text:"our flag",hover_event:{action:"show_item",' + ITEM[1:] + "}",
+        f"title @a title {{text:x,hoverEvent:{{action:show_item,contents:{OLD_ITEM}}}}}",
+        f"/dialog show @a {{type:notice,title:x,body:[{{type:item,item:{ITEM}}}]}}",
+        f"/particle minecraft:item{{item:{ITEM}}} ~ ~ ~",
+        f"/particle item red_banner{OLD_TAG} ~ ~ ~",
+    ],
+)
+def test_a_command_that_shows_an_item_is_read_alone_and_in_a_list(command: str) -> None:
+    expected = Banner.parse("red creeper:lime")
+    assert parse_banner(command) == expected
+    found = [one.banner for one in parse_banners(f"white\n{command}\nblue\n{command}\n")]
+    assert found.count(expected) == 2
+
+
+STONE = "//replace stone red_banner[rotation=0]{patterns:[{pattern:creeper,color:lime}]}"
+
+
+@pytest.mark.parametrize("edit", [STONE, STONE.replace("replace stone", "set")])
+def test_worldedit_places_blocks(edit: str) -> None:
+    expected = Banner.parse("red creeper:lime")
+    assert parse_banner(edit) == expected
+    found = [
+        one.banner for one in parse_banners(f"white\n//set the base\n{edit}\n// a banner\nblue")
+    ]
+    assert found == [Banner("white"), expected, Banner("blue")]
+
+
+def test_worldedit_replaces_one_banner_by_another() -> None:
+    assert parse_banner("//replace red_banner blue_banner") == Banner("blue")
+    with pytest.raises(DesignError, match="line 1, column"):
+        parse_banner("//set 50%red_banner{patterns:[{pattern:creeper,color:lime}]},50%stone")

@@ -46,7 +46,14 @@ _TREES = frozenset({"summon", "data", "entitydata", "blockdata", "loot"})
 _TESTS = frozenset({"clear", "clone", "testfor", "testforblock"})
 """The commands that only look for banners, or remove them."""
 
-COMMANDS = _ARGUMENTS | _TREES | _TESTS | {"execute", "return"}
+_EDITS_WORDS = """
+/center /curve /cyl /faces /fill /fillr /hcyl /hpyramid /hsphere /line /outline /overlay /pyramid
+/replace /replacenear /set /sphere /walls
+"""
+EDITS = frozenset(_EDITS_WORDS.split())
+"""The commands of WorldEdit that place blocks. They begin with two slashes."""
+
+COMMANDS = _ARGUMENTS | EDITS | _TREES | _TESTS | {"execute", "return"}
 """The commands that may hold a banner."""
 
 
@@ -110,13 +117,19 @@ def banners_of_command(text: str, *, line: int = 1) -> list[FoundBanner]:
 
 
 def banners_of_message(text: str, *, line: int = 1) -> list[FoundBanner]:
-    """The banners with layers in a message, as `tellraw` shows them: items, and commands to click.
+    """The banners with layers in what a command shows, such as `tellraw`: items, and commands to
+    click.
 
     Raises DesignError for a message that cannot be read.
     """
-    words = [word for word in _words(text) if word.text[0] in "{[" and _may_hold(word)]
-    trees = [_tree(text, word, line) for word in words]
-    found = [one for tree in trees for one in _in_tree(tree, "tellraw", False)]
+    found: list[FoundBanner] = []
+    for word in filter(_may_hold, _words(text)):
+        if _is_item(word):
+            parts = _parsed(text, word.start, word, line)
+            found.append(FoundBanner(_argument(word.name, parts[1:]), bare(word.name)))
+        elif word.text[0] not in "\"'":  # a tree, or a particle such as item{item:{…}}
+            tree = Word(word.text[len(word.name) :], word.start + len(word.name))
+            found += _in_tree(_tree(text, tree, line), "tellraw", False)
     return [one for one in found if one.banner.layers]
 
 
@@ -227,6 +240,8 @@ def _defining(words: list[Word], name: str) -> list[Word]:
         cut = texts.index("replace")
         if not texts[cut + 1 : cut + 2] or texts[cut + 1][0] != "{":
             return words[1:cut]
+    if name in ("/replace", "/replacenear") and len(words) > 2:
+        return words[-1:]  # after the blocks that are replaced
     if name == "data" and "value" in texts:
         return words[texts.index("value") + 1 :]
     return words[1:]

@@ -49,16 +49,16 @@ _OTHERS = frozenset(_OTHERS_WORDS.split())
 _SPOKEN = frozenset({"me", "msg", "say", "scoreboard", "team", "teammsg", "tell", "tm", "w"})
 """The commands whose words may talk of banners."""
 
-_SHOWN = frozenset({"bossbar", "tellraw", "title"})
-"""The commands that show messages, in which an item or a command may hold a design."""
+_SHOWN = frozenset({"bossbar", "dialog", "particle", "tellraw", "title", "titleraw"})
+"""The commands that show messages or items, in which an item or a command may hold a design."""
 
 
 def recognises(text: str) -> bool:
-    """Whether the text is a macro line, or several lines of which one may hold a banner."""
+    """Whether the text is a macro or a message, or several lines of which one may hold a banner."""
     if text.lstrip().startswith("$"):
         return first_word(text.lstrip()[1:]) in COMMANDS
     if "\n" not in text.strip():
-        return False
+        return first_word(text) in _SHOWN and looks_like_design(text)
     known = holding = 0
     for _, line in lines_of(text):
         word = _command(line)

@@ -5,7 +5,7 @@ and numbers (1.13 to 1.20.4), and `standing_banner 8 replace {Base:…}` (up to 
 """
 
 from drapery.banner.design import Banner
-from drapery.banner.formats.commands import command_of
+from drapery.banner.formats.commands import EDITS, command_of
 from drapery.banner.formats.snbt import write_snbt
 from drapery.banner.formats.tree import names
 from drapery.errors import DesignError
@@ -21,7 +21,7 @@ SOURCE = "https://minecraft.wiki/w/Commands/setblock"
 
 def recognises(text: str) -> bool:
     """Whether the text is a command that places blocks."""
-    return command_of(text) in ("setblock", "fill")
+    return command_of(text) in ("setblock", "fill", *EDITS)
 
 
 def write(banner: Banner) -> str:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
+from drapery.banner.formats.commands import EDITS, command_of
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.names import shown
 from drapery.errors import DesignError
@@ -54,4 +55,5 @@ def _at(number: int, where: str) -> str:
 
 def _is_design(line: str) -> bool:
     line = line.strip()
-    return bool(line) and not line.startswith(_COMMENTS)
+    is_edit = "banner" in line and command_of(line) in EDITS
+    return bool(line) and (is_edit or not line.startswith(_COMMENTS))

@@ -5,6 +5,7 @@ with the path of its place in the tree, such as `components.banner_patterns[2].c
 """
 
 import re
+import warnings
 from collections.abc import Iterable
 from typing import Any, TypeAlias
 
@@ -214,7 +215,20 @@ def banner_from_tag(item_id: str, tag: DataTree, at: str = "", *, data: DataTree
         check_base(entity, inner)
         # A missing damage value is 0, which is black.
         entity = entity | {"Base": 0 if data is None else data}
-    return banner_from_block_entity(entity, inner, block=item_id)
+    banner = banner_from_block_entity(entity, inner, block=item_id)
+    if base_of(item_id) is None and type(data) is int and data in range(16):
+        _warn_of_dyes(banner.base, _dye(data, at, inverted=True), at)
+    return banner
+
+
+def _warn_of_dyes(base: str, damage: str, at: str) -> None:
+    """Warn of an old item that has one dye as its `Base` and another one as its damage value."""
+    if base != damage:
+        warnings.warn(
+            f"{at or 'item'}: the base is {base}, by its Base, as in Java 1.8 to 1.10;"
+            f" 1.11 and 1.12 show {damage}, by its damage value",
+            stacklevel=2,
+        )
 
 
 def _shield_from_tag(entity: dict[str, DataTree], at: str, *, inverted: bool) -> Banner:
