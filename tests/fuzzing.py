@@ -383,6 +383,7 @@ def binary_samples() -> dict[str, list[bytes]]:
         "schem": [schem.write([make.LIME, make.RED]), *map(make.nbt_file, schematics)],
         "litematic": [make.nbt_file(make.litematic((2, -2, 4), (0, 0, 0), blocks, 20))],
         "mcstructure": [make.raw_nbt(make.mcstructure((2, 3, 4), bedrock), "little")],
+        "blueprint": [make.nbt_file(make.blueprint((2, 2, 4), blocks))],
         "region": [make.region({(n, 0): chunk for n, chunk in enumerate(chunks)}, 3)],
         "nbt": [*map(make.nbt_file, chunks), make.nbt_file(player), make.raw_nbt(player, "little")],
     }

@@ -158,6 +158,16 @@ def test_a_bedrock_structure_and_its_ominous_banner():
     }
 
 
+def test_a_blueprint_gives_blocks_and_containers():
+    bare = {(7, 2, 1): (make.block_id(PLAIN), None)}
+    tree = make.blueprint((9, 5, 7), STANDING | bare)
+    assert found(make.nbt_file(tree)) == in_blocks() | {"block 7,2,1": PLAIN}
+    with pytest.raises(DesignError, match="f: blocks is a list of 1, not an array of ints"):
+        found(make.nbt_file(tree | {"blocks": [{"x": 1}]}))
+    with pytest.raises(DesignError, match="palette is not a list of block states"):
+        found(make.nbt_file(tree | {"palette": {}}))
+
+
 def test_a_players_file_is_searched_as_a_whole():
     data = make.nbt_file({"Inventory": [make.item(RED)], "EnderItems": [make.item(SHIELD)]})
     assert found(data) == {"f.Inventory[0]": RED, "f.EnderItems[0]": SHIELD}
@@ -452,6 +462,9 @@ SAMPLES = {
     "structure": make.nbt_file(make.structure(RED_BLOCK)),
     "schem": make.nbt_file(make.schem(3, (6, 4, 7), RED_BLOCK)),
     "litematic": make.nbt_file(make.litematic((6, 4, 7), (0, 0, 0), RED_BLOCK)),
+    "blueprint": make.nbt_file(
+        make.blueprint((4, 3, 5), {(1, 2, 3): (make.block_id(RED), make.entity(RED))})
+    ),
     "mcstructure": make.raw_nbt(
         make.mcstructure((4, 3, 5), {(1, 2, 3): make.bedrock_entity(RED)}), "little"
     ),

@@ -4,6 +4,7 @@ import warnings
 from pathlib import Path
 
 import pytest
+from conftest import Run
 
 from drapery.banner import Banner
 from drapery.banner.formats import (
@@ -240,3 +241,11 @@ def test_worldedit_replaces_one_banner_by_another() -> None:
     assert parse_banner("//replace red_banner blue_banner") == Banner("blue")
     with pytest.raises(DesignError, match="line 1, column"):
         parse_banner("//set 50%red_banner{patterns:[{pattern:creeper,color:lime}]},50%stone")
+
+
+@pytest.mark.parametrize(
+    "text", [STONE, STONE.removeprefix("//replace stone "), "red_banner{patterns:[]}"]
+)
+def test_what_belongs_to_a_block_is_not_named_as_left_out(text: str, drapery: Run) -> None:
+    code, _, err = drapery("show", text, "--as", "json")
+    assert (code, err) == (0, "")

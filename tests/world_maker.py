@@ -281,6 +281,29 @@ def mcstructure(size: tuple, entities: dict[tuple, dict]) -> dict:
     }
 
 
+def blueprint(size: tuple, blocks: dict[tuple, tuple[str, dict | None]]) -> dict:
+    """A blueprint of (id, block entity or None) by place."""
+    width, height, length = size
+    names = ["minecraft:air", *dict.fromkeys(name for name, _ in blocks.values())]
+    indices = [0] * (width * height * length + width * height * length % 2)
+    for (x, y, z), (name, _) in blocks.items():
+        indices[(y * length + z) * width + x] = names.index(name)
+    pairs = zip(indices[::2], indices[1::2], strict=True)
+    entities = [
+        nbt | {axis: nbtlib.Short(at) for axis, at in zip("xyz", place, strict=True)}
+        for place, (_, nbt) in blocks.items()
+        if nbt
+    ]
+    return {
+        "version": nbtlib.Byte(1),
+        **{f"size_{axis}": nbtlib.Short(n) for axis, n in zip("xyz", size, strict=True)},
+        "palette": [{"Name": name} for name in names],
+        "blocks": nbtlib.IntArray([high << 16 | low for high, low in pairs]),
+        "tile_entities": entities,
+        "entities": [],
+    }
+
+
 def save(path: Path, data: bytes) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(data)

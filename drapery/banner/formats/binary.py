@@ -4,7 +4,7 @@ import io
 from collections.abc import Callable, Iterator, Sequence
 
 from drapery.banner.design import Banner
-from drapery.banner.formats import litematic, mcstructure, region, schem, structure
+from drapery.banner.formats import blueprint, litematic, mcstructure, region, schem, structure
 from drapery.banner.formats.compression import is_compressed
 from drapery.banner.formats.files import find_in_bytes
 from drapery.banner.formats.form import BinaryForm
@@ -91,6 +91,14 @@ _TABLE = (
         mcstructure.find,
         "https://wiki.bedrock.dev/nbt/mcstructure",
         lambda banner: mcstructure.write([banner]),
+    ),
+    _nbt_form(
+        blueprint.NAME,
+        "blueprint of Structurize and MineColonies",
+        (".blueprint",),
+        blueprint.recognises,
+        blueprint.find,
+        "https://github.com/ldtteam/Structurize",
     ),
     BinaryForm(
         *(region.NAME, "world's region", (".mca",), _is_region, _read_region),

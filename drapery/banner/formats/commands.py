@@ -396,12 +396,17 @@ def _argument(identifier: str, rest: list[Part]) -> Banner:
     return banner_from_components(identifier, components)
 
 
+_BLOCK_KEYS = frozenset({"patterns", "Patterns"})
+"""Keys of a banner's block entity, which an item has deeper in its tag."""
+
+
 def _details(words: list[Word], command: str, rest: list[Part]) -> ItemDetails | None:
-    """What a command says of its item beside the design; None for a command that places blocks."""
-    if command in ("setblock", "fill"):
-        return None
+    """What a command says of its item beside the design; None for a block."""
     brackets = next((part for part in rest if isinstance(part, Brackets)), Brackets())
     tag = next((p for p in rest if isinstance(p, dict) and not isinstance(p, Brackets)), {})
+    is_block = (brackets and STATES.issuperset(brackets)) or not tag.keys().isdisjoint(_BLOCK_KEYS)
+    if command in ("setblock", "fill", *EDITS) or is_block:
+        return None
     count = next((int(part) for part in rest if _is_count(part)), 1)
     target = words[1].text if command == "give" and len(words) > 2 else ItemDetails.target
     return read_details(dict(brackets), tag, count, PARAMETER.sub(r"$(\1)", target))

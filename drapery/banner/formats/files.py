@@ -6,7 +6,15 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from drapery.banner.formats import chunk, litematic, mcstructure, region, schem, structure
+from drapery.banner.formats import (
+    blueprint,
+    chunk,
+    litematic,
+    mcstructure,
+    region,
+    schem,
+    structure,
+)
 from drapery.banner.formats.blocks import OnError, raise_error
 from drapery.banner.formats.compression import MAX_BYTES, check_size, is_compressed
 from drapery.banner.formats.found import FoundBanner, find_banners
@@ -43,6 +51,7 @@ LAYOUTS = (
     NbtLayout(schem.NAME, schem.recognises, schem.find),
     NbtLayout(litematic.NAME, litematic.recognises, litematic.find),
     NbtLayout(mcstructure.NAME, mcstructure.recognises, mcstructure.find),
+    NbtLayout(blueprint.NAME, blueprint.recognises, blueprint.find),
     NbtLayout(structure.NAME, structure.recognises, structure.find),
     NbtLayout("chunk", chunk.recognises, chunk.find),
     NbtLayout("nbt", lambda tree: True, _find_anywhere),

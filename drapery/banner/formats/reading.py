@@ -39,7 +39,7 @@ _SUFFIXES = tuple(
     f".{suffix}"
     for suffix in (
         *("json", "txt", "snbt", "mcfunction", "yml", "yaml", "sk", "dsc", "zs", "js"),
-        *("nbt", "dat", "schem", "schematic", "litematic", "mcstructure", "mca"),
+        *("nbt", "dat", "schem", "schematic", "litematic", "mcstructure", "blueprint", "mca"),
     )
 )
 """Of the files that are read in a folder."""
