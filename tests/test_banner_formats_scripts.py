@@ -106,6 +106,10 @@ def test_each_banner_that_a_script_makes_is_found() -> None:
             " banner patterns of {_f}",
             ["{_f}", "the base is missing"],
         ),
+        (
+            f"set {{_p::*}} to {CREEPER}\n" + "add {_p::*} to {_p::*}\n" * 99,
+            ["line 11", "1024 layers", "at most 16"],
+        ),
         ("hello world", ["no banner in the text"]),
     ],
 )

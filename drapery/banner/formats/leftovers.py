@@ -134,8 +134,8 @@ def check_read(tree: object, layers_read: Iterable[int]) -> None:
             place = (place, "Damage")
             warnings.warn(f"{_text(place, '')}: the value belongs to no item", stacklevel=2)
     if len(places) > sum(counts) and min(counts) == 0:
-        place = _text(places[0], "")
-        raise DesignError(f"{place}: no banner has this layer; write it below the item's id")
+        first = _text(places[0], "")
+        raise DesignError(f"{first}: no banner has this layer; write it below the item's id")
 
 
 def _is_dye(value: object) -> bool:

@@ -110,6 +110,10 @@ _FILLER = Layer("base", "white")
 """What Skript adds below a pattern whose number is over the number of patterns."""
 
 
+_MOST_KEPT = 1000
+"""Most layers of a list from which a script takes some."""
+
+
 @dataclass
 class _MadeBanner:
     """A banner that a script makes. line: where. copied: the layers that another one had."""
@@ -201,7 +205,7 @@ def _follow(script: _Script, line: str, number: int) -> bool:
         value = match.groupdict().get("value") or ""
         if place := _place(match["place"]):
             of, index = place
-            _change(_item(script, of), verb, index, value and _values(script, value, at), at)
+            _change(_item(script, of), verb, index, _values(script, value, at), at)
             return True
         return _assign(script, verb, _name(match["place"]), value, number)
     words = _STRING.sub('""', line)
@@ -225,11 +229,11 @@ def _assign(script: _Script, verb: str, name: str, value: str, number: int) -> b
         script.patterns.pop(name, None)
     words = _STRING.sub('""', value)
     if "banner pattern" in words.lower() or all(map(script.patterns.__contains__, _parts(words))):
-        layers = _values(script, value, f"line {number}") if value else []
+        layers = _values(script, value, f"line {number}")
         if verb == "set":
             script.patterns[name] = layers
         elif verb == "add":
-            script.patterns.setdefault(name, []).extend(layers)
+            script.patterns[name] = _bounded([*(kept or ()), *layers], f"line {number}")
         elif verb == "remove":
             script.patterns[name] = [layer for layer in kept or () if layer not in layers]
         return bool(value)
@@ -296,12 +300,19 @@ def _values(script: _Script, value: str, at: str) -> list[Layer]:
                 f"{at}: {shown(part)} is not a pattern that is known here; write it as"
                 " creeper banner pattern colored lime"
             )
+    return _bounded(layers, at)
+
+
+def _bounded(layers: list[Layer], at: str) -> list[Layer]:
+    """The layers, which lines such as `add {_p::*} to {_p::*}` double. A list may be long."""
+    if len(layers) > _MOST_KEPT:
+        check_count(len(layers), at)
     return layers
 
 
-def _change(item: _MadeBanner, verb: str, index: int, values: list[Layer] | str, at: str) -> None:
+def _change(item: _MadeBanner, verb: str, index: int, given: list[Layer], at: str) -> None:
     """Change a banner's patterns as Skript does. index: of one pattern from 1, or 0 for all."""
-    layers, given = item.layers, list(values or ())
+    layers = item.layers
     if index and (verb in ("add", "remove") or len(given) != (verb == "set")):
         raise DesignError(f"{at}: one pattern by its number can only be set to one, or cleared")
     if index and verb == "set":
@@ -311,7 +322,7 @@ def _change(item: _MadeBanner, verb: str, index: int, values: list[Layer] | str,
     elif index:
         del layers[index - 1 : index]
     elif verb == "add":
-        layers += given
+        item.layers = _bounded(layers + given, at)
     elif verb == "remove":
         layers[:] = [layer for layer in layers if layer not in given]
     else:
